@@ -44,10 +44,10 @@ from fieldhand.errors import NotApprovedError
 from fieldhand.evaluation.budget_guard import BudgetGuard
 from fieldhand.evaluation.failsafe import BudgetFailsafe
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Driver, Progress
-from fieldhand.execution.drivers.simulation import SimulatedDriver
+from fieldhand.execution.drivers.simulated_driver import SimulatedDriver
 from fieldhand.execution.journal.store import Journal, create
 from fieldhand.execution.mission_runner import run
-from fieldhand.execution.world import ActionFails, BatteryDrains, Blocked, SensorSilent, Spot, World, WorldFault
+from fieldhand.execution.world import ActionFails, BatteryDrains, Blocked, SensorSilent, TreeRef, World, WorldFault
 from fieldhand.forecast.visit_order import drives_for
 from fieldhand.task.authorization import AuthorizedTask
 from fieldhand.task.event_lines import from_json
@@ -143,7 +143,7 @@ class Verdict:
 
 def world_of(draft: Draft, rng: random.Random) -> World:
     """The world of a mission: now and then something fails."""
-    spots = [Spot(id=tree.place.id) for tree in draft.site.trees]
+    spots = [TreeRef(id=tree.place.id) for tree in draft.site.trees]
     faults: list[WorldFault] = []
     if rng.random() < 0.4:
         faults.append(ActionFails(action=rng.choice([a.name for a in draft.robot.actions]), times=rng.randint(1, 3)))

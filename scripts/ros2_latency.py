@@ -23,9 +23,9 @@ from contextlib import closing
 from typing import TypeVar
 
 from fieldhand.execution.drivers.ros2.action_client import ActionClient
+from fieldhand.execution.drivers.ros2.action_outcome import EXECUTING, SUCCEEDED
 from fieldhand.execution.drivers.ros2.dds import open_dds
 from fieldhand.execution.drivers.ros2.dds.transport import DdsTransport
-from fieldhand.execution.drivers.ros2.goal_outcome import EXECUTING, SUCCEEDED
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.message_fields import value_at
 from fieldhand.execution.drivers.ros2.transport import STATUS_QOS, Message

@@ -62,7 +62,7 @@ def read_log(path: Path) -> Log:
     import hashlib
 
     from fieldhand.exchange.mcap import is_mcap, read_mcap
-    from fieldhand.execution.log import read_events
+    from fieldhand.execution.event_log import read_events
 
     events = read_mcap(path) if is_mcap(path) else read_events(path, whole=False)
     if not events:

@@ -8,7 +8,7 @@ from functools import cache
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from fieldhand.execution.world import ActionFails, Spot, World
+from fieldhand.execution.world import ActionFails, TreeRef, World
 from fieldhand.places.selectors import TreeIs, Trees, UnionOf
 from fieldhand.task.frames import Budget, Constraints, Task
 from fieldhand.task.plan import Act, AnyOrder, ForEach, InOrder, Node, Repeat, Try, walk
@@ -192,7 +192,7 @@ def test_steps_in_any_order_are_sound_in_any_order() -> None:
 def test_what_stands_in_for_a_failure_is_sound() -> None:
     body = replace(PICTURE, at=TreeIs(tree="r1c1"))
     task = task_for(Try(id="", body=body, otherwise=replace(body, at=TreeIs(tree="r1c2"))))
-    world = World(faults=(ActionFails(action=PICTURE.action, at=Spot(id="r1c1")),))
+    world = World(faults=(ActionFails(action=PICTURE.action, at=TreeRef(id="r1c1")),))
     ruling = ruled(task, list(replace(RIG, world=world).fly(task).events))
     assert sound(ruling)
     assert (ruling.done, ruling.faulted, ruling.status) == (1, "", "completed")

@@ -82,7 +82,7 @@ def test_the_domain_is_that_of_the_environment_where_none_is_given() -> None:
 
     assert (domain(None), domain(""), domain(" 42 "), domain("42", 7)) == (0, 0, 42, 7)
     for bad in ("-1", "233", "two", "1.5"):
-        with pytest.raises(InputError, match=r"ROS_DOMAIN_ID.*is no DDS domain"):
+        with pytest.raises(InputError, match=r"ROS_DOMAIN_ID.*is not a DDS domain"):
             domain(bad)
 
 

@@ -11,13 +11,14 @@ from pathlib import Path
 import pytest
 
 from fieldhand import missions
-from fieldhand.delivery.crew import Crew, said_of
+from fieldhand.delivery.crew import Crew
 from fieldhand.delivery.depot import Depot
 from fieldhand.delivery.ledger import Ledger
 from fieldhand.delivery.standing import Standing
 from fieldhand.delivery.verified import sha256_of
 from fieldhand.errors import ExecutionError, FieldhandError, InputError, OutputError, StoreError
 from fieldhand.execution.journal import store
+from fieldhand.execution.operator_commands import parse_agent_command
 from support.missions.signed import NOW, good
 from support.processes.patience import LONG_S, until
 from support.processes.stations import Station, fly, other_mission, patient
@@ -42,7 +43,7 @@ def standing(station: Station, data: bytes) -> Standing:
 
 
 def tell(station: Station, data: bytes, said: str) -> bool:
-    return station.crew.tell(station.depot.get(sha256_of(data)), said_of(said), "a test")
+    return station.crew.tell(station.depot.get(sha256_of(data)), parse_agent_command(said), "a test")
 
 
 def test_a_mission_runs_once_however_often_it_is_sent_and_started(station: Station) -> None:
@@ -225,7 +226,7 @@ def test_what_was_not_begun_can_only_be_started(station: Station, said: str) -> 
     with pytest.raises(ExecutionError, match="was not begun"):
         tell(station, good(), said)
     with pytest.raises(InputError, match="no order"):
-        said_of(f"{said}!")
+        parse_agent_command(f"{said}!")
 
 
 def test_what_a_mission_did_is_not_forgotten_with_its_folder(station: Station) -> None:

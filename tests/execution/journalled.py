@@ -9,11 +9,11 @@ import numpy as np
 
 from fieldhand.clock import SimulatedClock
 from fieldhand.execution import mission_clock
-from fieldhand.execution.drivers.simulation import SimulatedDriver
+from fieldhand.execution.drivers.simulated_driver import SimulatedDriver
 from fieldhand.execution.guard import Guard, NoGuard
 from fieldhand.execution.journal.store import Journal, create
 from fieldhand.execution.mission_runner import Result, run
-from fieldhand.execution.orders import Order
+from fieldhand.execution.operator_commands import OperatorCommand
 from fieldhand.execution.world import World
 from fieldhand.places.selectors import Half, Take, TreeIs
 from fieldhand.robot.model import RobotProfile
@@ -89,7 +89,7 @@ class Field:
         cut: int = 0,
         behind: bool = False,
         guard: Guard | None = None,
-        orders: Callable[[], Order | None] = lambda: None,
+        orders: Callable[[], OperatorCommand | None] = lambda: None,
         journal: type[Journal] = Cut,
     ) -> Result:
         """Carry the mission out, or what is left of it."""

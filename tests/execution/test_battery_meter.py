@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fieldhand.execution.battery import STEP_PERCENT, BatteryMeter
-from fieldhand.execution.drivers.simulation import SimulatedDriver
+from fieldhand.execution.battery_meter import STEP_PERCENT, BatteryMeter
+from fieldhand.execution.drivers.simulated_driver import SimulatedDriver
 from fieldhand.execution.world import World
 from fieldhand.places.selectors import Trees
 from fieldhand.robot.loader import load_robot, parse_profile, profile_bytes

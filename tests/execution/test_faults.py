@@ -12,7 +12,7 @@ import pytest
 from fieldhand import mission
 from fieldhand.errors import OutputError
 from fieldhand.execution.drivers.protocol import ActionGoal
-from fieldhand.execution.obstacles import recall
+from fieldhand.execution.obstacles import restore_blockages
 from fieldhand.execution.world import (
     ActionFails,
     BatteryDrains,
@@ -22,7 +22,7 @@ from fieldhand.execution.world import (
     DriveFails,
     LocalisationLost,
     SensorAbsurd,
-    Spot,
+    TreeRef,
     World,
     WorldFault,
 )
@@ -121,7 +121,7 @@ def test_a_blocked_aisle_is_driven_around_and_the_tree_worked_on_from_its_other_
     near = next(e for e in rig.fly(act(tree.id)).events if isinstance(e, Arrived))
     side = 0 if site.projection.metres(near.lat, near.lon)[0][0] < tree.x else 2
     beside = site.trees[8 * side + 2].place
-    blocked = Blocked(between=(Spot(id=site.trees[8 + 2].place.id), Spot(id=beside.id)), within_m=1.5)
+    blocked = Blocked(between=(TreeRef(id=site.trees[8 + 2].place.id), TreeRef(id=beside.id)), within_m=1.5)
     result = Rig(site=site, world=world(blocked)).fly(act(tree.id))
     assert result.status == "completed"
     (found,) = of_type(result.events, Obstructed)
@@ -138,7 +138,8 @@ def test_what_a_blocked_aisle_closes_off_is_named_and_all_else_is_done(order: st
     ids = [t.place.id for t in site.trees]
     row, k = 1, 3  # the second row; its fourth tree and those behind it
     faults = [
-        Blocked(between=(Spot(id=ids[row * 6 + k]), Spot(id=ids[other * 6 + k])), within_m=2.4) for other in (0, 2)
+        Blocked(between=(TreeRef(id=ids[row * 6 + k]), TreeRef(id=ids[other * 6 + k])), within_m=2.4)
+        for other in (0, 2)
     ]
     wanted = [ids[row * 6 + j] for j in range(6)]
     result = Rig(site=site, world=world(*faults)).fly(each(*wanted, order=order))
@@ -159,7 +160,7 @@ def test_what_a_blocked_aisle_closes_off_is_named_and_all_else_is_done(order: st
 def test_the_way_that_is_blocked_is_never_tried_again_where_there_is_another() -> None:
     site = upright(4, 8)
     ids = [t.place.id for t in site.trees]
-    faults = [Blocked(between=(Spot(id=ids[8 + 4]), Spot(id=ids[16 + 4])), within_m=2.0)]
+    faults = [Blocked(between=(TreeRef(id=ids[8 + 4]), TreeRef(id=ids[16 + 4])), within_m=2.0)]
     rig = Rig(site=site, world=world(*faults))
     plan = InOrder(id="", steps=tuple(act(ids[k]) for k in (8 + 6, 16 + 1, 16 + 6, 8 + 1, 16 + 7)))
     result = rig.fly(plan)
@@ -170,7 +171,7 @@ def test_the_way_that_is_blocked_is_never_tried_again_where_there_is_another() -
 def test_what_stands_in_the_only_way_for_a_while_is_waited_for() -> None:
     site = walled(rows=2)
     ids = [t.place.id for t in site.trees]
-    both = [Blocked(at=Spot(id=ids[k]), within_m=3.6, until_s=60.0) for k in (3, 9)]
+    both = [Blocked(at=TreeRef(id=ids[k]), within_m=3.6, until_s=60.0) for k in (3, 9)]
     result = Rig(site=site, world=world(*both)).fly(act(ids[5]))
     assert result.status == "completed"
     (waited,) = of_type(result.events, Waited)
@@ -186,7 +187,7 @@ def test_a_robot_that_is_enclosed_ends_where_it_stands_and_says_why() -> None:
     """In the middle of a blind aisle, something comes up behind it while it reads."""
     site = walled(rows=2)
     ids = [t.place.id for t in site.trees]
-    behind = [Blocked(at=Spot(id=ids[k]), within_m=4.5, from_s=40.0) for k in (1, 7)]
+    behind = [Blocked(at=TreeRef(id=ids[k]), within_m=4.5, from_s=40.0) for k in (1, 7)]
     task = task_for(act(ids[4], count=9), nominal="return_to_start")
     result = Rig(site=site, world=world(*behind)).fly(task)
     assert len(captured(result.events)) == 9
@@ -198,7 +199,7 @@ def test_a_robot_that_is_enclosed_ends_where_it_stands_and_says_why() -> None:
 def test_optional_work_out_of_reach_is_left_out_and_the_mission_completes() -> None:
     site = walled()
     ids = [t.place.id for t in site.trees]
-    faults = [Blocked(between=(Spot(id=ids[6 + 3]), Spot(id=ids[j * 6 + 3])), within_m=2.4) for j in (0, 2)]
+    faults = [Blocked(between=(TreeRef(id=ids[6 + 3]), TreeRef(id=ids[j * 6 + 3])), within_m=2.4) for j in (0, 2)]
     step = OptionalStep(id="", body=InOrder(id="", steps=(act(ids[6 + 5]), act(ids[6 + 4]))))
     for plan in (each(ids[6], ids[6 + 5], ids[6 + 1], optional=True), InOrder(id="", steps=(step, act(ids[6])))):
         result = Rig(site=site, world=world(*faults)).fly(plan)
@@ -211,7 +212,7 @@ def test_optional_work_out_of_reach_is_left_out_and_the_mission_completes() -> N
 def test_an_otherwise_stands_in_for_work_out_of_reach() -> None:
     site = walled(rows=2)
     ids = [t.place.id for t in site.trees]
-    both = [Blocked(at=Spot(id=ids[k]), within_m=3.6) for k in (3, 9)]
+    both = [Blocked(at=TreeRef(id=ids[k]), within_m=3.6) for k in (3, 9)]
     result = Rig(site=site, world=world(*both)).fly(Try(id="", body=act(ids[5]), otherwise=act(ids[0])))
     assert result.status == "completed"
     assert captured(result.events) == [(CO2, ids[0])]
@@ -224,12 +225,15 @@ def test_what_was_found_blocked_can_be_taken_up_again_from_the_log() -> None:
 
     site = upright(4, 8)
     ids = [t.place.id for t in site.trees]
-    rig = Rig(site=site, world=world(Blocked(between=(Spot(id=ids[8 + 4]), Spot(id=ids[16 + 4])), within_m=2.0)))
+    rig = Rig(
+        site=site,
+        world=world(Blocked(between=(TreeRef(id=ids[8 + 4]), TreeRef(id=ids[16 + 4])), within_m=2.0)),
+    )
     events = rig.fly(each(*ids[8:24])).events
     assert of_type(events, Obstructed)
     again = Rig(site=site)
     attempt = again.attempt(task_for(act()))
-    recall(attempt, events)
+    restore_blockages(attempt, events)
     assert len(attempt.blockages.stretches) == len(of_type(events, Obstructed)[-1].blocked)
     two = (site.trees[8 + 2].place, site.trees[8 + 6].place)
     assert attempt.drives.between(*two).length_m >= drives_for(site, again.robot).between(*two).length_m
@@ -249,7 +253,7 @@ def test_a_robot_that_gets_lost_stands_still_and_goes_on_when_it_knows_where_it_
     assert captured(result.events) == captured(plain.events)
 
 
-@pytest.mark.parametrize("lost", [LocalisationLost(at_s=9.0), LocalisationLost(at=Spot(id="r2c3"), within_m=4.0)])
+@pytest.mark.parametrize("lost", [LocalisationLost(at_s=9.0), LocalisationLost(at=TreeRef(id="r2c3"), within_m=4.0)])
 def test_a_robot_that_stays_lost_ends_the_mission_where_it_stands(lost: LocalisationLost) -> None:
     robot = replace(husky(), patience=Patience(lost_wait_s=30.0))
     exits = tuple(FaultedExit(fault=e.fault, then="return_to_start") for e in FAULTED_EXITS)
@@ -328,10 +332,10 @@ def test_a_full_disk_stops_the_robot_and_comes_out() -> None:
 
 
 def test_a_drive_that_fails_by_itself_is_tried_again_and_then_ends_the_mission() -> None:
-    once = Rig(world=world(DriveFails(at=Spot(id="r2c3"), times=1))).fly(act("r2c3"))
+    once = Rig(world=world(DriveFails(at=TreeRef(id="r2c3"), times=1))).fly(act("r2c3"))
     assert once.status == "completed"
     assert [(e.fault, e.handled) for e in of_type(once.events, Faulted)] == [("drive_failed", True)]
-    often = Rig(world=world(DriveFails(at=Spot(id="r2c3")))).fly(act("r2c3"))
+    often = Rig(world=world(DriveFails(at=TreeRef(id="r2c3")))).fly(act("r2c3"))
     assert (often.status, of_type(often.events, Obstructed)) == ("faulted", [])
 
 

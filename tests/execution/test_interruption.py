@@ -11,10 +11,10 @@ import pytest
 
 from fieldhand.clock import SimulatedClock
 from fieldhand.execution.drivers.protocol import Progress
-from fieldhand.execution.drivers.simulation import SimulatedDriver
+from fieldhand.execution.drivers.simulated_driver import SimulatedDriver
 from fieldhand.execution.interrupts import ctrl_c_as_request
 from fieldhand.execution.mission_runner import Result, run
-from fieldhand.execution.world import ActionFails, Blocked, Spot, World
+from fieldhand.execution.world import ActionFails, Blocked, TreeRef, World
 from fieldhand.places.selectors import Half, Take, TreeIs
 from fieldhand.task.conditions import Compare
 from fieldhand.task.frames import FaultedExit
@@ -205,7 +205,7 @@ def test_an_aborted_mission_whose_way_home_is_blocked_is_still_aborted() -> None
         faulted=(FaultedExit(fault="aborted", then="return_to_end"),),
     )
     asked = count()
-    one = Rig(world=World(faults=(Blocked(at=Spot(id="r0c4"), within_m=8),)))
+    one = Rig(world=World(faults=(Blocked(at=TreeRef(id="r0c4"), within_m=8),)))
     result = one.fly(task, interrupted=lambda: "stop" if next(asked) >= 8 else None)
     assert result.status == "aborted"
     assert result.reason.startswith("stop; then ")

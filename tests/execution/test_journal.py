@@ -18,7 +18,7 @@ from fieldhand.evaluation.report.observations import observations_csv
 from fieldhand.execution import mission_clock
 from fieldhand.execution.journal import store
 from fieldhand.execution.journal.store import Journal
-from fieldhand.execution.orders import Order, OrderFile
+from fieldhand.execution.operator_commands import CommandFile, OperatorCommand
 from fieldhand.places.selectors import TreeIs
 from fieldhand.task.event_lines import from_json, to_json
 from fieldhand.task.plan import Act
@@ -202,11 +202,11 @@ def test_a_clock_that_is_set_back() -> None:
     assert seen[-1] == pytest.approx(210.0)
 
 
-def says(*orders: tuple[int, Order | None]) -> Callable[[], Order | None]:
+def says(*orders: tuple[int, OperatorCommand | None]) -> Callable[[], OperatorCommand | None]:
     """Orders from the n-th look on."""
     looks = count()
 
-    def standing() -> Order | None:
+    def standing() -> OperatorCommand | None:
         look = next(looks)
         return next((order for n, order in reversed(orders) if look >= n), None)
 
@@ -217,7 +217,7 @@ def test_a_pause_at_any_look_changes_nothing_but_the_time(tmp_path: Path) -> Non
     whole, pauses = Field(tmp_path / "whole").fly(), 0
     for n in range(0, 40, 5):
         field = Field(tmp_path / str(n))
-        result = field.fly(orders=says((n, Order(wanted="pause", reason="lunch", number=1)), (n + 9, None)))
+        result = field.fly(orders=says((n, OperatorCommand(wanted="pause", reason="lunch", number=1)), (n + 9, None)))
         assert captured(result.events) == captured(whole.events)
         assert len(of_type(result.events, Paused)) == len(of_type(result.events, Continued)) <= 1
         pauses += len(of_type(result.events, Paused))
@@ -231,7 +231,7 @@ def test_a_pause_at_any_look_changes_nothing_but_the_time(tmp_path: Path) -> Non
 def test_stop_here_and_come_home(tmp_path: Path, wanted: str, then: str) -> None:
     for n in range(1, 40, 4):
         field = Field(tmp_path / str(n))
-        result = field.fly(orders=says((n, Order(wanted=wanted, reason="rain", number=1))))  # type: ignore[arg-type]
+        result = field.fly(orders=says((n, OperatorCommand(wanted=wanted, reason="rain", number=1))))  # type: ignore[arg-type]
         (way,) = of_type(result.events, Exited)
         if result.status == "completed":
             break
@@ -246,7 +246,7 @@ def test_stop_here_and_come_home(tmp_path: Path, wanted: str, then: str) -> None
 
 
 def test_a_paused_mission_that_is_cut_off_is_paused_again(tmp_path: Path) -> None:
-    field, pause = Field(tmp_path), Order(wanted="pause", reason="lunch", number=1)
+    field, pause = Field(tmp_path), OperatorCommand(wanted="pause", reason="lunch", number=1)
     with pytest.raises(PowerCut):
         field.fly(cut=4, orders=says((8, pause)))
     result = field.fly(orders=says((0, pause), (5, None)))
@@ -256,11 +256,11 @@ def test_a_paused_mission_that_is_cut_off_is_paused_again(tmp_path: Path) -> Non
 
 
 def test_orders_lie_where_another_process_finds_them(tmp_path: Path) -> None:
-    order_file = OrderFile(tmp_path / "orders.sqlite")
+    order_file = CommandFile(tmp_path / "orders.sqlite")
     order_file.create()
     assert order_file.current() is None
     assert order_file.give("pause", "lunch") == 1
-    assert order_file.current() == Order(wanted="pause", reason="lunch", number=1)
+    assert order_file.current() == OperatorCommand(wanted="pause", reason="lunch", number=1)
     order_file.give("abort", "rain")
     with pytest.raises(Exception, match="told to abort already"):
         order_file.give("continue", "")
@@ -268,6 +268,6 @@ def test_orders_lie_where_another_process_finds_them(tmp_path: Path) -> None:
     (tmp_path / "orders.sqlite").write_bytes(b"garbage" * 99)
     for name in ("orders.sqlite-wal", "orders.sqlite-shm"):
         (tmp_path / name).unlink(missing_ok=True)
-    stop = OrderFile(tmp_path / "orders.sqlite").current()
+    stop = CommandFile(tmp_path / "orders.sqlite").current()
     assert stop is not None
     assert stop.wanted == "abort"

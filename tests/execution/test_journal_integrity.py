@@ -15,9 +15,9 @@ from fieldhand.errors import JournalError
 from fieldhand.execution import mission_clock
 from fieldhand.execution.journal import store
 from fieldhand.execution.journal.records import Record
-from fieldhand.execution.journal.store import Journal, create, heard, lines_after
+from fieldhand.execution.journal.store import Journal, create, lines_after, read_summary
 from fieldhand.execution.mission_runner import Result
-from fieldhand.execution.orders import OrderFile
+from fieldhand.execution.operator_commands import CommandFile
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.results import Resumed
 from support.missions.rig import captured, of_type
@@ -84,7 +84,7 @@ def test_a_row_that_was_changed_dropped_or_moved_is_named(
         field.fly()
     if table == "events" and harm != "its end dropped":
         with pytest.raises(JournalError, match="of its events"):
-            heard(field.folder / "journal.sqlite")
+            read_summary(field.folder / "journal.sqlite")
         with pytest.raises(JournalError, match="of its events"):
             lines_after(field.folder / "journal.sqlite", 1, 500)
 
@@ -264,7 +264,7 @@ def test_a_journal_without_checksums_is_read_and_gone_on_with(tmp_path: Path) ->
     """One of the version before: it gets checksums and a mark."""
     whole, field = Field(tmp_path / "whole").fly(), cut_off(tmp_path / "m")
     path = field.folder / "journal.sqlite"
-    now = heard(path)
+    now = read_summary(path)
     change(
         field.folder,
         "ALTER TABLE tape DROP COLUMN sha256",
@@ -273,7 +273,7 @@ def test_a_journal_without_checksums_is_read_and_gone_on_with(tmp_path: Path) ->
         "DELETE FROM about WHERE key IN ('epoch', 'rows')",
     )
     (field.folder / "journal.mark").unlink()
-    assert heard(path) == now
+    assert read_summary(path) == now
     assert len(lines_after(path, 2, 3)) == 3
     result = field.fly()
     assert same(result, whole)
@@ -343,7 +343,7 @@ def test_a_journal_under_a_second_name_is_refused(tmp_path: Path) -> None:
 
 
 def test_orders_that_lie_elsewhere_than_people_give_them_stop_the_mission(tmp_path: Path) -> None:
-    order_file = OrderFile(tmp_path / "orders.sqlite")
+    order_file = CommandFile(tmp_path / "orders.sqlite")
     order_file.create()
     assert order_file.current() is None
     (tmp_path / "orders.sqlite").rename(tmp_path / "moved")

@@ -18,7 +18,7 @@ from fieldhand.execution.world import (
     RobotStops,
     SensorAbsurd,
     SensorSilent,
-    Spot,
+    TreeRef,
     World,
 )
 from fieldhand.forecast.mission_state import MissionState, Verdict, Visit, VisitChoice
@@ -32,7 +32,7 @@ from support.examples import examples
 from support.missions.rig import Rig, husky, of_type, orchard
 
 TASKS = Parts(capabilities_of(husky())).tasks()
-TREES = st.sampled_from([t.place.id for t in orchard().trees]).map(lambda i: Spot(id=i))
+TREES = st.sampled_from([t.place.id for t in orchard().trees]).map(lambda i: TreeRef(id=i))
 TIMES = st.none() | st.integers(1, 3)
 
 faults = st.one_of(

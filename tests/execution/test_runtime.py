@@ -16,7 +16,7 @@ import pytest
 from fieldhand.clock import Clock, ScaledClock
 from fieldhand.errors import NotApprovedError, OutputError
 from fieldhand.execution.drivers.protocol import DriveGoal
-from fieldhand.execution.drivers.simulation import SimulatedDriver
+from fieldhand.execution.drivers.simulated_driver import SimulatedDriver
 from fieldhand.execution.mission_runner import run
 from fieldhand.execution.world import (
     ActionFails,
@@ -25,7 +25,7 @@ from fieldhand.execution.world import (
     RobotStops,
     SensorAbsurd,
     SensorSilent,
-    Spot,
+    TreeRef,
     World,
 )
 from fieldhand.forecast.mission_state import MissionState, Verdict, Visit, VisitChoice
@@ -187,7 +187,7 @@ def test_a_capture_is_tried_again_as_often_as_the_profile_says() -> None:
 
 
 def test_an_action_that_fails_for_good_ends_the_mission_at_the_start() -> None:
-    rig = Rig(world=World(faults=(ActionFails(action=CO2, at=Spot(id="r1c1")),)))
+    rig = Rig(world=World(faults=(ActionFails(action=CO2, at=TreeRef(id="r1c1")),)))
     result = rig.fly(each("r0c0", "r1c1", "r2c2", body=act(CO2)))
     ended = end_of(result.events)
     assert ended.status == "faulted"
@@ -218,7 +218,7 @@ def test_a_reading_that_cannot_be_believed_is_a_failed_capture(fault: SensorSile
 
 
 def test_a_tree_out_of_reach_is_left_until_the_others_are_done_and_then_ends_the_mission() -> None:
-    rig = Rig(world=World(faults=(Blocked(at=Spot(id="r0c2"), within_m=2.0),)))
+    rig = Rig(world=World(faults=(Blocked(at=TreeRef(id="r0c2"), within_m=2.0),)))
     result = rig.fly(each("r0c0", "r0c2", "r0c4"))
     ended = end_of(result.events)
     assert ended.status == "faulted"
@@ -230,7 +230,7 @@ def test_a_tree_out_of_reach_is_left_until_the_others_are_done_and_then_ends_the
 
 
 def test_a_drive_is_tried_again_from_where_it_stopped() -> None:
-    rig = Rig(world=World(faults=(DriveFails(at=Spot(id="r0c2"), times=1),)))
+    rig = Rig(world=World(faults=(DriveFails(at=TreeRef(id="r0c2"), times=1),)))
     result = rig.fly(seq(act(at="r0c0"), act(at="r0c2")))
     assert result.status == "completed"
     assert [p for _, p in captured(result.events)] == ["r0c0", "r0c2"]
@@ -244,7 +244,7 @@ def test_a_drive_is_tried_again_from_where_it_stopped() -> None:
 
 def test_a_task_chooses_its_faulted_exits() -> None:
     exits = (FaultedExit(fault="drive_failed", then="return_to_start"),)
-    rig = Rig(robot=husky(retries=0), world=World(faults=(DriveFails(at=Spot(id="r0c2"), times=1),)))
+    rig = Rig(robot=husky(retries=0), world=World(faults=(DriveFails(at=TreeRef(id="r0c2"), times=1),)))
     result = rig.fly(task_for(each("r0c0", "r0c2"), faulted=exits))
     assert at(end_of(result.events), "start")
     assert result.status == "faulted"
@@ -260,7 +260,7 @@ def test_a_place_that_is_not_there_is_a_fault_not_a_traceback() -> None:
 
 
 def test_a_way_home_that_is_blocked_ends_the_mission_faulted_on_the_way() -> None:
-    rig = Rig(world=World(faults=(Blocked(at=Spot(id="r0c4"), within_m=7.0),)))
+    rig = Rig(world=World(faults=(Blocked(at=TreeRef(id="r0c4"), within_m=7.0),)))
     result = rig.fly(act(at="r0c2"))
     assert captured(result.events) == [(PICTURE, "r0c2")]
     assert result.status == "faulted"
@@ -474,7 +474,7 @@ def _picture_else_air() -> Steps:
 
 
 def test_after_a_failed_drive_work_at_the_place_in_hand_is_done_there() -> None:
-    world = World(faults=(Blocked(at=Spot(id="r3c4"), within_m=2.0),))
+    world = World(faults=(Blocked(at=TreeRef(id="r3c4"), within_m=2.0),))
     guard = BudgetOf(visits=99)
     result = Rig(world=world, guard=guard).fly(_picture_else_air())
     assert captured(result.events) == [(PICTURE, "r0c0"), (CO2, "r0c0")]
@@ -504,7 +504,7 @@ class RigOfNoWayBack(Rig):
 
 
 def test_work_at_the_place_in_hand_fails_where_the_robot_cannot_drive_back() -> None:
-    world = World(faults=(DriveFails(at=Spot(id="r3c4")),))
+    world = World(faults=(DriveFails(at=TreeRef(id="r3c4")),))
     result = RigOfNoWayBack(world=world).fly(_picture_else_air())
     assert [(e.action, e.place) for e in of_type(result.events, Acted)] == [(PICTURE, "r0c0")]
     assert result.status == "faulted"
@@ -513,7 +513,7 @@ def test_work_at_the_place_in_hand_fails_where_the_robot_cannot_drive_back() -> 
 
 
 def test_the_guard_is_asked_before_the_robot_drives_back_to_the_place_in_hand() -> None:
-    world = World(faults=(DriveFails(at=Spot(id="r3c4")),))
+    world = World(faults=(DriveFails(at=TreeRef(id="r3c4")),))
     result = Rig(world=world, guard=BudgetOf(visits=2)).fly(_picture_else_air())
     assert captured(result.events) == [(PICTURE, "r0c0")]
     assert result.status == "returned"

@@ -8,7 +8,7 @@ import pytest
 from py_trees.common import Status
 
 from fieldhand.execution.tree import compile_tree
-from fieldhand.execution.world import ActionFails, DriveFails, SensorSilent, Spot, Truth, World
+from fieldhand.execution.world import ActionFails, DriveFails, SensorSilent, TreeRef, Truth, World
 from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import (
     Bound,
@@ -49,7 +49,7 @@ def each(*names: str, body: Node | None = None, **more: object) -> ForEach:
 
 
 def world(default: float, **trees: float) -> World:
-    values = tuple((Spot(id=name), value) for name, value in trees.items())
+    values = tuple((TreeRef(id=name), value) for name, value in trees.items())
     return World(readings={"canopy_temperature": Truth(default=default, trees=values)})
 
 
@@ -239,7 +239,7 @@ def test_a_reading_of_an_earlier_round_decides_nothing() -> None:
     body = seq(
         Try(id="", body=act(reading="r"), otherwise=act(AIR)), If(id="", condition=HOT, then=act(CO2), otherwise=None)
     )
-    silent = SensorSilent(quantity="canopy_temperature", at=Spot(id="r0c1"))
+    silent = SensorSilent(quantity="canopy_temperature", at=TreeRef(id="r0c1"))
     rig = Rig(world=World(readings={"canopy_temperature": Truth(default=40.0)}, faults=(silent,)))
     result = rig.fly(each("r0c0", "r0c1", body=body))
     assert captured(result.events) == [(PICTURE, "r0c0"), (CO2, "r0c0"), (AIR, "r0c1")]
@@ -268,7 +268,7 @@ def test_try_leaves_a_body_that_went_well_alone() -> None:
 
 
 def test_try_catches_a_drive_that_failed_and_goes_on_from_there() -> None:
-    rig = Rig(robot=husky(retries=0), world=World(faults=(DriveFails(at=Spot(id="r0c2")),)))
+    rig = Rig(robot=husky(retries=0), world=World(faults=(DriveFails(at=TreeRef(id="r0c2")),)))
     result = rig.fly(Try(id="", body=act(at=tree("r0c2")), otherwise=act(CO2, at=tree("r3c0"))))
     assert result.status == "completed"
     assert captured(result.events) == [(CO2, "r3c0")]

@@ -48,15 +48,15 @@ faults:
         "co2": w.Truth(default=380.0),
         "wet": w.Truth(default=1.0),
         "canopy_temperature": w.Truth(
-            default=31.5, trees=((w.Spot(lat=37.0001, lon=-120.0002), 40.0), (w.Spot(id="12"), 0.0))
+            default=31.5, trees=((w.TreeRef(lat=37.0001, lon=-120.0002), 40.0), (w.TreeRef(id="12"), 0.0))
         ),
     }
     assert (world.seed, world.charge_percent) == (7, 64.5)
     assert world.faults == (
         w.ActionFails(action="read_co2", times=2),
-        w.SensorSilent(quantity="co2", at=w.Spot(id="r1c1")),
+        w.SensorSilent(quantity="co2", at=w.TreeRef(id="r1c1")),
         w.SensorAbsurd(quantity="co2", value=99999.0),
-        w.Blocked(at=w.Spot(id="r1c1"), within_m=2.0),
+        w.Blocked(at=w.TreeRef(id="r1c1"), within_m=2.0),
         w.BatteryDrains(factor=3.0),
         w.RobotStops(at_s=120.0, why="power cut"),
     )

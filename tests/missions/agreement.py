@@ -20,7 +20,7 @@ from fieldhand import mission
 from fieldhand.evaluation.log_replay import replay_log
 from fieldhand.exchange.btcpp import write_tree
 from fieldhand.execution.guard import Guard
-from fieldhand.execution.world import ActionFails, Spot, World
+from fieldhand.execution.world import ActionFails, TreeRef, World
 from fieldhand.forecast import visit_order
 from fieldhand.forecast.conditions import ConditionInputs, evaluate
 from fieldhand.forecast.mission_state import MissionState, Verdict, Visit, VisitChoice
@@ -279,8 +279,8 @@ class _Watch:
             self.chosen[state.node][-1].append(candidates[choice.index].place)
         return choice
 
-    def ways_are(self, drives: Drives) -> None:
-        self._guard.ways_are(drives)
+    def update_drives(self, drives: Drives) -> None:
+        self._guard.update_drives(drives)
 
 
 class AsChosen:
@@ -310,7 +310,7 @@ def simulated(seed: int) -> Simulated:
         rng = np.random.default_rng([18, seed, attempt])
         task = task_for(Drawn(rng).plan(), nominal=str(rng.choice(["return_to_start", "return_to_end", "stay"])))  # type: ignore[arg-type]
         bad = rng.permutation([t.place.id for t in site.trees])[:7].tolist()
-        world = World(faults=tuple(ActionFails(action=FAILING, at=Spot(id=tree)) for tree in bad))
+        world = World(faults=tuple(ActionFails(action=FAILING, at=TreeRef(id=tree)) for tree in bad))
         events: list[Event] = []
         watch = _Watch(events)
         mission.simulate(

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from fieldhand import mission
-from fieldhand.execution.world import BatteryDrains, Blocked, Spot, World, WorldFault
+from fieldhand.execution.world import BatteryDrains, Blocked, TreeRef, World, WorldFault
 from fieldhand.places.selectors import TreeIs, Trees
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import open_site
@@ -55,7 +55,7 @@ def draw_faults(rng: np.random.Generator, ids: list[str]) -> tuple[WorldFault, .
     begins = 0.0 if rng.random() < 0.5 else float(rng.uniform(5.0, 250.0))
     faults: list[WorldFault] = [BatteryDrains(factor=factor, from_s=begins)]
     blocked = int(rng.integers(0, 3)) if rng.random() < 0.5 else 0
-    spots = ((Spot(id=str(rng.choice(ids))), float(rng.uniform(0.5, 4.0))) for _ in range(blocked))
+    spots = ((TreeRef(id=str(rng.choice(ids))), float(rng.uniform(0.5, 4.0))) for _ in range(blocked))
     return (*faults, *(Blocked(at=spot, within_m=within_m) for spot, within_m in spots))
 
 

@@ -15,7 +15,7 @@ from fieldhand import mission, missions
 from fieldhand.clock import Clock, SimulatedClock
 from fieldhand.errors import ExecutionError, FieldhandError, JournalError, NotApprovedError
 from fieldhand.execution.drivers.protocol import Position
-from fieldhand.execution.drivers.simulation import SimulatedDriver
+from fieldhand.execution.drivers.simulated_driver import SimulatedDriver
 from fieldhand.execution.journal import store
 from fieldhand.execution.vehicle import Connection, Vehicle
 from fieldhand.execution.world import World

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from shapely.geometry import LineString, Point, Polygon, box
 from shapely.ops import unary_union
 
-from fieldhand.execution.world import Blocked, Spot, World
+from fieldhand.execution.world import Blocked, TreeRef, World
 from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import (
     AlongRow,
@@ -185,7 +185,7 @@ def test_no_drive_of_any_mission_crosses_a_tree_line_or_a_keep_out(named: bool, 
     faults = ()
     if rng.random() < 0.5:
         tree = ground.site.trees[int(rng.integers(len(ground.site.trees)))].place.id
-        faults = (Blocked(at=Spot(id=tree), within_m=float(rng.uniform(0.5, 6.0)), times=2),)
+        faults = (Blocked(at=TreeRef(id=tree), within_m=float(rng.uniform(0.5, 6.0)), times=2),)
     rig = Rig(site=ground.site, robot=husky(alpha=0.5), world=World(faults=faults), seed=seed)
     events = rig.fly(random_plan(rng, ground.site)).events
     assert of_type(events, Ended)

@@ -12,12 +12,13 @@ import pytest
 from fieldhand import missions
 from fieldhand.approval.keys.trust import TrustStore
 from fieldhand.clock import SimulatedClock
-from fieldhand.delivery.crew import Crew, Standing, said_of
+from fieldhand.delivery.crew import Crew, Standing
 from fieldhand.delivery.depot import Depot
 from fieldhand.delivery.verified import acceptance, sha256_of
 from fieldhand.errors import ExecutionError, FieldhandError, NotApprovedError, Ros2Error
-from fieldhand.execution.drivers.simulation import SimulatedDriver
+from fieldhand.execution.drivers.simulated_driver import SimulatedDriver
 from fieldhand.execution.journal import store
+from fieldhand.execution.operator_commands import parse_agent_command
 from fieldhand.execution.vehicle import Connection, Vehicle
 from fieldhand.execution.world import World
 from fieldhand.program.aboard import Aboard
@@ -79,7 +80,7 @@ class Agent:
 
     def tell(self, data: bytes, said: str) -> Standing:
         held = self.depot.get(sha256_of(data))
-        self.crew.tell(held, said_of(said), "a test")
+        self.crew.tell(held, parse_agent_command(said), "a test")
         self.crew.join(LONG_S)
         return self.crew.standing(held)
 

@@ -10,7 +10,7 @@ from random import Random
 
 from fieldhand.clock import SimulatedClock
 from fieldhand.execution.drivers.ros2.action_client import ActionClient
-from fieldhand.execution.drivers.ros2.goal_outcome import GoalOutcome
+from fieldhand.execution.drivers.ros2.action_outcome import ActionOutcome
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.simulated_robot.robot import GoalReport, SimulatedRobot
 from fieldhand.execution.drivers.ros2.transport import SENSOR_QOS, Message
@@ -101,7 +101,7 @@ class SimulatedRobotRig:
             action.step()
             self.step()
 
-    def finish(self, action: ActionClient) -> GoalOutcome:
+    def finish(self, action: ActionClient) -> ActionOutcome:
         """Until the goal is over."""
         until = self.clock.now() + LONG_S
         while (outcome := action.step()) is None:
@@ -109,7 +109,7 @@ class SimulatedRobotRig:
             self.step()
         return outcome
 
-    def drive(self, *corners: tuple[float, float]) -> GoalOutcome:
+    def drive(self, *corners: tuple[float, float]) -> ActionOutcome:
         """Through corners in local metres, by the robot's navigation."""
         self.navigation.start(self.goal(*corners))
         return self.finish(self.navigation)

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from fieldhand.clock import SimulatedClock
 from fieldhand.execution.drivers.ros2.action_client import CANCEL_S, RESULT_AGAIN_S, ActionClient
-from fieldhand.execution.drivers.ros2.goal_outcome import GoalOutcome
+from fieldhand.execution.drivers.ros2.action_outcome import ActionOutcome
 from ros2.in_memory import Disturbed, Graph, Node
 from ros2.scripted import Script, ScriptedAction, Served
 from support.examples import examples
@@ -36,12 +36,12 @@ class Rig:
         while self.clock.now() < until:
             self.tick()
 
-    def tick(self) -> GoalOutcome | None:
+    def tick(self) -> ActionOutcome | None:
         self.clock.advance(STEP_S)
         self.server.step()
         return self.client.step()
 
-    def finish(self, within_s: float = 200.0) -> GoalOutcome:
+    def finish(self, within_s: float = 200.0) -> ActionOutcome:
         until = self.clock.now() + within_s
         while self.clock.now() < until:
             if (outcome := self.tick()) is not None:
@@ -150,7 +150,7 @@ def test_a_goal_whose_request_is_lost_was_never_begun_and_is_confirmed_so() -> N
     r.client.start({"number": 0})
     outcome = r.finish()
     assert (outcome.how, outcome.moving) == ("cancelled", False)
-    assert outcome.what == "/navigate did not say within 5 s whether it takes the goal"
+    assert outcome.what == "/navigate did not accept or reject the goal within 5 s"
 
 
 def test_a_goal_that_is_accepted_after_it_was_given_up_is_cancelled_then() -> None:
@@ -189,7 +189,7 @@ def test_a_cancelled_goal_may_still_succeed_and_says_so() -> None:
     r.client.start({"number": 0})
     r.pass_time(1.0)
     r.client.cancel()
-    assert r.finish() == GoalOutcome(how="succeeded", result={"error_code": 0})
+    assert r.finish() == ActionOutcome(how="succeeded", result={"error_code": 0})
 
 
 def test_one_that_refuses_to_be_cancelled_is_said_to_move_still() -> None:
@@ -218,7 +218,7 @@ def test_two_servers_get_no_goal() -> None:
     second = ScriptedAction(r.graph.node(), NAME, TYPE, r.clock.now, lambda goal: Script())
     r.client.start({"number": 0})
     outcome = r.finish()
-    assert (outcome.how, outcome.what) == ("rejected", "2 servers answer /navigate: which robot would drive?")
+    assert (outcome.how, outcome.what) == ("rejected", "2 servers answer /navigate: which robot is meant?")
     second.step()
     assert not r.server.received
     assert not second.received
@@ -232,7 +232,7 @@ def test_a_server_that_was_started_anew_has_forgotten_the_goal() -> None:
     r.server = ScriptedAction(r.graph.node(), NAME, TYPE, r.clock.now, lambda goal: Script())
     outcome = r.finish(20.0)
     assert (outcome.how, outcome.what) == (
-        "cancelled", "/navigate does not know the goal any more: it was started anew"
+        "cancelled", "/navigate no longer knows the goal: it was restarted"
     )  # fmt: skip
 
 

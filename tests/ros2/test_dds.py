@@ -216,7 +216,7 @@ def test_unknown_types_and_names_are_refused_in_words(node: DdsTransport) -> Non
 @pytest.mark.parametrize("text", ["-1", "233", "two", "1.5", "²"])
 def test_a_domain_that_is_none_is_refused(text: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("ROS_DOMAIN_ID", text)
-    with pytest.raises(InputError, match=r"ROS_DOMAIN_ID: .* is no DDS domain; give a number from 0 to 232"):
+    with pytest.raises(InputError, match=r"ROS_DOMAIN_ID: .* is not a DDS domain; give a number from 0 to 232"):
         open_dds(Interfaces.of("humble"))
 
 

@@ -108,7 +108,7 @@ def test_a_map_service_that_is_not_ready_begins_no_drive() -> None:
     w.graph.disturb("*fromLL request", Disturbed(loss=1.0))
     driver.start_drive(drive())
     progress = finish(driver, w.clock)
-    assert (progress.state, progress.what[:46]) == ("failed", "/husky/fromLL did not answer within 5 s; see w")
+    assert (progress.state, progress.what[:46]) == ("failed", "/husky/fromLL did not answer within 5 s; check")
     assert w.robot.navigation.received == []
 
 
@@ -119,7 +119,7 @@ def test_points_that_do_not_fit_the_way_begin_no_drive() -> None:
     reply = server.reply
     server.reply = lambda to, response: reply(to, {"map_point": {}})  # type: ignore[method-assign]
     driver.start_drive(drive())
-    assert "its points are not those of the way" in finish(driver, w.clock).what
+    assert "its points do not fit the path" in finish(driver, w.clock).what
     assert w.robot.navigation.received == []
 
 
@@ -139,9 +139,7 @@ def test_a_map_that_is_turned_otherwise_than_the_profile_says_is_found_before_it
     driver.start_drive(drive())
     progress = finish(driver, w.clock)
     assert (progress.state, progress.fault) == ("failed", "failed")
-    assert re.match(
-        r"by its fix the robot stands \d+ m from where /husky/navigate_to_pose takes it to be", progress.what
-    )
+    assert re.match(r"the robot's fix is \d+ m from its position in /husky/navigate_to_pose", progress.what)
     assert not w.robot.navigation.executing
     assert w.robot.driven_m < 1.5
 
@@ -155,8 +153,8 @@ def test_a_map_that_is_turned_otherwise_than_the_profile_says_is_found_before_it
         (201, {}, "failed", "the planner that is configured does not exist (code 201 of Nav2)"),
         (4711, {}, "failed", "navigation failed (code 4711 of Nav2)"),
         (4711, {"codes": {4711: "blocked"}}, "blocked", "navigation failed (code 4711 of Nav2)"),
-        (0, {}, "blocked", "navigation failed without saying why"),
-        (0, {"without_code": "failed"}, "failed", "navigation failed without saying why"),
+        (0, {}, "blocked", "navigation failed without an error code"),
+        (0, {"without_code": "failed"}, "failed", "navigation failed without an error code"),
     ],
 )
 def test_a_failure_of_nav2_is_a_fault_by_its_code(code: int, changes: dict[str, Any], fault: str, words: str) -> None:
@@ -179,7 +177,7 @@ def test_what_nav2_says_beside_its_code_is_told_and_a_goal_that_others_cancel_ha
     w.robot.ends = "cancelled"
     driver.start_drive(drive(NEAR))
     progress = finish(driver, w.clock)
-    assert (progress.state, progress.what) == ("failed", "somebody else cancelled the drive")
+    assert (progress.state, progress.what) == ("failed", "another client cancelled the drive")
 
 
 def test_a_missed_waypoint_is_no_success() -> None:
@@ -213,7 +211,7 @@ def test_a_slow_drive_is_told_to_the_controller_or_not_begun() -> None:
     w = world()
     driver = w.connect()
     driver.start_drive(replace(drive(NEAR), speed_m_s=0.4))
-    assert "no faster than 0.4 m/s, and the robot cannot be told" in finish(driver, w.clock).what
+    assert "limited to 0.4 m/s, but the robot accepts no speed limit" in finish(driver, w.clock).what
     assert w.robot.navigation.received == []
 
 
@@ -259,7 +257,7 @@ def test_a_parameter_goes_into_the_request_and_one_that_is_missing_is_named() ->
     assert finish(driver, w.clock).state == "succeeded"
     assert w.robot.sampler.received[0]["depth"] == 30
     driver.start_action(capture())
-    assert finish(driver, w.clock).what == "read_co2 has no parameter 'depth_cm', which its request is to hold"
+    assert finish(driver, w.clock).what == "read_co2 has no parameter 'depth_cm', which its request needs"
     driver.start_action(capture(depth_cm=30.5))
     progress = finish(driver, w.clock)
     assert progress.state == "failed"
@@ -274,7 +272,7 @@ def test_a_service_answers_or_is_said_to_be_silent() -> None:
     w.robot.reading = lambda request: None
     driver.start_action(capture("read_ambient_temperature"))
     progress = finish(driver, w.clock)
-    assert progress.what == "/thermometer did not answer within 5 s; see whether it runs on the robot"
+    assert progress.what == "/thermometer did not answer within 5 s; check whether it runs on the robot"
     w.robot.reading = lambda request: {"ok": False, "words": "broken"}
     driver.start_action(capture("read_ambient_temperature"))
     assert finish(driver, w.clock).what == "/thermometer did not succeed: broken"
@@ -308,7 +306,7 @@ def test_a_topic_gives_the_next_message_not_one_that_was_there() -> None:
     w.robot.canopy = None
     w.clock.advance(2.0)
     driver.start_action(capture("take_thermal_picture"))
-    said = "nothing came on /husky/canopy within 4 s, so there is no canopy_temperature"
+    said = "no message on /husky/canopy within 4 s, so there is no canopy_temperature"
     assert finish(driver, w.clock).what == said
 
 
@@ -410,7 +408,7 @@ def test_the_emergency_stop_cancels_what_is_under_way_and_everything_after() -> 
     [
         ({"fix_status": -1}, "no satellite fix"),
         ({"sigma_m": 1.6}, "the position is uncertain by 1.6 m, at most 1 m are allowed"),
-        ({"silent": {"fix"}}, "nothing came on /husky/fix for 2 s"),
+        ({"silent": {"fix"}}, "no message on /husky/fix for 2 s"),
     ],
 )
 def test_a_fix_that_cannot_be_believed_ends_the_drive_as_lost(change: dict[str, Any], said: str) -> None:
@@ -446,7 +444,7 @@ def test_a_silent_battery_ends_the_goal_and_lets_none_begin_until_it_speaks() ->
     driver.start_drive(drive())
     w.robot.silent = {"battery"}
     progress = finish(driver, w.clock)
-    said = "the battery is silent: nothing came on /husky/battery for 5 s"
+    said = "the battery is silent: no message on /husky/battery for 5 s"
     assert (progress.state, progress.fault, progress.what) == ("failed", "failed", said)
     driver.start_action(capture())
     assert driver.poll().state == "failed"
@@ -482,7 +480,7 @@ def test_odometry_that_falls_silent_ends_the_drive_for_nobody_counts_its_metres(
     driver.start_drive(drive())
     w.robot.silent = {"odom"}
     progress = finish(driver, w.clock)
-    assert progress.what == "the odometry is silent: nothing came on /husky/odom for 2 s"
+    assert progress.what == "the odometry is silent: no message on /husky/odom for 2 s"
     assert not w.robot.navigation.executing
 
 
@@ -589,7 +587,7 @@ def test_a_robot_that_is_killed_in_mid_drive_fails_the_drive() -> None:
     begun = w.clock.now()
     progress = finish(driver, w.clock)
     assert (progress.state, progress.fault) == ("failed", "lost")
-    assert "nothing came on /husky/fix" in progress.what
+    assert "no message on /husky/fix" in progress.what
     assert "is gone: nothing answers any more" in progress.what
     assert w.clock.now() - begun < 20.0
 
@@ -716,7 +714,8 @@ def test_everything_that_is_missing_is_named_at_once() -> None:
     w.clock.robots.clear()
     w.robot.node.close()
     said = why(w)
-    for name in ("navigation /husky/navigate_to_pose: nobody answers it", "the position /husky/fix: nobody sends it",
+    for name in ("navigation /husky/navigate_to_pose: there is no server",
+                 "the position /husky/fix: there is no publisher",
                  "the battery /husky/battery", "the odometry /husky/odom", "the emergency stop /husky/stop",
                  "read_co2 /husky/sample", "read_ambient_temperature /thermometer",
                  "canopy_temperature of take_thermal_picture /husky/canopy"):  # fmt: skip
@@ -729,7 +728,7 @@ def test_only_what_the_mission_needs_must_be_there() -> None:
     w = world()
     for server in [e for e in w.graph.ends if "sample" in e.name]:
         server.close()
-    assert "read_co2 /husky/sample: nobody answers it" in why(w)
+    assert "read_co2 /husky/sample: there is no server" in why(w)
     assert isinstance(w.connect(actions=["read_ambient_temperature"]), Ros2Driver)
 
 
@@ -764,13 +763,13 @@ def test_services_of_another_middleware_are_refused_with_what_to_set() -> None:
     [
         (
             {"percentage": 87.0},
-            "the battery /husky/battery: it says 8700 percent, which is no charge; correct its scale",
+            "the battery /husky/battery: it says 8700 percent, which is not a valid charge; correct its scale",
         ),
-        ({"percentage": math.nan}, "the battery /husky/battery: it says no number at percentage"),
+        ({"percentage": math.nan}, "the battery /husky/battery: it has no number at percentage"),
         ({"fix_status": -1}, "the position /husky/fix: no satellite fix"),
         ({"pressed": True}, "the emergency stop was pressed (/husky/stop); release it"),
         ({"xy": (90_000.0, 0.0)}, "the robot stands 90 km from the start of grid: it is on another site"),
-        ({"silent": {"battery"}}, "the battery /husky/battery: nothing came yet"),
+        ({"silent": {"battery"}}, "the battery /husky/battery: no message yet"),
     ],
 )
 def test_a_robot_that_is_not_ready_is_said_to_be(change: dict[str, Any], said: str) -> None:
@@ -817,7 +816,7 @@ def test_a_goal_that_was_left_behind_is_waited_for_even_if_nobody_tells_of_it(re
     w.graph.disturb("*/_action/status", Disturbed(delay_s=(8.0, 8.0)))
     w.robot.navigation._tell()
     if refuses:
-        assert "did not confirm within 15 s that nothing is carried out there; see what else commands" in why(w)
+        assert "did not confirm within 15 s that all goals are cancelled; check which other program" in why(w)
     else:
         w.connect()
         assert not w.robot.navigation.executing

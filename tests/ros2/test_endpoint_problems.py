@@ -64,9 +64,9 @@ def test_nothing_speaks_against_what_fits(graph: Graph, here: Node, interfaces: 
 
 
 def test_what_nobody_offers(here: Node, interfaces: Interfaces) -> None:
-    says(topic_problem(here, interfaces, "/fix", FIX), "nobody sends it", "ROS_DOMAIN_ID")
-    says(service_problem(here, interfaces, "/trigger", TRIGGER), "nobody answers it", "ROS_DOMAIN_ID")
-    says(action_problem(here, interfaces, "/go", NAVIGATE), "nobody answers it", "ROS_DOMAIN_ID")
+    says(topic_problem(here, interfaces, "/fix", FIX), "there is no publisher", "ROS_DOMAIN_ID")
+    says(service_problem(here, interfaces, "/trigger", TRIGGER), "there is no server", "ROS_DOMAIN_ID")
+    says(action_problem(here, interfaces, "/go", NAVIGATE), "there is no server", "ROS_DOMAIN_ID")
 
 
 def test_another_type(graph: Graph, here: Node, interfaces: Interfaces) -> None:
@@ -119,7 +119,7 @@ def test_two_robots_on_one_domain(graph: Graph, here: Node, interfaces: Interfac
 @pytest.mark.parametrize("part", ["get_result", "cancel_goal", "feedback", "status"])
 def test_an_action_of_which_a_part_is_missing(graph: Graph, here: Node, interfaces: Interfaces, part: str) -> None:
     serve_action(graph.node(), without=part)
-    says(action_problem(here, interfaces, "/go", NAVIGATE), f"its {part}: nobody", "start it")
+    says(action_problem(here, interfaces, "/go", NAVIGATE), f"its {part}: there is no", "start it")
 
 
 def test_another_definition_of_the_same_name(

@@ -17,9 +17,9 @@ import pytest
 from lxml import etree
 
 import fieldhand
-from fieldhand.delivery.crew import ORDERS
 from fieldhand.execution.drivers.ros2.rclpy import open_rclpy
 from fieldhand.execution.drivers.ros2.transport import QosProfile, Transport
+from fieldhand.execution.operator_commands import AGENT_COMMANDS
 from ros2.sourced import goals, graph, rclpy_robot, sourced, standard_husky
 from support.processes.command import fieldhand as command
 from support.processes.patience import LONG_S, until
@@ -247,4 +247,4 @@ def test_diagnostics_say_what_is_wrong(executor: Executor) -> None:
 def test_every_order_of_the_agent_is_a_service() -> None:
     """The node makes one for each; its page names them all."""
     page = (PACKAGE / "README.md").read_text()
-    assert all(f"`~/{said}`" in page for said in ORDERS)
+    assert all(f"`~/{said}`" in page for said in AGENT_COMMANDS)

@@ -110,20 +110,20 @@ def ended(result: Result, status: str, then: str, reason: str) -> None:
 
 def test_a_server_that_is_absent(meet: Meet) -> None:
     said = why(meet(without="navigation"))
-    assert f"navigation {NAVIGATION}: nobody answers it; start it; if it runs, compare its name, namespace" in said
+    assert f"navigation {NAVIGATION}: there is no server; start it; if it runs, compare its name, namespace" in said
     assert said.count("; start it") == 1
 
 
 def test_two_robots_on_one_domain(meet: Meet) -> None:
     said = why(meet(robots=2))
-    assert f"navigation {NAVIGATION}: 2 servers answer it: which robot would hear?" in said
+    assert f"navigation {NAVIGATION}: 2 servers answer it: which robot is meant?" in said
     assert "if these are two robots" in said
 
 
 def test_a_namespace_that_is_wrong_and_one_that_is_right(meet: Meet) -> None:
     said = why(meet(bindings(namespace="/fendt")))
     for name in ("/fendt/navigate_to_pose", "/fendt/fix", "/fendt/battery", "/fendt/sample"):
-        assert re.search(rf"{name}: nobody \w+ it[,;]", said), name
+        assert re.search(rf"{name}: there is no \w+[,;]", said), name
     assert "compare its name, namespace and ROS_DOMAIN_ID" in said
     meeting = meet(bindings(namespace="/field/fendt"), namespace="/field/fendt")
     assert meeting.fly(go("r0c0")).status == "completed"
@@ -136,7 +136,7 @@ def test_a_type_of_another_name_and_one_of_the_same_name_with_other_fields(meet:
         said = why(meet(definitions={READ: other}))
         assert "/thermometer: the robot has another definition of farm_msgs/srv/Read than is known here; set" in said
     said = why(meet(definitions={READ: other}, hashes=False))
-    assert "/thermometer: it was found, but there is no way to it and back; see whether its definition" in said
+    assert "/thermometer: it was discovered, but is not matched in both directions; check that its" in said
 
 
 def test_a_quality_that_does_not_match(meet: Meet) -> None:
@@ -144,15 +144,15 @@ def test_a_quality_that_does_not_match(meet: Meet) -> None:
     reliable = replace(bound.position, fix=replace(bound.position.fix, reliable=True))
     said = why(meet(replace(bound, position=reliable)))
     assert (
-        "the position /husky/fix: it is sent best effort and read reliably, which never meets; leave reliable" in said
+        "the position /husky/fix: it is sent best effort and read reliably, which never match; leave reliable" in said
     )
 
 
 @pytest.mark.parametrize(
     ("switches", "said"),
     [
-        ({"silent": ["battery"]}, "the battery /husky/battery: nothing came yet; see whether the robot sends it"),
-        ({"silent": ["fix"]}, "the position /husky/fix: nothing came yet"),
+        ({"silent": ["battery"]}, "the battery /husky/battery: no message yet; check whether the robot publishes it"),
+        ({"silent": ["fix"]}, "the position /husky/fix: no message yet"),
         ({"fix_status": -1}, "the position /husky/fix: no satellite fix"),
         ({"pressed": True}, r"the emergency stop was pressed \(/husky/stop\); release it"),
     ],
@@ -184,7 +184,7 @@ def test_services_of_a_middleware_that_cannot_be_served(meet: Meet, domain: int)
 
 def test_a_goal_that_is_rejected(meet: Meet) -> None:
     result = meet(accepts=False).fly(go("r0c0"))
-    ended(result, "faulted", "stay", f"{NAVIGATION} rejected the goal; see whether Nav2 is active")
+    ended(result, "faulted", "stay", f"{NAVIGATION} rejected the goal; check whether Nav2 is active")
     assert faults(result) == [("drive_failed", True), ("drive_failed", False)]
 
 
@@ -195,7 +195,7 @@ def test_a_goal_that_is_rejected(meet: Meet) -> None:
         ("jazzy", {"error_code": 202}, "lost", "the robot's pose in its map is not known"),
         ("jazzy", {"error_code": 201}, "failed", "the planner that is configured does not exist"),
         ("kilted", {"error_code": 204, "error_msg": "out"}, "failed", "the goal lies outside of its map .*: out"),
-        ("humble", {}, "blocked", "navigation failed without saying why"),
+        ("humble", {}, "blocked", "navigation failed without an error code"),
     ],
 )
 def test_a_drive_that_nav2_aborts(meet: Meet, distro: str, code: dict[str, Any], fault: str, words: str) -> None:
@@ -214,15 +214,15 @@ def test_a_way_that_is_blocked_for_good(meet: Meet) -> None:
 def test_navigation_that_ends_in_mid_drive(meet: Meet) -> None:
     meeting = meet()
     result = flown(meeting, go("r3c4"), after_m=3.0, then=lambda: meeting.robot.tell("change", without="navigation"))
-    ended(result, "faulted", "stay", f"nothing answers {NAVIGATION}; see whether Nav2 is active")
+    ended(result, "faulted", "stay", f"nothing answers {NAVIGATION}; check whether Nav2 is active")
     (first, _) = [e.what for e in of_type(result.events, Faulted)]
-    assert f"{NAVIGATION} is gone: nothing answers any more; see whether Nav2 runs on the robot; if it drives" in first
+    assert f"{NAVIGATION} is gone: nothing answers any more; check whether Nav2 runs on the robot; if it" in first
 
 
 def test_a_second_robot_that_comes_in_mid_mission(meet: Meet) -> None:
     meeting = meet()
     result = flown(meeting, go("r0c0"), go("r0c4"), after_m=1.0, then=lambda: meeting.robot.tell("another"))
-    ended(result, "faulted", "stay", f"2 servers answer {NAVIGATION}: which robot would drive?")
+    ended(result, "faulted", "stay", f"2 servers answer {NAVIGATION}: which robot is meant?")
     assert meeting.robot.state["goals"] == 1
 
 
@@ -246,9 +246,7 @@ def test_a_fix_that_is_lost_and_comes_back_and_one_that_does_not(meet: Meet) -> 
 
     meeting = meet()
     result = flown(meeting, go("r3c4"), after_m=3.0, then=lambda: meeting.robot.tell("change", silent=["fix"]))
-    ended(
-        result, "faulted", "stay", "does not know where it is .nothing came on /husky/fix for .*bring it back by hand"
-    )
+    ended(result, "faulted", "stay", "does not know where it is .no message on /husky/fix for .*bring it back by hand")
     assert meeting.robot.state["executing"] == 0
 
 
@@ -256,7 +254,7 @@ def test_a_fix_that_is_lost_and_comes_back_and_one_that_does_not(meet: Meet) -> 
 def test_a_topic_that_falls_silent_in_mid_mission(meet: Meet, topic: str, named: str) -> None:
     meeting = meet()
     result = flown(meeting, go("r3c4"), after_m=3.0, then=lambda: meeting.robot.tell("change", silent=[topic]))
-    ended(result, "faulted", "stay", f"the {named} is silent: nothing came on /husky/{topic} for [5-9] s")
+    ended(result, "faulted", "stay", f"the {named} is silent: no message on /husky/{topic} for [5-9] s")
     assert meeting.robot.state["executing"] == 0
 
 
@@ -277,9 +275,9 @@ def test_the_emergency_stop(meet: Meet) -> None:
         (
             "read_ambient_temperature",
             {"thermometer": None},
-            "/thermometer did not answer within 5 s; see whether it runs",
+            "/thermometer did not answer within 5 s; check whether it runs",
         ),
-        ("take_thermal_picture", {"canopy": None}, "nothing came on /husky/canopy within 4 s, so there is no canopy_"),
+        ("take_thermal_picture", {"canopy": None}, "no message on /husky/canopy within 4 s, so there is no canopy_"),
     ],
     ids=["service", "topic"],
 )
@@ -299,7 +297,7 @@ def test_an_action_whose_server_ends_in_mid_capture(meet: Meet) -> None:
     meeting.robot.tell("change", without="sampler")
     progress = finish(driver, meeting.clock)
     assert (progress.state, progress.fault) == ("failed", "failed")
-    assert "/husky/sample is gone: nothing answers any more; see whether it runs on the robot" in progress.what
+    assert "/husky/sample is gone: nothing answers any more; check whether it runs on the robot" in progress.what
 
 
 # --- its end ---------------------------------------------------------------------------------------------------------
@@ -308,7 +306,7 @@ def test_an_action_whose_server_ends_in_mid_capture(meet: Meet) -> None:
 def test_a_robot_that_is_killed_in_mid_drive(meet: Meet) -> None:
     meeting = meet()
     result = flown(meeting, go("r3c4"), after_m=3.0, then=meeting.robot.kill)
-    ended(result, "faulted", "stay", "nothing came on /husky/fix for")
+    ended(result, "faulted", "stay", "no message on /husky/fix for")
     said = [e.what for e in of_type(result.events, Faulted)]
     assert faults(result)[-1] == ("lost", False), said
     assert [e.over for e in of_type(result.events, Waited)] == [False]

@@ -105,8 +105,8 @@ def test_a_definition_that_cannot_be_used_is_refused_in_words(name: str, text: s
         ("sensor_msgs/msg/NavSatFix", {"latitude": True}, "^latitude: 'True' \\(bool\\) is no float64"),
         ("sensor_msgs/msg/NavSatFix", {"status": 3}, "^status: '3' \\(int\\) is no sensor_msgs/msg/NavSatStatus"),
         ("sensor_msgs/msg/NavSatFix", {"position_covariance": [1.0]}, "^position_covariance: 1 values: .* has 9"),
-        ("sensor_msgs/msg/NavSatFix", {"header": {"frame_id": "a\0b"}}, "^header.frame_id: a zero character"),
-        ("sensor_msgs/msg/NavSatFix", {"header": {"frame_id": "\ud800"}}, "^header.frame_id: half a character"),
+        ("sensor_msgs/msg/NavSatFix", {"header": {"frame_id": "a\0b"}}, "^header.frame_id: this text contains a null"),
+        ("sensor_msgs/msg/NavSatFix", {"header": {"frame_id": "\ud800"}}, "^header.frame_id: this text contains half"),
         ("sensor_msgs/msg/BatteryState", {"percentage": 1e39}, "^percentage: 1e\\+39 is too large for a float32"),
         ("sensor_msgs/msg/BatteryState", {"present": 1}, "^present: '1' \\(int\\) is no bool"),
         ("geometry_msgs/msg/PoseArray", {"poses": [{}, {"position": {"x": None}}]}, "^poses\\[1\\].position.x: "),
@@ -136,9 +136,9 @@ def test_whole_numbers_and_lists_stand_for_floats_and_tuples(jazzy: Interfaces) 
         ("pose.covariance.x", "say which of the float64\\[36\\]"),
         ("pose.covariance[36]", "has no \\[36\\]"),
         ("pose[0]", "is a single value"),
-        ("pose..x", "no path"),
-        ("", "no path"),
-        ("a[-1]", "no path"),
+        ("pose..x", "not a path"),
+        ("", "not a path"),
+        ("a[-1]", "not a path"),
     ],
 )
 def test_a_path_that_leads_nowhere_says_where_it_ends(jazzy: Interfaces, path: str, says: str) -> None:

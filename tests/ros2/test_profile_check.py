@@ -120,8 +120,8 @@ def test_what_is_missing_is_named_and_nothing_else(graph: Graph, clock: Clock, n
     report = checked(graph, clock, robot(graph.node(), without=name))
     missing = [f for f in report.missing if f.binding.name != "/fromLL"]
     assert [f.binding.name for f in missing] == [name]
-    assert missing[0].what.startswith("nobody ")
-    assert ("see whether its node is active" if name == "/speed_limit" else "ROS_DOMAIN_ID") in missing[0].advice
+    assert missing[0].what.startswith("there is no ")
+    assert ("check whether its node is active" if name == "/speed_limit" else "ROS_DOMAIN_ID") in missing[0].advice
 
 
 @pytest.mark.parametrize(
@@ -131,7 +131,7 @@ def test_what_is_missing_is_named_and_nothing_else(graph: Graph, clock: Clock, n
         ("/gps/fix", {"latitude": 91.0}, "no satellite fix", "better fix"),
         ("/gps/fix", {"position_covariance": [9.0] * 9, "position_covariance_type": 2}, "3.0 m", "most_sigma_m"),
         ("/battery_state", {"percentage": float("nan")}, "percentage is nan", "another field"),
-        ("/battery_state", {"percentage": 83.0}, "8300 % is no charge", "scale"),
+        ("/battery_state", {"percentage": 83.0}, "8300 % is not a valid charge", "scale"),
         ("/odometry/filtered", {"pose": {"pose": {"position": {"x": float("inf")}}}}, "position.x is inf", "another"),
         ("/platform/emergency_stop", {"data": True}, "the robot is stopped", "release"),
         ("/air_temperature", {"temperature": 292.0}, "292 degC is outside", "unit, scale"),
@@ -150,13 +150,13 @@ def test_a_part_of_one_where_percent_are_meant(graph: Graph, clock: Clock) -> No
     ros2 = bindings_of(HUSKY)
     unscaled = replace(ros2, battery=replace(ros2.battery, value=FieldBinding(path="percentage")))
     report = checked(graph, clock, robot(graph.node()), profile=replace(HUSKY, ros2=unscaled))
-    assert [(f.binding.part, f.what) for f in report.missing] == [("battery", "0.83 % is nearly nothing")]
+    assert [(f.binding.part, f.what) for f in report.missing] == [("battery", "0.83 % is nearly empty")]
 
 
 def test_who_is_there_and_silent(graph: Graph, clock: Clock) -> None:
     robot(graph.node())
     report = checked(graph, clock)
-    assert {f.what for f in report.missing if f.binding.kind == "topic"} == {"it is there, and no message came"}
+    assert {f.what for f in report.missing if f.binding.kind == "topic"} == {"it is there, but sent no message"}
     assert len(report.missing) == len(SAYS)  # the map service is not asked where nobody knows
 
 
@@ -227,7 +227,8 @@ def test_the_command_says_it_line_by_line() -> None:
     assert alone.status == 1
     record = json.loads(alone.out)
     assert (record["usable"], record["live"], record["rmw"], len(record["bindings"])) == (False, True, [], 10)
-    assert {b["what"] for b in record["bindings"]} == {"nobody sends it", "nobody answers it", "nobody hears it"}
+    missing = {f"there is no {endpoint}" for endpoint in ("publisher", "server", "subscriber")}
+    assert {b["what"] for b in record["bindings"]} == missing
     below = fieldhand("robot", "check", "husky", "--namespace", "robot7", "--json")
     assert "/robot7/navigate_to_pose" in {b["name"] for b in json.loads(below.out)["bindings"]}
     refused = fieldhand("robot", "check", "husky", "--live", "--on", "tcp")

@@ -193,7 +193,7 @@ def test_what_is_not_sourced_is_refused_with_the_package_that_is_missing(domain:
         node.client("/sample", "farm_msgs/srv/Sample")
     with pytest.raises(Ros2Error, match="the package std_srvs that is sourced has no srv/Such"):
         node.serve("/x", "std_srvs/srv/Such")
-    with pytest.raises(Ros2Error, match="'os' is no type of ROS"):
+    with pytest.raises(Ros2Error, match="'os' is not a ROS type"):
         node.subscribe("/x", "os")
     node.close()
     assert node.writers_of("/status") == node.servers_of("/x") == ()

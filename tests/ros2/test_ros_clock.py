@@ -39,7 +39,7 @@ class Simulator:
         self.say()
 
     def clock(self, within_s: float = 1.0) -> RosClock:
-        return RosClock.heard(self.listener, within_s, steady=lambda: self.wall_s, sleep=self.sleep)
+        return RosClock.wait_for_first(self.listener, within_s, steady=lambda: self.wall_s, sleep=self.sleep)
 
 
 @given(st.lists(st.floats(-1000, 1000), min_size=1, max_size=20))

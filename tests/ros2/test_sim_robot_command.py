@@ -74,7 +74,9 @@ def test_a_killed_robot_goes_on_where_it_stood_and_a_told_one_ends_in_order(tmp_
     @contextmanager
     def connected() -> Iterator[Ros2Driver]:
         node = open_dds(interfaces)  # a new one: an old one believes for ten seconds that who was killed is still there
-        yield Ros2Driver.connect(node, interfaces, site, robot, clock=RosClock.heard(node, LONG_S), within_s=LONG_S)
+        yield Ros2Driver.connect(
+            node, interfaces, site, robot, clock=RosClock.wait_for_first(node, LONG_S), within_s=LONG_S
+        )
         node.close()
 
     def finish(driver: Ros2Driver) -> Any:
@@ -111,7 +113,7 @@ def test_a_killed_robot_goes_on_where_it_stood_and_a_told_one_ends_in_order(tmp_
         (("--speed", "0"), "--speed: 0 is no speed; give a number above 0"),
         (("--speed", "nan"), "--speed: nan is no speed; give a number above 0"),
         (("--namespace", "a b"), "--namespace: 'a b' is not a name of ROS; use letters"),
-        (("--robot", "plain.yaml"), "plain.yaml: the robot husky has no part ros2 in its profile; say there"),
+        (("--robot", "plain.yaml"), "plain.yaml: the robot husky has no part ros2 in its profile; name its topics"),
         (("--state", "state.json"), "state.json: is no state of a simulated robot: format Field required; remove it"),
         (("--world", "no.yaml"), "no.yaml: cannot be read"),
     ],

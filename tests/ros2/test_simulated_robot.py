@@ -22,7 +22,7 @@ from fieldhand.execution.world import (
     LocalisationLost,
     RobotStops,
     SensorSilent,
-    Spot,
+    TreeRef,
     Truth,
     World,
 )
@@ -167,10 +167,10 @@ def test_a_cancelled_drive_stands_still_where_it_was() -> None:
 @pytest.mark.parametrize(
     ("distro", "fault", "code"),
     [
-        ("humble", Blocked(at=Spot(id=FAR.id), within_m=2.0), None),
-        ("jazzy", Blocked(at=Spot(id=FAR.id), within_m=2.0), 105),
+        ("humble", Blocked(at=TreeRef(id=FAR.id), within_m=2.0), None),
+        ("jazzy", Blocked(at=TreeRef(id=FAR.id), within_m=2.0), 105),
         ("kilted", LocalisationLost(at_s=3.0, for_s=20.0), 102),
-        ("jazzy", DriveFails(at=Spot(id=FAR.id)), 100),
+        ("jazzy", DriveFails(at=TreeRef(id=FAR.id)), 100),
         ("jazzy", RobotStops(at_s=3.0), 100),
     ],
 )
@@ -183,7 +183,7 @@ def test_a_drive_that_fails_is_aborted_with_the_code_of_nav2(distro: str, fault:
 
 
 def test_a_waypoint_that_is_missed_is_named_with_the_code_of_nav2() -> None:
-    world = World(faults=(Blocked(at=Spot(id=FAR.id), within_m=2.0),))
+    world = World(faults=(Blocked(at=TreeRef(id=FAR.id), within_m=2.0),))
     rig = SimulatedRobotRig(world=world, robot=reached_by(husky(), distro="kilted", type=GPS, from_ll=""))
     outcome = rig.drive((0.0, -2.5), FAR.xy)
     assert (outcome.how, outcome.result["error_code"]) == ("aborted", 603)
@@ -213,10 +213,10 @@ def test_an_emergency_stop_is_said_on_its_topic() -> None:
 
 TRUTH = World(
     readings={
-        name: Truth(default=20.0 + k, trees=((Spot(id="r1c1"), 30.0 + k),))
+        name: Truth(default=20.0 + k, trees=((TreeRef(id="r1c1"), 30.0 + k),))
         for k, name in enumerate(("canopy_temperature", "ambient_temperature"))
     }
-    | {"co2": Truth(default=400.0, trees=((Spot(id="r1c1"), 390.0),))}
+    | {"co2": Truth(default=400.0, trees=((TreeRef(id="r1c1"), 390.0),))}
 )
 
 
@@ -366,7 +366,7 @@ def test_the_x_axis_of_a_map_leads_where_its_datum_says() -> None:
 @settings(max_examples=examples(3, thorough=40), deadline=None)
 @given(cut=st.integers(0, 4), seed=st.integers(0, 99))
 def test_a_robot_that_was_killed_between_goals_goes_on_as_if_nothing_had_been(cut: int, seed: int) -> None:
-    faults = (ActionFails(action="read_co2", times=1), Blocked(at=Spot(id="r0c2"), within_m=1.0, times=1))
+    faults = (ActionFails(action="read_co2", times=1), Blocked(at=TreeRef(id="r0c2"), within_m=1.0, times=1))
     world = World(faults=faults)
 
     def do(rig: SimulatedRobotRig, number: int) -> None:
@@ -394,7 +394,7 @@ IDENTITY = Identity(site="a", robot="b", world="c")
 
 
 def test_what_is_written_of_a_robot_is_read_again(tmp_path: Path) -> None:
-    rig = SimulatedRobotRig(world=World(faults=(LocalisationLost(at=Spot(id="r0c0"), within_m=2.0),)))
+    rig = SimulatedRobotRig(world=World(faults=(LocalisationLost(at=TreeRef(id="r0c0"), within_m=2.0),)))
     rig.ask(*CO2, place="r0c0", kind="tree")
     assert rig.drive(FAR.xy).how == "aborted"
     path = tmp_path / "state.json"

@@ -18,7 +18,7 @@ from fieldhand.execution.drivers.ros2.simulated_robot.robot import SimulatedRobo
 from fieldhand.execution.drivers.ros2.transport import QosProfile, Transport
 from fieldhand.execution.guard import NoGuard
 from fieldhand.execution.mission_runner import Result, run
-from fieldhand.execution.world import ActionFails, Blocked, LocalisationLost, SensorSilent, Spot, World
+from fieldhand.execution.world import ActionFails, Blocked, LocalisationLost, SensorSilent, TreeRef, World
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.model import RobotProfile
@@ -71,7 +71,7 @@ class OverSimulatedRobot(DriverContract):
         return self.make_in(World())
 
     def make_blocked(self) -> tuple[Driver, Clock, Site]:
-        return self.make_in(World(faults=(Blocked(at=Spot(id=FAR.id), within_m=2.0),)))
+        return self.make_in(World(faults=(Blocked(at=TreeRef(id=FAR.id), within_m=2.0),)))
 
     def make_lost(self) -> tuple[Driver, Clock, Site]:
         return self.make_in(World(faults=(LocalisationLost(at_s=8.0, for_s=20.0),)))

@@ -129,8 +129,8 @@ class TimedGuard:
         (self.choices_s if self.first_s else self.first_s).append(time.thread_time() - began)
         return choice
 
-    def ways_are(self, drives: Drives) -> None:
-        self.guard.ways_are(drives)
+    def update_drives(self, drives: Drives) -> None:
+        self.guard.update_drives(drives)
 
 
 def fly(seed: int, most_trees: int = MOST_TREES) -> Flight:

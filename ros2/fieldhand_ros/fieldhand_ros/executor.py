@@ -30,11 +30,11 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
-from fieldhand.delivery.crew import ORDERS, Said
 from fieldhand.delivery.ledger import Held
 from fieldhand.delivery.standing import Standing
 from fieldhand.delivery.wire import shown
 from fieldhand.errors import FieldhandError, InputError
+from fieldhand.execution.operator_commands import AGENT_COMMANDS, AgentCommand
 from fieldhand.execution.vehicle import Connection
 from fieldhand.program.station import Station, compose_station
 
@@ -72,7 +72,7 @@ class Executor(LifecycleNode):
         #: Lifecycle callbacks and the status timer run in different threads.
         self._guard = threading.RLock()
         orders = ReentrantCallbackGroup()
-        for said in ORDERS:
+        for said in AGENT_COMMANDS:
             self.create_service(Trigger, f"~/{said}", self._answer(said), callback_group=orders)
         kept = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self._status = self.create_publisher(String, "~/status", kept)
@@ -188,7 +188,7 @@ class Executor(LifecycleNode):
 
     # --- commands ------------------------------------------------------------------------------------------------
 
-    def _answer(self, said: Said) -> Callable[[Any, Any], Any]:
+    def _answer(self, said: AgentCommand) -> Callable[[Any, Any], Any]:
         def answer(_: Any, response: Any) -> Any:
             try:
                 response.success, response.message = self._tell_mission(said)
@@ -200,7 +200,7 @@ class Executor(LifecycleNode):
 
         return answer
 
-    def _tell_mission(self, said: Said) -> tuple[bool, str]:
+    def _tell_mission(self, said: AgentCommand) -> tuple[bool, str]:
         station, held = self._at_hand(), self._held
         if held is None or (not self._active and said not in _WHEN_INACTIVE):
             raise InputError(f"the node is not active: it cannot {said}", advice="activate it first")

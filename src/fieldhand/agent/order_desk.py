@@ -18,7 +18,7 @@ from fieldhand.delivery.crew import Crew, Direct
 from fieldhand.delivery.depot import Depot
 from fieldhand.delivery.ledger import Held
 from fieldhand.delivery.standing import Standing
-from fieldhand.delivery.wire import Heard, Order, shown
+from fieldhand.delivery.wire import CommandRequest, Heard, shown
 
 #: Seconds until an order that was not heard is answered, and how much longer the disk may take.
 ANSWER_WITHIN_S, DISK_WITHIN_S = 5.0, 5.0
@@ -48,7 +48,7 @@ class OrderDesk:
         self._answer_s, self._disk_s = answer_within_s, disk_within_s
         self._threads = ThreadPoolExecutor(AT_ONCE, thread_name_prefix="order")
 
-    async def take(self, order: Order, bundle: str | None) -> Heard:
+    async def take(self, order: CommandRequest, bundle: str | None) -> Heard:
         """Take an order for a mission; for the one under way, or begun last, where none is named.
 
         Raises:
@@ -70,7 +70,9 @@ class OrderDesk:
             raise Turned(503, "the robot's disk does not answer", "try again in a moment")
         return Heard(heard=direct.heard, mission=shown(Standing(held=active, state="running")))
 
-    def _keep(self, order: Order, reason: str, bundle: str | None, active: Held | None, direct: Direct | None) -> Heard:
+    def _keep(
+        self, order: CommandRequest, reason: str, bundle: str | None, active: Held | None, direct: Direct | None
+    ) -> Heard:
         """Tell the mission by its folder, too, and wait until it has heard the order."""
         until = time.monotonic() + self._answer_s
 

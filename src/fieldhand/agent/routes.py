@@ -21,9 +21,9 @@ from fieldhand.delivery.standing import Line
 from fieldhand.delivery.wire import (
     LONGEST_WAIT_S,
     MOST_EVENTS,
+    CommandRequest,
     Events,
     Heard,
-    Order,
     Receipt,
     RobotState,
     event_lines,
@@ -97,12 +97,12 @@ def router(depot: Depot, crew: Crew, who: Identity, uploads: Uploads) -> APIRout
         return Receipt(hashes=dict(held.hashes), new=False, mission=shown(crew.standing(held)))
 
     @routes.post("/agent/missions/{bundle}/orders")
-    async def order(bundle: Bundle, body: Order) -> Heard:
+    async def order(bundle: Bundle, body: CommandRequest) -> Heard:
         """Tell a mission to start, pause, resume, return or abort."""
         return await orders.take(body, bundle)
 
     @routes.post("/agent/orders")
-    async def order_now(body: Order) -> Heard:
+    async def order_now(body: CommandRequest) -> Heard:
         """Tell the mission under way, else the one begun last, to pause, resume, return or abort."""
         return await orders.take(body, None)
 

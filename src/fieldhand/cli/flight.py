@@ -201,7 +201,7 @@ def _taking(
 ) -> Iterator[Callable[[Event], None]]:
     """What takes each event: the logs that were asked for, in which those before stand as well, and the terminal."""
     from fieldhand.evaluation.event_text import EventText
-    from fieldhand.execution.log import EventLog
+    from fieldhand.execution.event_log import EventLog
 
     event_text = EventText(robot)
     if not orders.quiet:

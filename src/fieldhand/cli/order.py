@@ -29,9 +29,9 @@ def order(
 
     from fieldhand.cli import show
     from fieldhand.cli.links import find_mission, open_link, state_line, trusting_of
-    from fieldhand.delivery.crew import said_of
+    from fieldhand.execution.operator_commands import parse_agent_command
 
-    word = said_of(said)
+    word = parse_agent_command(said)
     with closing(open_link(url, token_file, trusting_of(ca, pin, insecure=insecure))) as link:
         # Without a mission nothing is looked up first: whoever wants the robot to stop shall not wait for a list.
         heard = link.order_now(word, because) if mission is None and word != "start" else None

@@ -12,7 +12,7 @@ from fieldhand.cli.options import JsonOption, LangOption, MissionArgument, Missi
 from fieldhand.language import Language, message, spoken
 
 if TYPE_CHECKING:
-    from fieldhand.execution.orders import OrderWord
+    from fieldhand.execution.operator_commands import FileCommand
 
 #: Seconds to wait for the answer; a mission looks ten times a second.
 ANSWER_WITHIN_S = 5.0
@@ -54,7 +54,7 @@ def come_home(
 
 
 def tell(
-    name: str | None, under: Path | None, said: OrderWord, because: str, done: str, *, json: bool, language: Language
+    name: str | None, under: Path | None, said: FileCommand, because: str, done: str, *, json: bool, language: Language
 ) -> None:
     """Tell a mission something, and say whether it has heard it: exit status 1 where not, or not yet.
 

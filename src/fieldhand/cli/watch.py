@@ -50,7 +50,7 @@ def watch(
     from fieldhand.cli.links import find_mission, open_link, state_line, trusting_of
     from fieldhand.delivery.following import follow
     from fieldhand.delivery.wire import LONGEST_WAIT_S
-    from fieldhand.execution.log import EventLog
+    from fieldhand.execution.event_log import EventLog
 
     def lost(error: UnreachableError, wait_s: float) -> None:
         show.note(f"{error}; trying again in {wait_s:.0f} s")

@@ -9,19 +9,19 @@ import logging
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Literal, get_args
+from typing import TYPE_CHECKING
 
 from fieldhand import missions
 from fieldhand.delivery.depot import Depot
 from fieldhand.delivery.ledger import Held
 from fieldhand.delivery.standing import Line, Standing, State
-from fieldhand.errors import ExecutionError, FieldhandError, InputError, JournalError, NotTrustedError
+from fieldhand.errors import ExecutionError, FieldhandError, JournalError, NotTrustedError
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from fieldhand.approval.bundle.opening import Bundle
-    from fieldhand.execution.orders import Order
+    from fieldhand.execution.operator_commands import AgentCommand, OperatorCommand, StoppingCommand
     from fieldhand.execution.world import World
 
 log = logging.getLogger("fieldhand.agent")
@@ -30,17 +30,15 @@ log = logging.getLogger("fieldhand.agent")
 Carry = Callable[[missions.Mission], object]
 #: Seconds for which the next mission waits until the report of the one before is written.
 REPORTED_WITHIN_S = 60.0
-Said = Literal["start", "pause", "resume", "return", "abort"]
-ORDERS: tuple[Said, ...] = get_args(Said)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Direct:
     """An order that was given in memory."""
 
-    orders: missions.DirectOrders
-    order: Order
-    said: missions.Urgent
+    orders: missions.DirectCommands
+    order: OperatorCommand
+    said: StoppingCommand
 
     @property
     def heard(self) -> bool:
@@ -101,7 +99,7 @@ class Crew:
         self._conclude = conclude
         self._guard = threading.Lock()
         self._active: Held | None = None
-        self._direct = missions.DirectOrders()
+        self._direct = missions.DirectCommands()
         self._thread: threading.Thread | None = None
         self._faults: dict[str, str] = {}
         #: What has ended stays as it is, and need not be read again each time somebody looks.
@@ -174,7 +172,7 @@ class Crew:
 
     # --- tell ----------------------------------------------------------------------------------------------------
 
-    def tell(self, held: Held, said: Said, reason: str, *, wait: Callable[[], bool] = lambda: False) -> bool:
+    def tell(self, held: Held, said: AgentCommand, reason: str, *, wait: Callable[[], bool] = lambda: False) -> bool:
         """Tell a mission something. What is so already stays so: an order may be sent twice.
 
         Args:
@@ -216,7 +214,7 @@ class Crew:
         """Keep an order that was given in memory in the mission's folder, too; see :meth:`tell`."""
         return direct.follow(self._depot.folder_of(held), wait)
 
-    def tell_directly(self, sha256: str, said: Said, reason: str) -> Direct | None:
+    def tell_directly(self, sha256: str, said: AgentCommand, reason: str) -> Direct | None:
         """Give an order to the mission under way in memory: it waits for no disk, no lock and no other order.
 
         Returns:
@@ -311,7 +309,7 @@ class Crew:
             self._faults[held.sha256] = str(error)
             raise
 
-    def _go_on(self, held: Held, folder: Path, said: Said, reason: str) -> bool:
+    def _go_on(self, held: Held, folder: Path, said: AgentCommand, reason: str) -> bool:
         """Go on with a mission that nobody carries out; what it is told holds from its first tick."""
         if missions.status(folder).now.state == "ended":
             raise ExecutionError("the mission has ended", where=held.name)
@@ -354,7 +352,7 @@ class Crew:
 
     def _run(self, held: Held, given: missions.Mission) -> None:
         self._faults.pop(held.sha256, None)
-        self._direct = missions.DirectOrders(missions.last_order(given.folder))
+        self._direct = missions.DirectCommands(missions.last_order(given.folder))
         told = replace(given, told=self._direct.standing)
 
         def carry() -> None:
@@ -379,15 +377,3 @@ class Crew:
         self._active = held
         self._thread = threading.Thread(target=run, name=f"mission {held.name}", daemon=True)
         self._thread.start()
-
-
-def said_of(word: str) -> Said:
-    """An order by its word.
-
-    Raises:
-        InputError: There is none of that name.
-    """
-    for said in ORDERS:
-        if said == word:
-            return said
-    raise InputError(f"no order '{word[:40]}'", where="order", advice=f"give one of {', '.join(ORDERS)}")

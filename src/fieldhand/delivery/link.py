@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
-from fieldhand.delivery.crew import Said
 from fieldhand.delivery.verified import sha256_of
 from fieldhand.delivery.wire import LONGEST_WAIT_S, Events, Heard, Receipt, RobotState
 from fieldhand.errors import DeliveryError, InputError, UnreachableError
+from fieldhand.execution.operator_commands import AgentCommand
 
 if TYPE_CHECKING:
     import httpx
@@ -103,12 +103,12 @@ class RobotLink:
         answer = self._send("GET", f"/agent/missions/{sha256}")
         return None if answer[0] == 404 else self._read(Receipt, *answer)
 
-    def order(self, sha256: str, said: Said, because: str = "") -> Heard:
+    def order(self, sha256: str, said: AgentCommand, because: str = "") -> Heard:
         """Tell a mission something; the same order may be sent again."""
         body = {"order": said, "because": because}
         return self._ask(Heard, "POST", f"/agent/missions/{sha256}/orders", json=body)
 
-    def order_now(self, said: Said, because: str = "") -> Heard | None:
+    def order_now(self, said: AgentCommand, because: str = "") -> Heard | None:
         """Tell the mission under way, else the one begun last; None if this agent has to be told which one.
 
         Raises:

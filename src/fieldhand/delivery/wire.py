@@ -9,8 +9,8 @@ from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from fieldhand.delivery.crew import Said
 from fieldhand.delivery.standing import Line, Standing, State
+from fieldhand.execution.operator_commands import AgentCommand
 
 #: Events in one answer.
 MOST_EVENTS = 500
@@ -93,12 +93,12 @@ class Events(_Answer):
     mission: Shown
 
 
-class Order(BaseModel):
+class CommandRequest(BaseModel):
     """What a mission is told."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    order: Said
+    order: AgentCommand
     because: Annotated[str, Field(max_length=500)] = ""
 
 

@@ -95,7 +95,7 @@ class BudgetGuard:
             self._grant(state, candidates[choice.index])
         return replace(choice, reason=self._and_the_battery(choice.reason))
 
-    def ways_are(self, drives: Drives) -> None:
+    def update_drives(self, drives: Drives) -> None:
         """Use new drives after a way was blocked or free again; discard all that was computed for the old ones."""
         self._budget.set_drives(drives)
         self._optional.forget()

@@ -75,7 +75,7 @@ class DriveController:
                     return dataclasses.replace(self._before, state="running")
                 self._begin()
                 continue
-            progress = self._inputs.seen.progress
+            progress = self._inputs.observation.progress
             if not progress.over:
                 return self._sum(progress)
             self._under_way = False
@@ -135,7 +135,7 @@ class DriveController:
 
     def _conclude(self, goal: DriveGoal | ActionGoal, progress: Progress) -> None:
         """Conclude the mission's goal, or prepare its next part, after a driver goal has ended."""
-        no_more = self._cancelled or self._inputs.seen.stopped is not None
+        no_more = self._cancelled or self._inputs.observation.stopped is not None
         cut = progress.state == "cut_off"
         if isinstance(goal, ActionGoal) and not self._approaching:
             if not cut:
@@ -170,7 +170,7 @@ class DriveController:
         )
 
     def _is_at(self, xy: tuple[float, float]) -> bool:
-        at = self._inputs.seen.position
+        at = self._inputs.observation.position
         return math.dist((at.x, at.y), xy) <= AT_M
 
     def _way_to(self, place: Place, speed_m_s: float) -> DriveGoal:
@@ -179,7 +179,7 @@ class DriveController:
         Raises:
             DriveFault: There is no way.
         """
-        at = self._inputs.seen.position
+        at = self._inputs.observation.position
         here = Place(kind="point", id="on the way", x=at.x, y=at.y, lat=at.lat, lon=at.lon, stand=(at.x, at.y))
         return drive_goal(self._site, self._ways().between(here, place), speed_m_s)
 

@@ -8,9 +8,9 @@ from __future__ import annotations
 from collections.abc import Callable, Generator, Mapping
 
 from fieldhand.errors import ActionFault, BlockedFault, DriveFault, LostFault
-from fieldhand.execution.attempt import Attempt
-from fieldhand.execution.obstacles import avoid, open_a_way
-from fieldhand.execution.waiting import know_position, wait
+from fieldhand.execution.active_mission import ActiveMission
+from fieldhand.execution.obstacles import avoid, wait_for_way
+from fieldhand.execution.waiting import wait, wait_for_position
 from fieldhand.language import joined, message
 from fieldhand.language.words import say_place
 from fieldhand.robot.model import Action
@@ -22,17 +22,19 @@ from fieldhand.task.run import Steps
 #: Largest number of stops by obstacles during one drive, and of lost positions during one drive or capture.
 MOST_STOPS = 20
 
-Asked = Callable[[Place], Steps]
+AskGuard = Callable[[Place], Steps]
 
 
-def drive(attempt: Attempt, node: str, place: Place, *, patient: bool = True, ask: Asked | None = None) -> Steps:
+def drive(
+    mission: ActiveMission, node: str, place: Place, *, patient: bool = True, ask_guard: AskGuard | None = None
+) -> Steps:
     """Drive to a place, which becomes the current place. A robot that has stopped there already stays.
 
     A failed drive is retried from where the robot stands, up to the profile's ``retries``. Obstacles are driven around,
     and a lost position is waited for; neither counts as a retry.
 
     Args:
-        attempt: The mission.
+        mission: The mission.
         node: Id of the node.
         place: Destination.
         patient: True to wait and try again if obstacles leave no way.
@@ -43,27 +45,27 @@ def drive(attempt: Attempt, node: str, place: Place, *, patient: bool = True, as
         LostFault: The position is unknown.
         DriveFault: All tries failed, or there never was a way. The robot stands where it stopped.
     """
-    if attempt.is_at(place):
+    if mission.is_at(place):
         return
-    if (attempt.standing.kind, attempt.standing.id) == (place.kind, place.id):
+    if (mission.standing.kind, mission.standing.id) == (place.kind, place.id):
         # The mission began at this place, so no drive is needed.
-        attempt.stop_at(attempt.standing)
-        attempt.emit_arrived(node, attempt.standing, 0.0)
+        mission.stop_at(mission.standing)
+        mission.emit_arrived(node, mission.standing, 0.0)
         return
-    tries, stops, waited, obstacle = attempt.robot.retries + 1, 0, not patient, ""
+    tries, stops, waited, obstacle = mission.robot.retries + 1, 0, not patient, ""
     while True:
-        yield from know_position(attempt, node)
+        yield from wait_for_position(mission, node)
         try:
-            attempt.start_drive(node, place)
+            mission.start_drive(node, place)
         except DriveFault as fault:
-            if not attempt.blockages.stretches:
+            if not mission.blockages.stretches:
                 raise
             if waited or stops > MOST_STOPS:
                 raise BlockedFault(_unreached(place, obstacle or fault.what)) from None
             waited = True
-            yield from open_a_way(attempt, node, place)
+            yield from wait_for_way(mission, node, place)
             continue
-        while not (progress := attempt.attend()).over:
+        while not (progress := mission.attend()).over:
             yield
         if progress.state == "succeeded":
             return
@@ -74,12 +76,12 @@ def drive(attempt: Attempt, node: str, place: Place, *, patient: bool = True, as
         stops += progress.fault in ("blocked", "lost")
         if progress.fault == "blocked":
             obstacle = progress.what
-            avoid(attempt, node, place, obstacle)
+            avoid(mission, node, place, obstacle)
             if stops > MOST_STOPS:
                 times = message("stopped {count} times on the way there", context="log", count=stops)
                 raise BlockedFault(joined("; ", (what, times)))
-            if ask is not None and (there := _stand(attempt, place)) is not None:
-                yield from ask(there)
+            if ask_guard is not None and (there := _stand(mission, place)) is not None:
+                yield from ask_guard(there)
             continue
         if progress.fault == "lost":
             if stops > MOST_STOPS:
@@ -90,11 +92,11 @@ def drive(attempt: Attempt, node: str, place: Place, *, patient: bool = True, as
         if tries == 0 or progress.fault == "empty":
             raise DriveFault(what)
         what = joined("; ", (what, message("trying again", context="log")))
-        attempt.emit(Faulted(t=attempt.t, node=node, fault="drive_failed", what=what, handled=True))
-        yield from wait(attempt, attempt.robot.patience.retry_wait_s)
+        mission.emit(Faulted(t=mission.t, node=node, fault="drive_failed", what=what, handled=True))
+        yield from wait(mission, mission.robot.patience.retry_wait_s)
 
 
-def capture(attempt: Attempt, node: Act) -> Generator[None, None, Mapping[str, float]]:
+def capture(mission: ActiveMission, node: Act) -> Generator[None, None, Mapping[str, float]]:
     """Make one capture at the current place, with as many retries as the profile allows for the action.
 
     A robot with a lost position waits first.
@@ -106,22 +108,22 @@ def capture(attempt: Attempt, node: Act) -> Generator[None, None, Mapping[str, f
         ActionFault: All tries failed.
         LostFault: The position is unknown.
     """
-    action = attempt.robot.action.get(node.action)
+    action = mission.robot.action.get(node.action)
     if action is None:
         raise ActionFault(
-            message("{robot} has no action {action}", context="log", robot=attempt.robot.name, action=node.action),
+            message("{robot} has no action {action}", context="log", robot=mission.robot.name, action=node.action),
             where=node.id,
             advice=message("approve it for this robot", context="log"),
         )
     parameters: dict[str, str | float] = {p.name: p.default for p in action.parameters}
     parameters.update(node.parameters)
-    tries, retry_wait_s = _tries(attempt, action)
+    tries, retry_wait_s = _tries(mission, action)
     what, failed, stops, number = "", 0, 0, 0
     while failed < tries:
-        yield from know_position(attempt, node.id)
+        yield from wait_for_position(mission, node.id)
         number += 1
-        attempt.start_capture(node.id, node.action, parameters, number)
-        while not (progress := attempt.attend()).over:
+        mission.start_capture(node.id, node.action, parameters, number)
+        while not (progress := mission.attend()).over:
             yield
         if progress.state == "succeeded":
             return progress.readings
@@ -129,7 +131,7 @@ def capture(attempt: Attempt, node: Act) -> Generator[None, None, Mapping[str, f
             return {}  # in doubt and not repeated: its readings are unknown
         what = progress.what
         if progress.state == "cancelled":
-            raise ActionFault(what or message("cancelled", context="log"), where=_named(attempt.here))
+            raise ActionFault(what or message("cancelled", context="log"), where=_named(mission.here))
         if progress.fault == "lost":
             stops += 1
             if stops > MOST_STOPS:
@@ -138,7 +140,7 @@ def capture(attempt: Attempt, node: Act) -> Generator[None, None, Mapping[str, f
                     context="log",
                     action=node.action,
                     count=stops,
-                    place=_named(attempt.here),
+                    place=_named(mission.here),
                 )
                 raise LostFault(lost)
             continue
@@ -146,28 +148,28 @@ def capture(attempt: Attempt, node: Act) -> Generator[None, None, Mapping[str, f
         if progress.fault == "empty":
             break
         if failed < tries:
-            yield from wait(attempt, retry_wait_s)
+            yield from wait(mission, retry_wait_s)
     why = what or message("no reason given", context="log")
     if failed == 1:
-        said = message("{action} failed 1 time: {what}", context="log", action=node.action, what=why)
+        what_failed = message("{action} failed 1 time: {what}", context="log", action=node.action, what=why)
     else:
-        said = message(
+        what_failed = message(
             "{action} failed {count} times: {what}", context="log", action=node.action, count=failed, what=why
         )
-    raise ActionFault(said, where=_named(attempt.here))
+    raise ActionFault(what_failed, where=_named(mission.here))
 
 
-def _tries(attempt: Attempt, action: Action) -> tuple[int, float]:
+def _tries(mission: ActiveMission, action: Action) -> tuple[int, float]:
     """Return the number of tries of an action, and the seconds between them."""
-    robot = attempt.robot
+    robot = mission.robot
     retries = robot.retries if action.retries is None else action.retries
     return retries + 1, robot.patience.retry_wait_s if action.retry_wait_s is None else action.retry_wait_s
 
 
-def _stand(attempt: Attempt, place: Place) -> Place | None:
+def _stand(mission: ActiveMission, place: Place) -> Place | None:
     """Return a place with the stand that a drive would lead to, or None if no way is left."""
     try:
-        return attempt.reached(place)
+        return mission.reached(place)
     except DriveFault:
         return None
 

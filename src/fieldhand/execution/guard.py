@@ -45,7 +45,7 @@ class Guard(Protocol):
         """
         ...
 
-    def ways_are(self, drives: Drives) -> None:
+    def update_drives(self, drives: Drives) -> None:
         """Use other drives from now on: a way was found blocked, or free again."""
         ...
 
@@ -78,7 +78,7 @@ class NoGuard:
     ) -> VisitChoice:
         return VisitChoice(index=0 if candidates else None)
 
-    def ways_are(self, drives: Drives) -> None:
+    def update_drives(self, drives: Drives) -> None:
         pass
 
 

@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING
 
 from fieldhand.clock import Clock, WallClock
 from fieldhand.errors import DriveFault, FieldhandError, NotApprovedError, OutputError
-from fieldhand.execution.attempt import Attempt, Ending
+from fieldhand.execution.active_mission import ActiveMission, Ending
 from fieldhand.execution.drivers.protocol import Driver
 from fieldhand.execution.goals import drive
 from fieldhand.execution.guard import Failsafe, Guard, NoFailsafe
 from fieldhand.execution.interrupts import ctrl_c_as_request
 from fieldhand.execution.journal.records import InputLog
+from fieldhand.execution.limit_monitor import LimitMonitor
 from fieldhand.execution.mission_clock import MissionClock, StopTimeout
-from fieldhand.execution.orders import Order
+from fieldhand.execution.operator_commands import OperatorCommand
 from fieldhand.execution.recorded_inputs import RecordedInputs
-from fieldhand.execution.watch import Watch
 from fieldhand.forecast.mission_state import Spent, Verdict
 from fieldhand.forecast.resource_limits import reserve_percent
 from fieldhand.forecast.visit_order import drives_for
@@ -68,7 +68,7 @@ def run(
     emit: Callable[[Event], None],
     interrupted: Callable[[], str | None] = nobody,
     wall: WallClock | None = None,
-    orders: Callable[[], Order | None] = nobody,
+    orders: Callable[[], OperatorCommand | None] = nobody,
     failsafe: Failsafe | None = None,
     log: InputLog | None = None,
     simulated: bool = False,
@@ -99,9 +99,9 @@ def run(
     _require_approved(authorized, site, robot)
     with ctrl_c_as_request() as pressed:
 
-        def asked() -> Order | None:
+        def current_command() -> OperatorCommand | None:
             reason = pressed() or interrupted()
-            return Order(wanted="end", reason=reason) if reason else orders()
+            return OperatorCommand(wanted="end", reason=reason) if reason else orders()
 
         inputs = RecordedInputs(
             driver=driver,
@@ -109,7 +109,7 @@ def run(
             failsafe=failsafe or NoFailsafe(),
             clock=clock if isinstance(clock, MissionClock) else MissionClock(clock),
             emit=emit,
-            asked=asked,
+            current_command=current_command,
             wall=wall,
             log=log,
             simulated=simulated,
@@ -139,19 +139,19 @@ class MissionRunner:
         inputs: Driver, guard, failsafe, clock and operator commands.
 
     Attributes:
-        attempt: State of the mission.
+        mission: State of the mission.
         watch: Monitor of battery, distance and time.
     """
 
     def __init__(self, task: Task, site: Site, robot: RobotProfile, inputs: RecordedInputs) -> None:
         self._inputs = inputs
-        self.attempt = Attempt(task=task, site=site, robot=robot, inputs=inputs, drives=drives_for(site, robot))
-        self.watch = Watch(self.attempt)
+        self.mission = ActiveMission(task=task, site=site, robot=robot, inputs=inputs, drives=drives_for(site, robot))
+        self.monitor = LimitMonitor(self.mission)
 
     def run(self) -> Result:
         """Run the mission, and stop the robot whatever happens."""
         try:
-            ending = self._attempt_plan()
+            ending = self._carry_out_mission()
         except BaseException:
             self._inputs.abandon()
             raise
@@ -164,41 +164,43 @@ class MissionRunner:
 
     def _come_to_rest(self) -> None:
         """Stop the robot and wait until it stands still, without recording, which may be impossible now."""
-        self.attempt.stop_driver()
-        timeout = StopTimeout(self.attempt.clock)
-        while not self.attempt.controller.poll().over and not timeout.expired():
+        self.mission.stop_driver()
+        timeout = StopTimeout(self.mission.clock)
+        while not self.mission.controller.poll().over and not timeout.expired():
             self._let_time_pass()
 
-    def _attempt_plan(self) -> Ending:
+    def _carry_out_mission(self) -> Ending:
         """Carry out the plan, then the exit that results from its end."""
         try:
             self._start()
             return self._take_exit(self._settled(self._carry_out_plan()))
         except KeyboardInterrupt:
             self._inputs.interrupted()
-            ending = self._aborted(Order(wanted="abort", reason=message("stopped by the operator", context="log")))
+            ending = self._aborted(
+                OperatorCommand(wanted="abort", reason=message("stopped by the operator", context="log"))
+            )
             try:
                 return self._settled(ending)
             except KeyboardInterrupt:
                 return ending
 
     def _start(self) -> None:
-        attempt, position = self.attempt, self.attempt.seen.position
-        attempt.emit(
+        mission, position = self.mission, self.mission.observation.position
+        mission.emit(
             Started(
-                t=attempt.t,
-                task=attempt.task.id,
-                robot=attempt.robot.name,
-                site=attempt.site.name,
+                t=mission.t,
+                task=mission.task.id,
+                robot=mission.robot.name,
+                site=mission.site.name,
                 lat=position.lat,
                 lon=position.lon,
-                charge_percent=attempt.charge_percent(),
+                charge_percent=mission.charge_percent(),
                 seed=self._inputs.seed,
-                at=attempt.time_of_day.began_at,
-                reserve_percent=reserve_percent(attempt.task.constraints, attempt.robot),
+                at=mission.time_of_day.began_at,
+                reserve_percent=reserve_percent(mission.task.constraints, mission.robot),
             )
         )
-        self.watch.look()
+        self.monitor.look()
 
     # --- plan ----------------------------------------------------------------------------------------------------
 
@@ -211,13 +213,13 @@ class MissionRunner:
 
         from fieldhand.execution.tree import compile_tree
 
-        tree = compile_tree(self.attempt)
+        tree = compile_tree(self.mission)
         try:
             while True:
                 order = self._order() or self._stopped()
                 if order:
                     return self._aborted(order)
-                if self.watch.alarm != "none":
+                if self.monitor.alarm != "none":
                     return self._alarmed(tree)
                 tree.tick_once()
                 if (ending := self._over(tree)) is not None:
@@ -233,17 +235,17 @@ class MissionRunner:
         """Return the end of the plan, or None while it continues."""
         from py_trees.common import Status
 
-        attempt = self.attempt
-        if attempt.ending is not None:
-            return attempt.ending
+        mission = self.mission
+        if mission.ending is not None:
+            return mission.ending
         stopped = self._stopped()
         if stopped and tree.status == Status.FAILURE:
             return self._aborted(stopped)
         if tree.status == Status.SUCCESS:
-            return Ending(status="completed", exit="nominal", then=attempt.task.composition.nominal)
+            return Ending(status="completed", exit="nominal", then=mission.task.composition.nominal)
         if tree.status == Status.FAILURE:
-            then = attempt.exit_for(attempt.fault)
-            return Ending(status="faulted", exit="faulted", then=then, reason=attempt.what)
+            then = mission.exit_for(mission.fault)
+            return Ending(status="faulted", exit="faulted", then=then, reason=mission.what)
         return None
 
     def _alarmed(self, tree: MissionTree) -> Ending:
@@ -251,35 +253,35 @@ class MissionRunner:
 
         A goal that has just ended counts as done: the plan advances to what it would begin next, and gives that up.
         """
-        attempt, why = self.attempt, self.watch.why
-        if self.watch.alarm == "stop":
+        mission, why = self.mission, self.monitor.why
+        if self.monitor.alarm == "stop":
             return self._settled(self._stranded(why))
-        attempt.halted = True
-        result = attempt.controller.poll()
-        if attempt.busy and not result.over:
+        mission.halted = True
+        result = mission.controller.poll()
+        if mission.busy and not result.over:
             broken_off = self._settled(Ending(status="returned", exit="faulted", then="stay", reason=why))
-            if not attempt.controller.poll().over:
+            if not mission.controller.poll().over:
                 return broken_off
-            result = attempt.controller.poll()
+            result = mission.controller.poll()
         while result.state in ("idle", "succeeded"):
             tree.tick_once()
             if (ending := self._over(tree)) is not None:
                 return ending
             if not tree.between:
                 break
-        attempt.halted = False
+        mission.halted = False
         tree.give_up(Verdict(go=False, reason=why))
-        return Ending(status="returned", exit="faulted", then=self.watch.exit, reason=why)
+        return Ending(status="returned", exit="faulted", then=self.monitor.exit, reason=why)
 
     def _stranded(self, why: str) -> Ending:
         """Return the ending of a mission whose robot cannot drive home and stays where it stands."""
-        attempt, at = self.attempt, self.attempt.seen.position
-        home = attempt.site.home(attempt.exit_for("low_budget"), attempt.standing)
+        mission, at = self.mission, self.mission.observation.position
+        home = mission.site.home(mission.exit_for("low_budget"), mission.standing)
         away = math.dist((at.x, at.y), home.stand or home.xy)
         stands = message(
             "it stands in {where}, {metres} m from {place}",
             context="log",
-            where=stands_in(attempt.drives, (at.x, at.y)),
+            where=stands_in(mission.drives, (at.x, at.y)),
             metres=f"{away:.0f}",
             place=message("the {role}", context="log", role=named(home.id, "role")),
         )
@@ -289,18 +291,18 @@ class MissionRunner:
 
     def _take_exit(self, ending: Ending) -> Ending:
         """Drive to the destination of the exit. A failure on the way ends the mission there."""
-        attempt, watch = self.attempt, self.watch
-        watch.turn("exit")
-        attempt.emit(Exited(t=attempt.t, node=ending.node, exit=ending.exit, then=ending.then, reason=ending.reason))
-        home = attempt.site.home(ending.then, attempt.standing)
+        mission, monitor = self.mission, self.monitor
+        monitor.turn("exit")
+        mission.emit(Exited(t=mission.t, node=ending.node, exit=ending.exit, then=ending.then, reason=ending.reason))
+        home = mission.site.home(ending.then, mission.standing)
         heard = self._order() if ending.status == "aborted" else None
-        way = drive(attempt, "", home) if ending.then != "stay" else None
+        way = drive(mission, "", home) if ending.then != "stay" else None
         short_of_home = ""
         try:
             while way is not None:
                 if not _advance(way):
                     # The estimate was conservative: from the safe place the rest of the way may be within reach.
-                    way = drive(attempt, "", home) if short_of_home and watch.reaches(home) else None
+                    way = drive(mission, "", home) if short_of_home and monitor.reaches(home) else None
                     short_of_home = "" if way is not None else short_of_home
                     continue
                 # The command that aborted the mission does not stop the drive home; only a new one does.
@@ -309,16 +311,16 @@ class MissionRunner:
                     order = None
                 order = self._stopped() or order
                 if order:
-                    return self._settled(self._aborted(Order(wanted="abort", reason=order.reason)))
-                if watch.alarm == "stop":
-                    return self._settled(self._stranded(watch.why))
-                if watch.alarm == "shelter" and (refuge := watch.refuge(home)) is not None:
-                    short_of_home, way = watch.why, self._redirect(refuge)
+                    return self._settled(self._aborted(OperatorCommand(wanted="abort", reason=order.reason)))
+                if monitor.alarm == "stop":
+                    return self._settled(self._stranded(monitor.why))
+                if monitor.alarm == "shelter" and (refuge := monitor.refuge(home)) is not None:
+                    short_of_home, way = monitor.why, self._redirect(refuge)
                 self._let_time_pass()
         except OutputError:
             raise
         except FieldhandError as error:
-            attempt.fail("", error, handled=False)
+            mission.fail("", error, handled=False)
             then = message("then {what}", context="log", what=str(error))
             reason = joined("; ", (ending.reason, then)) if ending.reason else str(error)
             status: MissionStatus = "aborted" if ending.status == "aborted" else "faulted"
@@ -327,49 +329,49 @@ class MissionRunner:
 
     def _redirect(self, place: Place) -> Steps:
         """Cancel the current drive and drive to another place."""
-        attempt = self.attempt
-        attempt.stop_driver()
-        while attempt.busy and not attempt.attend().over:
+        mission = self.mission
+        mission.stop_driver()
+        while mission.busy and not mission.attend().over:
             yield
-        yield from drive(attempt, "", place)
+        yield from drive(mission, "", place)
 
     # --- operator commands ---------------------------------------------------------------------------------------
 
-    def _order(self) -> Order | None:
+    def _order(self) -> OperatorCommand | None:
         """Return the current operator command. A pause is waited for here, until it ends or the robot is stopped."""
-        attempt, inputs, controller = self.attempt, self._inputs, self.attempt.controller
+        mission, inputs, controller = self.mission, self._inputs, self.mission.controller
         order = inputs.order()
-        attempt.note_power_cuts()
+        mission.note_power_cuts()
         if order is None or order.wanted != "pause":
             return order
-        attempt.emit(Paused(t=attempt.t, reason=order.reason))
+        mission.emit(Paused(t=mission.t, reason=order.reason))
         controller.pause()
-        while order is not None and order.wanted == "pause" and inputs.seen.stopped is None:
+        while order is not None and order.wanted == "pause" and inputs.observation.stopped is None:
             if controller.at_rest():
-                inputs.wait(self.watch.has_news)
+                inputs.wait(self.monitor.has_news)
             else:
-                inputs.advance(inputs.seen.next_in or 0.0)
-            self.watch.look()
+                inputs.advance(inputs.observation.next_in or 0.0)
+            self.monitor.look()
             order = inputs.order()
-            attempt.note_power_cuts()
+            mission.note_power_cuts()
         controller.unpause()
         if order is None:
-            attempt.emit(Continued(t=attempt.t))
+            mission.emit(Continued(t=mission.t))
         return None if order is None or order.wanted == "pause" else order
 
-    def _stopped(self) -> Order | None:
+    def _stopped(self) -> OperatorCommand | None:
         """Return the robot's own stop as a command."""
-        reason = self._inputs.seen.stopped
-        return Order(wanted="abort", reason=reason) if reason else None
+        reason = self._inputs.observation.stopped
+        return OperatorCommand(wanted="abort", reason=reason) if reason else None
 
-    def _aborted(self, order: Order) -> Ending:
+    def _aborted(self, order: OperatorCommand) -> Ending:
         """Return the ending that a command or the robot's own stop requires. A robot that cannot move stays."""
-        attempt = self.attempt
+        mission = self.mission
         then: Then = "stay"
-        if attempt.seen.stopped is None and order.wanted == "end":
-            then = attempt.exit_for("aborted")
-        elif attempt.seen.stopped is None and order.wanted == "return":
-            home = attempt.exit_for("low_budget")
+        if mission.observation.stopped is None and order.wanted == "end":
+            then = mission.exit_for("aborted")
+        elif mission.observation.stopped is None and order.wanted == "return":
+            home = mission.exit_for("low_budget")
             then = "return_to_start" if home == "stay" else home
         return Ending(status="aborted", exit="faulted", then=then, reason=order.reason)
 
@@ -377,46 +379,46 @@ class MissionRunner:
 
     def _settled(self, ending: Ending) -> Ending:
         """Stop the robot and record the end of its goal: a finished capture is kept."""
-        attempt = self.attempt
-        attempt.stop_driver()
-        timeout = StopTimeout(attempt.clock)
-        while attempt.busy and not attempt.attend().over:
+        mission = self.mission
+        mission.stop_driver()
+        timeout = StopTimeout(mission.clock)
+        while mission.busy and not mission.attend().over:
             if timeout.expired():
                 error = DriveFault(
                     message("the robot does not stop when told to", context="log"),
                     advice=message("use its emergency stop", context="log"),
                 )
-                attempt.fail("", error, handled=False)
+                mission.fail("", error, handled=False)
                 return Ending(status="faulted", exit="faulted", then="stay", reason=str(error))
             self._let_time_pass()
         return ending
 
     def _let_time_pass(self) -> None:
         """Let time pass until the driver is due or a level could be crossed, then check the limits."""
-        seconds = self.attempt.next_event_in()
-        self.attempt.clock.advance(0.0 if seconds is None else min(seconds, self.watch.next_look_in()))
-        self.watch.look()
+        seconds = self.mission.next_event_in()
+        self.mission.clock.advance(0.0 if seconds is None else min(seconds, self.monitor.next_look_in()))
+        self.monitor.look()
 
     def _end(self, ending: Ending) -> Result:
-        self.watch.turn("over")
-        self.watch.look()
-        attempt, position = self.attempt, self.attempt.seen.position
-        spent = attempt.spent
+        self.monitor.turn("over")
+        self.monitor.look()
+        mission, position = self.mission, self.mission.observation.position
+        spent = mission.spent
         ended = Ended(
-            t=attempt.t,
+            t=mission.t,
             status=ending.status,
             lat=position.lat,
             lon=position.lon,
-            travelled_m=attempt.travelled_m,
-            charge_percent=attempt.charge_percent(),
+            travelled_m=mission.travelled_m,
+            charge_percent=mission.charge_percent(),
             reason=ending.reason if ending.status != "completed" else "",
         )
-        found = exceeded_limits(attempt.task.constraints, [*attempt.events, ended])
+        found = exceeded_limits(mission.task.constraints, [*mission.events, ended])
         status = final_status(ending.status, found)
         if status != ending.status:
             ended = replace(ended, status=status, reason=reason_with(found, ended.reason))
-        attempt.emit(ended)
-        return Result(status=ended.status, reason=ended.reason, spent=spent, events=tuple(attempt.events))
+        mission.emit(ended)
+        return Result(status=ended.status, reason=ended.reason, spent=spent, events=tuple(mission.events))
 
 
 def _advance(steps: Steps) -> bool:

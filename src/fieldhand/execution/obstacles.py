@@ -13,7 +13,7 @@ import numpy as np
 from shapely.geometry import LineString, Point, Polygon
 
 from fieldhand.errors import BlockedFault, DriveFault
-from fieldhand.execution.attempt import Attempt
+from fieldhand.execution.active_mission import ActiveMission
 from fieldhand.execution.waiting import wait
 from fieldhand.language import message
 from fieldhand.site.model import Place
@@ -24,23 +24,23 @@ from fieldhand.task.run import Steps
 _AHEAD_M = 0.5
 
 
-def avoid(attempt: Attempt, node: str, place: Place, what: str) -> None:
+def avoid(mission: ActiveMission, node: str, place: Place, what: str) -> None:
     """Record the obstacle before the robot, which was stopped on the way to a place, and what it closes off."""
-    trees = [tree.place for tree in attempt.site.trees]
-    before = attempt.drives.linked(trees, attempt.standing)
-    position, path = attempt.seen.position, LineString(attempt.driven)
+    trees = [tree.place for tree in mission.site.trees]
+    before = mission.drives.linked(trees, mission.standing)
+    position, path = mission.observation.position, LineString(mission.driven)
     along = path.project(Point(position.x, position.y))
     ahead = path.interpolate(min(path.length, along + _AHEAD_M))
     if ahead.distance(Point(position.x, position.y)) <= 0.0:
-        ahead = Point(attempt.driven[-1])
-    attempt.blockages.add_ahead((position.x, position.y), (ahead.x, ahead.y))
-    attempt.guard.ways_are(attempt.drives)
-    after = attempt.drives.linked(trees, attempt.standing)
+        ahead = Point(mission.driven[-1])
+    mission.blockages.add_ahead((position.x, position.y), (ahead.x, ahead.y))
+    mission.guard.update_drives(mission.drives)
+    after = mission.drives.linked(trees, mission.standing)
     closed = [tree.id for tree, was, is_ in zip(trees, before, after, strict=True) if was and not is_]
-    _say(attempt, node, place, what, unreachable=closed)
+    _emit_obstructed(mission, node, place, what, unreachable=closed)
 
 
-def open_a_way(attempt: Attempt, node: str, place: Place) -> Steps:
+def wait_for_way(mission: ActiveMission, node: str, place: Place) -> Steps:
     """Ensure that there is a way to a place. If blocked stretches leave none, wait, then reopen one of them.
 
     Raises:
@@ -48,65 +48,65 @@ def open_a_way(attempt: Attempt, node: str, place: Place) -> Steps:
         BlockedFault: No way is left.
     """
     try:
-        attempt.way_to(place)
+        mission.way_to(place)
         return
     except DriveFault as fault:
-        if not attempt.blockages.stretches:
+        if not mission.blockages.stretches:
             raise
         what = fault.what
-    yield from wait(attempt, attempt.robot.patience.blocked_wait_s)
-    known = attempt.blockages.stretches
+    yield from wait(mission, mission.robot.patience.blocked_wait_s)
+    known = mission.blockages.stretches
     # The robot most likely stands before the stretch found last.
     for left in (*(tuple(s for s in known if s is not one) for one in reversed(known)), ()):
-        attempt.blockages.are(left)
+        mission.blockages.are(left)
         try:
-            attempt.way_to(place)
+            mission.way_to(place)
             break
         except DriveFault as fault:
             what = fault.what
     else:
-        attempt.blockages.are(known)
-    attempt.guard.ways_are(attempt.drives)
-    opened = len(attempt.blockages.stretches) < len(known)
-    waited = attempt.robot.patience.blocked_wait_s
-    attempt.emit(Waited(t=attempt.t, node=node, wanted="way", seconds=waited, over=opened, what=what))
+        mission.blockages.are(known)
+    mission.guard.update_drives(mission.drives)
+    opened = len(mission.blockages.stretches) < len(known)
+    waited = mission.robot.patience.blocked_wait_s
+    mission.emit(Waited(t=mission.t, node=node, wanted="way", seconds=waited, over=opened, what=what))
     if not opened:
         raise BlockedFault(what)
-    _say(attempt, node, place, message("it may be gone", context="log"), free=True)
+    _emit_obstructed(mission, node, place, message("it may be gone", context="log"), free=True)
 
 
-def no_way(attempt: Attempt, places: Sequence[Place]) -> tuple[bool, ...]:
+def cut_off_places(mission: ActiveMission, places: Sequence[Place]) -> tuple[bool, ...]:
     """Return for each place True if no way is left to it from the robot's position, to either side of it."""
-    if not attempt.blockages.stretches:
+    if not mission.blockages.stretches:
         return (False,) * len(places)
     anywhere = [replace(place, stand=None) if place.kind == "tree" else place for place in places]
-    return tuple(not linked for linked in attempt.drives.linked(anywhere, attempt.standing))
+    return tuple(not linked for linked in mission.drives.linked(anywhere, mission.standing))
 
 
-def recall(attempt: Attempt, events: Iterable[Event]) -> None:
+def restore_blockages(mission: ActiveMission, events: Iterable[Event]) -> None:
     """Restore the blocked stretches found by an earlier part of the same mission, from its events."""
     last = next((e for e in reversed(list(events)) if isinstance(e, Obstructed)), None)
     if last is None:
         return
-    projection = attempt.site.projection
-    attempt.blockages.are([Polygon(projection.metres(*np.array(area).T)) for area in last.blocked])
-    attempt.guard.ways_are(attempt.drives)
+    projection = mission.site.projection
+    mission.blockages.are([Polygon(projection.metres(*np.array(area).T)) for area in last.blocked])
+    mission.guard.update_drives(mission.drives)
 
 
-def _say(
-    attempt: Attempt, node: str, place: Place, what: str, *, unreachable: Sequence[str] = (), free: bool = False
+def _emit_obstructed(
+    mission: ActiveMission, node: str, place: Place, what: str, *, unreachable: Sequence[str] = (), free: bool = False
 ) -> None:
-    position, projection = attempt.seen.position, attempt.site.projection
-    areas = [projection.degrees(np.array(s.exterior.coords)[:-1]) for s in attempt.blockages.stretches]
-    attempt.emit(
+    position, projection = mission.observation.position, mission.site.projection
+    areas = [projection.degrees(np.array(s.exterior.coords)[:-1]) for s in mission.blockages.stretches]
+    mission.emit(
         Obstructed(
-            t=attempt.t,
+            t=mission.t,
             node=node,
             kind=place.kind,
             place=place.id,
             lat=position.lat,
             lon=position.lon,
-            travelled_m=attempt.travelled_m,
+            travelled_m=mission.travelled_m,
             blocked=tuple(tuple((float(lat), float(lon)) for lat, lon in area) for area in areas),
             unreachable=tuple(unreachable),
             free=free,

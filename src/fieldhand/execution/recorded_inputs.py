@@ -27,12 +27,12 @@ from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Driver, 
 from fieldhand.execution.guard import Failsafe, Guard
 from fieldhand.execution.journal.records import (
     InputLog,
-    Kind,
     Observation,
     Record,
+    RecordKind,
     answer_record,
     choice_of,
-    diverged,
+    divergence,
     foresight_of,
     foresight_record,
     goal_record,
@@ -40,7 +40,7 @@ from fieldhand.execution.journal.records import (
     verdict_of,
 )
 from fieldhand.execution.mission_clock import LOOK_EVERY_S, MissionClock, StopTimeout
-from fieldhand.execution.orders import Order
+from fieldhand.execution.operator_commands import OperatorCommand
 from fieldhand.forecast.failsafe_state import FailsafeForecast, FailsafeState
 from fieldhand.forecast.mission_state import MissionState, Verdict, Visit, VisitChoice
 from fieldhand.language import message
@@ -85,7 +85,7 @@ class RecordedInputs:
         failsafe: Failsafe,
         clock: MissionClock,
         emit: Callable[[Event], None],
-        asked: Callable[[], Order | None],
+        current_command: Callable[[], OperatorCommand | None],
         wall: WallClock | None = None,
         log: InputLog | None = None,
         simulated: bool = False,
@@ -93,11 +93,11 @@ class RecordedInputs:
         self.cuts = 0
         self._driver, self._guard, self._failsafe = driver, guard, failsafe
         self._clock, self._wall, self._log = clock, wall, log
-        self._emit, self._asked, self._simulated = emit, asked, simulated
+        self._emit, self._current_command, self._simulated = emit, current_command, simulated
         self._live = log is None
         self._wall_seen: float | None = None
         self._away_s: float | None = 0.0
-        self._heard: Order | None = None
+        self._last_command: OperatorCommand | None = None
         self._now: Observation | None = None
         self._ahead: Record | None = None
         self._goal: DriveGoal | ActionGoal | None = None
@@ -112,16 +112,16 @@ class RecordedInputs:
         return self._driver.seed
 
     @property
-    def seen(self) -> Observation:
+    def observation(self) -> Observation:
         """The current observation."""
         if self._now is None:
             record = self._recorded("sight")
             self._now = self._observe() if record is None else self._observe_again(observation_of(record))
         return self._now
 
-    def order(self) -> Order | None:
+    def order(self) -> OperatorCommand | None:
         """Return the current operator command."""
-        order = self.seen.order
+        order = self.observation.order
         return None if order is None or order.wanted == "continue" else order
 
     def event(self, event: Event) -> None:
@@ -135,10 +135,10 @@ class RecordedInputs:
 
     def start(self, goal: DriveGoal | ActionGoal) -> None:
         """Start a goal, once its record is synced."""
-        self._goal_from = self.seen.position
+        self._goal_from = self.observation.position
         record, before = goal_record(goal), self._recorded("begun")
         if before is not None and before.body != record.body:
-            raise diverged(f"it began {before.body}, now it would begin {record.body}")
+            raise divergence(f"it began {before.body}, now it would begin {record.body}")
         if before is None:
             self._record(record, commit=self._must_commit(goal))
         if before is None or self._simulated:
@@ -161,7 +161,7 @@ class RecordedInputs:
 
     def now(self) -> float:
         """Return the mission's time of the current observation."""
-        return self.seen.t
+        return self.observation.t
 
     def advance(self, seconds: float) -> None:
         """Let time pass, in real time at most until the next poll is due; the next question makes a new observation."""
@@ -172,7 +172,7 @@ class RecordedInputs:
 
     def wait(self, noteworthy: Callable[[float, float], bool]) -> None:
         """Wait until the operator command changes, the robot is stopped, or time and charge are noteworthy."""
-        before, self._now = self.seen, None
+        before, self._now = self.observation, None
         record = self._recorded("sight")
         if record is not None:
             self._now = self._observe_again(observation_of(record))
@@ -182,7 +182,7 @@ class RecordedInputs:
             self._clock.rest()
             # A real robot, including its emergency stop, is only heard while it is polled.
             self._driver.poll()
-            news = self._asked() != before.order or self._driver.stopped() != before.stopped
+            news = self._current_command() != before.order or self._driver.stopped() != before.stopped
             if news or noteworthy(self._clock.look(), self._driver.charge_percent()):
                 self._now = self._observe()
                 return
@@ -209,9 +209,9 @@ class RecordedInputs:
             choice_of,
         )
 
-    def ways_are(self, drives: Drives) -> None:
+    def update_drives(self, drives: Drives) -> None:
         """Inform the guard that drives have changed."""
-        self._guard.ways_are(drives)
+        self._guard.update_drives(drives)
 
     def foresee(self, now: FailsafeState) -> FailsafeForecast:
         """Return the failsafe's answer, recorded or new. Only alarms are recorded: no record means no alarm."""
@@ -225,7 +225,7 @@ class RecordedInputs:
         return answer
 
     def _decide(
-        self, kind: Kind, node: str, ask: Callable[[], Answer], answer_of: Callable[[Record, str], Answer]
+        self, kind: RecordKind, node: str, ask: Callable[[], Answer], answer_of: Callable[[Record, str], Answer]
     ) -> Answer:
         """Return the guard's answer about a node.
 
@@ -266,7 +266,7 @@ class RecordedInputs:
 
     # --- log -------------------------------------------------------------------------------------------------------
 
-    def _recorded(self, kind: Kind) -> Record | None:
+    def _recorded(self, kind: RecordKind) -> Record | None:
         """Return the recorded answer to a question, or None if the question has to be asked live."""
         while not self._live:
             record = self._next()
@@ -277,13 +277,13 @@ class RecordedInputs:
             elif record.kind == "interrupt":
                 raise KeyboardInterrupt
             elif record.kind != kind:
-                raise diverged(f"the next answer is one to '{record.kind}', the mission asks for '{kind}'")
+                raise divergence(f"the next answer is one to '{record.kind}', the mission asks for '{kind}'")
             else:
                 self._replayed += 1
                 return record
         return None
 
-    def _recorded_if(self, kind: Kind) -> Record | None:
+    def _recorded_if(self, kind: RecordKind) -> Record | None:
         """Return the next record if it is of a kind; otherwise leave it for the next question."""
         record = self._next()
         if record is not None and record.kind == kind:
@@ -320,7 +320,7 @@ class RecordedInputs:
 
     def _commit(self) -> None:
         assert self._log is not None  # noqa: S101  callers have one
-        self._log.commit(order=0 if self._heard is None else self._heard.number)
+        self._log.commit(order=0 if self._last_command is None else self._last_command.number)
         self._committed_s = time.monotonic()
 
     def _commit_events(self) -> None:
@@ -345,17 +345,17 @@ class RecordedInputs:
             lost=self._driver.lost(),
             wall=self._time_of_day(),
             next_in=self._driver.next_event_in(),
-            order=self._asked(),
+            order=self._current_command(),
         )
-        goal, changed = self._goal, observation.order != self._heard
-        self._heard = observation.order
+        goal, changed = self._goal, observation.order != self._last_command
+        self._last_command = observation.order
         self._record(observation.record(), commit=changed or (self._ends_goal(progress) and self._must_commit(goal)))
         return observation
 
     def _observe_again(self, observation: Observation) -> Observation:
         """Restore a recorded observation."""
         self._clock.set(observation.t)
-        self._heard, self._wall_seen = observation.order, observation.wall
+        self._last_command, self._wall_seen = observation.order, observation.wall
         if self._simulated:
             self._driver.poll()
         if observation.progress.state == "cut_off":

@@ -12,9 +12,9 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 from py_trees.composites import Composite
 
-from fieldhand.execution.attempt import Attempt
-from fieldhand.execution.giving_up import give_up_rest
-from fieldhand.execution.performing import Performer
+from fieldhand.execution.active_mission import ActiveMission
+from fieldhand.execution.plan_executor import PlanExecutor
+from fieldhand.execution.shed_work import shed_rest
 from fieldhand.forecast.mission_state import Verdict
 from fieldhand.places.selector import Selector
 from fieldhand.task.plan import Node
@@ -23,16 +23,16 @@ from fieldhand.task.run import Outcome
 _STATUS: dict[Outcome, Status] = {"done": Status.SUCCESS, "failed": Status.FAILURE, "cut": Status.INVALID}
 
 
-def compile_tree(attempt: Attempt) -> MissionTree:
+def compile_tree(mission: ActiveMission) -> MissionTree:
     """Return the behavior tree of a Task.
 
     Args:
-        attempt: The mission, shared by all behaviors. A tree serves one mission.
+        mission: The mission, shared by all behaviors. A tree serves one mission.
 
     Returns:
         The root. Tick it until it succeeds or fails, or until the mission has an ending.
     """
-    return MissionTree(attempt)
+    return MissionTree(mission)
 
 
 class NodeBehavior(Composite):
@@ -57,16 +57,16 @@ class MissionTree(NodeBehavior):
     """Root of the tree, which advances the mission.
 
     Args:
-        attempt: The mission.
+        mission: The mission.
     """
 
-    def __init__(self, attempt: Attempt) -> None:
-        super().__init__(attempt.task.composition.plan)
-        self.attempt = attempt
-        self._performer = Performer(attempt)
-        self._program = self._performer.program()
+    def __init__(self, mission: ActiveMission) -> None:
+        super().__init__(mission.task.composition.plan)
+        self.mission = mission
+        self._executor = PlanExecutor(mission)
+        self._program = self._executor.program()
         self._behavior: dict[str, NodeBehavior] = {b.node.id: b for b in self.iterate() if isinstance(b, NodeBehavior)}
-        attempt.run.entered, attempt.run.left = self._entered, self._left
+        mission.run.entered, mission.run.left = self._entered, self._left
 
     def tick(self) -> Iterator[Behaviour]:
         """Advance until the robot is busy, a round is over, or the plan has ended."""
@@ -77,17 +77,17 @@ class MissionTree(NodeBehavior):
         """End the plan and stop the robot."""
         if new_status == Status.INVALID:
             self._program.close()
-            self.attempt.stop_driver()
+            self.mission.stop_driver()
         super().stop(new_status)
 
     @property
     def between(self) -> bool:
         """True between two rounds or visits."""
-        return self._performer.between
+        return self._executor.between
 
     def give_up(self, verdict: Verdict) -> None:
         """Report the current work and all later work as given up."""
-        give_up_rest(self.attempt, self._performer.place, verdict)
+        shed_rest(self.mission, self._executor.place, verdict)
 
     def _entered(self, node: Node) -> None:
         behavior = self._behavior[node.id]

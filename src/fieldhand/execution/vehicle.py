@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from fieldhand.site.model import Site
 
 #: Start of a mission whose world changes the wall clock without defining when the mission begins.
-SOME_MORNING = datetime(2026, 1, 1, 6, 0, tzinfo=UTC)
+DEFAULT_START = datetime(2026, 1, 1, 6, 0, tzinfo=UTC)
 
 #: Receives the events of a mission.
 Writer = Callable[[Event], None]
@@ -96,7 +96,7 @@ def simulation(site: Site, robot: RobotProfile, world: World, *, seed: int, spee
     import numpy as np
 
     from fieldhand.clock import ScaledClock, SimulatedClock
-    from fieldhand.execution.drivers.simulation import SimulatedDriver
+    from fieldhand.execution.drivers.simulated_driver import SimulatedDriver
     from fieldhand.execution.mission_clock import MissionClock
 
     clock = MissionClock(SimulatedClock() if speed is None else ScaledClock(speed))
@@ -114,7 +114,7 @@ def _wall_clock_of(world: World, clock: Clock) -> WallClock | None:
     jumps = [(fault.at_s, fault.by_s) for fault in world.faults if isinstance(fault, ClockJumps)]
     if world.begins is None and not jumps:
         return None
-    return SimulatedWallClock(clock, (world.begins or SOME_MORNING).timestamp(), jumps)
+    return SimulatedWallClock(clock, (world.begins or DEFAULT_START).timestamp(), jumps)
 
 
 def _writing_in(world: World, write: Writer) -> Writer:

@@ -1,7 +1,7 @@
 """World of a simulation: sensor readings and faults (:mod:`.world_file` reads it from YAML).
 
 A world refers to trees by id or by latitude and longitude, independent of how a program numbers them. Whether it fits a
-site and a robot is checked where it is used (:mod:`fieldhand.execution.drivers.groundtruth`).
+site and a robot is checked where it is used (:mod:`fieldhand.execution.drivers.ground_truth`).
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from datetime import datetime
 
 
 @dataclass(frozen=True, kw_only=True)
-class Spot:
+class TreeRef:
     """Reference to a tree: by id, or as the tree nearest to a position in degrees (WGS 84)."""
 
     id: str | None = None
@@ -28,7 +28,7 @@ class Truth:
     """Exact readings of a sensor, at some trees and elsewhere (None: drawn from the profile)."""
 
     default: float | None = None
-    trees: tuple[tuple[Spot, float], ...] = ()
+    trees: tuple[tuple[TreeRef, float], ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,7 +37,7 @@ class ActionFails:
 
     action: str
     times: int | None = None
-    at: Spot | None = None
+    at: TreeRef | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,7 +46,7 @@ class SensorSilent:
 
     quantity: str
     times: int | None = None
-    at: Spot | None = None
+    at: TreeRef | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,7 +56,7 @@ class SensorAbsurd:
     quantity: str
     value: float
     times: int | None = None
-    at: Spot | None = None
+    at: TreeRef | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,7 +64,7 @@ class DriveFails:
     """A drive to a tree, or any drive, fails half-way for a reason other than an obstacle: a motor, the navigation."""
 
     times: int | None = None
-    at: Spot | None = None
+    at: TreeRef | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,8 +77,8 @@ class Blocked:
         from_s, until_s: Interval in seconds of the mission (None: to the end).
     """
 
-    at: Spot | None = None
-    between: tuple[Spot, Spot] | None = None
+    at: TreeRef | None = None
+    between: tuple[TreeRef, TreeRef] | None = None
     within_m: float = 1.0
     times: int | None = None
     from_s: float = 0.0
@@ -95,7 +95,7 @@ class LocalisationLost:
     """
 
     at_s: float | None = None
-    at: Spot | None = None
+    at: TreeRef | None = None
     within_m: float = 5.0
     for_s: float | None = None
     times: int | None = 1

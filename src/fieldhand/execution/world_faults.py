@@ -17,7 +17,7 @@ from fieldhand.execution.world import (
     RobotStops,
     SensorAbsurd,
     SensorSilent,
-    Spot,
+    TreeRef,
     WorldFault,
 )
 
@@ -33,7 +33,7 @@ class Strict(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
 
-class SpotModel(Strict):
+class TreeRefModel(Strict):
     """``{id: "12"}`` or ``{lat: 37.2664, lon: -120.4201}``."""
 
     id: str | StrictInt | None = None
@@ -41,26 +41,26 @@ class SpotModel(Strict):
     lon: Annotated[float, Field(ge=-180, le=180, allow_inf_nan=False)] | None = None
 
     @model_validator(mode="after")
-    def _named_once(self) -> SpotModel:
+    def _named_once(self) -> TreeRefModel:
         given = (self.id is not None, self.lat is not None, self.lon is not None)
         if given not in ((True, False, False), (False, True, True)):
             raise ValueError("a tree is named by id, or by lat and lon")
         return self
 
-    def spot(self) -> Spot:
+    def reference(self) -> TreeRef:
         """Return the reference for execution."""
         if self.id is not None:
-            return Spot(id=str(self.id))
-        return Spot(lat=self.lat or 0.0, lon=self.lon or 0.0)
+            return TreeRef(id=str(self.id))
+        return TreeRef(lat=self.lat or 0.0, lon=self.lon or 0.0)
 
 
 class _AtModel(Strict):
     times: Times = None
-    at: SpotModel | None = None
+    at: TreeRefModel | None = None
 
     @property
-    def spot(self) -> Spot | None:
-        return None if self.at is None else self.at.spot()
+    def reference(self) -> TreeRef | None:
+        return None if self.at is None else self.at.reference()
 
 
 class ActionFailsModel(_AtModel):
@@ -69,9 +69,9 @@ class ActionFailsModel(_AtModel):
     fault: Literal["action_fails"]
     action: str
 
-    def made(self) -> WorldFault:
+    def to_fault(self) -> WorldFault:
         """Return the fault for execution."""
-        return ActionFails(action=self.action, times=self.times, at=self.spot)
+        return ActionFails(action=self.action, times=self.times, at=self.reference)
 
 
 class SensorSilentModel(_AtModel):
@@ -80,9 +80,9 @@ class SensorSilentModel(_AtModel):
     fault: Literal["sensor_silent"]
     quantity: str
 
-    def made(self) -> WorldFault:
+    def to_fault(self) -> WorldFault:
         """Return the fault for execution."""
-        return SensorSilent(quantity=self.quantity, times=self.times, at=self.spot)
+        return SensorSilent(quantity=self.quantity, times=self.times, at=self.reference)
 
 
 class SensorAbsurdModel(_AtModel):
@@ -92,9 +92,9 @@ class SensorAbsurdModel(_AtModel):
     quantity: str
     value: FiniteFloat
 
-    def made(self) -> WorldFault:
+    def to_fault(self) -> WorldFault:
         """Return the fault for execution."""
-        return SensorAbsurd(quantity=self.quantity, value=self.value, times=self.times, at=self.spot)
+        return SensorAbsurd(quantity=self.quantity, value=self.value, times=self.times, at=self.reference)
 
 
 class DriveFailsModel(_AtModel):
@@ -102,17 +102,17 @@ class DriveFailsModel(_AtModel):
 
     fault: Literal["drive_fails"]
 
-    def made(self) -> WorldFault:
+    def to_fault(self) -> WorldFault:
         """Return the fault for execution."""
-        return DriveFails(times=self.times, at=self.spot)
+        return DriveFails(times=self.times, at=self.reference)
 
 
 class BlockedModel(Strict):
     """An obstacle."""
 
     fault: Literal["blocked"]
-    at: SpotModel | None = None
-    between: tuple[SpotModel, SpotModel] | None = None
+    at: TreeRefModel | None = None
+    between: tuple[TreeRefModel, TreeRefModel] | None = None
     within_m: Metres = 1.0
     times: Times = None
     from_s: Second = 0.0
@@ -126,11 +126,11 @@ class BlockedModel(Strict):
             raise ValueError(f"until_s {self.until_s:g} is not after from_s {self.from_s:g}")
         return self
 
-    def made(self) -> WorldFault:
+    def to_fault(self) -> WorldFault:
         """Return the fault for execution."""
         return Blocked(
-            at=None if self.at is None else self.at.spot(),
-            between=None if self.between is None else (self.between[0].spot(), self.between[1].spot()),
+            at=None if self.at is None else self.at.reference(),
+            between=None if self.between is None else (self.between[0].reference(), self.between[1].reference()),
             within_m=self.within_m,
             times=self.times,
             from_s=self.from_s,
@@ -143,7 +143,7 @@ class LocalisationLostModel(Strict):
 
     fault: Literal["localisation_lost"]
     at_s: Second | None = None
-    at: SpotModel | None = None
+    at: TreeRefModel | None = None
     within_m: Metres = 5.0
     for_s: Second | None = None
     times: Times = 1
@@ -154,9 +154,9 @@ class LocalisationLostModel(Strict):
             raise ValueError("give the second at which it happens, at_s, or the tree, at")
         return self
 
-    def made(self) -> WorldFault:
+    def to_fault(self) -> WorldFault:
         """Return the fault for execution."""
-        at = None if self.at is None else self.at.spot()
+        at = None if self.at is None else self.at.reference()
         return LocalisationLost(at_s=self.at_s, at=at, within_m=self.within_m, for_s=self.for_s, times=self.times)
 
 
@@ -167,7 +167,7 @@ class BatteryDrainsModel(Strict):
     factor: Annotated[float, Field(gt=0, allow_inf_nan=False)]
     from_s: Second = 0.0
 
-    def made(self) -> WorldFault:
+    def to_fault(self) -> WorldFault:
         """Return the fault for execution."""
         return BatteryDrains(factor=self.factor, from_s=self.from_s)
 
@@ -179,7 +179,7 @@ class ClockJumpsModel(Strict):
     at_s: Second
     by_s: FiniteFloat
 
-    def made(self) -> WorldFault:
+    def to_fault(self) -> WorldFault:
         """Return the fault for execution."""
         return ClockJumps(at_s=self.at_s, by_s=self.by_s)
 
@@ -190,7 +190,7 @@ class DiskFullModel(Strict):
     fault: Literal["disk_full"]
     at_s: Second
 
-    def made(self) -> WorldFault:
+    def to_fault(self) -> WorldFault:
         """Return the fault for execution."""
         return DiskFull(at_s=self.at_s)
 
@@ -202,7 +202,7 @@ class RobotStopsModel(Strict):
     at_s: Second
     why: Annotated[str, Field(min_length=1)] = "power cut"
 
-    def made(self) -> WorldFault:
+    def to_fault(self) -> WorldFault:
         """Return the fault for execution."""
         return RobotStops(at_s=self.at_s, why=self.why)
 

@@ -23,7 +23,7 @@ from pydantic_core import ErrorDetails
 
 from fieldhand.errors import WorldError
 from fieldhand.execution.world import Truth, World
-from fieldhand.execution.world_faults import AnyFault, FaultModel, SpotModel, Strict
+from fieldhand.execution.world_faults import AnyFault, FaultModel, Strict, TreeRefModel
 from fieldhand.files import FileFault, read_file
 from fieldhand.language import message, recalled
 from fieldhand.strict_yaml import YamlFault, read_yaml
@@ -44,7 +44,7 @@ _KINDS: dict[type, str] = {dict: "a mapping", list: "a list", type(None): "empty
 SensorValue = StrictBool | FiniteFloat
 
 
-class TreeValueModel(SpotModel):
+class TreeValueModel(TreeRefModel):
     """A tree and a sensor's value there."""
 
     value: SensorValue
@@ -59,7 +59,7 @@ class TruthModel(Strict):
     def truth(self) -> Truth:
         """Return the readings for execution."""
         default = None if self.default is None else float(self.default)
-        return Truth(default=default, trees=tuple((t.spot(), float(t.value)) for t in self.trees))
+        return Truth(default=default, trees=tuple((t.reference(), float(t.value)) for t in self.trees))
 
 
 _KINDS_OF_FAULT: dict[str, type[BaseModel]] = {
@@ -141,7 +141,7 @@ def parse_world(content: Mapping[str, Any], *, source: str = "world") -> World:
             name: value.truth() if isinstance(value, TruthModel) else Truth(default=float(value))
             for name, value in model.readings.items()
         },
-        faults=tuple(f.made() for f in model.faults),
+        faults=tuple(f.to_fault() for f in model.faults),
         seed=model.seed,
         charge_percent=model.charge_percent,
         meter_step_percent=model.meter_step_percent,
@@ -269,7 +269,7 @@ def _keys_at(problem: ErrorDetails, path: list[str]) -> list[str]:
     if path[0] == "readings":
         inner = TruthModel if len(path) == 3 else TreeValueModel
     elif path[0] == "faults":
-        inner = SpotModel if {"at", "between"} & set(path[2:-1]) else _KINDS_OF_FAULT[str(problem["loc"][2])]
+        inner = TreeRefModel if {"at", "between"} & set(path[2:-1]) else _KINDS_OF_FAULT[str(problem["loc"][2])]
     return list(inner.model_fields)
 
 

@@ -14,7 +14,7 @@ from fieldhand.task.results import Event
 if TYPE_CHECKING:
     from fieldhand.execution.guard import Guard
     from fieldhand.execution.journal.records import InputLog
-    from fieldhand.execution.orders import Order
+    from fieldhand.execution.operator_commands import OperatorCommand
     from fieldhand.execution.vehicle import Vehicle
     from fieldhand.execution.world import World
 
@@ -29,7 +29,7 @@ def check_world(world: World, site: Site, robot: RobotProfile) -> None:
     Raises:
         WorldError: It names a tree, a quantity or an action that does not exist.
     """
-    from fieldhand.execution.drivers.groundtruth import GroundTruth
+    from fieldhand.execution.drivers.ground_truth import GroundTruth
 
     GroundTruth(world, site, robot, seed=0)
 
@@ -42,7 +42,7 @@ def carry_out(
     emit: Callable[[Event], None] = _ignore,
     interrupted: Callable[[], str | None] = lambda: None,
     watched: Callable[[Guard], Guard] = lambda guard: guard,
-    orders: Callable[[], Order | None] = lambda: None,
+    orders: Callable[[], OperatorCommand | None] = lambda: None,
     log: InputLog | None = None,
 ) -> Run:
     """Carry a mission out on a vehicle, and return what happened.

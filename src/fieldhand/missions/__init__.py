@@ -11,6 +11,7 @@ begin ──▶ folder ──carry_out──▶ events          status and order
 """
 
 from fieldhand.missions.departure import require_charged, require_in_place
+from fieldhand.missions.direct_commands import DirectCommands
 from fieldhand.missions.finding import all_missions, exists, find, missions_folder
 from fieldhand.missions.folder import (
     Departure,
@@ -36,16 +37,14 @@ from fieldhand.missions.kept import (
     stands,
     status,
 )
-from fieldhand.missions.orders import DirectOrders, Urgent
 
 __all__ = [
     "Departure",
-    "DirectOrders",
+    "DirectCommands",
     "FolderContents",
     "Inputs",
     "Mission",
     "Status",
-    "Urgent",
     "all_missions",
     "begin",
     "carry_out",

@@ -18,14 +18,14 @@ from fieldhand.execution.vehicle import Connection
 from fieldhand.files import FileFault, read_file, store_names, write_stored, write_whole
 from fieldhand.folders import Unguarded, require_guarded, require_own_file
 from fieldhand.language import message, named
-from fieldhand.missions.orders import nobody
+from fieldhand.missions.direct_commands import nobody
 from fieldhand.missions.signed import require_signed
 from fieldhand.task.authorization import Authorization, AuthorizedTask
 from fieldhand.visible import json_text
 
 if TYPE_CHECKING:
     from fieldhand.approval.bundle.opening import Bundle
-    from fieldhand.execution.orders import Order
+    from fieldhand.execution.operator_commands import OperatorCommand
     from fieldhand.execution.vehicle import Vehicle
     from fieldhand.execution.world import World
     from fieldhand.robot.model import RobotProfile
@@ -157,7 +157,7 @@ class Mission:
     sha256: str
     bundle: Bundle | None = None
     departure: Departure | None = None
-    told: Callable[[], Order | None] = nobody
+    told: Callable[[], OperatorCommand | None] = nobody
 
     @property
     def id(self) -> str:
@@ -187,7 +187,7 @@ def begin(under: Path, name: str, inputs: Inputs) -> Mission:
         JournalError: There is a mission of that name, or the folder cannot be written.
     """
     from fieldhand.execution.journal.store import create
-    from fieldhand.execution.orders import OrderFile
+    from fieldhand.execution.operator_commands import CommandFile
     from fieldhand.execution.world import World
 
     folder, world = under / name, inputs.world or World()
@@ -222,7 +222,7 @@ def begin(under: Path, name: str, inputs: Inputs) -> Mission:
         for file, data in files.items():
             write_stored(folder / file, data, mode=0o644)
         create(folder / JOURNAL, _sha256(whole))
-        OrderFile(folder / ORDERS).create()
+        CommandFile(folder / ORDERS).create()
         store_names(folder / "site")
         write_whole(folder / ABOUT, whole, mode=0o644)
         store_names(under)

@@ -12,6 +12,7 @@ from fieldhand import mission
 from fieldhand.errors import ExecutionError
 from fieldhand.folders import is_locked
 from fieldhand.language import message
+from fieldhand.missions.direct_commands import latest
 from fieldhand.missions.folder import (
     JOURNAL,
     LOG,
@@ -22,7 +23,6 @@ from fieldhand.missions.folder import (
     read_about,
     read_kept,
 )
-from fieldhand.missions.orders import latest
 from fieldhand.task.event_lines import from_json
 from fieldhand.task.results import Event
 
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from fieldhand.evaluation.progress import MissionProgress
     from fieldhand.execution.guard import Guard
     from fieldhand.execution.mission_runner import Result
-    from fieldhand.execution.orders import OrderWord
+    from fieldhand.execution.operator_commands import FileCommand
     from fieldhand.execution.vehicle import Vehicle
 
 
@@ -77,7 +77,7 @@ def carry_out(
             disk is full.
     """
     from fieldhand.execution.journal.store import Journal
-    from fieldhand.execution.orders import OrderFile
+    from fieldhand.execution.operator_commands import CommandFile
     from fieldhand.execution.vehicle import simulation
 
     require_vehicle(given.id, given.departure, simulated=vehicle is None or vehicle.simulated)
@@ -95,7 +95,7 @@ def carry_out(
     folder = given.folder
     with (
         Journal(folder / JOURNAL, given.sha256, folder / LOG, tell) as journal,
-        closing(OrderFile(folder / ORDERS)) as order_file,
+        closing(CommandFile(folder / ORDERS)) as order_file,
     ):
         approved = mission.ApprovedMission(authorized=given.authorized, site=given.site, robot=given.robot)
         run = mission.carry_out(
@@ -146,14 +146,14 @@ def status(folder: Path) -> Status:
     """
     from fieldhand.evaluation.progress import mission_progress
     from fieldhand.execution.journal.records import observation_of
-    from fieldhand.execution.journal.store import heard
-    from fieldhand.execution.orders import OrderFile
+    from fieldhand.execution.journal.store import read_summary
+    from fieldhand.execution.operator_commands import CommandFile
     from fieldhand.robot.loader import parse_profile
     from fieldhand.task.codec import decode
 
     about, _ = read_about(folder)
     running = is_locked(folder)
-    number, lines, sight, _ = heard(folder / JOURNAL)
+    number, lines, sight, _ = read_summary(folder / JOURNAL)
     events = tuple(e for e in (from_json(line, where=str(folder)) for _, line in lines) if e is not None)
     task = decode(read_kept(folder, "task.xml", about["files"]["task.xml"]), source=str(folder / "task.xml"))
     robot = parse_profile(read_kept(folder, "robot.yaml", about["files"]["robot.yaml"]), source=f"{folder}/robot.yaml")
@@ -167,7 +167,7 @@ def status(folder: Path) -> Status:
             seconds=max(now.seconds, seen.t),
             charge_percent=seen.charge_percent,
         )
-    waiting, said = OrderFile(folder / ORDERS).last()
+    waiting, said = CommandFile(folder / ORDERS).last()
     return Status(
         mission=folder.name,
         request=task.command.request,
@@ -185,9 +185,9 @@ def stands(folder: Path) -> bool:
         JournalError: This is no mission, or its journal cannot be read.
     """
     from fieldhand.execution.journal.records import observation_of
-    from fieldhand.execution.journal.store import heard
+    from fieldhand.execution.journal.store import read_summary
 
-    sight = heard(folder / JOURNAL)[2]
+    sight = read_summary(folder / JOURNAL)[2]
     return sight is None or observation_of(sight).progress.over
 
 
@@ -197,9 +197,9 @@ def events_of(folder: Path) -> tuple[Event, ...]:
     Raises:
         JournalError: The journal cannot be read.
     """
-    from fieldhand.execution.journal.store import heard
+    from fieldhand.execution.journal.store import read_summary
 
-    events = (from_json(line, where=str(folder)) for _, line in heard(folder / JOURNAL)[1])
+    events = (from_json(line, where=str(folder)) for _, line in read_summary(folder / JOURNAL)[1])
     return tuple(event for event in events if event is not None)
 
 
@@ -215,7 +215,7 @@ def lines_after(folder: Path, after: int, most: int) -> tuple[tuple[int, str, st
 
 
 def order(
-    folder: Path, said: OrderWord, reason: str, *, wait: Callable[[], bool] = lambda: False
+    folder: Path, said: FileCommand, reason: str, *, wait: Callable[[], bool] = lambda: False
 ) -> bool:  # fmt: skip
     """Tell a mission something: to pause, to continue, to come home (``return``) or to stop here (``abort``).
 
@@ -230,19 +230,19 @@ def order(
         ExecutionError: It has ended, or was told to stop before.
         JournalError: This is no mission.
     """
-    from fieldhand.execution.journal.store import heard
-    from fieldhand.execution.orders import OrderFile
+    from fieldhand.execution.journal.store import read_summary
+    from fieldhand.execution.operator_commands import CommandFile
     from fieldhand.task.results import Ended
 
     if any(isinstance(event, Ended) for event in events_of(folder)):
         raise ExecutionError(message("the mission has ended"), where=folder.name)
-    number = OrderFile(folder / ORDERS).give(said, reason)
+    number = CommandFile(folder / ORDERS).give(said, reason)
     while is_locked(folder):
-        if heard(folder / JOURNAL)[0] >= number:
+        if read_summary(folder / JOURNAL)[0] >= number:
             return True
         if not wait():
             break
-    return heard(folder / JOURNAL)[0] >= number
+    return read_summary(folder / JOURNAL)[0] >= number
 
 
 def last_order(folder: Path) -> str:
@@ -251,9 +251,9 @@ def last_order(folder: Path) -> str:
     Raises:
         JournalError: This is no mission.
     """
-    from fieldhand.execution.orders import OrderFile
+    from fieldhand.execution.operator_commands import CommandFile
 
-    return OrderFile(folder / ORDERS).last()[1]
+    return CommandFile(folder / ORDERS).last()[1]
 
 
 def is_running(folder: Path) -> bool:

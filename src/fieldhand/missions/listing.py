@@ -84,14 +84,14 @@ def remove(entry: Entry) -> None:
 
 def _entry(folder: Path) -> Entry:
     from fieldhand.evaluation.progress import state_of
-    from fieldhand.execution.journal.store import heard
+    from fieldhand.execution.journal.store import read_summary
     from fieldhand.task.codec import decode
 
     begun = begun_at(folder)
     try:
         files = read_about(folder)[0]["files"]
         running = is_locked(folder)
-        lines = heard(folder / JOURNAL)[1]
+        lines = read_summary(folder / JOURNAL)[1]
         events = [from_json(line) for _, line in lines if line.startswith(_TURNS)]
         task = decode(read_kept(folder, "task.xml", files["task.xml"]))
         last = datetime.fromisoformat(lines[-1][0]) if lines else begun

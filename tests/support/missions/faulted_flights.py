@@ -29,7 +29,7 @@ from fieldhand.execution.world import (
     RobotStops,
     SensorAbsurd,
     SensorSilent,
-    Spot,
+    TreeRef,
     World,
     WorldFault,
 )
@@ -138,8 +138,8 @@ def random_plan(rng: np.random.Generator, ids: list[str]) -> Node:
 def random_faults(rng: np.random.Generator, ids: list[str], wanted: list[str]) -> tuple[WorldFault, ...]:
     """One to five faults of any kind, most of them where the robot has work to do."""
 
-    def tree() -> Spot:
-        return Spot(id=str(rng.choice(wanted if wanted and rng.random() < 0.7 else ids)))
+    def tree() -> TreeRef:
+        return TreeRef(id=str(rng.choice(wanted if wanted and rng.random() < 0.7 else ids)))
 
     def often() -> int | None:
         return None if rng.random() < 0.4 else int(rng.integers(1, 4))

@@ -11,8 +11,8 @@ import numpy as np
 
 from fieldhand import mission
 from fieldhand.clock import Clock, SimulatedClock
-from fieldhand.execution.attempt import Attempt
-from fieldhand.execution.drivers.simulation import SimulatedDriver
+from fieldhand.execution.active_mission import ActiveMission
+from fieldhand.execution.drivers.simulated_driver import SimulatedDriver
 from fieldhand.execution.guard import Guard, NoFailsafe, NoGuard
 from fieldhand.execution.mission_clock import MissionClock
 from fieldhand.execution.mission_runner import Result, run
@@ -120,7 +120,7 @@ class Rig:
         """A simulated robot at the start."""
         return SimulatedDriver(self.site, self.robot, self.world, self.clock, np.random.default_rng(self.seed))
 
-    def attempt(self, task: Task) -> Attempt:
+    def attempt(self, task: Task) -> ActiveMission:
         """An attempt at a Task that begins now; its events go nowhere else."""
         inputs = RecordedInputs(
             driver=self.driver(),
@@ -128,10 +128,10 @@ class Rig:
             failsafe=NoFailsafe(),
             clock=MissionClock(self.clock),
             emit=lambda event: None,
-            asked=lambda: None,
+            current_command=lambda: None,
         )
         drives = drives_for(self.site, self.robot)
-        return Attempt(task=task, site=self.site, robot=self.robot, inputs=inputs, drives=drives)
+        return ActiveMission(task=task, site=self.site, robot=self.robot, inputs=inputs, drives=drives)
 
     def fly(
         self,

@@ -16,24 +16,26 @@ _ANEW = "carry the Task out as a new mission"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Head:
+class ChainHead:
     """End of a table: number of rows, and checksum of the last one."""
 
     rows: int
     sha256: bytes
 
 
-def start(table: str) -> Head:
+def start(table: str) -> ChainHead:
     """Return the head of an empty table."""
-    return Head(rows=0, sha256=_sha256(b"", table))
+    return ChainHead(rows=0, sha256=_sha256(b"", table))
 
 
-def extended(head: Head, *columns: str) -> Head:
+def extended(head: ChainHead, *columns: str) -> ChainHead:
     """Return the head after one more row with these columns."""
-    return Head(rows=head.rows + 1, sha256=_sha256(head.sha256, *columns))
+    return ChainHead(rows=head.rows + 1, sha256=_sha256(head.sha256, *columns))
 
 
-def require_chain(head: Head, table: str, rows: Iterable[tuple[int, bytes, tuple[str, ...]]], where: str) -> list[Head]:
+def require_chain(
+    head: ChainHead, table: str, rows: Iterable[tuple[int, bytes, tuple[str, ...]]], where: str
+) -> list[ChainHead]:
     """Verify every row of a table against its checksum.
 
     Args:

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from fieldhand.errors import JournalError
-from fieldhand.execution.journal.hash_chain import Head
+from fieldhand.execution.journal.hash_chain import ChainHead
 from fieldhand.files import store_names, write_stored
 
 #: Two copies, written in turn, each in its own sector: an interrupted write leaves the other intact.
@@ -34,7 +34,7 @@ class HighWaterMark:
     """
 
     epoch: int
-    heads: Mapping[str, Head]
+    heads: Mapping[str, ChainHead]
 
 
 class HighWaterMarkFile:
@@ -131,7 +131,9 @@ def _latest(data: bytes) -> tuple[int, HighWaterMark | None]:
         if hashlib.sha256(body).hexdigest().encode() != sha256:
             continue
         said = json.loads(body)
-        heads = {table: Head(rows=rows, sha256=bytes.fromhex(sum_)) for table, (rows, sum_) in said["heads"].items()}
+        heads = {
+            table: ChainHead(rows=rows, sha256=bytes.fromhex(sum_)) for table, (rows, sum_) in said["heads"].items()
+        }
         if found[1] is None or said["turn"] > found[0]:
             found = said["turn"], HighWaterMark(epoch=said["epoch"], heads=heads)
     return found

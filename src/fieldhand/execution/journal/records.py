@@ -11,14 +11,14 @@ from typing import Any, Literal, Protocol
 from fieldhand import errors
 from fieldhand.errors import FieldhandError, JournalError
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Position, Progress
-from fieldhand.execution.orders import Order
+from fieldhand.execution.operator_commands import OperatorCommand
 from fieldhand.forecast.failsafe_state import FailsafeForecast
 from fieldhand.forecast.mission_state import Verdict, VisitChoice
 
 #: ``sight``: an observation. ``begun``: a goal is about to start. ``cancel``: its cancellation was requested.
 #: ``admit``, ``choose``: an answer of the guard. ``cut``: a power cut. ``interrupt``: a second Ctrl-C.
 #: ``foresee``: an alarm of the failsafe; other answers of it are not recorded.
-Kind = Literal["sight", "begun", "cancel", "admit", "choose", "foresee", "cut", "interrupt"]
+RecordKind = Literal["sight", "begun", "cancel", "admit", "choose", "foresee", "cut", "interrupt"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,7 +82,7 @@ class Observation:
     stopped: str | None
     lost: str | None
     next_in: float | None
-    order: Order | None
+    order: OperatorCommand | None
     wall: float | None = None
 
     def record(self) -> Record:
@@ -122,10 +122,10 @@ def observation_of(record: Record) -> Observation:
             lost=body["lost"],
             wall=body["wall"],
             next_in=body["next_in"],
-            order=None if order is None else Order(number=order[0], wanted=order[1], reason=order[2]),
+            order=None if order is None else OperatorCommand(number=order[0], wanted=order[1], reason=order[2]),
         )
     except (ValueError, KeyError, TypeError) as error:
-        raise garbled(error) from None
+        raise invalid_record(error) from None
 
 
 def goal_record(goal: DriveGoal | ActionGoal) -> Record:
@@ -138,7 +138,7 @@ def goal_record(goal: DriveGoal | ActionGoal) -> Record:
     return Record(kind="begun", body=json.dumps(body))
 
 
-def answer_record(kind: Kind, node: str, answer: Verdict | VisitChoice | FieldhandError) -> Record:
+def answer_record(kind: RecordKind, node: str, answer: Verdict | VisitChoice | FieldhandError) -> Record:
     """Return the record of the guard's answer about a node, or of the error that it raised."""
     said: dict[str, Any]
     if isinstance(answer, FieldhandError):
@@ -158,7 +158,7 @@ def verdict_of(record: Record, node: str) -> Verdict:
     try:
         return Verdict(**answer)
     except TypeError as error:
-        raise garbled(error) from None
+        raise invalid_record(error) from None
 
 
 def choice_of(record: Record, node: str) -> VisitChoice:
@@ -167,7 +167,7 @@ def choice_of(record: Record, node: str) -> VisitChoice:
     try:
         return VisitChoice(**{**answer, "shed": tuple(answer["shed"])})
     except (TypeError, KeyError) as error:
-        raise garbled(error) from None
+        raise invalid_record(error) from None
 
 
 def foresight_record(said: FailsafeForecast) -> Record:
@@ -184,7 +184,7 @@ def foresight_of(record: Record) -> FailsafeForecast:
     try:
         return FailsafeForecast(**json.loads(record.body))
     except (ValueError, TypeError) as error:
-        raise garbled(error) from None
+        raise invalid_record(error) from None
 
 
 def _answer(record: Record, node: str) -> Mapping[str, Any]:
@@ -192,13 +192,13 @@ def _answer(record: Record, node: str) -> Mapping[str, Any]:
         body = json.loads(record.body)
         about, error, answer = body["node"], body.get("error"), body.get("answer")
     except (ValueError, KeyError, TypeError, AttributeError) as fault:
-        raise garbled(fault) from None
+        raise invalid_record(fault) from None
     if about != node:
-        raise diverged(f"the guard was asked about {about}, now it is asked about {node}")
+        raise divergence(f"the guard was asked about {about}, now it is asked about {node}")
     if error is not None:
         raise _error(error)
     if not isinstance(answer, dict):
-        raise garbled("an answer of the guard is missing")
+        raise invalid_record("an answer of the guard is missing")
     return answer
 
 
@@ -209,14 +209,14 @@ def _error(said: Sequence[str]) -> FieldhandError:
     return made
 
 
-def garbled(why: object) -> JournalError:
+def invalid_record(why: object) -> JournalError:
     """Return the error for a record that is invalid."""
     return JournalError(
         f"the journal holds something that no mission wrote ({why})", advice="carry the Task out as a new mission"
     )
 
 
-def diverged(why: str) -> JournalError:
+def divergence(why: str) -> JournalError:
     """Return the error for a mission that deviates from its record."""
     return JournalError(
         f"the mission does not go as the journal says: {why}",

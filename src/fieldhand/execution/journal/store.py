@@ -17,7 +17,8 @@ from pathlib import Path
 from types import TracebackType
 
 from fieldhand.errors import JournalError
-from fieldhand.execution.journal.hash_chain import Head, extended, require_chain, start
+from fieldhand.execution.event_log import EventLog
+from fieldhand.execution.journal.hash_chain import ChainHead, extended, require_chain, start
 from fieldhand.execution.journal.high_water_mark import (
     HighWaterMark,
     HighWaterMarkFile,
@@ -25,8 +26,7 @@ from fieldhand.execution.journal.high_water_mark import (
     mark_path,
     read_mark,
 )
-from fieldhand.execution.journal.records import Record, diverged
-from fieldhand.execution.log import EventLog
+from fieldhand.execution.journal.records import Record, divergence
 from fieldhand.folders import FolderLock, FolderTaken, Unguarded, require_own_file
 
 #: Format of the file; a program with another format rejects it. Rows of format 1 have no checksums: a journal of that
@@ -67,7 +67,7 @@ def create(path: Path, mission: str) -> None:
         JournalError: It cannot be written.
     """
     heads = {table: start(table) for table in ("tape", "events")}
-    with _said(path):
+    with _as_journal_error(path):
         create_mark(mark_path(path), HighWaterMark(epoch=0, heads=heads))
         with closing(_connect(path)) as db:
             db.execute("BEGIN IMMEDIATE")
@@ -98,23 +98,23 @@ class Journal:
         JournalError: It is in use, damaged, of another mission, or older than its mark or the event log.
     """
 
-    def __init__(self, path: Path, mission: str, log: Path, tell: Callable[[str], None]) -> None:
-        self._path, self._tell = path, tell
-        with _said(path), ExitStack() as stack:
+    def __init__(self, path: Path, mission: str, log: Path, on_event: Callable[[str], None]) -> None:
+        self._path, self._on_event = path, on_event
+        with _as_journal_error(path), ExitStack() as stack:
             stack.enter_context(_locked(path.parent))
             self._db = stack.enter_context(closing(_open(path, mission)))
             opened = _take_over(self._db, path)
             self._recorded, self.before, self._epoch = opened.records, opened.lines, opened.epoch
-            self._heads: dict[str, Head] = opened.heads
-            self._log = stack.enter_context(closing(mended(log, self.before)))
+            self._heads: dict[str, ChainHead] = opened.heads
+            self._log = stack.enter_context(closing(repaired_log(log, self.before)))
             self._mark = stack.enter_context(closing(HighWaterMarkFile(mark_path(path))))
             self._mark.write(HighWaterMark(epoch=self._epoch, heads=self._heads), stored=True)
             self._files = _identity(path)
             self._open = stack.pop_all()
-        self._read = self._said = 0
+        self._read = self._event_count = 0
         self._records: list[tuple[str, str]] = []
         self._events: list[tuple[str, str]] = []
-        self._untold: deque[str] = deque()
+        self._unannounced: deque[str] = deque()
         self._order = 0
         self._failed = False
 
@@ -128,11 +128,13 @@ class Journal:
         self._records.append((record.kind, record.body))
 
     def event(self, line: str) -> None:
-        self._said += 1
-        if self._said > len(self.before):
+        self._event_count += 1
+        if self._event_count > len(self.before):
             self._events.append((datetime.now(UTC).isoformat(timespec="milliseconds"), line))
-        elif line != self.before[self._said - 1]:
-            raise diverged(f"event {self._said} was {self.before[self._said - 1]}, now it would be {line}")
+        elif line != self.before[self._event_count - 1]:
+            raise divergence(
+                f"event {self._event_count} was {self.before[self._event_count - 1]}, now it would be {line}"
+            )
 
     @property
     def has_new_events(self) -> bool:
@@ -142,16 +144,16 @@ class Journal:
         if self._failed:
             # The disk's content after a failed write is unknown until the journal is read again.
             raise JournalError("the journal could not be written before", where=str(self._path), advice=_RESUME)
-        with _said(self._path):
+        with _as_journal_error(self._path):
             # Checked before, so that a resulting stop is not recorded, and after, since the commit counts then.
             self._require_in_place()
             self._write(order)
             self._require_in_place()
             self._mark.write(HighWaterMark(epoch=self._epoch, heads=self._heads))
-        while self._untold:
-            self._log.line(self._untold[0])
-            self._tell(self._untold[0])
-            self._untold.popleft()
+        while self._unannounced:
+            self._log.line(self._unannounced[0])
+            self._on_event(self._unannounced[0])
+            self._unannounced.popleft()
 
     def _write(self, order: int) -> None:
         """Write new rows in one transaction."""
@@ -179,9 +181,9 @@ class Journal:
             raise
         self._settle(heads, order)
 
-    def _settle(self, heads: dict[str, Head], order: int) -> None:
+    def _settle(self, heads: dict[str, ChainHead], order: int) -> None:
         """Mark the pending rows as stored."""
-        self._untold.extend(line for _, line in self._events)
+        self._unannounced.extend(line for _, line in self._events)
         self._heads, self._order, self._records, self._events = heads, order, [], []
 
     def _require_in_place(self) -> None:
@@ -213,7 +215,7 @@ class Journal:
         Raises:
             JournalError: The disk fails.
         """
-        with _said(self._path):
+        with _as_journal_error(self._path):
             self._open.close()
 
     def __enter__(self) -> Journal:
@@ -231,7 +233,7 @@ class _Opened:
 
     records: list[Record]
     lines: tuple[str, ...]
-    heads: dict[str, Head]
+    heads: dict[str, ChainHead]
     epoch: int
 
 
@@ -273,7 +275,7 @@ def _take_over(db: sqlite3.Connection, path: Path) -> _Opened:
 
 def _checked(
     db: sqlite3.Connection, table: str, path: Path, *, after: int = 0, most: int = -1
-) -> tuple[list[tuple[str, str]], list[Head]]:
+) -> tuple[list[tuple[str, str]], list[ChainHead]]:
     """Return verified rows without numbers and checksums, and the heads before and after each.
 
     Args:
@@ -291,7 +293,7 @@ def _checked(
         found = db.execute(f"SELECT sha256 FROM {table} WHERE n = ?", [after]).fetchone()  # noqa: S608
         if found is None:
             return [], [head]
-        head = Head(rows=after, sha256=found[0])
+        head = ChainHead(rows=after, sha256=found[0])
     rows = db.execute(
         f"SELECT n, {_COLUMNS[table]}, sha256 FROM {table} WHERE n > ? ORDER BY n LIMIT ?",  # noqa: S608
         [after, most],
@@ -300,7 +302,7 @@ def _checked(
     return [(one, two) for _, one, two, _ in rows], heads
 
 
-def _require_mark(mark: HighWaterMark, epoch: int, heads: Mapping[str, Sequence[Head]], path: Path) -> None:
+def _require_mark(mark: HighWaterMark, epoch: int, heads: Mapping[str, Sequence[ChainHead]], path: Path) -> None:
     """Reject a journal that has fewer rows than its mark."""
     for table, reached in mark.heads.items():
         there = heads[table]
@@ -328,7 +330,7 @@ def _add_checksums(db: sqlite3.Connection, path: Path) -> None:
     create_mark(mark_path(path), HighWaterMark(epoch=0, heads=heads))
 
 
-def _numbered(head: Head, rows: Sequence[tuple[str, str]]) -> tuple[list[tuple[int, str, str, bytes]], Head]:
+def _numbered(head: ChainHead, rows: Sequence[tuple[str, str]]) -> tuple[list[tuple[int, str, str, bytes]], ChainHead]:
     """Return rows in the form in which they are appended after a head, and the head after them."""
     found = []
     for one, two in rows:
@@ -337,7 +339,7 @@ def _numbered(head: Head, rows: Sequence[tuple[str, str]]) -> tuple[list[tuple[i
     return found, head
 
 
-def _rows(heads: Mapping[str, Head]) -> str:
+def _rows(heads: Mapping[str, ChainHead]) -> str:
     return " ".join(f"{table}={head.rows}" for table, head in sorted(heads.items()))
 
 
@@ -370,7 +372,7 @@ def _inode(path: Path) -> tuple[int, int] | None:
     return found.st_dev, found.st_ino
 
 
-def mended(path: Path, lines: Sequence[str]) -> EventLog:
+def repaired_log(path: Path, lines: Sequence[str]) -> EventLog:
     """Return the event log of a mission, completed to hold exactly these lines.
 
     Raises:
@@ -403,14 +405,14 @@ def mended(path: Path, lines: Sequence[str]) -> EventLog:
     return log
 
 
-def heard(path: Path) -> tuple[int, tuple[tuple[str, str], ...], Record | None, Record | None]:
+def read_summary(path: Path) -> tuple[int, tuple[tuple[str, str], ...], Record | None, Record | None]:
     """Read a journal without taking it over: last command read, (time, line) of its events, last observation, last
     goal.
 
     Raises:
         JournalError: It cannot be read, or an event was changed.
     """
-    with _said(path), closing(_open(path, None)) as db:
+    with _as_journal_error(path), closing(_open(path, None)) as db:
         db.execute("BEGIN")
         about = dict(db.execute("SELECT key, value FROM about"))
         if about.get("format") == str(WITHOUT_CHECKSUMS):
@@ -434,7 +436,7 @@ def lines_after(path: Path, after: int, most: int) -> tuple[tuple[int, str, str]
     Raises:
         JournalError: The journal cannot be read, or an event was changed.
     """
-    with _said(path), closing(_open(path, None)) as db:
+    with _as_journal_error(path), closing(_open(path, None)) as db:
         db.execute("BEGIN")
         about = dict(db.execute("SELECT key, value FROM about"))
         if about.get("format") == str(WITHOUT_CHECKSUMS):
@@ -500,7 +502,7 @@ def _require_about(about: Mapping[str, str], mission: str | None, path: Path) ->
 
 
 @contextmanager
-def _said(path: Path) -> Iterator[None]:
+def _as_journal_error(path: Path) -> Iterator[None]:
     """Convert errors of SQLite and the system to JournalError."""
     try:
         yield

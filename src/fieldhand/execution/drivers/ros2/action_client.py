@@ -16,7 +16,7 @@ import uuid
 from collections.abc import Callable, Mapping
 
 from fieldhand.errors import Ros2Error
-from fieldhand.execution.drivers.ros2.goal_outcome import (
+from fieldhand.execution.drivers.ros2.action_outcome import (
     BUSY,
     BY_STATUS,
     CANCEL_REJECTED,
@@ -25,7 +25,7 @@ from fieldhand.execution.drivers.ros2.goal_outcome import (
     GONE_S,
     SUCCEEDED,
     TWO_S,
-    GoalOutcome,
+    ActionOutcome,
     GoalRecord,
 )
 from fieldhand.execution.drivers.ros2.message_fields import value_at
@@ -80,15 +80,15 @@ class ActionClient:
         )
         self._status = transport.subscribe(f"{name}/_action/status", "action_msgs/msg/GoalStatusArray", STATUS_QOS)
         self._goal: GoalRecord | None = None
-        self._outcome: GoalOutcome | None = None
+        self._outcome: ActionOutcome | None = None
         self._statuses: dict[bytes, int] = {}
-        self._sent: dict[int, bytes] = {}
-        self._asked: dict[int, bytes] = {}
-        self._cancelled: dict[int, tuple[bytes, bool]] = {}
-        self._given_up: dict[bytes, float] = {}
-        self._sweeps: set[int] = set()
+        self._goal_requests: dict[int, bytes] = {}
+        self._result_requests: dict[int, bytes] = {}
+        self._cancel_requests: dict[int, tuple[bytes, bool]] = {}
+        self._abandoned: dict[bytes, float] = {}
+        self._cancel_all_requests: set[int] = set()
         self._stopping: set[bytes] = set()
-        self._sweep_s, self._swept = -math.inf, False
+        self._cancel_all_s, self._all_cancelled = -math.inf, False
 
     # --- requests ------------------------------------------------------------------------------------------------
 
@@ -124,14 +124,14 @@ class ActionClient:
         if self._goal is not None and self._outcome is None and self._goal.stop_s is None:
             self._goal.stop_s, self._goal.why = self._steady(), why
 
-    def step(self) -> GoalOutcome | None:
+    def step(self) -> ActionOutcome | None:
         """Process received messages and send what is due. Return None before the first goal and while a goal runs."""
         now = self._steady()
-        self._hear(now)
+        self._receive(now)
         if self._goal is not None and self._outcome is None:
             self._outcome = self._decide(self._goal, now)
             if self._outcome is not None:
-                self._leave(self._goal, now)
+                self._stop_tracking(self._goal, now)
         return self._outcome
 
     def cancel_everything(self) -> bool:
@@ -141,13 +141,15 @@ class ActionClient:
             True once the request was answered and no goal is active.
         """
         now = self._steady()
-        self._hear(now)
-        if not self._swept and now - self._sweep_s >= CANCEL_AGAIN_S:
-            self._sweep_s = now
-            self._sweeps.add(self._asked_of(self._cancel, {}))
+        self._receive(now)
+        if not self._all_cancelled and now - self._cancel_all_s >= CANCEL_AGAIN_S:
+            self._cancel_all_s = now
+            self._cancel_all_requests.add(self._send_request(self._cancel, {}))
         # Statuses arrive on a topic of their own and may lag behind the cancel response.
         self._stopping -= {goal_id for goal_id, status in self._statuses.items() if status in BY_STATUS}
-        return self._swept and not self._stopping and not any(status in BUSY for status in self._statuses.values())
+        return (
+            self._all_cancelled and not self._stopping and not any(status in BUSY for status in self._statuses.values())
+        )
 
     def close(self) -> None:
         """Close all endpoints without sending anything."""
@@ -162,22 +164,22 @@ class ActionClient:
 
     # --- replies -------------------------------------------------------------------------------------------------
 
-    def _hear(self, now: float) -> None:
+    def _receive(self, now: float) -> None:
         for message in self._feedback.take():
-            self._alive(_id(value_at(message, "goal_id.uuid")), now, message)
+            self._mark_active(_id(value_at(message, "goal_id.uuid")), now, message)
         for message in self._status.take():
-            self._hear_status(message, now)
+            self._receive_status(message, now)
         for number, reply in self._send.replies():
-            self._hear_accepted(self._sent.pop(number, b""), reply, now)
+            self._receive_acceptance(self._goal_requests.pop(number, b""), reply, now)
         for number, reply in self._result.replies():
-            self._hear_result(self._asked.pop(number, b""), reply, now)
+            self._receive_result(self._result_requests.pop(number, b""), reply, now)
         for number, reply in self._cancel.replies():
-            self._hear_cancelled(*self._cancelled.get(number, (b"", False)), reply)
-            self._cancelled[number] = b"", False
-            if number in self._sweeps:
-                self._hear_swept(reply)
+            self._receive_cancel_reply(*self._cancel_requests.get(number, (b"", False)), reply)
+            self._cancel_requests[number] = b"", False
+            if number in self._cancel_all_requests:
+                self._receive_cancel_all_reply(reply)
 
-    def _alive(self, goal_id: bytes, now: float, feedback: Message | None = None) -> None:
+    def _mark_active(self, goal_id: bytes, now: float, feedback: Message | None = None) -> None:
         """Record that the robot is executing a goal."""
         goal = self._goal
         if goal is not None and goal_id == goal.id and self._outcome is None:
@@ -185,11 +187,11 @@ class ActionClient:
             if feedback is not None:
                 inner = feedback.get("feedback")
                 self.feedback = inner if isinstance(inner, Mapping) else {}
-        elif goal_id in self._given_up and now - self._given_up[goal_id] >= CANCEL_AGAIN_S:
-            self._given_up[goal_id] = now
-            self._ask_cancel(goal_id, settled=True)
+        elif goal_id in self._abandoned and now - self._abandoned[goal_id] >= CANCEL_AGAIN_S:
+            self._abandoned[goal_id] = now
+            self._request_cancel(goal_id, settled=True)
 
-    def _hear_status(self, message: Message, now: float) -> None:
+    def _receive_status(self, message: Message, now: float) -> None:
         listed = message.get("status_list")
         self._statuses = {
             _id(value_at(entry, "goal_info.goal_id.uuid")): entry["status"]
@@ -198,20 +200,20 @@ class ActionClient:
         }
         for goal_id, status in self._statuses.items():
             if status in BUSY:
-                self._alive(goal_id, now)
+                self._mark_active(goal_id, now)
             elif status in BY_STATUS:
-                self._given_up.pop(goal_id, None)
+                self._abandoned.pop(goal_id, None)
                 goal = self._goal
                 if goal is not None and goal_id == goal.id and goal.ended is None:
                     goal.accepted, goal.ended, goal.ended_s = True, status, now
 
-    def _hear_accepted(self, goal_id: bytes, reply: Message, now: float) -> None:
+    def _receive_acceptance(self, goal_id: bytes, reply: Message, now: float) -> None:
         if reply.get("accepted"):
-            self._alive(goal_id, now)
+            self._mark_active(goal_id, now)
         elif self._goal is not None and goal_id == self._goal.id and not self._goal.accepted:
             self._goal.rejected = True
 
-    def _hear_result(self, goal_id: bytes, reply: Message, now: float) -> None:
+    def _receive_result(self, goal_id: bytes, reply: Message, now: float) -> None:
         goal, status = self._goal, reply.get("status")
         if goal is None or goal_id != goal.id or not isinstance(status, int):
             return
@@ -222,61 +224,61 @@ class ActionClient:
         else:
             goal.forgotten = True
 
-    def _hear_cancelled(self, goal_id: bytes, settled: bool, reply: Message) -> None:
+    def _receive_cancel_reply(self, goal_id: bytes, settled: bool, reply: Message) -> None:
         goal, code = self._goal, reply.get("return_code")
         if code == CANCEL_TERMINATED:
-            self._given_up.pop(goal_id, None)
+            self._abandoned.pop(goal_id, None)
         if goal is None or goal_id != goal.id:
             return
         goal.refused = code == CANCEL_REJECTED
         # A goal request still in transit was unknown to the server when it answered.
         goal.forgotten = goal.forgotten or code == CANCEL_TERMINATED or (code == CANCEL_UNKNOWN_GOAL and settled)
 
-    def _hear_swept(self, reply: Message) -> None:
+    def _receive_cancel_all_reply(self, reply: Message) -> None:
         """Record the goals that a cancel-all request ends; a rejected request is repeated."""
         listed = reply.get("goals_canceling")
-        self._swept = self._swept or reply.get("return_code") != CANCEL_REJECTED
+        self._all_cancelled = self._all_cancelled or reply.get("return_code") != CANCEL_REJECTED
         for entry in listed if isinstance(listed, tuple) else ():
             self._stopping.add(_id(value_at(entry, "goal_id.uuid")))
 
     # --- decisions -----------------------------------------------------------------------------------------------
 
-    def _decide(self, goal: GoalRecord, now: float) -> GoalOutcome | None:
+    def _decide(self, goal: GoalRecord, now: float) -> ActionOutcome | None:
         if goal.ended is not None:
             return self._end(goal, now)
         if goal.rejected:
             if goal.stop_s is not None:
-                return GoalOutcome(how="cancelled", what=goal.why)
-            return GoalOutcome(how="rejected", what=f"{self.name} rejected the goal")
+                return ActionOutcome(how="cancelled", what=goal.why)
+            return ActionOutcome(how="rejected", what=f"{self.name} rejected the goal")
         if goal.sent_s is None:
-            return self._set_out(goal, now)
+            return self._send_when_ready(goal, now)
         if self._is_gone(goal, now):
-            return GoalOutcome(how="untold", what=f"{self.name} is gone: nothing answers any more", moving=True)
+            return ActionOutcome(how="untold", what=f"{self.name} is gone: nothing answers any more", moving=True)
         if goal.stop_s is None:
-            self._mind_limits(goal, goal.sent_s, now)
+            self._apply_limits(goal, goal.sent_s, now)
         if goal.stop_s is not None:
             return self._stop(goal, goal.sent_s, goal.stop_s, now)
-        self._ask_result(goal, now)
+        self._request_result(goal, now)
         return None
 
-    def _set_out(self, goal: GoalRecord, now: float) -> GoalOutcome | None:
+    def _send_when_ready(self, goal: GoalRecord, now: float) -> ActionOutcome | None:
         """Send the goal once a server is matched; its reply would be lost before."""
         if goal.stop_s is not None:
-            return GoalOutcome(how="cancelled", what=goal.why)
+            return ActionOutcome(how="cancelled", what=goal.why)
         servers = self.servers()
         if servers > 1:
             if now - goal.begun_s <= TWO_S:
                 return None
-            return GoalOutcome(how="rejected", what=f"{servers} servers answer {self.name}: which robot would drive?")
+            return ActionOutcome(how="rejected", what=f"{servers} servers answer {self.name}: which robot is meant?")
         if servers == 1:
             goal.sending()
             try:
-                self._sent[self._send.ask({"goal_id": {"uuid": goal.id}, "goal": goal.message})] = goal.id
+                self._goal_requests[self._send.ask({"goal_id": {"uuid": goal.id}, "goal": goal.message})] = goal.id
             except Ros2Error as error:
-                return GoalOutcome(how="rejected", what=f"a goal of {self.name} does not fit its type: {error}")
+                return ActionOutcome(how="rejected", what=f"a goal of {self.name} does not fit its type: {error}")
             goal.sent_s = goal.heard_s = now
         elif now - goal.begun_s > self._accept_s:
-            return GoalOutcome(how="untold", what=f"nothing answers {self.name}")
+            return ActionOutcome(how="untold", what=f"nothing answers {self.name}")
         return None
 
     def _is_gone(self, goal: GoalRecord, now: float) -> bool:
@@ -286,62 +288,62 @@ class ActionClient:
         goal.absent_s = now if goal.absent_s is None else goal.absent_s
         return now - goal.absent_s >= GONE_S
 
-    def _mind_limits(self, goal: GoalRecord, sent_s: float, now: float) -> None:
+    def _apply_limits(self, goal: GoalRecord, sent_s: float, now: float) -> None:
         """Give up a goal that the server does not seem to be executing."""
         if goal.forgotten:
-            self.cancel(f"{self.name} does not know the goal any more: it was started anew")
+            self.cancel(f"{self.name} no longer knows the goal: it was restarted")
         elif not goal.accepted and now - sent_s > self._accept_s:
-            self.cancel(f"{self.name} did not say within {self._accept_s:g} s whether it takes the goal")
+            self.cancel(f"{self.name} did not accept or reject the goal within {self._accept_s:g} s")
         elif goal.accepted and self._quiet_s is not None and now - goal.heard_s > self._quiet_s:
             self.cancel(f"{self.name} was silent for {self._quiet_s:g} s")
 
-    def _ask_result(self, goal: GoalRecord, now: float) -> None:
+    def _request_result(self, goal: GoalRecord, now: float) -> None:
         """Request the result once the goal is accepted, and again if the request or reply seems lost."""
         asked_s = goal.asked_result_s
         silent = now - goal.heard_s >= RESULT_AGAIN_S or goal.ended is not None
         if goal.accepted and (asked_s is None or (silent and now - asked_s >= RESULT_AGAIN_S)):
             goal.asked_result_s = now
-            self._asked[self._asked_of(self._result, {"goal_id": {"uuid": goal.id}})] = goal.id
+            self._result_requests[self._send_request(self._result, {"goal_id": {"uuid": goal.id}})] = goal.id
 
-    def _ask_cancel(self, goal_id: bytes, *, settled: bool) -> None:
-        number = self._asked_of(self._cancel, {"goal_info": {"goal_id": {"uuid": goal_id}}})
-        self._cancelled[number] = goal_id, settled
+    def _request_cancel(self, goal_id: bytes, *, settled: bool) -> None:
+        number = self._send_request(self._cancel, {"goal_info": {"goal_id": {"uuid": goal_id}}})
+        self._cancel_requests[number] = goal_id, settled
 
     @staticmethod
-    def _asked_of(client: Client, request: Message) -> int:
+    def _send_request(client: Client, request: Message) -> int:
         """Send a request and return its number; a failed send is treated as a lost request and repeated."""
         try:
             return client.ask(request)
         except Ros2Error:
             return _LOST
 
-    def _stop(self, goal: GoalRecord, sent_s: float, stop_s: float, now: float) -> GoalOutcome | None:
+    def _stop(self, goal: GoalRecord, sent_s: float, stop_s: float, now: float) -> ActionOutcome | None:
         """Request cancellation until it is confirmed."""
         if goal.forgotten and goal.asked_cancel_s is not None:
-            return GoalOutcome(how="cancelled", what=goal.why)
+            return ActionOutcome(how="cancelled", what=goal.why)
         if now - stop_s > CANCEL_S:
             said = "refuses to be cancelled" if goal.refused else "does not confirm that it was cancelled"
             begun = f"{goal.why}; then " if goal.why else ""
-            return GoalOutcome(how="untold", what=f"{begun}{self.name} {said}", moving=True)
+            return ActionOutcome(how="untold", what=f"{begun}{self.name} {said}", moving=True)
         if goal.asked_cancel_s is None or now - goal.asked_cancel_s >= CANCEL_AGAIN_S:
             goal.asked_cancel_s = now
-            self._ask_cancel(goal.id, settled=goal.accepted or now - sent_s > self._accept_s)
-        self._ask_result(goal, now)
+            self._request_cancel(goal.id, settled=goal.accepted or now - sent_s > self._accept_s)
+        self._request_result(goal, now)
         return None
 
-    def _end(self, goal: GoalRecord, now: float) -> GoalOutcome | None:
+    def _end(self, goal: GoalRecord, now: float) -> ActionOutcome | None:
         """Return the outcome once the final status is known, waiting a while for the result."""
         assert goal.ended is not None  # noqa: S101  asked for where it is
         wanted = goal.result is None and (goal.stop_s is None or goal.ended == SUCCEEDED)
         if wanted and now - goal.ended_s < 2 * RESULT_AGAIN_S and self.servers() > 0:
-            self._ask_result(goal, now)
+            self._request_result(goal, now)
             return None
-        return GoalOutcome(how=BY_STATUS[goal.ended], result=goal.result or {}, what=goal.why)
+        return ActionOutcome(how=BY_STATUS[goal.ended], result=goal.result or {}, what=goal.why)
 
-    def _leave(self, goal: GoalRecord, now: float) -> None:
+    def _stop_tracking(self, goal: GoalRecord, now: float) -> None:
         """Stop tracking the goal; if the robot may still be executing it, keep its id to cancel it later."""
         if goal.sent_s is not None and goal.ended is None:
-            self._given_up[goal.id] = now - CANCEL_AGAIN_S
+            self._abandoned[goal.id] = now - CANCEL_AGAIN_S
 
 
 def _id(value: object) -> bytes:

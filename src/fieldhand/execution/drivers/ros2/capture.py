@@ -17,7 +17,7 @@ from dataclasses import dataclass, field
 from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.protocol import ActionGoal
 from fieldhand.execution.drivers.ros2.action_client import ActionClient
-from fieldhand.execution.drivers.ros2.goal_outcome import GoalEnd, GoalOutcome
+from fieldhand.execution.drivers.ros2.action_outcome import ActionOutcome, GoalEnd
 from fieldhand.execution.drivers.ros2.message_fields import message_of, number_at, value_at
 from fieldhand.execution.drivers.ros2.service_call import TimeLimit, call_service
 from fieldhand.execution.drivers.ros2.transport import Client, Message, QosProfile, Subscription, Transport
@@ -167,17 +167,17 @@ class RunningCapture:
         if bound is None:
             return _failed(f"the profile does not say how {self._goal.action} is done over ROS 2")
         ending = GoalEnd(state="succeeded")
-        call, heard = bound.binding.call, _LatestMessages(bound.topics)
-        heard.forget()
+        call, latest = bound.binding.call, _LatestMessages(bound.topics)
+        latest.forget()
         if call is not None:
             request = message_of({path: self._value(value) for path, value in call.request.items()})
             if bound.action is not None:
-                ending = yield from self._act(bound.action, call, request, heard)
+                ending = yield from self._call_action(bound.action, call, request, latest)
             elif bound.service is not None:
-                ending = yield from self._serve(bound.service, call, request, heard)
+                ending = yield from self._call_service(bound.service, call, request, latest)
         if ending.state != "succeeded" or not bound.topics:
             return ending
-        return (yield from self._listen(bound, heard, dict(ending.readings)))
+        return (yield from self._wait_for_topics(bound, latest, dict(ending.readings)))
 
     def _value(self, value: RequestValue) -> RequestValue:
         """Return a constant, a parameter, or a property of the capture's place."""
@@ -193,65 +193,65 @@ class RunningCapture:
         }
         name = value.removeprefix("$")
         if name not in known:
-            raise Ros2Error(f"{self._goal.action} has no parameter {name!r}, which its request is to hold")
+            raise Ros2Error(f"{self._goal.action} has no parameter {name!r}, which its request needs")
         return known[name]
 
     def _limit(self, seconds: float) -> TimeLimit:
         return TimeLimit(seconds, self._captures.clock, self._captures.steady)
 
-    def _act(self, client: ActionClient, call: CallBinding, request: Message, heard: _LatestMessages) -> Steps:
+    def _call_action(self, client: ActionClient, call: CallBinding, request: Message, latest: _LatestMessages) -> Steps:
         limit = self._limit(call.within_s)
-        client.start(request, sending=heard.forget)
+        client.start(request, sending=latest.forget)
         while (outcome := client.step()) is None:
             if self._cancelled:
                 client.cancel()
             elif limit.over:
                 client.cancel(f"{client.name} is not done after {limit.seconds:g} s")
             yield
-            heard.listen()
+            latest.listen()
         return self._ending_of(outcome, call, client.name)
 
-    def _ending_of(self, outcome: GoalOutcome, call: CallBinding, name: str) -> GoalEnd:
+    def _ending_of(self, outcome: ActionOutcome, call: CallBinding, name: str) -> GoalEnd:
         if outcome.how == "succeeded":
             return capture_end(outcome.result, call, name)
         if outcome.moving:
-            return _failed(f"{outcome.what}; see whether it runs on the robot, and what the robot does")
+            return _failed(f"{outcome.what}; check whether it runs on the robot, and what the robot does")
         if self._cancelled:
             return GoalEnd(state="cancelled")
         if outcome.how == "aborted":
-            return _failed(f"{name} failed{_told(outcome.result, call)}")
-        return _failed(outcome.what or f"somebody else cancelled {name}")
+            return _failed(f"{name} failed{_failure_message(outcome.result, call)}")
+        return _failed(outcome.what or f"another client cancelled {name}")
 
-    def _serve(self, client: Client, call: CallBinding, request: Message, heard: _LatestMessages) -> Steps:
+    def _call_service(self, client: Client, call: CallBinding, request: Message, latest: _LatestMessages) -> Steps:
         name, limit = self._captures.whole_name(call.name), self._limit(call.within_s)
-        asking = call_service(client, name, [request], limit, self._captures.steady, sending=heard.forget)
+        asking = call_service(client, name, [request], limit, self._captures.steady, sending=latest.forget)
         while not self._cancelled:
             try:
                 next(asking)
             except StopIteration as answered:
                 return capture_end(answered.value[0], call, name)
             yield
-            heard.listen()
+            latest.listen()
         return GoalEnd(state="cancelled")
 
-    def _listen(self, bound: BoundAction, heard: _LatestMessages, readings: Readings) -> Steps:
+    def _wait_for_topics(self, bound: BoundAction, latest: _LatestMessages, readings: Readings) -> Steps:
         """Wait for the next message of each topic; after the time limit, use the last one since the call was sent."""
-        heard.listen()
-        before = dict(heard.last)
-        heard.forget()
+        latest.listen()
+        before = dict(latest.last)
+        latest.forget()
         wanted: dict[str, tuple[NextMessage, TimeLimit]] = {
             quantity: (message, self._limit(message.within_s)) for quantity, message in bound.binding.topics.items()
         }
         while not self._cancelled:
-            heard.listen()
+            latest.listen()
             for quantity, (message, limit) in list(wanted.items()):
-                came = heard.last.get(quantity, before.get(quantity) if limit.over else None)
+                came = latest.last.get(quantity, before.get(quantity) if limit.over else None)
                 if came is not None:
                     del wanted[quantity]
                     readings |= _reading(quantity, number_at(came, message.value))
                 elif limit.over:
                     name = bound.topics[quantity][0]
-                    return _failed(f"nothing came on {name} within {limit.seconds:g} s, so there is no {quantity}")
+                    return _failed(f"no message on {name} within {limit.seconds:g} s, so there is no {quantity}")
             if not wanted:
                 return GoalEnd(state="succeeded", readings=readings)
             yield
@@ -261,7 +261,7 @@ class RunningCapture:
 def capture_end(result: Message, call: CallBinding, name: str) -> GoalEnd:
     """Return the end of a capture from the reply of its call: its readings, or a failure that the reply reports."""
     if call.success and not value_at(result, call.success):
-        return _failed(f"{name} did not succeed{_told(result, call)}")
+        return _failed(f"{name} did not succeed{_failure_message(result, call)}")
     pairs = ((quantity, number_at(result, binding)) for quantity, binding in call.readings.items())
     readings = dict(itertools.chain.from_iterable(_reading(*pair).items() for pair in pairs))
     return GoalEnd(state="succeeded", readings=readings)
@@ -271,7 +271,7 @@ def _reading(quantity: str, value: float | None) -> Readings:
     return {} if value is None else {quantity: value}
 
 
-def _told(result: Message, call: CallBinding) -> str:
+def _failure_message(result: Message, call: CallBinding) -> str:
     """Return the failure message of a reply, with a leading colon; empty if it has none."""
     words = value_at(result, call.message) if call.message else None
     return f": {words.strip()}" if isinstance(words, str) and words.strip() else ""

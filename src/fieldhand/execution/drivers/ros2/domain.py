@@ -25,6 +25,6 @@ def domain_of(given: int | None, environ: Mapping[str, str] = os.environ) -> int
     if not text.isascii() or not text.isdigit() or int(text) > MOST_DOMAIN:
         where = "" if given is not None else "ROS_DOMAIN_ID"
         raise InputError(
-            f"{text[:40]!r} is no DDS domain", where=where, advice=f"give a number from 0 to {MOST_DOMAIN}"
+            f"{text[:40]!r} is not a DDS domain", where=where, advice=f"give a number from 0 to {MOST_DOMAIN}"
         )
     return int(text)

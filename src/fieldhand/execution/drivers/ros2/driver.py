@@ -20,8 +20,8 @@ from typing import Self
 from fieldhand.clock import Clock
 from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Position, Progress
+from fieldhand.execution.drivers.ros2.action_outcome import GoalEnd
 from fieldhand.execution.drivers.ros2.capture import CaptureClient, RunningCapture
-from fieldhand.execution.drivers.ros2.goal_outcome import GoalEnd
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.navigation import NavigationClient, RunningDrive
 from fieldhand.execution.drivers.ros2.startup import Startup
@@ -83,7 +83,7 @@ class Ros2Driver:
             transport,
             bindings,
             speed_m_s=robot.speed_m_s,
-            position=self._where,
+            position=self._last_position,
             stamp_s=lambda: self._telemetry.stamp_s,
             clock=clock.now,
             steady=steady,
@@ -91,10 +91,10 @@ class Ros2Driver:
         )
         self._captures = CaptureClient(transport, bindings, clock=clock.now, steady=steady, new_id=new_id, only=actions)
         self._task: RunningDrive | RunningCapture | None = None
-        self._cut: GoalEnd | None = None
+        self._refused: GoalEnd | None = None
         self._lost: tuple[float, str] | None = None
         self._ended: GoalEnd | None = None
-        self._counting: tuple[int, float] | None = None
+        self._count_from: tuple[int, float] | None = None
         self._begun_s, self._begun_m = 0.0, 0.0
         self._result = Progress(state="idle")
 
@@ -164,11 +164,11 @@ class Ros2Driver:
         self._begin(lambda: RunningCapture(self._captures, goal))
 
     def poll(self) -> Progress:
-        self._attend()
+        self._receive()
         if self._task is None:
             return self._result
-        if self._cut is None and (cut := self._why_not()) is not None:
-            self._cut = cut
+        if self._refused is None and (cut := self._refusal()) is not None:
+            self._refused = cut
             self._task.cancel()
         ending = self._ended or self._task.step()
         if ending is None:
@@ -187,7 +187,7 @@ class Ros2Driver:
 
     def position(self) -> Position:
         self._telemetry.listen()
-        position = self._where()
+        position = self._last_position()
         assert position is not None  # noqa: S101  connected only where it is known
         return position
 
@@ -200,7 +200,7 @@ class Ros2Driver:
         return self._is_lost()
 
     def stopped(self) -> str | None:
-        self._attend()
+        self._receive()
         return self._telemetry.stopped()
 
     def leave(self, sleep: Callable[[float], None] = time.sleep) -> None:
@@ -212,7 +212,7 @@ class Ros2Driver:
         clients = (self._navigation.client, *self._captures.actions)
         until = self._steady() + LEAVE_S
         for client in clients:
-            client.cancel("nobody looks any more")
+            client.cancel("the driver was closed")
         while any(client.busy for client in clients) and self._steady() < until:
             for client in clients:
                 client.step()
@@ -230,19 +230,19 @@ class Ros2Driver:
         if not self.poll().over:
             raise RuntimeError("a goal is running: a driver has one at a time")
         self._begun_s, self._begun_m = self._clock.now(), self._telemetry.metres
-        if (refused := self._why_not()) is not None:
+        if (refused := self._refusal()) is not None:
             self._result = self._progress(refused)
             return
-        self._cut, self._task, self._ended, self._counting = None, task(), None, None
+        self._refused, self._task, self._ended, self._count_from = None, task(), None, None
         self.poll()  # sends the goal at once
 
-    def _attend(self) -> None:
+    def _receive(self) -> None:
         """Process received messages. An abandoned goal that turns out to be running is cancelled here."""
         self._telemetry.listen()
         for client in (self._navigation.client, *self._captures.actions):
             client.step()
 
-    def _why_not(self) -> GoalEnd | None:
+    def _refusal(self) -> GoalEnd | None:
         """Return why no goal can run now, as the end of such a goal; None if one can."""
         if (why := self._telemetry.stopped()) is not None:
             return GoalEnd(state="cancelled", what=why)
@@ -254,14 +254,14 @@ class Ros2Driver:
 
     def _is_counted(self) -> bool:
         """Return True once the last metres of a finished drive were counted: odometry arrives a moment late."""
-        heard, now = self._telemetry.metres_heard, self._steady()
-        if self._counting is None:
-            self._counting = heard, now
-        before, since = self._counting
-        return heard - before >= LAST_METRES or now - since >= LAST_METRES_S
+        received, now = self._telemetry.odometry_count, self._steady()
+        if self._count_from is None:
+            self._count_from = received, now
+        before, since = self._count_from
+        return received - before >= LAST_METRES or now - since >= LAST_METRES_S
 
     def _finish(self, ending: GoalEnd) -> Progress:
-        cut = self._cut
+        cut = self._refused
         # A lost robot makes no capture and has not arrived; otherwise a goal that succeeded stays succeeded.
         if cut is not None and (cut.fault == "lost" or ending.state != "succeeded"):
             more = f"; {ending.what}" if ending.state == "failed" and ending.what else ""
@@ -272,7 +272,7 @@ class Ros2Driver:
             ending = dataclasses.replace(ending, fault="empty", what=f"the battery is empty; {ending.what}")
         if ending.state == "cancelled" and not ending.what:
             ending = dataclasses.replace(ending, what="cancelled")
-        self._task, self._cut = None, None
+        self._task, self._refused = None, None
         self._result = self._progress(ending)
         return self._result
 
@@ -288,7 +288,7 @@ class Ros2Driver:
 
     # --- robot state ---------------------------------------------------------------------------------------------
 
-    def _where(self) -> Position | None:
+    def _last_position(self) -> Position | None:
         return self._telemetry.position
 
     def _is_lost(self) -> str | None:
@@ -300,7 +300,7 @@ class Ros2Driver:
 
     def _far_from(self, site: Site) -> str | None:
         """Return why the robot cannot be on the site; None if it can, or if its position is unknown."""
-        position = self._where()
+        position = self._last_position()
         if position is None:
             return None
         away = math.dist((position.x, position.y), site.start.xy)

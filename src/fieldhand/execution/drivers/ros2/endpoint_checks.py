@@ -108,11 +108,11 @@ class TopicCheck:
                 return EndpointReport(binding=self.binding, usable=False, what=error.what, advice=error.advice, rmw=rmw)
         why = topic_problem(self.transport, self.interfaces, self.binding.name, self.binding.type, self.qos)
         if why is None and self.rare and self._subscription.publishers() > 0:
-            return EndpointReport(binding=self.binding, usable=True, what="there; nothing was said so far", rmw=rmw)
+            return EndpointReport(binding=self.binding, usable=True, what="there; no message so far", rmw=rmw)
         if why is None:
             # DDS drops a message whose bytes do not fit its type, without an error.
-            advice = "see whether the robot sends any; if it does, set its distro, or its definition in the profile"
-            why = EndpointProblem(what="it is there, and no message came", advice=advice)
+            advice = "check whether the robot sends any; if it does, set its distro, or its definition in the profile"
+            why = EndpointProblem(what="it is there, but sent no message", advice=advice)
         return EndpointReport(binding=self.binding, usable=False, what=why.what, advice=why.advice, rmw=rmw)
 
 
@@ -131,12 +131,12 @@ class ServiceCheck:
 
     def __post_init__(self) -> None:
         self._client = self.transport.client(self.binding.name, self.binding.type)
-        self._asked = self._answered = False
+        self._sent = self._answered = False
 
     def look(self) -> bool:
         there = self._client.servers() > 0
-        if there and self.question is not None and not self._asked and (question := self.question()) is not None:
-            self._asked = True
+        if there and self.question is not None and not self._sent and (question := self.question()) is not None:
+            self._sent = True
             self._client.ask(question)
         self._answered = self._answered or bool(self._client.replies())
         return there and (self.question is None or self._answered)
@@ -144,8 +144,8 @@ class ServiceCheck:
     def report(self) -> EndpointReport:
         rmw = _rmw_of(self.transport.servers_of(self.binding.name))
         why = service_problem(self.transport, self.interfaces, self.binding.name, self.binding.type)
-        if why is None and self._asked and not self._answered:
-            why = EndpointProblem(what="it is there, and does not answer", advice="see whether its node is active")
+        if why is None and self._sent and not self._answered:
+            why = EndpointProblem(what="it is there, but does not answer", advice="check whether its node is active")
         there = "answers" if self._answered else "there"
         return _of_call(self.binding, why, self._client.servers() > 0, there, rmw)
 
@@ -195,8 +195,8 @@ class SubscriberCheck:
     def report(self) -> EndpointReport:
         if self.look():
             return EndpointReport(binding=self.binding, usable=True, what="heard")
-        advice = "see whether its node is active, and hears it under this name and type"
-        return EndpointReport(binding=self.binding, usable=False, what="nobody hears it", advice=advice)
+        advice = "check whether its node is active, and hears it under this name and type"
+        return EndpointReport(binding=self.binding, usable=False, what="there is no subscriber", advice=advice)
 
 
 def _of_call(
@@ -204,8 +204,8 @@ def _of_call(
 ) -> EndpointReport:
     if why is None and not matched:
         why = EndpointProblem(
-            what="it is seen, and the way to it and back is not open",
-            advice="see whether a firewall or the network between lets only one direction through",
+            what="it was discovered, but is not matched in both directions",
+            advice="check that no firewall or network blocks one direction",
         )
     if why is not None:
         return EndpointReport(binding=binding, usable=False, what=why.what, advice=why.advice, rmw=rmw)

@@ -56,7 +56,7 @@ def topic_problem(
     """
     peers = transport.writers_of(topic)
     if not peers:
-        return _nobody("sends it")
+        return _absent("publisher")
     typed = [p for p in peers if p.type == type_name]
     if not typed:
         return _other_type("sent", peers, type_name)
@@ -71,15 +71,15 @@ def service_problem(
     """Return why a service does not answer."""
     peers = transport.servers_of(service)
     if not peers:
-        return _nobody("answers it")
+        return _absent("server")
     typed = [p for p in peers if p.type == type_name]
     if not typed:
         return _other_type("answered", peers, type_name)
     deaf = next((p for p in typed if not services_interoperate(transport.rmw, p.rmw)), None)
     if deaf is not None and transport.name == "rclpy":
         return EndpointProblem(
-            what=f"the robot runs {rmw_package(deaf.rmw)} and this side {rmw_package(transport.rmw)}: no service goes "
-            "between them",
+            what=f"the robot runs {rmw_package(deaf.rmw)} and this side {rmw_package(transport.rmw)}: services do not "
+            "work between them",
             advice="set the robot's RMW_IMPLEMENTATION here, too",
         )
     if deaf is not None:
@@ -89,7 +89,7 @@ def service_problem(
         )
     if len(typed) > 1:
         return EndpointProblem(
-            what=f"{len(typed)} servers answer it: which robot would hear?",
+            what=f"{len(typed)} servers answer it: which robot is meant?",
             advice="if these are two robots, give each a namespace or a ROS_DOMAIN_ID of its own",
         )
     wrong = _other_definition([p.type_hash for p in typed], interfaces.type_hash(f"{type_name}_Request"), type_name)
@@ -118,9 +118,9 @@ def action_problem(transport: Transport, interfaces: Interfaces, action: str, ty
     return None
 
 
-def _nobody(does: str) -> EndpointProblem:
+def _absent(endpoint: str) -> EndpointProblem:
     return EndpointProblem(
-        what=f"nobody {does}",
+        what=f"there is no {endpoint}",
         advice="start it; if it runs, compare its name, namespace and ROS_DOMAIN_ID with these",
     )
 
@@ -137,12 +137,12 @@ def _less(offered: QosProfile, wanted: QosProfile) -> EndpointProblem | None:
     """Return the quality of service that a writer fails to offer."""
     if wanted.reliable and not offered.reliable:
         return EndpointProblem(
-            what="it is sent best effort and read reliably, which never meets",
+            what="it is sent best effort and read reliably, which never match",
             advice="leave reliable out in the profile's ros2 part",
         )
     if wanted.transient and not offered.transient:
         return EndpointProblem(
-            what="it is sent volatile and read transient local, which never meets",
+            what="it is sent volatile and read transient local, which never match",
             advice="leave transient out in the profile's ros2 part",
         )
     return None

@@ -64,15 +64,15 @@ def query_map_points(
     for reply in replies:
         x, y = number_at(reply, _X), number_at(reply, _Y)
         if x is None or y is None:
-            raise Ros2Error(f"{name} gave no point", advice="see whether navsat_transform knows the robot's datum")
+            raise Ros2Error(f"{name} gave no point", advice="check whether navsat_transform knows the robot's datum")
         points.append((x, y))
     legs = zip(itertools.pairwise(points), itertools.pairwise(goal.path_m), strict=True)
     for (a, b), (here, there) in legs:
         long_m, wanted_m = math.dist(a, b), math.dist(here, there)
         if abs(long_m - wanted_m) > _SCALE * wanted_m + _SLACK_M:
             raise Ros2Error(
-                f"{name} makes {long_m:.1f} m of a leg of {wanted_m:.1f} m: its points are not those of the way",
-                advice="see whether navsat_transform knows the robot's datum",
+                f"{name} returns {long_m:.1f} m for a leg of {wanted_m:.1f} m: its points do not fit the path",
+                advice="check whether navsat_transform knows the robot's datum",
             )
     return tuple(points)
 

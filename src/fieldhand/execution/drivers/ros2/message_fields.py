@@ -32,7 +32,7 @@ def steps_of(path: str) -> tuple[Step, ...]:
         match = _STEP.fullmatch(part)
         if match is None:
             raise Ros2Error(
-                f"{path!r} is no path into a message",
+                f"{path!r} is not a path into a message",
                 advice="write names with dots between, such as pose.position.x or cells[0].value",
             )
         steps.append(match[1])
@@ -83,9 +83,9 @@ def message_of(values: Mapping[str, object]) -> Message:
         for step in steps[:-1]:
             here = here.setdefault(step, {})
             if not isinstance(here, dict):
-                raise Ros2Error(f"{path!r} stands beside a path that it is part of")
+                raise Ros2Error(f"{path!r} conflicts with a path that contains it")
         if steps[-1] in here:
-            raise Ros2Error(f"{path!r} stands beside a path that it is part of")
+            raise Ros2Error(f"{path!r} conflicts with a path that contains it")
         here[steps[-1]] = value
     return {str(name): _whole(value, str(name)) for name, value in root.items()}
 
@@ -98,5 +98,5 @@ def _whole(node: object, path: str) -> object:
     if not positions:
         return {name: _whole(value, f"{path}.{name}") for name, value in node.items()}
     if len(positions) != len(node) or positions != list(range(len(positions))):
-        raise Ros2Error(f"the elements of {path!r} are not named one after the other from [0] on")
+        raise Ros2Error(f"the elements of {path!r} are not numbered consecutively from [0]")
     return tuple(_whole(node[p], f"{path}[{p}]") for p in positions)

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.protocol import DriveGoal, Position
 from fieldhand.execution.drivers.ros2.action_client import ActionClient
-from fieldhand.execution.drivers.ros2.goal_outcome import GoalEnd, GoalOutcome
+from fieldhand.execution.drivers.ros2.action_outcome import ActionOutcome, GoalEnd
 from fieldhand.execution.drivers.ros2.map_frame import (
     Point,
     degrees_to_map,
@@ -130,15 +130,15 @@ class NavigationClient:
         elif binding.datum is not None:
             points = degrees_to_map(binding.datum, goal.path_degrees)
         else:
-            raise Ros2Error("neither datum nor from_ll says where the map lies", advice="name one in the profile")
+            raise Ros2Error("neither datum nor from_ll defines where the map lies", advice="name one in the profile")
         placed = site_to_map(goal.path_m, points)
         poses = [pose(binding.frame, points[i], points[j]) for i, j in _legs(goal.path_m)]
         if binding.type == "nav2_msgs/action/NavigateThroughPoses":
             # Kilted uses nav_msgs/Goals: a header, then the poses.
             header: Message = {"frame_id": binding.frame}
             listed = {"header": header, "goals": tuple(poses)} if self.distro == "kilted" else tuple(poses)
-            whole: Message = {"poses": listed, "behavior_tree": binding.behavior_tree}
-            return NavigationGoals(goals=[(whole, goal.path_m[-1])], site_to_map=placed)
+            goal_message: Message = {"poses": listed, "behavior_tree": binding.behavior_tree}
+            return NavigationGoals(goals=[(goal_message, goal.path_m[-1])], site_to_map=placed)
         ends = [goal.path_m[j] for _, j in _legs(goal.path_m)]
         each: list[Message] = [{"pose": p, "behavior_tree": binding.behavior_tree} for p in poses]
         return NavigationGoals(goals=list(zip(each, ends, strict=True)), site_to_map=placed)
@@ -151,11 +151,11 @@ class NavigationClient:
         """
         if self.speed is not None:
             if self.speed.subscribers() == 0:
-                raise Ros2Error(f"nobody hears {self.speed_name}", advice="see whether Nav2's controller is active")
+                raise Ros2Error(f"nobody hears {self.speed_name}", advice="check whether Nav2's controller is active")
             self.speed.send({"percentage": False, "speed_limit": speed_m_s})
         elif speed_m_s < self.speed_m_s:
             raise Ros2Error(
-                f"the drive is to be no faster than {speed_m_s:g} m/s, and the robot cannot be told",
+                f"the drive is limited to {speed_m_s:g} m/s, but the robot accepts no speed limit",
                 advice="name navigation.speed_limit in the profile",
             )
 
@@ -224,7 +224,7 @@ class RunningDrive:
                 client.cancel()
             elif self._limit.over:
                 client.cancel(f"the drive is not over after {self._limit.seconds:.0f} s")
-            elif (why := self._elsewhere(plan)) is not None:
+            elif (why := self._wrong_place(plan)) is not None:
                 client.cancel(why)
             yield
         ending = end_of(outcome, self._navigation.binding, cancelled=self._cancelled)
@@ -232,7 +232,7 @@ class RunningDrive:
             ending = yield from self._arrive(there)
         return ending
 
-    def _elsewhere(self, plan: NavigationGoals) -> str | None:
+    def _wrong_place(self, plan: NavigationGoals) -> str | None:
         """Return why the robot's map position contradicts its fix: it would drive to the wrong place; None if they
         agree.
         """
@@ -251,8 +251,8 @@ class RunningDrive:
         if away <= ELSEWHERE_M + navigation.binding.tolerance_m + self._driven_between_m(feedback):
             return None
         return (
-            f"by its fix the robot stands {away:.0f} m from where {navigation.client.name} takes it to be;"
-            " see whether datum, its heading and frame are those of its map"
+            f"the robot's fix is {away:.0f} m from its position in {navigation.client.name};"
+            " check whether datum, its heading and frame are those of its map"
         )
 
     def _driven_between_m(self, feedback: Message) -> float:
@@ -267,7 +267,7 @@ class RunningDrive:
         """Wait until the robot's own position is within tolerance of the target."""
         navigation = self._navigation
         tolerance, until = navigation.binding.tolerance_m, navigation.steady() + SETTLE_S
-        while (away := _away(navigation.position(), there)) > tolerance:
+        while (away := _distance_m(navigation.position(), there)) > tolerance:
             if self._cancelled:
                 return GoalEnd(state="cancelled")
             if navigation.steady() >= until:
@@ -275,13 +275,13 @@ class RunningDrive:
                     state="failed",
                     fault="failed",
                     what=f"{navigation.client.name} says that it has arrived, but the robot stands {away:.1f} m away,"
-                    f" at most {tolerance:g} m are allowed; see whether datum and frame are those of its map",
+                    f" at most {tolerance:g} m are allowed; check whether datum and frame are those of its map",
                 )
             yield
         return GoalEnd(state="succeeded")
 
 
-def end_of(outcome: GoalOutcome, binding: NavigationBinding, *, cancelled: bool) -> GoalEnd:
+def end_of(outcome: ActionOutcome, binding: NavigationBinding, *, cancelled: bool) -> GoalEnd:
     """Return the end of a drive from the outcome of a Nav2 goal.
 
     Args:
@@ -291,23 +291,23 @@ def end_of(outcome: GoalOutcome, binding: NavigationBinding, *, cancelled: bool)
     if outcome.how == "succeeded" and not (isinstance(missed, Sequence) and missed):
         return GoalEnd(state="succeeded")
     if outcome.moving:
-        advice = "see whether Nav2 runs on the robot; if it drives still, use its emergency stop"
+        advice = "check whether Nav2 runs on the robot; if it drives still, use its emergency stop"
         return GoalEnd(state="failed", fault="failed", what=f"{outcome.what}; {advice}")
     if cancelled and outcome.how != "succeeded":
         return GoalEnd(state="cancelled")
     if outcome.how in ("succeeded", "aborted"):
         return _failed(outcome.result, binding)
-    what = outcome.what or "somebody else cancelled the drive"
-    advice = "; see whether Nav2 is active on the robot" if outcome.how in ("rejected", "untold") else ""
+    what = outcome.what or "another client cancelled the drive"
+    advice = "; check whether Nav2 is active on the robot" if outcome.how in ("rejected", "untold") else ""
     return GoalEnd(state="failed", fault="failed", what=f"{what}{advice}")
 
 
 def _failed(result: Message, binding: NavigationBinding) -> GoalEnd:
     """Return a failure described by the error code of Nav2, if it has one."""
-    code, words = _code(result), _words(result)
+    code, words = _code(result), _message_of_nav2(result)
     fault: NavigationFault
     if code == 0 or (code == MISSED_WAYPOINT and code not in binding.codes):
-        meaning, fault = "navigation failed without saying why", binding.without_code
+        meaning, fault = "navigation failed without an error code", binding.without_code
         meaning = "navigation missed a waypoint" if result.get("missed_waypoints") else meaning
     else:
         meaning, fault = CODES.get(code, ("navigation failed", "failed"))
@@ -326,9 +326,9 @@ def _code(result: Message) -> int:
     return code if isinstance(code, int) else 0
 
 
-def _words(result: Message) -> str:
-    said = result.get("error_msg")
-    return said.strip() if isinstance(said, str) else ""
+def _message_of_nav2(result: Message) -> str:
+    text = result.get("error_msg")
+    return text.strip() if isinstance(text, str) else ""
 
 
 def _legs(path: Sequence[Point]) -> list[tuple[int, int]]:
@@ -347,5 +347,5 @@ def _by_degrees(goal: DriveGoal) -> Message:
     return {"number_of_loops": 0, "goal_index": 0, "gps_poses": tuple(poses)}
 
 
-def _away(position: Position | None, there: Point) -> float:
+def _distance_m(position: Position | None, there: Point) -> float:
     return math.inf if position is None else math.dist((position.x, position.y), there)

@@ -48,9 +48,11 @@ def battery(binding: BatteryBinding) -> MessageCheck:
     def check_message(message: Message) -> str:
         charge = _number(message, binding.value)
         if not 0.0 <= charge <= MOST_PERCENT:
-            raise ImplausibleMessage(f"{charge:g} % is no charge", "correct the unit, scale or path of the battery")
+            raise ImplausibleMessage(
+                f"{charge:g} % is not a valid charge", "correct unit, scale or path of the battery"
+            )
         if 0.0 < charge <= 1.0 and binding.value.scale == 1.0:
-            raise ImplausibleMessage(f"{charge:g} % is nearly nothing", "if this is a part of 1, set its scale to 100")
+            raise ImplausibleMessage(f"{charge:g} % is nearly empty", "if this is a part of 1, set its scale to 100")
         return f"{charge:.0f} %"
 
     return check_message
@@ -104,6 +106,6 @@ def _number(message: Message, binding: FieldBinding) -> float:
     if number is None or not math.isfinite(number):
         raise ImplausibleMessage(
             f"{binding.path} is {value_at(message, binding.path)!r}, no number",
-            "see whether the robot measures it, or take another field",
+            "check whether the robot measures it, or take another field",
         )
     return number

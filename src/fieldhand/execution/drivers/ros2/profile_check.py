@@ -154,7 +154,7 @@ class _Bindings:
         if bound.from_ll and bound.type != "nav2_msgs/action/FollowGPSWaypoints":
             yield self._call("navigation: from_ll", "service", bound.from_ll, FROM_LL, question=self._here)
         if bound.speed_limit:
-            yield self._told("navigation: speed_limit", bound.speed_limit, SPEED_LIMIT)
+            yield self._subscribed_topic("navigation: speed_limit", bound.speed_limit, SPEED_LIMIT)
         yield self._position(ros2)
         charge = ros2.battery.value
         yield self._topic("battery", ros2.battery.topic, plausibility.battery(ros2.battery), [(charge.path, _NUMBERS)])
@@ -170,12 +170,17 @@ class _Bindings:
             if action.call is not None:
                 wrong = tuple(self._wrong_call(action.call, self._profile.action[name]))
                 yield self._call(part, action.call.kind, action.call.name, action.call.type, wrong)
-            for quantity, heard in action.topics.items():
+            for quantity, bound_topic in action.topics.items():
                 yield self._topic(
                     f"{part}: {quantity}",
-                    TopicBinding(topic=heard.topic, type=heard.type, stale_s=heard.within_s, reliable=heard.reliable),
-                    plausibility.reading(heard.value, self._profile.quantity[quantity]),
-                    [(heard.value.path, _NUMBERS)],
+                    TopicBinding(
+                        topic=bound_topic.topic,
+                        type=bound_topic.type,
+                        stale_s=bound_topic.within_s,
+                        reliable=bound_topic.reliable,
+                    ),
+                    plausibility.reading(bound_topic.value, self._profile.quantity[quantity]),
+                    [(bound_topic.value.path, _NUMBERS)],
                     rare=action.call is not None,
                 )
 
@@ -222,7 +227,7 @@ class _Bindings:
             make=lambda transport: TopicCheck(binding, transport, self._interfaces, qos, check_message, rare=rare),
         )
 
-    def _told(self, part: str, topic: str, type_name: str) -> _Bound:
+    def _subscribed_topic(self, part: str, topic: str, type_name: str) -> _Bound:
         """Return a topic that the robot subscribes to."""
         binding = EndpointBinding(part=part, kind="topic", name=self._ros2.whole_name(topic), type=type_name)
         wrong = tuple(self._wrong(type_name, type_name, ()))
@@ -250,7 +255,7 @@ class _Bindings:
 
     def _wrong_call(self, call: CallBinding, action: Action) -> Iterator[str]:
         """Yield the mismatches between a call and its type."""
-        asked, told = ("Goal", "Result") if call.kind == "action" else ("Request", "Response")
+        asked, answered = ("Goal", "Result") if call.kind == "action" else ("Request", "Response")
         try:
             values = message_of({path: _example(value, action) for path, value in call.request.items()})
             self._interfaces.complete(f"{call.type}_{asked}", values)
@@ -258,7 +263,7 @@ class _Bindings:
             yield str(error)
         paths = [(binding.path, _NUMBERS) for binding in call.readings.values()]
         paths += [(path, kinds) for path, kinds in ((call.success, ("bool",)), (call.message, ("string",))) if path]
-        yield from self._wrong(call.type, f"{call.type}_{told}", paths)
+        yield from self._wrong(call.type, f"{call.type}_{answered}", paths)
 
     def _wrong(self, type_name: str, message: str, paths: _Paths) -> Iterator[str]:
         """Yield an unknown type, or the paths that do not lead to a value of an allowed type."""

@@ -74,7 +74,7 @@ def connected_robot(
     transport, interfaces = open_node(by, bindings)
     driver: Ros2Driver | None = None
     try:
-        clock: Clock = RosClock.heard(transport, within_s) if bindings.use_sim_time else ScaledClock()
+        clock: Clock = RosClock.wait_for_first(transport, within_s) if bindings.use_sim_time else ScaledClock()
         driver = Ros2Driver.connect(
             transport,
             interfaces,

@@ -42,14 +42,14 @@ class RosClock:
         # A best-effort reader matches writers of either kind; only the newest message counts.
         self._topic = transport.subscribe(TOPIC, TYPE, QosProfile(reliable=False, depth=1))
         self._transport, self._steady, self._sleep = transport, steady, sleep
-        self._said_s: float | None = None
+        self._last_s: float | None = None
         self._passed_s = 0.0
         self._pace = 1.0
         self._measured = (steady(), 0.0)
         self._alone_s: float | None = None
 
     @classmethod
-    def heard(
+    def wait_for_first(
         cls,
         transport: Transport,
         within_s: float,
@@ -71,15 +71,15 @@ class RosClock:
         while not clock.known or len({peer.participant for peer in transport.writers_of(TOPIC)}) > 1:
             if steady() >= until_s and clock.known:
                 raise Ros2Error(
-                    f"several simulations say their time on {TOPIC}",
+                    f"several simulations publish {TOPIC}",
                     where=transport.name,
-                    advice="give each a ROS_DOMAIN_ID of its own: a namespace does not part them",
+                    advice="give each a ROS_DOMAIN_ID of its own: a namespace does not separate them",
                 )
             if steady() >= until_s:
                 offered = any(peer.type != TYPE for peer in transport.writers_of(TOPIC))
                 why = "is of another type" if offered else "is silent"
                 raise Ros2Error(
-                    f"{TOPIC} {why}, and the robot's time is to be taken from it ({TYPE})",
+                    f"{TOPIC} {why}, but the robot's time is taken from it ({TYPE})",
                     where=transport.name,
                     advice="start the simulation, or leave use_sim_time out for a robot in real time",
                 )
@@ -89,8 +89,8 @@ class RosClock:
     @property
     def known(self) -> bool:
         """True once a message was received."""
-        self._hear()
-        return self._said_s is not None
+        self._receive()
+        return self._last_s is not None
 
     @property
     def speed(self) -> float:
@@ -99,7 +99,7 @@ class RosClock:
 
     def now(self) -> float:
         """Return the seconds since the first message."""
-        self._hear()
+        self._receive()
         return self._passed_s
 
     def advance(self, seconds: float) -> None:
@@ -108,22 +108,22 @@ class RosClock:
         while self.now() < until_s and self._steady() < until_wall_s:
             self._sleep(_LOOK_S)
 
-    def _hear(self) -> None:
+    def _receive(self) -> None:
         messages = self._topic.take()
         if not messages:
-            if self._said_s is not None and self._topic.publishers() == 0:
-                self._go_on_alone()
+            if self._last_s is not None and self._topic.publishers() == 0:
+                self._continue_alone()
             return
-        said_s = _seconds(messages[-1]["clock"])
-        if self._said_s is not None and self._alone_s is None:
-            self._passed_s += max(0.0, said_s - self._said_s)
-        self._said_s, self._alone_s = said_s, None
+        stamp_s = _seconds(messages[-1]["clock"])
+        if self._last_s is not None and self._alone_s is None:
+            self._passed_s += max(0.0, stamp_s - self._last_s)
+        self._last_s, self._alone_s = stamp_s, None
         wall_s, (from_wall_s, from_s) = self._steady(), self._measured
         if wall_s - from_wall_s >= _PACE_S:
             self._pace = (self._passed_s - from_s) / (wall_s - from_wall_s)
             self._measured = wall_s, self._passed_s
 
-    def _go_on_alone(self) -> None:
+    def _continue_alone(self) -> None:
         """Advance in real time after the publisher has disappeared."""
         wall_s = self._steady()
         if self._alone_s is not None:
@@ -136,7 +136,7 @@ def unused_clock_remark(transport: Transport) -> str:
     if not any(peer.type == TYPE for peer in transport.writers_of(TOPIC)):
         return ""
     return message(
-        "a simulation says its own time on {topic}, and times are taken from this computer; for its own: --sim-time",
+        "a simulation publishes {topic}, but times are taken from this computer; to use its time: --sim-time",
         topic=TOPIC,
     )
 

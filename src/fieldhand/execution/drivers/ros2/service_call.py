@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Generator, Sequence
 
 from fieldhand.errors import Ros2Error
-from fieldhand.execution.drivers.ros2.goal_outcome import GONE_S, TWO_S
+from fieldhand.execution.drivers.ros2.action_outcome import GONE_S, TWO_S
 from fieldhand.execution.drivers.ros2.transport import Client, Message
 
 #: Requests in flight at once: services keep ten.
@@ -90,6 +90,6 @@ def call_service(
                 raise Ros2Error(f"{name} is gone: nothing answers any more")
             if limit.over:
                 what = f"{name} did not answer within {limit.seconds:g} s" if asked else f"nothing answers {name}"
-                raise Ros2Error(what, advice="see whether it runs on the robot")
+                raise Ros2Error(what, advice="check whether it runs on the robot")
             yield
     return tuple(answers[n] for n in range(len(requests)))

@@ -25,9 +25,8 @@ _MOST_NAMED = 8
 _Missing = tuple[str, str]
 
 _ONE_WAY = (
-    "it was found, but there is no way to it and back",
-    "see whether its definition is another than that of the profile's distro, and whether a firewall lets only one"
-    " direction through",
+    "it was discovered, but is not matched in both directions",
+    "check that its definition is that of the profile's distro, and that no firewall blocks one direction",
 )
 
 
@@ -67,7 +66,7 @@ class Startup:
         until = self._steady() + within_s
         while missing := list(self._missing()):
             if self._steady() >= until:
-                raise Ros2Error(f"the robot is not ready, {within_s:g} s on: {_told(missing)}")
+                raise Ros2Error(f"the robot is not ready after {within_s:g} s: {_summary(missing)}")
             self._rest()
             self._telemetry.listen()
 
@@ -82,8 +81,8 @@ class Startup:
         while busy := [client.name for client in clients if not client.cancel_everything()]:
             if self._steady() >= until:
                 raise Ros2Error(
-                    f"{' and '.join(busy)} did not confirm within {CANCEL_S:g} s that nothing is carried out there",
-                    advice="see what else commands the robot",
+                    f"{' and '.join(busy)} did not confirm within {CANCEL_S:g} s that all goals are cancelled",
+                    advice="check which other program controls the robot",
                 )
             self._rest()
 
@@ -104,7 +103,8 @@ class Startup:
         if navigation.from_ll is not None:
             yield from self._no_service("the map", navigation.from_ll, navigation.from_ll_name, FROM_LL)
         if navigation.speed is not None and navigation.speed.subscribers() == 0:
-            yield f"the speed limit {navigation.speed_name}: nobody hears it", "see whether Nav2's controller is active"
+            what = f"the speed limit {navigation.speed_name}: there is no subscriber"
+            yield what, "check whether Nav2's controller is active"
 
     def _missing_capture(self, name: str, bound: BoundAction) -> Iterator[_Missing]:
         call = bound.binding.call
@@ -136,10 +136,10 @@ class Startup:
         why = topic_problem(self._transport, self._interfaces, topic.name, topic.binding.type, topic.qos)
         if why is not None or topic.subscription.publishers() == 0:
             yield _line(topic.what, topic.name, why)
-        elif topic.heard:
-            yield f"{topic.what} {topic.name}: {topic.doubt}", ""
+        elif topic.received:
+            yield f"{topic.what} {topic.name}: {topic.problem}", ""
         else:
-            yield f"{topic.what} {topic.name}: nothing came yet", "see whether the robot sends it"
+            yield f"{topic.what} {topic.name}: no message yet", "check whether the robot publishes it"
 
 
 def _line(what: str, name: str, why: EndpointProblem | None) -> _Missing:
@@ -147,7 +147,7 @@ def _line(what: str, name: str, why: EndpointProblem | None) -> _Missing:
     return f"{what} {name}: {found}", advice
 
 
-def _told(missing: list[_Missing]) -> str:
+def _summary(missing: list[_Missing]) -> str:
     """Join all missing parts in one line; shared advice is given once, after the last part it applies to."""
     named = missing[:_MOST_NAMED]
     advised: dict[str, list[str]] = {}

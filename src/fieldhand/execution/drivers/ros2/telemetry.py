@@ -56,27 +56,27 @@ class TelemetryTopic:
     binding: TopicBinding
     qos: QosProfile
     subscription: Subscription
-    heard: bool = False
+    received: bool = False
     at_s: float | None = None
-    doubt: str = ""
+    problem: str = ""
 
     def known(self) -> bool:
         """Return True if the value is known. A transient local topic without a message has not changed yet."""
-        kept = self.binding.transient and not self.heard
+        kept = self.binding.transient and not self.received
         return self.at_s is not None or (kept and self.subscription.publishers() > 0)
 
     def take(self) -> tuple[Message, ...]:
         """Return the messages received since the last call."""
         messages = self.subscription.take()
-        self.heard = self.heard or bool(messages)
+        self.received = self.received or bool(messages)
         return messages
 
     def silent(self, now: float) -> str | None:
         """Return why the value is unknown or outdated; None if it is current."""
         if self.at_s is None:
-            return None if self.known() else self.doubt or f"nothing came on {self.name} yet"
+            return None if self.known() else self.problem or f"no message on {self.name} yet"
         passed = now - self.at_s
-        return f"nothing came on {self.name} for {passed:.0f} s" if passed > self.binding.stale_s else None
+        return f"no message on {self.name} for {passed:.0f} s" if passed > self.binding.stale_s else None
 
 
 class _Odometer:
@@ -86,11 +86,11 @@ class _Odometer:
         self.metres = 0.0
         self._step_m, self._speed, self._clock = step_m, speed_m_s, clock
         self._last: tuple[float, float, tuple[float, float]] | None = None
-        self.heard = 0
+        self.received = 0
 
     def add(self, xy: tuple[float, float], message: Message) -> None:
         """Add the next point, from a message with a header."""
-        self.heard += 1
+        self.received += 1
         now, stamp = self._clock(), _stamp_of(message)
         if self._last is None:
             self._last = now, stamp, xy
@@ -206,9 +206,9 @@ class Telemetry:
         return self._odometer.metres
 
     @property
-    def metres_heard(self) -> int:
+    def odometry_count(self) -> int:
         """Number of messages that contributed to the odometry."""
-        return self._odometer.heard
+        return self._odometer.received
 
     @property
     def position(self) -> Position | None:
@@ -234,17 +234,17 @@ class Telemetry:
         """Process the received messages."""
         now = self._steady()
         for message in self._fix.take():
-            self._hear_fix(message, now)
+            self._receive_fix(message, now)
         for message in self._battery.take():
-            self._hear_battery(message, now)
+            self._receive_battery(message, now)
         for message in self._odometry.take() if self._odometry else ():
-            self._hear_odometry(message, now)
+            self._receive_odometry(message, now)
         for message in self._stop.take() if self._stop else ():
-            self._hear_stop(message, now)
+            self._receive_stop(message, now)
 
     def lost(self) -> str | None:
         """Return why the robot's position is unknown; None if it is known."""
-        return self._fix.doubt or self._fix.silent(self._steady())
+        return self._fix.problem or self._fix.silent(self._steady())
 
     def silent(self) -> str | None:
         """Return why no goal can run: battery, emergency stop or odometry is silent; None if all report."""
@@ -263,17 +263,17 @@ class Telemetry:
         for topic in self.all:
             topic.subscription.close()
 
-    def _hear_fix(self, message: Message, now: float) -> None:
-        doubt = fix_problem(message, self._position_binding)
-        self._fix.doubt = doubt or ""
-        if doubt is not None:
+    def _receive_fix(self, message: Message, now: float) -> None:
+        problem = fix_problem(message, self._position_binding)
+        self._fix.problem = problem or ""
+        if problem is not None:
             return
         lat, lon = message["latitude"], message["longitude"]
         assert isinstance(lat, float)  # noqa: S101  else it was doubted
         assert isinstance(lon, float)  # noqa: S101
         x, y = (float(v) for v in self._projection.metres(lat, lon)[0])
         if (jumped_m := self._jumps.jumped_m((x, y), message)) > 0.0:
-            self._fix.doubt = f"the position jumped by {jumped_m:.0f} m, farther than the robot drives in that time"
+            self._fix.problem = f"the position jumped by {jumped_m:.0f} m, farther than the robot drives in that time"
             return
         self._fix.at_s = now
         self._position = Position(x=x, y=y, lat=lat, lon=lon)
@@ -281,31 +281,31 @@ class Telemetry:
         if self._odometry is None:
             self._odometer.add((x, y), message)
 
-    def _hear_battery(self, message: Message, now: float) -> None:
+    def _receive_battery(self, message: Message, now: float) -> None:
         charge = number_at(message, self._battery_value)
         if charge is None:
             # Batteries report NaN for values they do not measure.
-            self._battery.doubt = f"it says no number at {self._battery_value.path}"
+            self._battery.problem = f"it has no number at {self._battery_value.path}"
         elif not 0.0 <= charge <= MOST_PERCENT:
             advice = "correct its scale or unit in the profile's ros2 part"
-            self._battery.doubt = f"it says {charge:g} percent, which is no charge; {advice}"
+            self._battery.problem = f"it says {charge:g} percent, which is not a valid charge; {advice}"
         else:
             self._charge, self._battery.at_s = charge, now
 
-    def _hear_odometry(self, message: Message, now: float) -> None:
+    def _receive_odometry(self, message: Message, now: float) -> None:
         assert self._odometry is not None  # noqa: S101  asked for by who has one
         x, y = number_at(message, _ODOMETRY_X), number_at(message, _ODOMETRY_Y)
         if x is not None and y is not None:
             self._odometry.at_s = now
             self._odometer.add((x, y), message)
 
-    def _hear_stop(self, message: Message, now: float) -> None:
+    def _receive_stop(self, message: Message, now: float) -> None:
         assert self._stop is not None  # noqa: S101  asked for by who has one
         assert self._stop_binding is not None  # noqa: S101
         value = value_at(message, self._stop_binding.path)
         if not isinstance(value, bool):
             # An unreadable emergency stop must not pass for one that is not pressed.
-            self._stop.doubt = f"{self._stop_binding.path} is {value!r}, neither true nor false"
+            self._stop.problem = f"{self._stop_binding.path} is {value!r}, neither true nor false"
             return
         self._stop.at_s = now
         if value == self._stop_binding.stopped:

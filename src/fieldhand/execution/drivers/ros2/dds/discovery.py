@@ -32,17 +32,17 @@ class DdsDiscovery:
 
     def writers_of(self, topic: str) -> tuple[Peer, ...]:
         """Return all writers of a topic."""
-        return self._peers(self._writers, topic_name(topic))
+        return self._matching(self._writers, topic_name(topic))
 
     def servers_of(self, service: str) -> tuple[Peer, ...]:
         """Return all readers of a service's requests."""
         # Replies of several servers in one process cannot be told apart.
-        replies = {p.participant: p.type_hash for p in self._peers(self._writers, reply_name(service))}
-        found = self._peers(self._readers, request_name(service))
+        replies = {p.participant: p.type_hash for p in self._matching(self._writers, reply_name(service))}
+        found = self._matching(self._readers, request_name(service))
         return tuple(replace(p, reply_hash=replies.get(p.participant, "")) for p in found)
 
-    def _peers(self, seen: _EndpointList, wire_name: str) -> tuple[Peer, ...]:
-        there = seen.now(wire_name)
+    def _matching(self, endpoints: _EndpointList, wire_name: str) -> tuple[Peer, ...]:
+        there = endpoints.now(wire_name)
         return tuple(_peer(e) for e in there if e.participant_key.bytes != self._own)
 
 

@@ -76,6 +76,6 @@ class UserData:
 def _checked(name: str) -> str:
     if not _NAME.fullmatch(name):
         raise Ros2Error(
-            f"{name!r} is no name of a topic or service", advice="write /name or /name/name: letters, digits and _"
+            f"{name!r} is not a valid topic or service name", advice="write /name or /name/name: letters, digits and _"
         )
     return name

@@ -37,14 +37,18 @@ class DdsClient:
         self, codec: MessageCodec, service_type: str, writer: DataWriter[Any], reader: DataReader[Any]
     ) -> None:
         self._codec, self._type, self._writer, self._reader = codec, service_type, writer, reader
-        self._hear = _Matched(writer.get_matched_subscriptions, writer.get_matched_subscription_data, "serviceid")
-        self._answer = _Matched(reader.get_matched_publications, reader.get_matched_publication_data, "serviceid")
+        self._request_readers = _Matched(
+            writer.get_matched_subscriptions, writer.get_matched_subscription_data, "serviceid"
+        )
+        self._reply_writers = _Matched(
+            reader.get_matched_publications, reader.get_matched_publication_data, "serviceid"
+        )
         self._number = 0
         self._client = writer.get_instance_handle() & 0xFFFF_FFFF_FFFF_FFFF
         self.open = True
 
     def servers(self) -> int:
-        return len(self._hear.ids() & self._answer.ids()) if self.open else 0
+        return len(self._request_readers.ids() & self._reply_writers.ids()) if self.open else 0
 
     def ask(self, request: Message) -> int:
         self._number += 1
@@ -78,7 +82,7 @@ class _Request:
 
 @dataclass
 class _PendingReply:
-    asked: _Request
+    request: _Request
     sample: Any
     tries: int = 0
 
@@ -127,7 +131,7 @@ class DdsServer:
         for _ in range(len(self._waiting)):
             reply = self._waiting.popleft()
             reply.tries += 1
-            if self._found(reply.asked.writer):
+            if self._found(reply.request.writer):
                 write(self._writer, reply.sample)
             elif reply.tries < _TRIES:
                 self._waiting.append(reply)

@@ -28,7 +28,7 @@ def write(writer: Any, sample: Any) -> None:
         writer.write(sample)
     except DDSException as error:
         if error.code != DDSException.DDS_RETCODE_TIMEOUT:
-            raise Ros2Error("DDS does not send this message", advice="see whether it is larger than 32 MiB") from error
+            raise Ros2Error("DDS does not send this message", advice="check if it is larger than 32 MiB") from error
 
 
 def close(*entities: Any) -> None:

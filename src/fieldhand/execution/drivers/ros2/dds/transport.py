@@ -72,23 +72,23 @@ class DdsTransport:
 
     def subscribe(self, topic: str, type_name: str, qos: QosProfile = SENSOR_QOS) -> DdsSubscription:
         reader = self._reader(names.topic_name(topic), type_name, qos, {})
-        return self._kept(DdsSubscription(self._codec, type_name, reader, qos.depth))
+        return self._track(DdsSubscription(self._codec, type_name, reader, qos.depth))
 
     def publish(self, topic: str, type_name: str, qos: QosProfile = QosProfile()) -> DdsPublisher:  # noqa: B008 - frozen
         writer = self._writer(names.topic_name(topic), type_name, qos, {})
-        return self._kept(DdsPublisher(self._codec, type_name, writer))
+        return self._track(DdsPublisher(self._codec, type_name, writer))
 
     def client(self, service: str, type_name: str) -> DdsClient:
         me = {"clientid": _new_id()}
         reader = self._reader(names.reply_name(service), f"{type_name}_Response", SERVICE_QOS, me, with_header=True)
         writer = self._writer(names.request_name(service), f"{type_name}_Request", SERVICE_QOS, me, with_header=True)
-        return self._kept(DdsClient(self._codec, type_name, writer, reader))
+        return self._track(DdsClient(self._codec, type_name, writer, reader))
 
     def serve(self, service: str, type_name: str) -> DdsServer:
         me = {"serviceid": _new_id()}
         writer = self._writer(names.reply_name(service), f"{type_name}_Response", SERVICE_QOS, me, with_header=True)
         reader = self._reader(names.request_name(service), f"{type_name}_Request", SERVICE_QOS, me, with_header=True)
-        return self._kept(DdsServer(self._codec, type_name, reader, writer))
+        return self._track(DdsServer(self._codec, type_name, reader, writer))
 
     def writers_of(self, topic: str) -> tuple[Peer, ...]:
         return self._discovery.writers_of(topic)
@@ -104,7 +104,7 @@ class DdsTransport:
             self._open = False
             close(self._participant)
 
-    def _kept(self, end: _End) -> _End:
+    def _track(self, end: _End) -> _End:
         self._ends = [*(e for e in self._ends if e.open), end]
         return end
 

@@ -98,9 +98,9 @@ def _text(kind: FieldType, value: object, path: str) -> str:
     try:
         size = len(value.encode())
     except UnicodeEncodeError as error:
-        raise Ros2Error("half a character stands in this text", where=path) from error
+        raise Ros2Error("this text contains half a surrogate pair", where=path) from error
     if "\0" in value:
-        raise Ros2Error("a zero character stands in this text, which no ROS text holds", where=path)
+        raise Ros2Error("this text contains a null character, which no ROS string may contain", where=path)
     if kind.most_characters and size > kind.most_characters:
         raise Ros2Error(f"{size} characters: {kind} has at most {kind.most_characters}", where=path)
     return value

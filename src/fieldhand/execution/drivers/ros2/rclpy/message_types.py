@@ -89,7 +89,7 @@ def definition_of(message: str) -> Definition:
 def _divided(name: str) -> tuple[str, tuple[str, ...]]:
     """Return the interface of a type, and the attribute path to the type: rclpy nests the parts."""
     if not INTERFACE_NAME.fullmatch(name):
-        raise Ros2Error(f"{name!r} is no type of ROS", advice="write package/msg/Name, package/srv/Name or action")
+        raise Ros2Error(f"{name!r} is not a ROS type", advice="write package/msg/Name, package/srv/Name or action")
     package, kind, short = name.split("/")
     if kind == "srv" and (found := _PART.fullmatch(short)):
         return f"{package}/srv/{found['whole']}", (found["part"],)

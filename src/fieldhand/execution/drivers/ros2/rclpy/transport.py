@@ -78,13 +78,13 @@ class RclpyTransport:
             made = self._node.create_subscription(
                 message_types.class_of(type_name), topic, _never, to_rclpy_qos(qos), raw=True
             )
-        return self._kept(RclpySubscription(self._node, self._discovery, type_name, made))
+        return self._track(RclpySubscription(self._node, self._discovery, type_name, made))
 
     def publish(self, topic: str, type_name: str, qos: QosProfile = QosProfile()) -> RclpyPublisher:  # noqa: B008 - frozen
         topic_name(topic)
         with _in_words(topic, type_name):
             made = self._node.create_publisher(message_types.class_of(type_name), topic, to_rclpy_qos(qos))
-        return self._kept(RclpyPublisher(self._node, type_name, made))
+        return self._track(RclpyPublisher(self._node, type_name, made))
 
     def client(self, service: str, type_name: str) -> RclpyClient:
         request_name(service)
@@ -92,7 +92,7 @@ class RclpyTransport:
             made = self._node.create_client(
                 message_types.class_of(type_name), service, qos_profile=to_rclpy_qos(SERVICE_QOS)
             )
-        return self._kept(RclpyClient(self._node, self._discovery, service, type_name, made))
+        return self._track(RclpyClient(self._node, self._discovery, service, type_name, made))
 
     def serve(self, service: str, type_name: str) -> RclpyServer:
         request_name(service)
@@ -100,7 +100,7 @@ class RclpyTransport:
             made = self._node.create_service(
                 message_types.class_of(type_name), service, _never, qos_profile=to_rclpy_qos(SERVICE_QOS)
             )
-        return self._kept(RclpyServer(self._node, type_name, made))
+        return self._track(RclpyServer(self._node, type_name, made))
 
     def writers_of(self, topic: str) -> tuple[Peer, ...]:
         return self._discovery.writers_of(topic) if self._open else ()
@@ -117,7 +117,7 @@ class RclpyTransport:
             self._node.destroy_node()
             self._context.try_shutdown()
 
-    def _kept(self, end: _End) -> _End:
+    def _track(self, end: _End) -> _End:
         self._ends = [*(e for e in self._ends if e.open), end]
         return end
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Protocol
 
-from fieldhand.execution.drivers.ros2.goal_outcome import ABORTED, ACCEPTED, CANCELED, CANCELING, EXECUTING, SUCCEEDED
+from fieldhand.execution.drivers.ros2.action_outcome import ABORTED, ACCEPTED, CANCELED, CANCELING, EXECUTING, SUCCEEDED
 from fieldhand.execution.drivers.ros2.transport import STATUS_QOS, Message, Transport
 
 #: Return codes of ``action_msgs/srv/CancelGoal``.
@@ -46,7 +46,7 @@ class ServerGoal:
     """
 
     id: bytes
-    asked: Message
+    goal_message: Message
     since: Mapping[str, int]
     server: ActionServer
     status: int = ACCEPTED
@@ -60,7 +60,7 @@ class ServerGoal:
 
     def feedback(self, message: Message) -> None:
         """Publish feedback."""
-        self.server.tell(self, message)
+        self.server.send_feedback(self, message)
 
     def succeeded(self, result: Message) -> None:
         """End the goal as succeeded."""
@@ -123,7 +123,7 @@ class ActionServer:
             else:
                 goal.waiting.append(to)
 
-    def tell(self, goal: ServerGoal, message: Message) -> None:
+    def send_feedback(self, goal: ServerGoal, message: Message) -> None:
         """Publish feedback of a goal."""
         self._feedback.send({"goal_id": {"uuid": goal.id}, "feedback": message})
 
@@ -141,14 +141,14 @@ class ActionServer:
         self._publish()
 
     def _accept(self, to: object, request: Message) -> None:
-        identity, asked = _id(request.get("goal_id")), _part(request, "goal")
+        identity, goal_message = _id(request.get("goal_id")), _part(request, "goal")
         stamp = self._stamp()
-        why = "its id is taken" if identity in self._goals else self._handler.rejection_reason(asked)
+        why = "its id is taken" if identity in self._goals else self._handler.rejection_reason(goal_message)
         self._send.reply(to, {"accepted": why is None, "stamp": stamp})
         if why is not None:
             self._refused(why)
             return
-        goal = self._goals[identity] = ServerGoal(id=identity, asked=asked, since=stamp, server=self)
+        goal = self._goals[identity] = ServerGoal(id=identity, goal_message=goal_message, since=stamp, server=self)
         self._publish()
         goal.status = EXECUTING
         self._publish()

@@ -113,7 +113,7 @@ class CaptureActionHandler:
 
     def begin(self, goal: ServerGoal) -> None:
         self._goal = goal
-        self._call.begin(goal.asked, self._over)
+        self._call.begin(goal.goal_message, self._over)
 
     def cancel(self, goal: ServerGoal) -> None:
         if goal is self._goal:

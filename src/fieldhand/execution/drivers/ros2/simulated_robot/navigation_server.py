@@ -83,7 +83,7 @@ class NavigationServer:
             before, self._goal = self._goal, None
             self._report("pre-empted", self._platform.stop_now())
             before.aborted({})
-        corners = self._corners(goal.asked)
+        corners = self._corners(goal.goal_message)
         here = self._platform.position
         self._goal, self._begun_s, self._told_s = goal, self._now(), -math.inf
         if any(math.dist((here.x, here.y), corner) > _REACH_M for corner in corners):
@@ -117,10 +117,10 @@ class NavigationServer:
                 raise Ros2Error("this robot drives no loops", advice="send the waypoints once")
             degrees = [_geographic(pose) for pose in _listed(goal["gps_poses"])[_first(goal) :]]
         else:
-            asked: object = goal.get("poses", (goal.get("pose"),))
+            goal_message: object = goal.get("poses", (goal.get("pose"),))
             # From Kilted on, the poses are wrapped in a message with its own header.
-            asked = asked.get("goals") if isinstance(asked, Mapping) else asked
-            degrees = [self._in_map(pose) for pose in _listed(asked)]
+            goal_message = goal_message.get("goals") if isinstance(goal_message, Mapping) else goal_message
+            degrees = [self._in_map(pose) for pose in _listed(goal_message)]
         if not degrees:
             raise Ros2Error("the goal has no poses")
         if len(degrees) > _MOST_POSES:
@@ -148,9 +148,9 @@ class NavigationServer:
         if progress.state == "succeeded":
             goal.succeeded({})
         else:
-            goal.aborted(self._failure(goal.asked, progress, code))
+            goal.aborted(self._failure(goal.goal_message, progress, code))
 
-    def _failure(self, asked: Message, progress: Progress, code: int) -> Message:
+    def _failure(self, goal_message: Message, progress: Progress, code: int) -> Message:
         """Return a result that describes a failure: empty in Humble, with a code from Iron on, with a text from Kilted
         on.
         """
@@ -160,7 +160,7 @@ class NavigationServer:
         if "missed_waypoints" in fields:
             missed = fields["missed_waypoints"].base
             numbered = "index" if "index" in self._interfaces.fields(missed) else "waypoint_index"
-            result["missed_waypoints"] = ({numbered: _first(asked) + self._index_ahead(), "error_code": code},)
+            result["missed_waypoints"] = ({numbered: _first(goal_message) + self._index_ahead(), "error_code": code},)
             constants = self._interfaces.constants(self._result)
             code_of_all = constants.get("STOP_ON_MISSED_WAYPOINT", constants.get("UNKNOWN", _OTHERWISE))
         else:
@@ -171,7 +171,7 @@ class NavigationServer:
 
     def _feedback(self, goal: ServerGoal, now: float) -> Message:
         if self._binding.type.endswith("/FollowGPSWaypoints"):
-            return {"current_waypoint": _first(goal.asked) + self._index_ahead()}
+            return {"current_waypoint": _first(goal.goal_message) + self._index_ahead()}
         at = self._platform.position
         ((x, y),) = degrees_to_map(self._datum, [(at.lat, at.lon)])
         ahead = self._through[self._index_ahead() :]

@@ -24,7 +24,7 @@ from fieldhand.execution.drivers.ros2.simulated_robot.sensor_topics import Senso
 from fieldhand.execution.drivers.ros2.simulated_robot.speed_limit import SpeedLimit
 from fieldhand.execution.drivers.ros2.simulated_robot.telemetry_topics import TelemetryTopics
 from fieldhand.execution.drivers.ros2.transport import Message, QosProfile, Server, Transport
-from fieldhand.execution.drivers.simulation import SimulatedDriver
+from fieldhand.execution.drivers.simulated_driver import SimulatedDriver
 from fieldhand.execution.drivers.simulation_state import SimulationState
 from fieldhand.execution.world import World
 from fieldhand.robot.bindings import Datum, Ros2Bindings
@@ -155,18 +155,20 @@ class SimulatedRobot:
         )
         for name, bound in bindings.actions.items():
             if bound.call is not None:
-                whole = bindings.whole_name(bound.call.name)
+                full_name = bindings.whole_name(bound.call.name)
                 capture_call = CaptureCall(
-                    profile.action[name], bound.call, interfaces, self.platform, self._places, self._captured(whole)
+                    profile.action[name], bound.call, interfaces, self.platform, self._places, self._captured(full_name)
                 )
                 self._servers.append(
-                    capture_server(capture_call, transport, whole, stamp=self._stamp, refused=self._refused(whole))
+                    capture_server(
+                        capture_call, transport, full_name, stamp=self._stamp, refused=self._refused(full_name)
+                    )
                 )
         self._telemetry = TelemetryTopics(transport, interfaces, bindings, self.platform, stamped=self._stamped)
         self._from_ll: Server | None = None
         if bindings.navigation.from_ll:
-            whole = bindings.whole_name(bindings.navigation.from_ll)
-            self._from_ll = transport.serve(whole, "robot_localization/srv/FromLL")
+            full_name = bindings.whole_name(bindings.navigation.from_ll)
+            self._from_ll = transport.serve(full_name, "robot_localization/srv/FromLL")
         self._time = transport.publish("/clock", _CLOCK_TYPE, _CLOCK_QUALITY) if sim_time else None
         self._settles_s = max(_SETTLED_S, min(_SETTLED_WALL_S * speed, self._sensors.shortest_wait_s / 3.0))
         self._standing_s: float | None = None
@@ -221,33 +223,33 @@ class SimulatedRobot:
             speed=self._limit.m_s,
             now=self._clock.now,
             stamped=self._stamped,
-            report=lambda end, progress: self._tell(name, end, self._nearest(), progress),
+            report=lambda end, progress: self._report_goal(name, end, self._nearest(), progress),
         )
         return ActionServer(
             transport, name, bindings.navigation.type, self._nav, stamp=self._stamp, refused=self._refused(name)
         )
 
     def _measure(self, action: str) -> Mapping[str, float]:
-        return self.platform.sense(action, self._nearest())
+        return self.platform.read_sensors(action, self._nearest())
 
-    def _captured(self, whole: str) -> Callable[[str, Place, Progress], None]:
+    def _captured(self, full_name: str) -> Callable[[str, Place, Progress], None]:
         def over(action: str, place: Place, progress: Progress) -> None:
             self._sensors.captured(action, progress.readings, self._clock.now())
-            self._tell(whole, progress.state, place, progress)
+            self._report_goal(full_name, progress.state, place, progress)
 
         return over
 
-    def _refused(self, whole: str) -> Callable[[str], None]:
-        return lambda why: self._tell(whole, "rejected", self._nearest(), Progress(state="failed", what=why))
+    def _refused(self, full_name: str) -> Callable[[str], None]:
+        return lambda why: self._report_goal(full_name, "rejected", self._nearest(), Progress(state="failed", what=why))
 
-    def _tell(self, name: str, end: str, place: Place, progress: Progress) -> None:
+    def _report_goal(self, name: str, end: str, place: Place, progress: Progress) -> None:
         self._report(
             GoalReport(
                 seconds=self.seconds,
                 name=name,
                 end=end,
                 why=progress.what,
-                place=_called(place),
+                place=_place_text(place),
                 metres=progress.metres,
                 took_s=progress.seconds,
                 readings=progress.readings,
@@ -275,7 +277,7 @@ class SimulatedRobot:
         return {"stamp": self._stamp(), "frame_id": frame}
 
 
-def _called(place: Place) -> str:
+def _place_text(place: Place) -> str:
     return f"{place.lat:.6f}, {place.lon:.6f}" if place.kind == "point" else f"{place.kind} {place.id}"
 
 
@@ -289,6 +291,6 @@ def bindings_of(profile: RobotProfile) -> Ros2Bindings:
         raise InputError(
             f"the robot {profile.name} has no part ros2 in its profile",
             where=profile.source,
-            advice="say there what its topics, services and actions are called (docs/add-a-robot.md)",
+            advice="name its topics, services and actions there (docs/add-a-robot.md)",
         )
     return profile.ros2

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from itertools import pairwise
 
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Position, Progress
-from fieldhand.execution.drivers.simulation import SimulatedDriver
+from fieldhand.execution.drivers.simulated_driver import SimulatedDriver
 from fieldhand.execution.drivers.simulation_state import SimulationState
 from fieldhand.site.model import Place, Site
 
@@ -41,7 +41,7 @@ class SimulatedPlatform:
         self._activity = ""
         self._over: Over = _nobody
         self._counted = 0.0
-        self._seen = self._driver.position()
+        self._last_position = self._driver.position()
 
     @property
     def activity(self) -> str:
@@ -111,9 +111,9 @@ class SimulatedPlatform:
         self._driver.start_action(ActionGoal(action=action, place=place, parameters=parameters))
         self._begin(f"at {action}", over)
 
-    def sense(self, action: str, place: Place) -> Mapping[str, float]:
+    def read_sensors(self, action: str, place: Place) -> Mapping[str, float]:
         """Return the readings of an action's sensors without a capture; a failure gives none."""
-        return self._driver.sense(action, place)
+        return self._driver.read_sensors(action, place)
 
     def stop_now(self) -> Progress:
         """End the activity at once, without calling its callback."""
@@ -140,8 +140,8 @@ class SimulatedPlatform:
         if not self.driving:
             return
         here = self._driver.position()
-        east, north = here.x - self._seen.x, here.y - self._seen.y
-        self._seen = here
+        east, north = here.x - self._last_position.x, here.y - self._last_position.y
+        self._last_position = here
         if math.hypot(east, north) > _STILL_M:
             self.heading_deg = math.degrees(math.atan2(east, north)) % 360.0
         step = max(0.0, progress.metres - self._counted)

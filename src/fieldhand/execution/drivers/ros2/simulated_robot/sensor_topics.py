@@ -57,7 +57,7 @@ class SensorTopics:
     ) -> None:
         self._interfaces, self._bindings, self._measure, self._header = interfaces, bindings, measure, header
         self._sensors: dict[str, _SensorTopic] = {}
-        self._heard = [name for name, bound in bindings.actions.items() if bound.call is None and bound.topics]
+        self._streaming = [name for name, bound in bindings.actions.items() if bound.call is None and bound.topics]
         self._readings: dict[str, float] = {}
         self._silent_s: dict[str, float] = {}
         self._measured: set[str] = set()
@@ -66,8 +66,8 @@ class SensorTopics:
                 topic = bindings.whole_name(message.topic)
                 if topic in taken:
                     raise Ros2Error(
-                        f"{topic} says how the robot is, and {quantity} is read from it, too",
-                        advice="the simulated robot cannot say both on one topic; bind the quantity to another",
+                        f"{topic} carries telemetry, but {quantity} is read from it, too",
+                        advice="the simulated robot cannot publish both on one topic; bind the quantity to another",
                     )
                 feed = self._sensors.get(topic)
                 if feed is None:
@@ -86,8 +86,8 @@ class SensorTopics:
 
     def captured(self, action: str, readings: Mapping[str, float], now: float) -> None:
         """Publish the readings of a finished capture from now on. Clients of a silent sensor start waiting only now."""
-        for heard in self._silent_s:
-            self._silent_s[heard] = now + self._longer(heard)
+        for silent in self._silent_s:
+            self._silent_s[silent] = now + self._silence_s(silent)
         for quantity in self._bindings.actions[action].topics:
             self._readings.pop(quantity, None)
             if quantity in readings:
@@ -104,9 +104,9 @@ class SensorTopics:
             self._silent_s.clear()
             self._measured.clear()
             return
-        for action in self._heard:
+        for action in self._streaming:
             if self._wanted(action) and (action not in self._measured or now >= self._silent_s.get(action, now + 1.0)):
-                self._sense(action, now)
+                self._measure_action(action, now)
         for feed in self._sensors.values():
             if now - feed.sent_s >= _PERIOD_S and all(quantity in self._readings for quantity in feed.values):
                 self._send(feed, now)
@@ -116,7 +116,7 @@ class SensorTopics:
         topics = (self._bindings.whole_name(m.topic) for m in self._bindings.actions[action].topics.values())
         return any(self._sensors[topic].publisher.subscribers() for topic in topics)
 
-    def _sense(self, action: str, now: float) -> None:
+    def _measure_action(self, action: str, now: float) -> None:
         topics = self._bindings.actions[action].topics
         readings = self._measure(action)
         self._measured.add(action)
@@ -125,9 +125,9 @@ class SensorTopics:
             if quantity in readings:
                 self._readings[quantity] = readings[quantity]
         if any(quantity not in readings for quantity in topics):
-            self._silent_s[action] = now + self._longer(action)
+            self._silent_s[action] = now + self._silence_s(action)
 
-    def _longer(self, action: str) -> float:
+    def _silence_s(self, action: str) -> float:
         """Return a duration in seconds that is longer than any client waits for the action's messages."""
         return _LONGER * max(message.within_s for message in self._bindings.actions[action].topics.values())
 

@@ -23,15 +23,15 @@ class SpeedLimit:
     def __init__(self, transport: Transport, bindings: Ros2Bindings, own_m_s: float) -> None:
         self._own_m_s = self._limit_m_s = own_m_s
         topic = bindings.navigation.speed_limit
-        self._told = transport.subscribe(bindings.whole_name(topic), _TYPE, QosProfile()) if topic else None
+        self._subscription = transport.subscribe(bindings.whole_name(topic), _TYPE, QosProfile()) if topic else None
 
     def m_s(self) -> float:
         """Return the last limit received, in m/s. As in Nav2, 0 removes the limit."""
-        for message in self._told.take() if self._told is not None else ():
-            self._limit_m_s = min(self._own_m_s, self._said(message) or self._own_m_s)
+        for message in self._subscription.take() if self._subscription is not None else ():
+            self._limit_m_s = min(self._own_m_s, self._limit_in(message) or self._own_m_s)
         return self._limit_m_s
 
-    def _said(self, message: Message) -> float:
+    def _limit_in(self, message: Message) -> float:
         limit = message.get("speed_limit")
         limit = float(limit) if isinstance(limit, (int, float)) and limit > 0 else 0.0
         return limit / 100.0 * self._own_m_s if message.get("percentage") else limit

@@ -33,7 +33,7 @@ class _Sent:
     """
 
     publisher: Publisher
-    kept: bool
+    transient: bool
     every_s: float
     message: Callable[[], Message]
     sent_s: float = -math.inf
@@ -91,7 +91,7 @@ class TelemetryTopics:
         for topic in self._topics:
             if now - topic.sent_s >= topic.every_s:
                 topic.sent_s = now
-                if topic.kept or topic.publisher.subscribers():
+                if topic.transient or topic.publisher.subscribers():
                     topic.publisher.send(topic.message())
 
     def _fix(self) -> Message:

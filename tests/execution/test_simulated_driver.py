@@ -10,8 +10,16 @@ import pytest
 
 from fieldhand.clock import Clock, SimulatedClock
 from fieldhand.execution.drivers.protocol import ActionGoal, Driver
-from fieldhand.execution.drivers.simulation import SimulatedDriver
-from fieldhand.execution.world import ActionFails, BatteryDrains, Blocked, LocalisationLost, RobotStops, Spot, World
+from fieldhand.execution.drivers.simulated_driver import SimulatedDriver
+from fieldhand.execution.world import (
+    ActionFails,
+    BatteryDrains,
+    Blocked,
+    LocalisationLost,
+    RobotStops,
+    TreeRef,
+    World,
+)
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.testing.driver_contract import DriverContract, drive_goal, finish
@@ -35,7 +43,7 @@ class TestSimulatedDriver(DriverContract):
         return self.make_in(World())
 
     def make_blocked(self) -> tuple[Driver, Clock, Site]:
-        return self.make_in(World(faults=(Blocked(at=Spot(id=FAR.id), within_m=2.0),)))
+        return self.make_in(World(faults=(Blocked(at=TreeRef(id=FAR.id), within_m=2.0),)))
 
     def make_lost(self) -> tuple[Driver, Clock, Site]:
         return self.make_in(World(faults=(LocalisationLost(at_s=3.0, for_s=20.0),)))
@@ -90,7 +98,7 @@ def test_the_same_seed_drives_the_same() -> None:
 
 
 def test_a_blocked_leg_fails_where_the_obstacle_is() -> None:
-    driver, clock = driver_of(World(faults=(Blocked(at=Spot(id=FAR.id), within_m=2.0, times=1),)))
+    driver, clock = driver_of(World(faults=(Blocked(at=TreeRef(id=FAR.id), within_m=2.0, times=1),)))
     driver.start_drive(drive_goal(SITE.start, FAR))
     progress = finish(driver, clock)
     assert progress.state == "failed"

@@ -11,13 +11,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fieldhand.errors import WorldError
-from fieldhand.execution.drivers.groundtruth import GroundTruth, _enters
+from fieldhand.execution.drivers.ground_truth import GroundTruth, _enters
 from fieldhand.execution.world import (
     ActionFails,
     Blocked,
     SensorAbsurd,
     SensorSilent,
-    Spot,
+    TreeRef,
     Truth,
     World,
     WorldFault,
@@ -40,7 +40,10 @@ def read_co2(ground: GroundTruth, place: Place) -> float:
 def test_what_the_file_says_is_read_exactly() -> None:
     near = TREES["r1c1"]
     ground = truth(
-        co2=Truth(default=380, trees=((Spot(id="r0c0"), 500.0), (Spot(lat=near.lat + 1e-6, lon=near.lon), 450.0)))
+        co2=Truth(
+            default=380,
+            trees=((TreeRef(id="r0c0"), 500.0), (TreeRef(lat=near.lat + 1e-6, lon=near.lon), 450.0)),
+        )
     )
     assert read_co2(ground, TREES["r0c0"]) == 500
     assert read_co2(ground, near) == 450
@@ -80,7 +83,7 @@ def test_drawn_values_stay_in_the_believable_range() -> None:
 
 
 def test_an_action_fails_as_often_as_told_and_only_where_told() -> None:
-    ground = truth(0, ActionFails(action="read_co2", times=2, at=Spot(id="r0c0")))
+    ground = truth(0, ActionFails(action="read_co2", times=2, at=TreeRef(id="r0c0")))
     assert ground.capture("read_co2", TREES["r0c1"])[1] == ""
     assert ground.capture("take_thermal_picture", TREES["r0c0"])[1] == ""
     assert [bool(ground.capture("read_co2", TREES["r0c0"])[1]) for _ in range(4)] == [True, True, False, False]
@@ -104,13 +107,16 @@ def test_a_sensor_can_be_silent_or_absurd() -> None:
         ),
         (World(readings={"ph": Truth(default=1.0)}), "its quantities are canopy_temperature, ambient_temperature, co2"),
         (
-            World(readings={"co2": Truth(trees=((Spot(id="r0c9"), 1.0),))}),
+            World(readings={"co2": Truth(trees=((TreeRef(id="r0c9"), 1.0),))}),
             "co2.trees[0]: grid has no tree 'r0c9'",
         ),
-        (World(readings={"co2": Truth(trees=((Spot(lat=10.0, lon=10.0), 1.0),))}), "is it the world of another site?"),
+        (
+            World(readings={"co2": Truth(trees=((TreeRef(lat=10.0, lon=10.0), 1.0),))}),
+            "is it the world of another site?",
+        ),
         (World(faults=(ActionFails(action="fly"),)), "faults[0]: the robot husky has no action 'fly'"),
         (World(faults=(SensorSilent(quantity="fly"),)), "faults[0]: the robot husky has no quantity 'fly'"),
-        (World(faults=(Blocked(at=Spot(id="oak")),)), "faults[0]: grid has no tree 'oak'"),
+        (World(faults=(Blocked(at=TreeRef(id="oak")),)), "faults[0]: grid has no tree 'oak'"),
     ],
 )
 def test_a_world_of_another_robot_or_site_is_refused(world: World, says: str) -> None:

@@ -27,7 +27,7 @@ from fieldhand.execution.world import (
     RobotStops,
     SensorAbsurd,
     SensorSilent,
-    Spot,
+    TreeRef,
     Truth,
     World,
 )
@@ -124,7 +124,7 @@ class GroundTruth:
             reach = _enters(path, self._middles[number], fault.within_m)
             until_s = math.inf if fault.until_s is None else fault.until_s
             if reach is not None and fault.from_s <= when(reach) < until_s:
-                there = message("something stands in the way {where}", context="log", where=self._said(number))
+                there = message("something stands in the way {where}", context="log", where=self._place_words(number))
                 found.append((reach, number, there))
         if not found:
             return None
@@ -160,7 +160,7 @@ class GroundTruth:
         fault = self._faults[number]
         assert isinstance(fault, LocalisationLost)  # noqa: S101  as filtered above
         for_s = math.inf if fault.for_s is None else fault.for_s
-        what = message("no position {where}", context="log", where=self._said(number))
+        what = message("no position {where}", context="log", where=self._place_words(number))
         return Hindrance(at_m=at_m, number=number, what=what, for_s=for_s)
 
     @property
@@ -181,7 +181,7 @@ class GroundTruth:
         spans = [b - a for a, b in itertools.pairwise(edges)]
         return sum(pace * span for pace, span in zip(paces, spans, strict=True)) / (to_s - from_s)
 
-    def _said(self, number: int) -> str:
+    def _place_words(self, number: int) -> str:
         """Return the place of a fault in words."""
         tree = self._trees.get(number)
         if tree is not None:
@@ -240,20 +240,20 @@ class GroundTruth:
                 self._known([quantity], self._robot.quantity, where, "quantity")
             case _:
                 pass
-        spot = getattr(fault, "at", None)
-        if isinstance(spot, Spot):
-            tree = self._trees[number] = self._tree(spot, site, where)
+        reference = getattr(fault, "at", None)
+        if isinstance(reference, TreeRef):
+            tree = self._trees[number] = self._tree(reference, site, where)
             self._middles[number] = tree.xy
         if isinstance(fault, Blocked) and fault.between is not None:
-            one, two = (self._tree(spot, site, where) for spot in fault.between)
+            one, two = (self._tree(reference, site, where) for reference in fault.between)
             self._between[number] = (one, two)
             self._middles[number] = ((one.x + two.x) / 2.0, (one.y + two.y) / 2.0)
 
     def _bound(self, truth: Truth, site: Site, name: str) -> dict[str, float]:
         """Return the values by tree id."""
         return {
-            self._tree(spot, site, f"readings.{name}.trees[{number}]").id: value
-            for number, (spot, value) in enumerate(truth.trees)
+            self._tree(reference, site, f"readings.{name}.trees[{number}]").id: value
+            for number, (reference, value) in enumerate(truth.trees)
         }
 
     def _known(self, names: Iterable[str], known: Mapping[str, object], where: str, noun: str) -> None:
@@ -268,24 +268,24 @@ class GroundTruth:
                     advice=f"{hint}its {many} are {', '.join(known)}",
                 )
 
-    def _tree(self, spot: Spot, site: Site, where: str) -> Place:
+    def _tree(self, reference: TreeRef, site: Site, where: str) -> Place:
         """Return the tree that a reference names: by id, or the nearest within a tree spacing."""
-        if spot.id is not None:
-            tree = site.by_id.get(spot.id)
+        if reference.id is not None:
+            tree = site.by_id.get(reference.id)
             if tree is None:
-                near = difflib.get_close_matches(spot.id, site.by_id, n=1)
+                near = difflib.get_close_matches(reference.id, site.by_id, n=1)
                 raise WorldError(
-                    f"{site.name} has no tree '{spot.id}'",
+                    f"{site.name} has no tree '{reference.id}'",
                     where=f"{self._source}: {where}",
                     advice=f"did you mean '{near[0]}'?" if near else f"it has {len(site.trees)} trees",
                 )
             return tree.place
-        xy = site.projection.metres(spot.lat, spot.lon)[0]
+        xy = site.projection.metres(reference.lat, reference.lon)[0]
         away = np.hypot(*(site.xy - xy).T)
         nearest = int(np.argmin(away))
         if not away[nearest] <= site.spacing_m:
             raise WorldError(
-                f"{site.name} has no tree at {spot}: the nearest is {away[nearest]:.0f} m away",
+                f"{site.name} has no tree at {reference}: the nearest is {away[nearest]:.0f} m away",
                 where=f"{self._source}: {where}",
                 advice="is it the world of another site?",
             )

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from fieldhand.errors import BlockedFault
-from fieldhand.execution.attempt import Attempt
-from fieldhand.execution.giving_up import admit, shed, to_come, visit_to
-from fieldhand.execution.obstacles import no_way
+from fieldhand.execution.active_mission import ActiveMission
+from fieldhand.execution.obstacles import cut_off_places
+from fieldhand.execution.shed_work import admit, mandatory_visit, mandatory_visits_left, report_shed
 from fieldhand.forecast.mission_state import Visit, VisitChoice
 from fieldhand.forecast.visit_order import home_if_last, order_visits, reachable, visits_in_order, with_stands
 from fieldhand.language import message
@@ -22,7 +22,7 @@ _NAMED = 8
 
 
 @dataclass(frozen=True, kw_only=True)
-class OneVisit:
+class OptionalStepVisit:
     """The single visit of an optional step.
 
     Attributes:
@@ -36,14 +36,14 @@ class OneVisit:
         return ()
 
 
-class Tour:
+class ForEachVisits:
     """The visits of a for-each.
 
     A place that obstacles make unreachable is postponed to the end. If it is then still unreachable, it is given up; if
     the visits were mandatory, the loop fails once all others are made.
 
     Args:
-        attempt: The mission.
+        mission: The mission.
         node: The for-each. Its selector is resolved on construction.
 
     Attributes:
@@ -56,31 +56,31 @@ class Tour:
         DriveFault: A mandatory place can never be reached.
     """
 
-    def __init__(self, attempt: Attempt, node: ForEach) -> None:
-        self.node, self.attempt = node, attempt
+    def __init__(self, mission: ActiveMission, node: ForEach) -> None:
+        self.node, self.mission = node, mission
         self.place: Place | None = None
         self.left: list[Visit] = []
         self.cut_off: list[Visit] = []
         self._missed: list[Place] = []
         self._made = 0
         self._why = ""
-        self._ways = attempt.blockages.version
-        places = attempt.resolve(node.select)
+        self._ways = mission.blockages.version
+        places = mission.resolve(node.select)
         closed: tuple[Place, ...] = ()
         cut_off: tuple[Place, ...] = ()
         if node.optional:
-            places, closed = reachable(attempt.drives, places)
-            ordered = with_stands(attempt.drives, attempt.standing, places)
-            self.left = list(attempt.visits.of_places(node, ordered, attempt.state().context))
+            places, closed = reachable(mission.drives, places)
+            ordered = with_stands(mission.drives, mission.standing, places)
+            self.left = list(mission.visits.of_places(node, ordered, mission.state().context))
         else:
             places, cut_off = self._parted(places)
-            ordered = visits_in_order(node, attempt.drives, attempt.standing, places, self._home())
-            self.left = [visit_to(attempt, place, node.body) for place in ordered]
-            self.cut_off = [visit_to(attempt, place, node.body) for place in cut_off]
+            ordered = visits_in_order(node, mission.drives, mission.standing, places, self._home())
+            self.left = [mandatory_visit(mission, place, node.body) for place in ordered]
+            self.cut_off = [mandatory_visit(mission, place, node.body) for place in cut_off]
         ids = tuple(place.id for place in (*ordered, *cut_off))
-        attempt.emit(Visiting(t=attempt.t, node=node.id, places=ids, optional=node.optional))
+        mission.emit(Visiting(t=mission.t, node=node.id, places=ids, optional=node.optional))
         if closed:
-            why = f"{closed[0].kind} {closed[0].id} is {attempt.drives.problem(closed[0])}"
+            why = f"{closed[0].kind} {closed[0].id} is {mission.drives.problem(closed[0])}"
             self._give_up(closed, f"cannot be reached: {why}")
 
     def next(self, made: int) -> Place | None:
@@ -94,10 +94,10 @@ class Tour:
 
         Raises:
             BlockedFault: All others are made, and a mandatory one could not be reached.
-            GivenUp, Over: As :func:`~fieldhand.execution.giving_up.admit`.
+            GivenUp, Over: As :func:`~fieldhand.execution.shed_work.admit`.
         """
         self.place, self._made = None, made
-        if self._ways != self.attempt.blockages.version:
+        if self._ways != self.mission.blockages.version:
             self._look_again()
         if self.left:
             self.place = self._chosen() if self.node.optional else self._in_order()
@@ -126,10 +126,10 @@ class Tour:
         """Ask the guard about a visit.
 
         Raises:
-            GivenUp, Over: As :func:`~fieldhand.execution.giving_up.admit`.
+            GivenUp, Over: As :func:`~fieldhand.execution.shed_work.admit`.
         """
-        visit = visit_to(self.attempt, place, self.node.body)
-        admit(self.attempt, visit, refused=[place, *self.undone()])
+        visit = mandatory_visit(self.mission, place, self.node.body)
+        admit(self.mission, visit, refused=[place, *self.undone()])
 
     def arrived(self) -> None:
         """Record that the robot has reached the place of the visit."""
@@ -144,27 +144,27 @@ class Tour:
         assert place is not None  # noqa: S101  a visit is in hand
         if self.node.optional:
             self._give_up([place], fault.what)
-        elif not self.is_last_resort and no_way(self.attempt, [place])[0]:
-            self.cut_off.append(visit_to(self.attempt, place, self.node.body))
+        elif not self.is_last_resort and cut_off_places(self.mission, [place])[0]:
+            self.cut_off.append(mandatory_visit(self.mission, place, self.node.body))
         else:
             off = [v.place for v in self.cut_off]
-            gone = [p for p, cut in zip(off, no_way(self.attempt, off), strict=True) if cut]
+            gone = [p for p, cut in zip(off, cut_off_places(self.mission, off), strict=True) if cut]
             given_up = [place, *(p for p in gone if p != place)] if self.is_last_resort else [place]
             self.cut_off = [v for v in self.cut_off if v.place not in given_up]
             self._missed += given_up
             self._give_up(given_up, fault.what)
 
     def _home(self) -> Place | None:
-        return home_if_last(self.attempt.task, self.attempt.site, self.node.id, self.attempt.here)
+        return home_if_last(self.mission.task, self.mission.site, self.node.id, self.mission.here)
 
     def _give_up(self, places: Sequence[Place], why: str) -> None:
         self._why = why
         choice, optional = VisitChoice(index=None, reason=why), self.node.optional
-        shed(self.attempt, self.node.id, places, choice, optional=optional, cause="unreachable")
+        report_shed(self.mission, self.node.id, places, choice, optional=optional, cause="unreachable")
 
     def _parted(self, places: Sequence[Place]) -> tuple[tuple[Place, ...], tuple[Place, ...]]:
         """Split places into those that can be reached from the robot's position and those that obstacles cut off."""
-        gone = no_way(self.attempt, places)
+        gone = cut_off_places(self.mission, places)
         return (
             tuple(p for p, cut in zip(places, gone, strict=True) if not cut),
             tuple(p for p, cut in zip(places, gone, strict=True) if cut),
@@ -172,9 +172,9 @@ class Tour:
 
     def _look_again(self) -> None:
         """Update the visits after drives have changed: places cut off, stands of the others, their order."""
-        attempt, node = self.attempt, self.node
-        self._ways = attempt.blockages.version
-        if not attempt.blockages.stretches and not self.cut_off:
+        mission, node = self.mission, self.node
+        self._ways = mission.blockages.version
+        if not mission.blockages.stretches and not self.cut_off:
             return
         visits = {(v.place.kind, v.place.id): v for v in (*self.left, *self.cut_off)}
         near, far = self._parted([v.place for v in visits.values()])
@@ -182,9 +182,9 @@ class Tour:
             self._give_up(far, "no way to it is left: what the robot found in its way closes it off")
             far = ()
         open_ = [replace(p, stand=None) if p.kind == "tree" else p for p in near]
-        ordered = with_stands(attempt.drives, attempt.standing, open_)
+        ordered = with_stands(mission.drives, mission.standing, open_)
         if node.order == "best" and not node.optional:
-            ordered = tuple(ordered[k] for k in order_visits(attempt.drives, attempt.standing, ordered, self._home()))
+            ordered = tuple(ordered[k] for k in order_visits(mission.drives, mission.standing, ordered, self._home()))
         self.left = [replace(visits[p.kind, p.id], place=p) for p in ordered]
         self.cut_off = [replace(visits[p.kind, p.id], place=replace(p, stand=None)) for p in far]
 
@@ -192,19 +192,21 @@ class Tour:
         """Return the next visit in planned order, if the guard permits it."""
         visit = self.left.pop(0)
         self.place = visit.place
-        admit(self.attempt, visit, refused=[visit.place, *self.undone()])
+        admit(self.mission, visit, refused=[visit.place, *self.undone()])
         return visit.place
 
     def _chosen(self) -> Place | None:
         """Let the guard choose the next optional visit, and report those it gives up."""
-        attempt, node = self.attempt, self.node
+        mission, node = self.mission, self.node
         at_most = None if node.at_most is None else node.at_most - self._made
-        state = attempt.state()
-        choice = attempt.guard.choose(state, list(self.left), at_most=at_most, still_to_come=to_come(attempt))
+        state = mission.state()
+        choice = mission.guard.choose(
+            state, list(self.left), at_most=at_most, still_to_come=mandatory_visits_left(mission)
+        )
         given_up = set(range(len(self.left))) if choice.index is None else set(choice.shed) - {choice.index}
         if given_up:
             places = [self.left[i].place for i in sorted(given_up)]
-            shed(attempt, node.id, places, choice, optional=True)
+            report_shed(mission, node.id, places, choice, optional=True)
         chosen = None if choice.index is None else self.left[choice.index].place
         self.left = [v for i, v in enumerate(self.left) if i not in given_up and i != choice.index]
         return chosen

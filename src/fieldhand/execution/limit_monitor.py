@@ -14,8 +14,8 @@ from typing import Literal
 from shapely.geometry import LineString, Point
 
 from fieldhand.errors import DriveFault
-from fieldhand.execution.attempt import Attempt
-from fieldhand.execution.levels import Consequence, LimitLevel, fastest_drain, levels_of
+from fieldhand.execution.active_mission import ActiveMission
+from fieldhand.execution.limit_levels import Consequence, LimitLevel, fastest_drain, levels_of
 from fieldhand.execution.open_goals import OpenCapture, OpenDrive
 from fieldhand.forecast.failsafe_state import FailsafeForecast, FailsafeState
 from fieldhand.forecast.mission_state import Spent, Work
@@ -43,11 +43,11 @@ Phase = Literal["plan", "exit", "over"]
 Alarm = Literal["none", "return", "stop", "shelter"]
 
 
-class Watch:
+class LimitMonitor:
     """Limit monitor of one mission.
 
     Args:
-        attempt: The mission.
+        mission: The mission.
 
     Attributes:
         phase: Current phase of the mission.
@@ -56,21 +56,21 @@ class Watch:
         exit: Destination after an alarm to turn home.
     """
 
-    def __init__(self, attempt: Attempt) -> None:
-        self._attempt = attempt
+    def __init__(self, mission: ActiveMission) -> None:
+        self._mission = mission
         self.phase: Phase = "plan"
         self.alarm: Alarm = "none"
         self.why = ""
-        self.exit = attempt.exit_for("low_budget")
+        self.exit = mission.exit_for("low_budget")
         #: A mission that ends at its last visit does not include the way home in its limits: driving home would exceed
         #: them.
-        self._has_open_end = attempt.task.composition.nominal == "stay"
+        self._has_open_end = mission.task.composition.nominal == "stay"
         self._reach_m = 0.0
-        self._levels = levels_of(attempt.task.constraints, attempt.robot)
+        self._levels = levels_of(mission.task.constraints, mission.robot)
         self._crossed: set[LimitLevel] = set()
         self._homes: tuple[tuple[tuple[float, float], ...], float, float] | None = None
         self._foreseen: set[Phase] = set()
-        self._fastest = fastest_drain(attempt.robot)
+        self._fastest = fastest_drain(mission.robot)
 
     def turn(self, phase: Phase) -> None:
         """Enter a phase of the mission; the previous alarm is settled."""
@@ -78,7 +78,7 @@ class Watch:
 
     def look(self) -> None:
         """Check all levels: record crossings, and raise the alarm if one has consequences."""
-        spent, charge = self._attempt.spent, self._attempt.charge_percent()
+        spent, charge = self._mission.spent, self._mission.charge_percent()
         values: dict[Crossable, float] = {
             "charge_percent": charge,
             "distance_m": spent.metres,
@@ -89,7 +89,7 @@ class Watch:
             value = values[level.quantity]
             if level not in self._crossed and level.is_crossed(value):
                 self._crossed.add(level)
-                self._say(level.quantity, level.level, value, level.threshold, self._follows(level))
+                self._emit_crossing(level.quantity, level.level, value, level.threshold, self._follows(level))
             elif level in self._crossed and level.quantity == "charge_percent":
                 self._clear(level, value)
         if self.alarm == "none" and self.phase not in self._foreseen:
@@ -102,17 +102,17 @@ class Watch:
             now: Time of the mission clock in seconds.
             charge: Battery charge in percent.
         """
-        seconds = self._attempt.t + now - self._attempt.clock.now()
+        seconds = self._mission.t + now - self._mission.clock.now()
         values: dict[Crossable, float] = {"charge_percent": charge, "duration_s": seconds}
-        if self._attempt.next_reading_in() > 0.0 and math.isfinite(self._attempt.next_reading_in()):
+        if self._mission.next_reading_in() > 0.0 and math.isfinite(self._mission.next_reading_in()):
             del values["charge_percent"]  # read a moment ago
         open_ = (level for level in self._levels if level not in self._crossed and level.quantity in values)
         return any(level.is_crossed(values[level.quantity]) for level in open_)
 
     def next_look_in(self) -> float:
         """Return the shortest time in seconds until something could be crossed."""
-        spent, charge = self._attempt.spent, self._attempt.charge_percent()
-        speed, found = _SPEED * self._attempt.robot.speed_m_s, [self._attempt.next_reading_in()]
+        spent, charge = self._mission.spent, self._mission.charge_percent()
+        speed, found = _SPEED * self._mission.robot.speed_m_s, [self._mission.next_reading_in()]
         pace: dict[Crossable, float] = {
             "charge_percent": self._fastest,
             "energy_percent": self._fastest,
@@ -137,27 +137,27 @@ class Watch:
         Return None if there is no such place: then it drives on until the stop level. The alarm ends in both cases.
         """
         self.alarm = "none"
-        attempt, at = self._attempt, self._attempt.seen.position
+        mission, at = self._mission, self._mission.observation.position
         try:
-            way = attempt.drives.between(point_at(attempt.site, (at.x, at.y), "on the way"), home)
+            way = mission.drives.between(point_at(mission.site, (at.x, at.y), "on the way"), home)
         except DriveFault:
             return None
         for reach_m in (_SURELY * self._reach_m, self._reach_m):
-            if (metres := safe_stop(attempt.drives, way, reach_m)) is not None:
-                return point_at(attempt.site, way.at(metres), "safe place")
-        markers = [m for m in attempt.site.markers.values() if attempt.drives.linked((m,), way.start)[0]]
-        ways = [(attempt.drives.between(way.start, marker).length_m, k) for k, marker in enumerate(markers)]
+            if (metres := safe_stop(mission.drives, way, reach_m)) is not None:
+                return point_at(mission.site, way.at(metres), "safe place")
+        markers = [m for m in mission.site.markers.values() if mission.drives.linked((m,), way.start)[0]]
+        ways = [(mission.drives.between(way.start, marker).length_m, k) for k, marker in enumerate(markers)]
         nearest_m, k = min(ways, default=(math.inf, -1))
         return markers[k] if nearest_m <= _SURELY * self._reach_m else None
 
     def reaches(self, home: Place) -> bool:
         """Return True if the charge suffices for the way home from the robot's position."""
-        attempt = self._attempt
+        mission = self._mission
         try:
-            metres = attempt.drives.between(attempt.standing, home).length_m
+            metres = mission.drives.between(mission.standing, home).length_m
         except DriveFault:
             return False
-        return self._ask(attempt.spent, attempt.charge_percent(), (metres, 0.0, 0.0)).alarm == "none"
+        return self._ask_failsafe(mission.spent, mission.charge_percent(), (metres, 0.0, 0.0)).alarm == "none"
 
     # --- crossings -----------------------------------------------------------------------------------------------
 
@@ -173,14 +173,14 @@ class Watch:
         """Return the destination after a limit of that quantity is reached."""
         if self._has_open_end and quantity != "charge_percent":
             return "stay"
-        return self._attempt.exit_for("low_budget")
+        return self._mission.exit_for("low_budget")
 
     def _clear(self, level: LimitLevel, value: float) -> None:
         if value >= level.threshold + CLEAR_PERCENT and not level.is_crossed(value):
             self._crossed.discard(level)
-            self._say(level.quantity, level.level, value, level.threshold, "go_on", cleared=True)
+            self._emit_crossing(level.quantity, level.level, value, level.threshold, "go_on", cleared=True)
 
-    def _say(
+    def _emit_crossing(
         self,
         quantity: Crossable,
         level: Crossing,
@@ -190,10 +190,10 @@ class Watch:
         *,
         cleared: bool = False,
     ) -> None:
-        attempt, at = self._attempt, self._attempt.seen.position
+        mission, at = self._mission, self._mission.observation.position
         event = LimitCrossed(
-            t=attempt.t,
-            node="" if attempt.doing is None else attempt.doing.node,
+            t=mission.t,
+            node="" if mission.doing is None else mission.doing.node,
             quantity=quantity,
             level=level,
             value=value,
@@ -202,10 +202,10 @@ class Watch:
             cleared=cleared,
             lat=at.lat,
             lon=at.lon,
-            travelled_m=attempt.spent.metres,
-            charge_percent=attempt.charge_percent(),
+            travelled_m=mission.spent.metres,
+            charge_percent=mission.charge_percent(),
         )
-        attempt.emit(event)
+        mission.emit(event)
         if then != "go_on" and self.alarm != "stop":
             self.alarm = "shelter" if level == "out_of_reach" else "return" if then == "end" else then
             self.why, self.exit = say_crossing(event), self._exit_after(quantity)
@@ -214,28 +214,28 @@ class Watch:
 
     def _foresee(self, spent: Spent, charge: float) -> None:
         """Ask the failsafe, during a drive or a capture, whether resources suffice for the way home."""
-        doing = self._attempt.doing
+        doing = self._mission.doing
         if self.phase == "plan" and self._has_open_end:
             return
         if self.phase == "over" or doing is None or (self.phase == "exit" and not isinstance(doing, OpenDrive)):
             return
-        found = self._ask(spent, charge, self._ways(doing), self._work_left(doing))
+        found = self._ask_failsafe(spent, charge, self._ways(doing), self._work_left(doing))
         if found.alarm == "none":
             return
         self._foreseen.add(self.phase)
         self._reach_m = found.reach_m
         quantity: Crossable = "charge_percent" if found.limit == "reserve" else found.limit
         if found.alarm == "turn_home":
-            self._say(quantity, "way_home", found.left, found.needed, "return")
+            self._emit_crossing(quantity, "way_home", found.left, found.needed, "return")
         else:
-            self._say(quantity, "out_of_reach", found.left, found.needed, "stop")
+            self._emit_crossing(quantity, "out_of_reach", found.left, found.needed, "stop")
 
-    def _ask(
+    def _ask_failsafe(
         self, spent: Spent, charge: float, ways: tuple[float, float, float], work: Work | None = None
     ) -> FailsafeForecast:
         """Ask the failsafe; ``ways`` are those of :meth:`_ways`."""
         on_m, after_m, home_m = ways
-        return self._attempt.inputs.foresee(
+        return self._mission.inputs.foresee(
             FailsafeState(
                 spent=spent,
                 charge_percent=charge,
@@ -249,16 +249,16 @@ class Watch:
 
     def _ways(self, doing: OpenDrive | OpenCapture) -> tuple[float, float, float]:
         """Return metres left of the current drive, from its end home, and at most from here home."""
-        attempt = self._attempt
-        if isinstance(doing, OpenCapture) or len(attempt.driven) < 2:
-            home = self._home_m(attempt.standing)
+        mission = self._mission
+        if isinstance(doing, OpenCapture) or len(mission.driven) < 2:
+            home = self._home_m(mission.standing)
             return 0.0, home, home
-        if self._homes is None or self._homes[0] is not attempt.driven:
-            begins, end = point_at(attempt.site, attempt.driven[0], "on the way"), doing.goal.place
+        if self._homes is None or self._homes[0] is not mission.driven:
+            begins, end = point_at(mission.site, mission.driven[0], "on the way"), doing.goal.place
             returning = self.phase == "exit"
             ways = (0.0, 0.0) if returning else (self._home_m(begins), self._home_m(end))
-            self._homes = attempt.driven, *ways
-        path, at = LineString(attempt.driven), attempt.seen.position
+            self._homes = mission.driven, *ways
+        path, at = LineString(mission.driven), mission.observation.position
         done = path.project(Point(at.x, at.y))
         on_m = max(0.0, path.length - done)
         _, from_start, from_end = self._homes
@@ -266,18 +266,18 @@ class Watch:
 
     def _home_m(self, at: Place) -> float:
         """Return the metres to the exit for a low budget; 0 if there is no way."""
-        attempt = self._attempt
-        home = attempt.site.home(attempt.exit_for("low_budget"), at)
+        mission = self._mission
+        home = mission.site.home(mission.exit_for("low_budget"), at)
         try:
-            return 0.0 if home.xy == at.xy else attempt.drives.between(at, home).length_m
+            return 0.0 if home.xy == at.xy else mission.drives.between(at, home).length_m
         except DriveFault:
             return 0.0
 
     def _work_left(self, doing: OpenDrive | OpenCapture) -> Work:
         if not isinstance(doing, OpenCapture):
             return Work()
-        action = self._attempt.robot.action[doing.action]
-        left = max(0.0, 1.0 - self._attempt.controller.poll().seconds / action.duration_s)
+        action = self._mission.robot.action[doing.action]
+        left = max(0.0, 1.0 - self._mission.controller.poll().seconds / action.duration_s)
         return Work(seconds=left * action.duration_s, joules=left * action.energy_j)
 
 

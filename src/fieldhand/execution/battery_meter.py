@@ -21,7 +21,7 @@ _SAME_S = 1e-9
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Surprise:
+class _Outlier:
     """A reading that does not count yet; ``explained`` if the battery can have reached it, but past a level."""
 
     at: float
@@ -51,7 +51,7 @@ class BatteryMeter:
         self.percent = percent
         self._at, self._hold_s, self._fastest, self._levels = now, hold_s, fastest, tuple(levels)
         self._explained_s = min(hold_s, STEP_PERCENT / fastest) if fastest > 0.0 else hold_s
-        self._odd: deque[_Surprise] = deque()
+        self._outliers: deque[_Outlier] = deque()
         self._falls = False
 
     def read(self, percent: float, now: float) -> float:
@@ -61,37 +61,37 @@ class BatteryMeter:
         explained = self._is_explained(percent, now)
         if self._hold_s <= 0.0 or (explained and not any(percent <= level < self.percent for level in self._levels)):
             self.percent, self._at = percent, now
-            self._odd.clear()
+            self._outliers.clear()
             return percent
-        self._keep(_Surprise(at=now, percent=percent, explained=explained))
-        if len(self._odd) >= LEAST_READINGS and now - self._odd[0].at >= self._lasts_s - _SAME_S:
-            held = [odd.percent for odd in self._odd]
+        self._add_outlier(_Outlier(at=now, percent=percent, explained=explained))
+        if len(self._outliers) >= LEAST_READINGS and now - self._outliers[0].at >= self._lasts_s - _SAME_S:
+            held = [outlier.percent for outlier in self._outliers]
             self.percent, self._at = max(held) if self._falls else min(held), now
-            while now - self._odd[0].at > self._lasts_s:
-                self._odd.popleft()
+            while now - self._outliers[0].at > self._lasts_s:
+                self._outliers.popleft()
         return self.percent
 
     def next_reading_in(self, now: float) -> float:
         """Return the seconds until the next reading is due: soon after an unexpected one, otherwise infinity."""
-        if not self._odd:
+        if not self._outliers:
             return math.inf
-        return max(0.0, self._odd[-1].at + self._lasts_s / (LEAST_READINGS - 1) - now)
+        return max(0.0, self._outliers[-1].at + self._lasts_s / (LEAST_READINGS - 1) - now)
 
     @property
     def _lasts_s(self) -> float:
         """Seconds for which the current unexpected readings must persist."""
-        return self._explained_s if all(odd.explained for odd in self._odd) else self._hold_s
+        return self._explained_s if all(outlier.explained for outlier in self._outliers) else self._hold_s
 
     def _is_explained(self, percent: float, now: float) -> bool:
         """Return True if the battery can have come to that charge since the last one that counts."""
         fell = self.percent - percent
         return -STEP_PERCENT <= fell <= STEP_PERCENT + self._fastest * max(0.0, now - self._at)
 
-    def _keep(self, odd: _Surprise) -> None:
-        falls = odd.percent < self.percent
+    def _add_outlier(self, outlier: _Outlier) -> None:
+        falls = outlier.percent < self.percent
         if falls != self._falls:
-            self._odd.clear()
-        elif self._odd and self._odd[-1].at >= odd.at:
-            self._odd.pop()  # several looks at one moment are one reading
+            self._outliers.clear()
+        elif self._outliers and self._outliers[-1].at >= outlier.at:
+            self._outliers.pop()  # several looks at one moment are one reading
         self._falls = falls
-        self._odd.append(odd)
+        self._outliers.append(outlier)

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from fieldhand.errors import InputError, OutputError, TaskError
-from fieldhand.execution.log import EventLog, read_events
+from fieldhand.execution.event_log import EventLog, read_events
 from fieldhand.places.selectors import Half, TreeIs
 from fieldhand.task.plan import Act, ForEach
 from fieldhand.task.results import Ended

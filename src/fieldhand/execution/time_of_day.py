@@ -19,8 +19,8 @@ class TimeOfDay:
 
     def __init__(self, inputs: RecordedInputs) -> None:
         self._inputs = inputs
-        self._began_s = inputs.seen.wall
-        self._ahead_s = 0.0 if self._began_s is None else self._began_s - inputs.seen.t
+        self._began_s = inputs.observation.wall
+        self._ahead_s = 0.0 if self._began_s is None else self._began_s - inputs.observation.t
 
     @property
     def began_at(self) -> str:
@@ -31,7 +31,7 @@ class TimeOfDay:
 
     def set_by(self) -> float:
         """Return the seconds by which the wall clock was changed since the last call."""
-        seen = self._inputs.seen
+        seen = self._inputs.observation
         if self._began_s is None or seen.wall is None:
             return 0.0
         ahead_s = seen.wall - seen.t

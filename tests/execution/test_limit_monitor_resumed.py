@@ -14,7 +14,7 @@ from fieldhand.clock import SimulatedClock
 from fieldhand.evaluation.battery_drain import BatteryDrain
 from fieldhand.evaluation.failsafe import BudgetFailsafe
 from fieldhand.execution import mission_clock
-from fieldhand.execution.drivers.simulation import SimulatedDriver
+from fieldhand.execution.drivers.simulated_driver import SimulatedDriver
 from fieldhand.execution.guard import NoGuard
 from fieldhand.execution.journal import store
 from fieldhand.execution.journal.store import create

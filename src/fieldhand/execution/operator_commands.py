@@ -9,16 +9,23 @@ import sqlite3
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal, cast
+from typing import Literal, cast, get_args
 
-from fieldhand.errors import ExecutionError, JournalError
+from fieldhand.errors import ExecutionError, InputError, JournalError
 
 #: All commands. ``pause``: stand still. ``continue``: end the pause. ``return``: drive home now. ``abort``: stop here;
 #: the mission is over. ``end``: take the Task's exit for an abort (Ctrl-C, a terminated program).
-Wanted = Literal["pause", "continue", "return", "abort", "end"]
+CommandKind = Literal["pause", "continue", "return", "abort", "end"]
 
 #: Commands that another process can give.
-OrderWord = Literal["pause", "continue", "return", "abort"]
+FileCommand = Literal["pause", "continue", "return", "abort"]
+
+#: Commands that can be given in memory: they stop the robot or bring it home.
+StoppingCommand = Literal["pause", "return", "abort"]
+
+#: Commands that a robot's agent accepts over the network; its ``resume`` is ``continue`` in the file.
+AgentCommand = Literal["start", "pause", "resume", "return", "abort"]
+AGENT_COMMANDS: tuple[AgentCommand, ...] = get_args(AgentCommand)
 
 #: Commands that may follow each command.
 _AFTER: dict[str, frozenset[str]] = {
@@ -31,7 +38,7 @@ _AFTER: dict[str, frozenset[str]] = {
 
 
 @dataclass(frozen=True, kw_only=True)
-class Order:
+class OperatorCommand:
     """A command, in force until the next one.
 
     Attributes:
@@ -39,12 +46,24 @@ class Order:
         number: Number in the mission's folder, from 1; 0 if given otherwise.
     """
 
-    wanted: Wanted
+    wanted: CommandKind
     reason: str
     number: int = 0
 
 
-class OrderFile:
+def parse_agent_command(word: str) -> AgentCommand:
+    """Return the agent command of this name.
+
+    Raises:
+        InputError: There is none.
+    """
+    for command in AGENT_COMMANDS:
+        if command == word:
+            return command
+    raise InputError(f"no order '{word[:40]}'", where="order", advice=f"give one of {', '.join(AGENT_COMMANDS)}")
+
+
+class CommandFile:
     """The commands to a mission, in a file that any process can append to.
 
     Args:
@@ -55,7 +74,7 @@ class OrderFile:
         self._path = path
         self._db: sqlite3.Connection | None = None
         self._file: tuple[int, int] | None = None
-        self._before: Order | None = None
+        self._before: OperatorCommand | None = None
 
     def create(self) -> None:
         """Create the file, empty.
@@ -70,7 +89,7 @@ class OrderFile:
         except sqlite3.Error as error:
             raise self._unusable(error) from None
 
-    def give(self, said: OrderWord, reason: str) -> int:
+    def give(self, command: FileCommand, reason: str) -> int:
         """Append a command.
 
         Returns:
@@ -84,30 +103,30 @@ class OrderFile:
             with closing(self._connect()) as db:
                 db.execute("BEGIN IMMEDIATE")
                 number, last = self._last(db)
-                if said not in _AFTER[last]:
+                if command not in _AFTER[last]:
                     raise ExecutionError(f"the mission was told to {last} already")
-                db.execute("INSERT INTO orders VALUES (?, ?, ?)", [number + 1, said, reason])
+                db.execute("INSERT INTO orders VALUES (?, ?, ?)", [number + 1, command, reason])
                 db.execute("COMMIT")
                 return number + 1
         except sqlite3.Error as error:
             raise self._unusable(error) from None
 
-    def current(self) -> Order | None:
+    def current(self) -> OperatorCommand | None:
         """Return the current command. An unreadable file counts as an abort, since no other command could arrive."""
         try:
             if self._db is None:
                 self._db, self._file = self._connect(), self._identity()
             elif self._identity() != self._file:
-                return Order(wanted="abort", reason="its orders cannot be read: their file was replaced")
+                return OperatorCommand(wanted="abort", reason="its orders cannot be read: their file was replaced")
             row = self._db.execute("SELECT n, said, reason FROM orders ORDER BY n DESC LIMIT 1").fetchone()
         except sqlite3.OperationalError as error:
             if "locked" in str(error) or "busy" in str(error):
                 return self._before
-            return Order(wanted="abort", reason=f"its orders cannot be read: {error}")
+            return OperatorCommand(wanted="abort", reason=f"its orders cannot be read: {error}")
         except (sqlite3.Error, OSError) as error:
-            return Order(wanted="abort", reason=f"its orders cannot be read: {error}")
+            return OperatorCommand(wanted="abort", reason=f"its orders cannot be read: {error}")
         if row is not None:
-            self._before = Order(wanted=cast("Wanted", row[1]), reason=row[2], number=row[0])
+            self._before = OperatorCommand(wanted=cast("CommandKind", row[1]), reason=row[2], number=row[0])
         return self._before
 
     def last(self) -> tuple[int, str]:

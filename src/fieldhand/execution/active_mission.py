@@ -1,6 +1,6 @@
 """State of a mission while it is carried out.
 
-The behaviors of the tree are stateless: they share one :class:`Attempt`, which is passed to each. There is no
+The behaviors of the tree are stateless: they share one :class:`ActiveMission`, which is passed to each. There is no
 blackboard.
 """
 
@@ -14,15 +14,15 @@ from typing import Literal
 
 from fieldhand.clock import Clock
 from fieldhand.errors import ActionFault, BlockedFault, DriveFault, FieldhandError, LostFault, PlaceError
-from fieldhand.execution.battery import BatteryMeter
+from fieldhand.execution.battery_meter import BatteryMeter
 from fieldhand.execution.drive_controller import AT_M, DriveController, drive_goal
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Progress
 from fieldhand.execution.guard import Guard
 from fieldhand.execution.journal.records import Observation
-from fieldhand.execution.levels import charge_levels, fastest_drain
+from fieldhand.execution.limit_levels import charge_levels, fastest_drain
 from fieldhand.execution.open_goals import OpenCapture, OpenDrive, joules_done, unusable
 from fieldhand.execution.recorded_inputs import RecordedInputs
-from fieldhand.execution.timeofday import TimeOfDay
+from fieldhand.execution.time_of_day import TimeOfDay
 from fieldhand.forecast.conditions import ConditionInputs
 from fieldhand.forecast.mission_state import MissionState, Spent
 from fieldhand.forecast.optional_visits import OptionalVisits
@@ -54,7 +54,7 @@ class Ending:
     node: str = ""
 
 
-class Attempt:
+class ActiveMission:
     """State of a mission: position, bound places, readings, resources used, and events so far.
 
     Args:
@@ -103,7 +103,7 @@ class Attempt:
         self.time_of_day = TimeOfDay(inputs)
         self._wake_s: float | None = None
         self.action_j = 0.0
-        self._full = self.seen.charge_percent
+        self._full = self.observation.charge_percent
         self._cuts = 0
         self._open: OpenDrive | OpenCapture | None = None
         self.events: list[Event] = []
@@ -129,9 +129,9 @@ class Attempt:
         )
 
     @property
-    def seen(self) -> Observation:
+    def observation(self) -> Observation:
         """The robot as observed now."""
-        return self.inputs.seen
+        return self.inputs.observation
 
     @property
     def t(self) -> float:
@@ -168,7 +168,7 @@ class Attempt:
 
     def charge_percent(self) -> float:
         """Return the battery charge in percent, filtered for single false readings."""
-        return self._battery.read(self.seen.charge_percent, self.clock.now())
+        return self._battery.read(self.observation.charge_percent, self.clock.now())
 
     def next_reading_in(self) -> float:
         """Return the seconds until the battery should be read again after an unexpected reading."""
@@ -313,7 +313,7 @@ class Attempt:
 
     def next_event_in(self) -> float | None:
         """Return the seconds until the robot or a wait is due, or None if it neither works nor waits."""
-        found = [] if (soon := self.seen.next_in) is None else [soon]
+        found = [] if (soon := self.observation.next_in) is None else [soon]
         if self._wake_s is not None:
             found.append(min(LOOK_AGAIN_S, max(0.0, self._wake_s - self.clock.now())))
         return min(found, default=None)
@@ -332,12 +332,12 @@ class Attempt:
         """Record that the mission was resumed since the last call."""
         if self.inputs.cuts != self._cuts:
             self._cuts = self.inputs.cuts
-            at = self.seen.position
+            at = self.observation.position
             self.emit(Resumed(t=self.t, lat=at.lat, lon=at.lon, charge_percent=self.charge_percent()))
 
     def emit_arrived(self, node: str, place: Place, leg_m: float) -> None:
         """Record that the robot has arrived at a place."""
-        position = self.seen.position
+        position = self.observation.position
         self.emit(
             Arrived(
                 t=self.t,
@@ -436,7 +436,7 @@ class Attempt:
 
     def _stands(self) -> Place:
         """Return the robot's position as a place: ``here`` if it is there."""
-        position = self.seen.position
+        position = self.observation.position
         xy = (position.x, position.y)
         if math.dist(xy, self.here.stand or self.here.xy) <= AT_M:
             return self.here

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from fieldhand.clock import Clock
-from fieldhand.execution.drivers.groundtruth import GroundTruth, Hindrance, Point
+from fieldhand.execution.drivers.ground_truth import GroundTruth, Hindrance, Point
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, GoalFault, GoalState, Position, Progress
 from fieldhand.execution.drivers.simulation_state import SimulationState
 from fieldhand.execution.world import World
@@ -148,7 +148,7 @@ class SimulatedDriver:
             )
         )
 
-    def sense(self, action: str, place: Place) -> Mapping[str, float]:
+    def read_sensors(self, action: str, place: Place) -> Mapping[str, float]:
         """Return the readings of an action's sensors at a place without a capture; empty if they fail.
 
         Faults that occur a limited number of times are not used up away from trees, where usually no client listens.

@@ -19,7 +19,7 @@ ACCEPTED, EXECUTING, CANCELING, SUCCEEDED, CANCELED, ABORTED = range(1, 7)
 #: Return codes of ``action_msgs/srv/CancelGoal``.
 CANCEL_REJECTED, CANCEL_UNKNOWN_GOAL, CANCEL_TERMINATED = 1, 2, 3
 
-#: How a goal ended. ``untold``: the server did not report it; see :attr:`GoalOutcome.what`.
+#: How a goal ended. ``untold``: the server did not report it; see :attr:`ActionOutcome.what`.
 OutcomeKind = Literal["succeeded", "aborted", "cancelled", "rejected", "untold"]
 
 #: Final statuses.
@@ -29,7 +29,7 @@ BUSY = (ACCEPTED, EXECUTING, CANCELING)
 
 
 @dataclass(frozen=True, kw_only=True)
-class GoalOutcome:
+class ActionOutcome:
     """Outcome of a goal.
 
     Attributes:
