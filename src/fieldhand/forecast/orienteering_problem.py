@@ -12,7 +12,7 @@ from fieldhand.forecast.mission_state import Spent, Work
 from fieldhand.forecast.remaining_work import RemainingWork
 from fieldhand.forecast.resource_limits import ResourceLimit, orienteering_limits
 from fieldhand.forecast.visit_distances import VisitDistances
-from fieldhand.orienteering.problem import Problem, unchecked_problem
+from fieldhand.orienteering.problem import Problem
 from fieldhand.robot.model import RobotProfile
 
 if TYPE_CHECKING:
@@ -59,7 +59,8 @@ def visits_problem(
         small for the way home: a mission under way can have come to that.
     """
     chance = min(max(accepted, _LEAST), _MOST)
-    return unchecked_problem(
+    return Problem(
+        under_way=True,
         distances=legs.distances,
         coordinates=legs.coordinates,
         table=legs.table,

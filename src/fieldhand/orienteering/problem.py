@@ -53,6 +53,8 @@ class Problem:
         max_visits: Largest number of vertices with a reward that may be visited, start and end not counted; None for
             as many as fit.
         legs_after: Lengths of the legs driven after the end, whatever the route; they count for every limit.
+        under_way: True for the rest of a mission that has begun. Nothing is checked then: the numbers were checked
+            before, and what is left of a budget may be too small for the way home.
 
     Raises:
         ProblemError: Numbers that are negative, NaN or of the wrong shape; a vertex that does not exist; an end that
@@ -70,8 +72,11 @@ class Problem:
     coordinates: Floats | None = None
     table: Table | None = None
     max_visits: int | None = None
+    under_way: bool = False
 
     def __post_init__(self) -> None:
+        if self.under_way:
+            return
         _check_graph(self)
         for limit in self.limits:
             _check_limit(limit, self.size)
@@ -98,39 +103,6 @@ class Problem:
         return float(self.distances[u, v])
 
 
-def unchecked_problem(
-    *,
-    distances: Floats,
-    rewards: Floats,
-    start: int,
-    end: int,
-    limits: tuple[Limit, ...],
-    alpha: float,
-    legs_after: tuple[float, ...] = (),
-    costs: CostModel | None = None,
-    coordinates: Floats | None = None,
-    table: Table | None = None,
-    max_visits: int | None = None,
-) -> Problem:
-    """Return a problem under way without checks, since the rest may be too small for the way home."""
-    problem = object.__new__(Problem)
-    for name, value in {
-        "distances": distances,
-        "rewards": rewards,
-        "start": start,
-        "end": end,
-        "limits": limits,
-        "alpha": alpha,
-        "legs_after": legs_after,
-        "costs": costs,
-        "coordinates": coordinates,
-        "table": table,
-        "max_visits": max_visits,
-    }.items():
-        object.__setattr__(problem, name, value)
-    return problem
-
-
 def count_visits(problem: Problem, vertices: Iterable[int]) -> int:
     """Return how many of these vertices count against :attr:`Problem.max_visits`."""
     return sum(problem.rewards[v] > 0.0 for v in set(vertices) - {problem.start, problem.end})
@@ -144,19 +116,7 @@ def remaining_problem(
     max_visits = None if problem.max_visits is None else max(0, problem.max_visits - count_visits(problem, collected))
     rewards[list(collected)] = 0.0
     limits = tuple(replace(limit, budget=budget) for limit, budget in zip(problem.limits, left, strict=True))
-    return unchecked_problem(
-        distances=problem.distances,
-        rewards=rewards,
-        start=vertex,
-        end=problem.end,
-        limits=limits,
-        alpha=problem.alpha,
-        legs_after=problem.legs_after,
-        costs=problem.costs,
-        coordinates=problem.coordinates,
-        table=problem.table,
-        max_visits=max_visits,
-    )
+    return replace(problem, rewards=rewards, start=vertex, limits=limits, max_visits=max_visits, under_way=True)
 
 
 def _check_graph(problem: Problem) -> None:
