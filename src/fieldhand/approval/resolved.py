@@ -19,8 +19,7 @@ class Found:
         visits: Places for each execution of the node on the most likely branch that contains it: one for an action or
             drive, all in order for a for-each; for an optional step its starting place, or none if it is skipped.
         shed: Places that the budget is not expected to cover.
-        known: True if the places are the same on every branch and for any leg costs; otherwise decided during the
-            mission.
+        known: True if the places are the same on every branch and for any leg costs; otherwise decided on the way.
         visit_forecast: Forecast of the optional visits in the first execution.
         short: Probability that the mission runs short with them.
     """

@@ -1,1 +1,1 @@
-"""What other programs read and write: logs as MCAP, plans as GeoJSON, KML, CSV and QGroundControl, trees, replays."""
+"""Import and export formats: logs as MCAP; plans as GeoJSON, KML, CSV and QGroundControl; trees; replays."""

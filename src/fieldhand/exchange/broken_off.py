@@ -1,4 +1,4 @@
-"""Drives that did not arrive: how far the robot went along a way before it was blocked, paused or cut off."""
+"""Interrupted drives: the part of a path driven before the robot was blocked, paused or powered off."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ Path = Sequence[tuple[float, float]]
 
 
 def driven_part(path: Path, at: tuple[float, float]) -> tuple[tuple[float, float], ...]:
-    """The part of a way that was driven when the robot stands at a point of it, or beside it.
+    """Return the part of a path driven up to a robot position on or beside it.
 
     Args:
-        path: Corners of the way as latitude and longitude.
-        at: Where the drive ended, which is the last corner of the answer.
+        path: Corners of the path as latitude and longitude.
+        at: Position at the end of the drive, which becomes the last corner of the result.
     """
     from shapely import LineString, Point
 
     if len(path) < 2:
         return (*path, at)
-    # Degrees of longitude are shorter than those of latitude; on the length of one drive that is one factor.
+    # Degrees of longitude are shorter than those of latitude; the factor is constant over a single drive.
     narrow = math.cos(math.radians(at[0]))
     corners = [(lon * narrow, lat) for lat, lon in path]
     passed = LineString(corners).project(Point(at[1] * narrow, at[0]))

@@ -1,4 +1,4 @@
-"""What happened to a mission beside drives and captures: faults, doubts, pauses, power cuts, each with its place."""
+"""Mission incidents other than drives and captures: faults, uncertain captures, pauses, power cuts, with locations."""
 
 from __future__ import annotations
 
@@ -28,15 +28,15 @@ LatLon = tuple[float, float]
 
 @dataclass(frozen=True, kw_only=True)
 class Incident:
-    """One of them.
+    """An incident of a mission.
 
     Attributes:
-        event: As the event log calls it.
-        at: Where the robot was, or the capture in doubt; None where the log does not say.
-        place: What it drove to or worked on; empty where none is meant.
-        words: What happened.
-        blocked: All that the robot will not drive over from then on, as corners; None where nothing changed.
-        unreachable: Trees to which no way leads any more.
+        event: Name of the event in the event log.
+        at: Position of the robot or of the uncertain capture; None if the log does not contain it.
+        place: Destination or work place; empty if there is none.
+        words: Description of the incident.
+        blocked: All areas blocked from then on, as corners; None if they did not change.
+        unreachable: Trees that can no longer be reached.
     """
 
     t: float
@@ -50,11 +50,11 @@ class Incident:
 
 
 def incidents(events: Sequence[Event], tell: Callable[[Event], str | None]) -> tuple[Incident, ...]:
-    """The incidents of a log, in order.
+    """Return the incidents of a log, in order.
 
     Args:
-        events: The log.
-        tell: Says an event in words, with its time in front.
+        events: Event log.
+        tell: Returns the description of an event, preceded by its time, or None.
     """
     found: list[Incident] = []
     here: LatLon | None = None
@@ -75,14 +75,14 @@ def incidents(events: Sequence[Event], tell: Callable[[Event], str | None]) -> t
 
 
 def position_of(event: Event) -> LatLon | None:
-    """Where an event says that the robot was."""
+    """Return the robot position recorded in an event."""
     if isinstance(event, Started | Arrived | Resumed | Obstructed | LimitCrossed | Ended):
         return (event.lat, event.lon) if known((event.lat, event.lon)) else None
     return None
 
 
 def known(at: Sequence[float]) -> bool:
-    """Whether this is a place on the earth."""
+    """Return True if the coordinates are a valid position on the earth."""
     return math.isfinite(at[0]) and math.isfinite(at[1]) and abs(at[0]) <= 90 and abs(at[1]) <= 180
 
 
@@ -102,7 +102,7 @@ def _incident(
 
 
 def _stood(events: Sequence[Event], k: int) -> LatLon | None:
-    """Where the robot stood at an event that does not say it: there a drive begins anew that was broken off."""
+    """Return the robot position for an event without one: where the interrupted drive is resumed."""
     driving = next((isinstance(e, Driving) for e in reversed(events[:k]) if isinstance(e, Driving | Arrived)), False)
     if not driving:
         return None

@@ -1,7 +1,7 @@
-"""What is said to people, as messages that can be said in any language: the catalogues, numbers, the joints of words.
+"""Translatable messages: catalogues of translations, numbers, and the wording of nouns and lists.
 
-A message is its English text, and remembers the sentence and what fills it. Nothing below the edges of the program
-knows a language; whoever prints asks a :class:`Language` for the words.
+A message is its English text together with its template and placeholder values. Only the edges of the program choose
+a language; code that prints asks a :class:`Language` for the translated text.
 """
 
 from fieldhand.language.catalogue import ENGLISH, Language, languages, open_language, spoken

@@ -1,8 +1,8 @@
-"""Languages: catalogues of translations as gettext keeps them, read from their ``.po`` files as they stand.
+"""Languages: gettext catalogues of translations, read directly from ``.po`` files.
 
-A language is one file, ``locale/<code>/LC_MESSAGES/fieldhand.po``. What else a language needs stands in the file's
-header: ``X-Decimal`` and ``X-Thousands`` are the signs in numbers, ``X-Melts`` says which two words melt into one
-("de el=del").
+Each language is one file, ``locale/<code>/LC_MESSAGES/fieldhand.po``. Its header contains the other settings of the
+language: ``X-Decimal`` and ``X-Thousands`` are the separators in numbers, ``X-Melts`` lists contractions of two
+words ("de el=del").
 """
 
 from __future__ import annotations
@@ -38,11 +38,11 @@ _Said = TypeVar("_Said")
 SOURCE = "en"
 _DOMAIN = "fieldhand"
 _MISSING = "\x00"
-#: Placeholders of assumptions that hold numbers in figures.
+#: Placeholders of assumptions whose values are numbers.
 _FIGURES = frozenset({"metres", "least", "most"})
 
 
-#: Sentences in a log that are longer than this are not known again.
+#: Maximum length in characters of a log sentence that is matched against the catalogue.
 _LONGEST_RETOLD = 600
 _KNOWN = frozenset({"known", "also", "how", "reason"})
 _WORDS = {"name": "name", "word": "level", "role": "role", "quantity": "quantity", "action": "action"}
@@ -52,14 +52,14 @@ _NAMES = frozenset({"id", "one", "two", "robot"})
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Language:
-    """How messages are said in one language.
+    """Translations and number format of one language.
 
     Attributes:
-        code: As ISO 639 has it: ``es``.
-        name: What the language calls itself.
-        decimal, thousands: The signs in numbers.
-        melts: Two words that melt into one where a fill follows them, and that one.
-        patterns: By context, sentences that are known again in text from a file.
+        code: ISO 639 code: ``es``.
+        name: Name of the language in that language.
+        decimal, thousands: Decimal and thousands separators.
+        melts: Contractions: two words that merge where a placeholder value follows, and the merged word.
+        patterns: Sentences that are recognized in text from a file, by context.
     """
 
     code: str
@@ -71,7 +71,7 @@ class Language:
     patterns: Mapping[str, tuple[Sentence, ...]]
 
     def say(self, text: str) -> str:
-        """A message in this language; text that is none stays as it is."""
+        """Return a message in this language; text that is not a message is returned unchanged."""
         if self.code == SOURCE:
             return str(text)
         match text:
@@ -87,7 +87,7 @@ class Language:
                 return str(text)
 
     def read(self, value: _Said) -> _Said:
-        """Whatever holds messages (a dataclass, a tuple, a mapping), with each message in this language."""
+        """Return a copy of a dataclass, tuple or mapping with every message in it translated."""
         if isinstance(value, str):
             return cast(_Said, self.say(value))
         if isinstance(value, tuple | list):
@@ -115,7 +115,7 @@ class Language:
         return str(text)
 
     def _looked_up(self, text: Message) -> str | None:
-        """What the catalogue has for it; None where it has nothing."""
+        """Return the translation from the catalogue, or None."""
         context, own = text.context, self.translations
         if text.many:
             found = (
@@ -139,7 +139,7 @@ class Language:
         return None
 
     def _retold(self, text: str, effort: Effort) -> Message | None:
-        """Return the message that a log keeps as this text; None where no sentence or clause of it is known."""
+        """Return the message that a text from a log was made of, or None if no sentence or clause is recognized."""
         if len(text) > _LONGEST_RETOLD or not effort.step():
             return None
         clauses = _clauses(text)
@@ -160,7 +160,7 @@ class Language:
         return None if known is None else joined(": ", (kept_in_log(where), known))
 
     def _refilled(self, name: str, text: str, effort: Effort) -> str | None:
-        """Return what filled a placeholder of a sentence that a log keeps; None where that must be known and is not."""
+        """Return the value of a placeholder in a log sentence, or None if it must be recognized and is not."""
         if name in _KNOWN:
             return self._retold(text, effort)
         if name in _WORDS:
@@ -185,7 +185,7 @@ class Language:
         return fill(template, said, self._melted if self.melts else None)
 
     def _melted(self, before: str, after: str) -> str:
-        """What follows put behind what stands there: "de" and "el árbol" become "del árbol"."""
+        """Return two parts joined, with a contraction where they meet: "de" and "el árbol" become "del árbol"."""
         for (first, second), one in self.melts.items():
             if after.startswith(f"{second} ") and re.search(rf"(?<!\w){first} $", before, re.IGNORECASE):
                 kept = before[: -len(first) - 1]
@@ -195,7 +195,7 @@ class Language:
 
 
 class _Missing(gettext.NullTranslations):
-    """What is asked where a catalogue has no translation: a translation may well be the English."""
+    """Translations that mark missing entries, because a valid translation may equal the English text."""
 
     def gettext(self, message: str) -> str:  # noqa: ARG002
         return _MISSING
@@ -210,7 +210,7 @@ class _Missing(gettext.NullTranslations):
         return _MISSING
 
 
-#: The language of the source.
+#: Language of the source code.
 ENGLISH = Language(code=SOURCE, name="English", translations=_Missing(), melts={}, patterns={})
 
 
@@ -221,12 +221,12 @@ def _translations(entries: Iterable[Entry]) -> gettext.NullTranslations:
 
 
 def _recalled_fill(name: str, text: str) -> str:
-    """What filled a placeholder of a sentence that is known again: a number, or a word of the context of that name."""
+    """Return the value of a placeholder in a recognized sentence: a number, or a word in the context of that name."""
     return Number(text) if name in _FIGURES else named(text, name)
 
 
 def languages() -> Mapping[str, str]:
-    """The languages that there are: what each calls itself, by its code; English first."""
+    """Return the available languages as code and name, with English first."""
     found = {SOURCE: "English"}
     for code in sorted(folder.name for folder in _locale().iterdir() if folder.is_dir()):
         found[code] = open_language(code).name
@@ -235,10 +235,10 @@ def languages() -> Mapping[str, str]:
 
 @lru_cache
 def open_language(code: str) -> Language:
-    """The language of a code.
+    """Return the language with a code.
 
     Raises:
-        InputError: There is no catalogue of it.
+        InputError: There is no catalogue for the code.
     """
     if code == SOURCE:
         return ENGLISH
@@ -260,10 +260,10 @@ def open_language(code: str) -> Language:
 
 
 def spoken(wanted: str | None, environ: Mapping[str, str]) -> Language:
-    """The language to speak: the one that was asked for, else that of the environment if there is one, else English.
+    """Return the requested language, else the language of the environment, else English.
 
     Raises:
-        InputError: The one that was asked for does not exist.
+        InputError: The requested language has no catalogue.
     """
     if wanted is not None:
         return open_language(wanted.strip().lower())
@@ -273,7 +273,7 @@ def spoken(wanted: str | None, environ: Mapping[str, str]) -> Language:
 
 
 def _file(code: str) -> Any:
-    """Return the catalogue of a code, which may not be there."""
+    """Return the catalogue file of a code, which may not exist."""
     return _locale() / (code if re.fullmatch(r"[a-z]{2,3}", code) else "none") / "LC_MESSAGES" / f"{_DOMAIN}.po"
 
 
@@ -297,7 +297,7 @@ def _melts(text: str) -> dict[tuple[str, str], str]:
 
 
 def _clauses(text: str) -> list[str]:
-    """Return the clauses of a sentence: what semicolons part that stand in no brackets."""
+    """Return the clauses of a sentence, split at semicolons outside brackets."""
     found, depth, begins = [], 0, 0
     for k, sign in enumerate(text):
         depth += (sign == "(") - (sign == ")")

@@ -1,8 +1,8 @@
-"""Messages: English text that remembers the sentence it was made of, so that it can be said again in another language.
+"""Messages: English text that keeps its template, so that it can be translated later.
 
-A message is a ``str``, its English, and goes wherever text goes; only what is cut out of it or glued to it forgets the
-sentence. Whatever a person reads is therefore made of messages: sentences or phrases with named placeholders, whose
-order a translation may change.
+A message is a ``str`` with the English text, usable wherever text is; slices and concatenations lose the template.
+All text shown to people is therefore built from messages: sentences or phrases with named placeholders, which a
+translation may reorder.
 """
 
 from __future__ import annotations
@@ -11,26 +11,26 @@ from collections.abc import Callable, Iterable, Mapping
 from copy import copy
 from string import Formatter
 
-#: Fills of a placeholder: a message is said in the language of the sentence, any other text stands as it is.
+#: Value of a placeholder: a message is translated with its sentence, any other text is inserted unchanged.
 Fill = str | int
 
 _PARTS = Formatter()
 
-#: Context of sentences that event logs keep, in English.
+#: Context of sentences that event logs store in English.
 LOG = "log"
 
 
 class Message(str):
-    """English text with the sentence it came from.
+    """English text with the template it was made from.
 
     Attributes:
-        template: The sentence, with named placeholders in braces: the key of the catalogue.
-        many: The sentence for more than one; empty where it does not count.
-        number: How many, where it counts.
-        fills: What stands in the placeholders.
-        context: Tells apart sentences that are the same in English only.
-        labels: What some languages say for it whatever their catalogue has, by code: names that a file brings along.
-        instead: What to say where a catalogue does not have the sentence; else the English.
+        template: Sentence with named placeholders in braces; the key in the catalogue.
+        many: Plural form of the sentence; empty if it has none.
+        number: Number that selects the plural form.
+        fills: Values of the placeholders.
+        context: Distinguishes sentences that are identical in English only.
+        labels: Translations by language code that override the catalogue, such as names defined in a file.
+        instead: Message used if a catalogue lacks the sentence; by default the English text.
     """
 
     template: str = ""
@@ -43,33 +43,33 @@ class Message(str):
 
 
 class Number(str):
-    """A number in figures, as English writes it: a point before decimals, commas between thousands."""
+    """A number in English notation: a decimal point, and commas between thousands."""
 
     __slots__ = ()
 
 
 class Joined(Message):
-    """Parts put together by a sign that no language changes."""
+    """Parts joined by a separator that is the same in every language."""
 
     sign: str = ""
     parts: tuple[str, ...] = ()
 
 
 class Shaped(Message):
-    """A message whose text goes through a function in every language: its first letter made large, say."""
+    """A message whose translated text is passed through a function, such as capitalisation."""
 
     inner: str = ""
     through: Callable[[str], str] = str
 
 
 def message(template: str, /, context: str = "", **fills: Fill) -> Message:
-    """A sentence or phrase.
+    """Return a message for a sentence or phrase.
 
     Args:
-        template: As English says it, with placeholders ("At {place}: {doing}."); an empty fill takes the space before
-            its placeholder with it.
-        context: Where the same English is said in different ways elsewhere.
-        fills: What stands in the placeholders.
+        template: English text with placeholders ("At {place}: {doing}."); an empty value also removes the space before
+            its placeholder.
+        context: Distinguishes equal English texts with different translations.
+        fills: Values of the placeholders.
     """
     made = Message(fill(template, fills))
     made.template, made.fills, made.context = template, fills, context
@@ -77,7 +77,7 @@ def message(template: str, /, context: str = "", **fills: Fill) -> Message:
 
 
 def counted(one: str, many: str, /, count: int, context: str = "", **fills: Fill) -> Message:
-    """A sentence that depends on a number, which stands in it as ``{count}`` where it is said."""
+    """Return a message with singular and plural forms; ``{count}`` is the placeholder of the number."""
     whole: dict[str, Fill] = {"count": count, **fills}
     made = Message(fill(one if count == 1 else many, whole))
     made.template, made.many, made.number, made.fills, made.context = one, many, count, whole, context
@@ -85,12 +85,12 @@ def counted(one: str, many: str, /, count: int, context: str = "", **fills: Fill
 
 
 def named(text: str, /, context: str, instead: Message | None = None) -> Message:
-    """A word that comes from a file, said in another language if its catalogue has it in that context.
+    """Return a message for a word from a file, translated if a catalogue contains it in the context.
 
     Args:
-        text: The word, as English says it.
-        context: Of which kind of word it is.
-        instead: What other languages say where they do not have it; else the word itself.
+        text: Word in English.
+        context: Kind of word.
+        instead: Message for languages that lack the word; by default the word itself.
     """
     made = Message(text)
     made.template, made.context, made.instead = text, context, instead
@@ -98,7 +98,7 @@ def named(text: str, /, context: str, instead: Message | None = None) -> Message
 
 
 def recalled(text: str, context: str) -> Message:
-    """Text that was a message once and has been in a file since: known again by the sentences of that context."""
+    """Return text from a file as a message, to be recognized by the sentences of the context."""
     if isinstance(text, Message):
         return text
     made = Message(text)
@@ -107,12 +107,12 @@ def recalled(text: str, context: str) -> Message:
 
 
 def kept_in_log(text: str) -> Message:
-    """Return text of an event as a message, known again by the sentences that event logs keep."""
+    """Return text of an event as a message, to be recognized by the sentences that event logs store."""
     return recalled(str(text), LOG)
 
 
 def labelled(said: str, labels: Mapping[str, str]) -> str:
-    """A message with what a file says for it in other languages, by their codes."""
+    """Return a message with translations from a file, by language code."""
     if not labels or not isinstance(said, Message):
         return said
     made = copy(said)
@@ -121,7 +121,7 @@ def labelled(said: str, labels: Mapping[str, str]) -> str:
 
 
 def joined(sign: str, parts: Iterable[str]) -> Message:
-    """Parts with a sign between them that means the same everywhere: a comma, a space."""
+    """Return the parts joined by a separator that is the same in every language, such as a comma or a space."""
     held = tuple(parts)
     made = Joined(sign.join(held))
     made.sign, made.parts = sign, held
@@ -129,25 +129,25 @@ def joined(sign: str, parts: Iterable[str]) -> Message:
 
 
 def shaped(text: str, through: Callable[[str], str]) -> Message:
-    """A message whose text goes through a function, in whichever language."""
+    """Return a message whose text is passed through a function in every language."""
     made = Shaped(through(text))
     made.inner, made.through = text, through
     return made
 
 
 def fill(template: str, fills: Mapping[str, Fill], join: Callable[[str, str], str] | None = None) -> str:
-    """A sentence with its placeholders filled.
+    """Return a sentence with its placeholders replaced by values.
 
     Args:
-        template: The sentence.
-        fills: By the names of the placeholders.
-        join: Puts what follows behind what stands there already, where a language melts them together.
+        template: Sentence with placeholders.
+        fills: Values by placeholder name.
+        join: Joins the text so far and the next part, for languages with contractions.
     """
     if "{" not in template:
         return template
     out, dropped = "", False
     for literal, name, _, _ in _PARTS.parse(template):
-        # The space around an empty fill goes with it: the one before it, or behind it where it comes first.
+        # An empty value also removes one space: the one before it, or the one after it at the start of the text.
         out += literal.removeprefix(" ") if dropped and not out else literal
         if name is None:
             continue

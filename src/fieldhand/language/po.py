@@ -1,4 +1,4 @@
-"""Catalogues of translations in gettext's ``.po`` form, read, and put into the form that the standard library takes."""
+"""Read gettext ``.po`` catalogues and compile them to the ``.mo`` format of the standard library."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ _KEYWORD = re.compile(r'(msgctxt|msgid_plural|msgid|msgstr(?:\[(\d)\])?)\s+(".*"
 
 @dataclass(frozen=True, kw_only=True)
 class Entry:
-    """A message and what a language says for it.
+    """A catalogue entry: a message with its translation.
 
     Attributes:
-        template, many: As English says it, of one and of more; ``many`` is empty where it does not count.
-        context: Tells apart messages that are the same in English only.
-        said: The translation, one for each plural form.
+        template, many: English singular and plural; ``many`` is empty if the message has no plural.
+        context: Distinguishes messages that are identical in English only.
+        said: Translation, one for each plural form.
     """
 
     template: str
@@ -30,15 +30,15 @@ class Entry:
 
     @property
     def key(self) -> tuple[str, str]:
-        """What a catalogue finds it by."""
+        """Return the context and template that identify the entry."""
         return self.context, self.template
 
 
 def read_entries(text: str) -> tuple[Entry, ...]:
-    """Every entry of a ``.po`` file; the header is the one with an empty template.
+    """Parse every entry of a ``.po`` file; the header is the entry with an empty template.
 
     Raises:
-        InputError: A line is none of such a file.
+        InputError: A line is not valid in a ``.po`` file.
     """
     found: list[Entry] = []
     held: dict[str, str] = {}
@@ -64,7 +64,7 @@ def read_entries(text: str) -> tuple[Entry, ...]:
 
 
 def compiled(entries: Iterable[Entry]) -> bytes:
-    """The entries as the bytes of a ``.mo`` file, which :class:`gettext.GNUTranslations` reads; without empty ones."""
+    """Return the non-empty entries as the bytes of a ``.mo`` file, as read by :class:`gettext.GNUTranslations`."""
     pairs: dict[bytes, bytes] = {}
     for entry in entries:
         if any(entry.said):

@@ -1,4 +1,4 @@
-"""Sentences of a catalogue known again in text from a file, in time that grows with the length of the text alone."""
+"""Recognition of catalogue sentences in stored text, with a bounded number of steps."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from dataclasses import dataclass
 from fieldhand.language.message import LOG
 from fieldhand.language.po import Entry
 
-#: Contexts of sentences that are known again in text from a file, or from a room that knows no language.
+#: Contexts of sentences recognized in text from a file, or from a package that does not use messages.
 RECALLED = frozenset({"assumption", "question", "answer", "file", LOG})
-#: Ends of fills that are tried for one text at most; what is not known by then stays as it is.
+#: Maximum number of placeholder ends tried for one text; a text not recognized by then stays unchanged.
 _MOST_STEPS = 2_000
 _FIGURE = r"[-\N{MINUS SIGN}]?\d[\d,]*(?:\.\d+)?"
 QUANTITY = re.compile(rf"{_FIGURE}(?: [^\s,;]+)?")
-#: How placeholders of sentences that a log keeps are known again: figures, with a unit; words of a context; names as
-#: they stand. The others take any text.
+#: Patterns of placeholder values in log sentences: numbers, optionally with a unit; words of a context; verbatim names.
+#: Placeholders not listed accept any text.
 SHAPES: Mapping[str, re.Pattern[str]] = {
     **dict.fromkeys(("amount", "limit", "low", "high", "reading"), QUANTITY),
     **dict.fromkeys(
@@ -32,26 +32,26 @@ SHAPES: Mapping[str, re.Pattern[str]] = {
 
 
 class Effort:
-    """The steps that may still be taken to know one text again."""
+    """Budget of the steps for recognizing one text."""
 
     def __init__(self) -> None:
         self._left = _MOST_STEPS
 
     def step(self) -> bool:
-        """Take a step; False if none is left."""
+        """Use one step; return False if none is left."""
         self._left -= 1
         return self._left >= 0
 
 
 @dataclass(frozen=True)
 class Sentence:
-    """A sentence with placeholders, looked for in text.
+    """A sentence with placeholders, matched against text.
 
     Attributes:
-        template: The sentence.
-        literals: Its text before, between and behind the placeholders.
-        names: Of the placeholders.
-        shapes: Of the placeholders that do not take any text.
+        template: Sentence with placeholders.
+        literals: Fixed text before, between and after the placeholders.
+        names: Names of the placeholders.
+        shapes: Patterns of the placeholders that do not accept any text.
     """
 
     template: str
@@ -60,11 +60,11 @@ class Sentence:
     shapes: Mapping[str, re.Pattern[str]]
 
     def fills_of(self, text: str, effort: Effort) -> dict[str, str] | None:
-        """Return what fills the placeholders if the text is this sentence, each fill as short as it can be.
+        """Return the placeholder values if the text matches this sentence, each value as short as possible.
 
         Args:
-            text: The whole text.
-            effort: Steps that may be taken; None is returned where they do not suffice.
+            text: Complete text.
+            effort: Step budget; if it is exhausted, the result is None.
         """
         first, last = self.literals[0], self.literals[-1]
         if not self.names:
@@ -94,7 +94,7 @@ class Sentence:
 
 
 def sentences(entries: Iterable[Entry]) -> dict[str, tuple[Sentence, ...]]:
-    """Return the sentences of each context, those with the most words of their own first."""
+    """Return the sentences of each context, sorted by descending amount of fixed text."""
     found: dict[str, list[Sentence]] = {}
     for entry in entries:
         if entry.context in RECALLED:

@@ -1,7 +1,7 @@
-"""How the nouns of a Task are said: numbers, units, lists, sides, actions. No grammar of selectors here.
+"""Wording of the nouns of a Task: numbers, units, lists, sides, actions; selectors are described elsewhere.
 
-Shared by whatever speaks to a person (read-back, map, report), so that one thing has one name everywhere. What is given
-back is English, as messages that every language of :mod:`fieldhand.language` can say.
+Read-back, map and report share these functions, so that each thing has one name everywhere. They return English text
+as messages, which every language of :mod:`fieldhand.language` can translate.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ CORNERS: dict[CornerName, str] = {
     "se": message("south-east"),
     "sw": message("south-west"),
 }
-#: Where something is or goes: "from the north". Finer winds as well, since lines run every way.
+#: Compass directions: "from the north"; with intermediate winds, since rows run in any direction.
 COMPASS: dict[str, str] = {
     "north": message("north", context="compass"),
     "north-east": message("north-east", context="compass"),
@@ -55,18 +55,18 @@ UNITS = {
     "unitless": "",
 }
 
-#: Ten years in seconds: beyond it no number of hours means anything to a person.
+#: Ten years in seconds, above which a duration in hours is meaningless to a person.
 _YEARS_S = 10 * 365.25 * 86_400.0
 
 _MINUS = "\N{MINUS SIGN}"
 _ACRONYMS = {"co2": "CO₂", "ndvi": "NDVI", "ph": "pH", "ec": "EC", "rgb": "RGB", "par": "PAR", "lidar": "LiDAR"}
 _IRREGULAR = {"leaf": "leaves", "fruit": "fruit", "co₂": "CO₂", "datum": "data"}
-#: Verbs whose object is something that is there to be read, not a thing that is made: "read the soil moisture".
+#: Verbs whose object is read rather than produced: "read the soil moisture".
 _READING_VERBS = frozenset({"read", "measure", "record", "sense", "monitor", "inspect", "check"})
 
 
 def say_name(name: str) -> str:
-    """A name with underscores as words: ``ambient_temperature`` is "ambient temperature", ``co2`` is "CO₂"."""
+    """Return a name with underscores as words: ``ambient_temperature`` is "ambient temperature", ``co2`` is "CO₂"."""
     words = _words(name)
     return named(words, "name", message("“{name}”", context="name", name=words))
 
@@ -76,7 +76,7 @@ def _words(name: str) -> str:
 
 
 def say_number(value: float, digits: int = 6) -> str:
-    """A number without needless digits: 33.0 is "33", 0.5 is "0.5"."""
+    """Return a number without superfluous digits: 33.0 is "33", 0.5 is "0.5"."""
     if not math.isfinite(value):
         return message("an unknown number")
     text = f"{value:.{digits}g}"
@@ -86,41 +86,41 @@ def say_number(value: float, digits: int = 6) -> str:
 
 
 def say_rounded(value: float, digits: int = 0) -> str:
-    """A number with so many digits after the point: 12.345 with one is "12.3"."""
+    """Return a number rounded to a number of decimals: 12.345 with one is "12.3"."""
     return Number(f"{value:.{digits}f}")
 
 
 def say_quantity(value: float, unit: str) -> str:
-    """A value with its unit: "33 °C", "40 %", "400 ppm"."""
+    """Return a value with its unit: "33 °C", "40 %", "400 ppm"."""
     return joined(" ", [part for part in (say_number(value), say_unit(unit)) if part])
 
 
 def say_unit(unit: str) -> str:
-    """A unit as it is printed: ``degC`` is "°C"."""
+    """Return a unit as printed: ``degC`` is "°C"."""
     return UNITS.get(unit, unit.replace("_", " "))
 
 
 def say_value(value: str | float | bool) -> str:
-    """An attribute's value: "yellow", "12.5", "yes"."""
+    """Return the value of an attribute: "yellow", "12.5", "yes"."""
     if isinstance(value, bool):
         return message("yes") if value else message("no")
     return value if isinstance(value, str) else say_number(value)
 
 
 def say_place(kind: str, name: str) -> str:
-    """Return a place as it follows "at": "tree 12", "the end"."""
+    """Return a place in the form that follows "at": "tree 12", "the end"."""
     if kind == "tree":
         return message("tree {id}", context="log", id=name)
     return message("the {role}", context="log", role=named(name, "role"))
 
 
 def say_tree(tree: str) -> str:
-    """A tree by its id: "tree 81"."""
+    """Return a tree by its id: "tree 81"."""
     return message("tree {id}", id=tree)
 
 
 def say_marker(name: str) -> str:
-    """A marker in words: "the end marker", "the charger"."""
+    """Return a marker in words: "the end marker", "the charger"."""
     match name:
         case "charger":
             return message("the charger")
@@ -132,17 +132,17 @@ def say_marker(name: str) -> str:
 
 
 def say_gate(gate: str) -> str:
-    """Return a gate in words: "the gate", or "the gate “north gate”" where it has a name of its own."""
+    """Return a gate in words: "the gate", or "the gate “north gate”" if it has a name."""
     return message("the gate") if say_name(gate).lower() == "gate" else message("the gate “{gate}”", gate=gate)
 
 
 def say_zone(zone: str) -> str:
-    """A zone by its name: "the zone “wet corner”"."""
+    """Return a zone by its name: "the zone “wet corner”"."""
     return message("the zone “{zone}”", zone=zone)
 
 
 def some_names(names: Sequence[str], most: int, sign: str = ", ") -> str:
-    """Return so many names at most, and how many more there are: "14, 15 and 6 more"."""
+    """Return up to ``most`` names and the number of the remaining ones: "14, 15 and 6 more"."""
     shown = joined(sign, names[:most])
     if len(names) <= most:
         return shown
@@ -150,7 +150,7 @@ def some_names(names: Sequence[str], most: int, sign: str = ", ") -> str:
 
 
 def say_duration(seconds: float) -> str:
-    """A duration as people say it: "45 s", "12 min", "1 h 05 min". Safe for what no mission lasts."""
+    """Return a duration in words: "45 s", "12 min", "1 h 05 min"; very large and infinite values are safe."""
     if math.isnan(seconds):
         return message("an unknown time")
     if seconds > _YEARS_S:
@@ -162,19 +162,19 @@ def say_duration(seconds: float) -> str:
 
 
 def say_times(count: int) -> str:
-    """How often: "once", "twice", "5 times"."""
+    """Return a frequency: "once", "twice", "5 times"."""
     if count == 1:
         return message("once")
     return message("twice") if count == 2 else message("{count} times", count=count)
 
 
 def say_count(count: int, noun: str) -> str:
-    """A count with its noun: "1 tree", "4 trees"."""
+    """Return a count with its noun: "1 tree", "4 trees"."""
     return counted(f"{{count}} {noun}", f"{{count}} {plural(noun)}", count)
 
 
 def plural(noun: str) -> str:
-    """The plural of a noun phrase whose head is its last word."""
+    """Return the plural of a noun phrase whose head is its last word."""
     head, space, last = noun.rpartition(" ")
     irregular = _IRREGULAR.get(last.lower())
     if irregular is not None:
@@ -189,16 +189,16 @@ def plural(noun: str) -> str:
 
 
 def article(noun: str) -> str:
-    """The noun with "a" or "an"."""
+    """Return the noun with "a" or "an"."""
     first = noun.split(" ", 1)[0]
-    # An acronym is spelt out when read, so the sound of its first letter decides ("an RGB picture").
+    # An acronym is spelled out when read, so the sound of its first letter decides ("an RGB picture").
     spelt = len(first) > 1 and first.isupper()
     vowel = first[:1] in "AEFHILMNORSX" if spelt else first[:1].lower() in set("aeiou")
     return f"{'an' if vowel else 'a'} {noun}"
 
 
 def listed(items: Sequence[str], last: Literal["and", "or"] = "and") -> str:
-    """A list in words: "81, 12 and 5"."""
+    """Return a list in words: "81, 12 and 5"."""
     if len(items) < 2:
         return joined("", items)
     held = joined(", ", items[:-1])
@@ -208,7 +208,7 @@ def listed(items: Sequence[str], last: Literal["and", "or"] = "and") -> str:
 
 
 def say_action(name: str, count: int = 1) -> str:
-    """An action as a verb phrase: "take a thermal picture", "read the soil moisture twice", "sample 2 leaves"."""
+    """Return an action as a verb phrase: "take a thermal picture", "read the soil moisture twice"."""
     verb, _, rest = name.strip("_").partition("_")
     thing = _words(rest)
     if not thing:
@@ -220,7 +220,7 @@ def say_action(name: str, count: int = 1) -> str:
 
 
 def say_captures(name: str, count: int) -> str:
-    """What an action yields, counted: "3 thermal pictures", "1 reading of CO₂"."""
+    """Return the counted results of an action: "3 thermal pictures", "1 reading of CO₂"."""
     verb, _, rest = name.strip("_").partition("_")
     thing = _words(rest) or _words(verb)
     one, many = (f"{thing} reading", f"{thing} readings") if verb in _READING_VERBS else (thing, plural(thing))
@@ -230,7 +230,7 @@ def say_captures(name: str, count: int) -> str:
 
 
 def _of_action(once: str, often: str, count: int) -> Message:
-    """A verb phrase that a catalogue may know; else it is quoted."""
+    """Return a verb phrase, to be translated if a catalogue contains it and quoted otherwise."""
     said = counted(once, often, count, context="action", times=say_times(count))
     quoted = message("do “{action}”", action=once)
     said.instead = quoted if count == 1 else message("do “{action}” {times}", action=once, times=say_times(count))
@@ -238,7 +238,7 @@ def _of_action(once: str, often: str, count: int) -> Message:
 
 
 def capitalised(text: str) -> str:
-    """The text with its first letter in upper case, the rest as it is."""
+    """Return the text with its first letter in upper case and the rest unchanged."""
     return shaped(text, _with_capital)
 
 

@@ -1,1 +1,1 @@
-"""A planner with any language model behind it."""
+"""Planner that uses a language model of any provider."""

@@ -1,7 +1,7 @@
-"""Find the answer in what a model wrote: a Task, a question or a refusal, whatever stands around it.
+"""Extract the answer from a model's reply: a Task, a question or a refusal, with any text around it.
 
-Models wrap XML in prose, in Markdown fences, after a chain of thought; small ones stop in the middle. Exactly one
-complete document is an answer. Everything else is unusable for a reason that the model can be told.
+Models wrap XML in prose or Markdown fences or precede it with a chain of thought; small models stop early. A reply
+must contain exactly one complete document. Anything else is rejected with a reason that is sent to the model.
 """
 
 from __future__ import annotations
@@ -17,15 +17,15 @@ from fieldhand.planning.llm.plain import visible_line
 #: The root elements of the three kinds of answer.
 Kind = Literal["task", "question", "refusal"]
 
-#: A longer answer is no plan but a model that goes round in circles.
+#: Maximum length of an answer in characters; longer ones come from a model that repeats itself.
 LONGEST_ANSWER = 60_000
 
-#: More answers than these to a question are no choice.
+#: Maximum number of choices of a question.
 MOST_CHOICES = 20
-#: A question, a choice or a reason is a sentence or two; more is cut.
+#: Maximum length in characters of a question, choice or reason; longer text is cut.
 LONGEST_SENTENCE = 600
 
-#: Chains of thought that open models write before their answer.
+#: Chains of thought that open-weight models write before their answer.
 _THOUGHT = re.compile(r"<(think|thinking|reasoning)>.*?(</\1>|\Z)", re.DOTALL | re.IGNORECASE)
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _OPENING = re.compile(r"<(task|question|refusal)(?=[\s>/])[^<>]*>")
@@ -42,7 +42,7 @@ class TaskAnswer:
 
 @dataclass(frozen=True, kw_only=True)
 class QuestionAnswer:
-    """The model asks the operator something."""
+    """A question to the operator."""
 
     question: str
     choices: tuple[str, ...] = ()
@@ -50,14 +50,14 @@ class QuestionAnswer:
 
 @dataclass(frozen=True, kw_only=True)
 class RefusalAnswer:
-    """The model says that the request cannot be done here."""
+    """A refusal: the model reports that the request cannot be carried out here."""
 
     reason: str
 
 
 @dataclass(frozen=True, kw_only=True)
 class Unusable:
-    """No answer, and why, as a sentence for the model."""
+    """An unusable reply, with the reason as a sentence for the model."""
 
     reason: str
     truncated: bool = False
@@ -67,7 +67,7 @@ Answer = TaskAnswer | QuestionAnswer | RefusalAnswer | Unusable
 
 
 def read_answer(reply: Reply) -> Answer:
-    """What a reply says. Never raises: what cannot be read is :class:`Unusable`."""
+    """Parse a reply; an unreadable one returns :class:`Unusable`, so that no exception is raised."""
     if len(reply.text) > LONGEST_ANSWER:
         return Unusable(reason=f"The answer was longer than {LONGEST_ANSWER} characters.")
     text = _without_comments(_THOUGHT.sub("", reply.text)).strip()
@@ -86,16 +86,16 @@ def read_answer(reply: Reply) -> Answer:
 
 
 def _without_comments(text: str) -> str:
-    """The text without comments, whose line breaks stay, so that lines are counted as the model wrote them.
+    """Return the text without comments but with their line breaks, so that line numbers match the model's text.
 
-    Where no comment ends any more none is looked for: looking from each of many beginnings takes quadratic time.
+    The search stops after the last comment end, since trying every opening without an end takes quadratic time.
     """
     before, end, after = text.rpartition("-->")
     return _COMMENT.sub(lambda m: "\n" * m[0].count("\n"), before + end) + after
 
 
 def _documents(text: str) -> tuple[list[tuple[Kind, str]], bool]:
-    """Every complete document of the text, and whether the last one was begun but not ended."""
+    """Return every complete document of the text, and True if the last one is incomplete."""
     found: list[tuple[Kind, str]] = []
     position = 0
     while opening := _OPENING.search(text, position):
@@ -108,7 +108,7 @@ def _documents(text: str) -> tuple[list[tuple[Kind, str]], bool]:
         if end < 0:
             return found, not found
         end += len(name) + 3
-        # Prose may name the element before the document begins ("here is the <task>:"): the innermost opening counts.
+        # Prose may mention the element before the document starts ("here is the <task>:"): the last one counts.
         start = [m.start() for m in _OPENING.finditer(text, opening.start(), end) if m[1] == name][-1]
         found.append((name, text[start:end]))
         position = end
@@ -132,7 +132,7 @@ def _understand(kind: Kind, document: str) -> Answer:
 
 
 def _words(markup: str) -> str:
-    """The text of some markup on one line, tags and invisible characters taken away: it is shown to a person."""
+    """Return the text of markup on one line, without tags and invisible characters, for display to a person."""
     return visible_line(unescape(_TAG.sub(" ", markup), {"&quot;": '"', "&apos;": "'"}), LONGEST_SENTENCE)
 
 

@@ -1,4 +1,4 @@
-"""What passes between the planner and a language model: messages out, a reply back."""
+"""Messages and replies exchanged between the planner and a language model."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ class Message:
 
 @dataclass(frozen=True, kw_only=True)
 class Reply:
-    """What the model answered.
+    """A reply of the model.
 
     Attributes:
-        finish: Why it stopped, as the endpoint says: ``stop``, ``length`` (cut off), ``content_filter``, or empty.
-        tokens: Prompt and answer in the endpoint's count; 0 where it counts none.
+        finish: Reason for stopping given by the endpoint: ``stop``, ``length`` (cut off), ``content_filter``, or empty.
+        tokens: Number of prompt and answer tokens reported by the endpoint; 0 if not reported.
     """
 
     text: str
@@ -32,12 +32,12 @@ class Reply:
 
 
 class Chat(Protocol):
-    """A language model that one can talk to."""
+    """A language model that answers conversations."""
 
     def ask(self, messages: Sequence[Message]) -> Reply:
-        """The model's reply to a conversation.
+        """Send a conversation to the model and return its reply.
 
         Raises:
-            ModelError: The model cannot be reached, refuses, or answers with what is no answer.
+            ModelError: The model is unreachable, refuses the request, or returns an invalid response.
         """
         ...

@@ -1,8 +1,8 @@
-"""No coordinate of a model's own gets into a plan, by whatever door.
+"""Checks that no coordinate invented by a model enters a plan.
 
-The plan language names places and has no element for a position, so most attempts fail the schema. What is left are the
-free names of a draft (labels, readings, zones, ids) and a test of a site's own column of coordinates. Both may only
-hold what the request, the site or the profile says.
+The plan language names places and has no element for a position, so most attempts fail schema validation. The free
+names of a draft (labels, readings, zones, ids) and tests of a site's own coordinate columns remain; both may contain
+only values from the request, the site or the profile.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from fieldhand.task.codec import TaskDraft
 from fieldhand.task.plan import Node
 from fieldhand.terms import Value
 
-#: What columns of coordinates are called.
+#: Usual names of coordinate columns.
 _COLUMNS = frozenset(
     {
         *("lat", "latitude", "lon", "long", "lng", "longitude", "x", "y", "utm x", "utm y", "east", "north"),
@@ -29,12 +29,12 @@ _COLUMNS = frozenset(
     }
 )
 _DECIMAL = re.compile(r"\d+[.,]\d+|\d+\s*\N{DEGREE SIGN}")
-#: In a sentence a decimal number may be a conversion; a pair of exact ones is a position.
+#: A single decimal number in a sentence may be a conversion; a pair of precise ones is a position.
 _PAIR = re.compile(r"[-+]?\d{1,3}\.\d{2,}\s*\N{DEGREE SIGN}?\s*[NSEW]?[\s,;/]+[-+]?\d{1,3}\.\d{2,}")
 
 
 def coordinates(draft: TaskDraft, request: str, site: Site) -> tuple[Problem, ...]:
-    """A problem for each literal coordinate of a draft that is not in the request."""
+    """Return a problem for each literal coordinate of a draft that the request does not contain."""
     found = [problem for node in plan.walk(draft.plan) for problem in _of_node(node, request, site)]
     for sentence in draft.assumptions:
         pairs = [pair for pair in _PAIR.findall(sentence) if pair not in request]
@@ -56,7 +56,7 @@ def _of_node(node: Node, request: str, site: Site) -> Iterator[Problem]:
 
 
 def _parts(node: Node) -> Iterator[Any]:
-    """The node itself, and every part of its selector and its condition."""
+    """Yield the node and every part of its selector and condition."""
     yield node
     selector, condition = node.selector, node.tested
     yield from selector.walk() if selector is not None else ()
@@ -73,7 +73,7 @@ def _of_column(attribute: str, value: Value, request: str, where: str) -> Iterat
 
 
 def _is_of_site(value: str, site: Site) -> bool:
-    """Whether a name with digits is one of the site's own ("zone 3.5", "tree 12.4")."""
+    """Return True if a name with digits belongs to the site ("zone 3.5", "tree 12.4")."""
     return (
         value in site.by_id
         or any(value == zone.name for zone in site.zones)

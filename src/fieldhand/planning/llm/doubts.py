@@ -1,6 +1,6 @@
-"""Where a model's plan contradicts what the request says: problems for the model.
+"""Contradictions between a model's plan and the request, reported to the model as problems.
 
-What it does not mend, approval finds again, and a person has to confirm it.
+Contradictions that the model does not correct are found again in approval, where a person must confirm them.
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ from fieldhand.task.plan import walk
 
 
 def doubts(task: Task, draft: TaskDraft, site: Site, robot: RobotProfile) -> tuple[Problem, ...]:
-    """Every certain contradiction between a Task and its request.
+    """Return every certain contradiction between a Task and its request.
 
     Args:
-        task: Made from the draft; its nodes stand in the same order.
-        draft: Its ids say where in the model's document a node stands.
+        task: Task made from the draft, with its nodes in the same order.
+        draft: Draft whose node ids give the positions in the model's document.
     """
     places = dict(zip((n.id for n in walk(task.composition.plan)), (n.id for n in walk(draft.plan)), strict=True))
     return tuple(

@@ -1,14 +1,14 @@
-"""Requests and good answers that the prompt shows. They are for the built-in robot ``amiga``; a test validates them.
+"""Example requests and answers for the prompt, for the built-in robot ``amiga``; a test validates them.
 
-They are chosen for what models get wrong: a condition on the reading of this very visit, a place bound and used again,
-"do the same" written out, what stands outside a branch, a budget, every word quoted, a question, a refusal.
+They cover frequent errors of models: a condition on a reading of the current visit, a place bound and used again,
+"do the same" written out, steps outside a branch, a budget, quoting every word, a question, a refusal.
 """
 
 from __future__ import annotations
 
 from fieldhand.task.codec_shapes import NAMESPACE
 
-#: The robot that the examples are for.
+#: Robot of the examples.
 ROBOT = "amiga"
 
 _EACH = f"""\
@@ -71,7 +71,7 @@ _QUESTION = """\
 
 _REFUSAL = "<refusal>It cannot prune, and a plan holds no 'tomorrow'.</refusal>"
 
-#: Requests, each with the answer wanted.
+#: Pairs of request and expected answer.
 EXAMPLES: tuple[tuple[str, str], ...] = (
     (
         "Please read the soil moisture of every Kerman tree in the western half. Where it is below 20 "

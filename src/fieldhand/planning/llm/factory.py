@@ -1,4 +1,4 @@
-"""Make the planner that asks a language model."""
+"""Create the planner that uses a language model."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ if TYPE_CHECKING:
 
 
 def make_llm_planner(settings: PlannerSettings) -> Planner:
-    """Return the planner that asks the language model which the environment configures.
+    """Return a planner for the language model configured in the environment.
 
     Raises:
-        ModelError: No model is configured, or one is configured wrongly.
+        ModelError: No model is configured, or its configuration is invalid.
     """
     from fieldhand.planning.llm.settings import require_settings
 
@@ -22,7 +22,7 @@ def make_llm_planner(settings: PlannerSettings) -> Planner:
 
 
 def planner_with(model: LlmSettings, settings: PlannerSettings) -> Planner:
-    """Return the planner that asks a model."""
+    """Return a planner for the given model."""
     from fieldhand.planning.llm.planner import LlmPlanner
     from fieldhand.planning.llm.transport import ModelChat
 

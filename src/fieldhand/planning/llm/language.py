@@ -1,8 +1,8 @@
-"""The plan language as a model reads it: every element, how it is written, what it means.
+"""Description of the plan language for a model: the form and meaning of every element.
 
-A compact rendering of the draft schema. Nothing is written twice: forms come from :mod:`fieldhand.task.codec_shapes`,
-from which the schema comes too; meanings are the docstrings of the classes. What a draft may leave out because
-``task.build`` derives it (ids, goals, state, resources, spans) does not appear.
+The description is a compact rendering of the draft schema. Forms come from :mod:`fieldhand.task.codec_shapes`, as the
+schema does; meanings are the docstrings of the classes, so nothing is written twice. Parts of a draft that
+``task.build`` derives (ids, goals, state, resources, spans) are omitted.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from fieldhand.task.conditions import Condition
 from fieldhand.task.frames import Budget, Constraints, FaultedExit
 from fieldhand.task.plan import Node
 
-#: One letter for "any one of this family" in the forms.
+#: Letters that stand for any element of a family in the forms.
 LETTERS = {"node": "N", "condition": "C", "selector": "S"}
 
 #: Attributes that only the program writes.
@@ -30,16 +30,16 @@ DERIVED = frozenset({"id", "said", "at-said", "reserve-said", "nominal-said", "n
 
 _KINDS = {"text": "name", "integer": "int", "number": "number", "flag": "true", "value": "value"}
 
-#: Choices that many elements have, by the word that stands for them.
+#: Sets of choices shared by many elements, by their abbreviation.
 ABBREVIATED = {"SIDE": "north|east|south|west", "TEST": "lt|le|gt|ge|eq|ne"}
 
 
 @cache
 def describe_language() -> str:
-    """Nodes, conditions, selectors and constraints, one element a paragraph.
+    """Return the nodes, conditions, selectors and constraints, one element per paragraph.
 
     Raises:
-        ModelError: Python dropped the docstrings (it runs with ``-OO``), so that there is nothing to tell.
+        ModelError: Python runs with ``-OO``, which removes the docstrings that the description is made from.
     """
     if plan.__doc__ is None:
         raise ModelError("the plan language cannot be described", where="python -OO", advice="run Python without -OO")
@@ -57,12 +57,12 @@ def describe_language() -> str:
 
 
 def _paragraph(shape: Shape) -> str:
-    """One element: its form, then its meaning."""
+    """Return one element: its form, then its meaning."""
     return f"{_form(shape)}\n  {_meaning(shape)}"
 
 
 def _form(shape: Shape) -> str:
-    """Return the opening of an element with what stands inside it; its end, which the reader knows, takes room."""
+    """Return the opening tag of an element with its children; the end tag is omitted to save tokens."""
     attributes = [_attribute(a) for a in shape.attributes if a.name not in DERIVED]
     inside = []
     if shape.head and shape.head.of == "action":
@@ -102,7 +102,7 @@ def _child(child: Child) -> str:
 
 
 def _unless_given(child: Child) -> str:
-    """Return what stands for a selector that is left out, where that is not every tree, and which one it is."""
+    """Return the selector assumed if a child is omitted, unless that is every tree."""
     if child.name == "of" or child.default is MISSING or not isinstance(child.default, Selector):
         return ""
     name = f" = {child.name}" if child.direct else ""
@@ -110,7 +110,7 @@ def _unless_given(child: Child) -> str:
 
 
 def _meaning(shape: Shape) -> str:
-    """The docstring on one line, its attributes after it."""
+    """Return the docstring on one line, followed by its attributes."""
     text, _, attributes = inspect.cleandoc(shape.cls.__doc__ or "").partition("\n\nAttributes:\n")
     if shape.cls in get_args(Node):  # how it is carried out is for whoever does it
         text = text.partition("\n\n")[0]
@@ -121,7 +121,7 @@ def _meaning(shape: Shape) -> str:
 
 
 def _entries(attributes: str) -> list[str]:
-    """The entries of a docstring's section of attributes, the lines that go on with one joined to it."""
+    """Return the entries of a docstring's Attributes section, with continuation lines joined."""
     return re.split(r"\n(?= {4}\w)", attributes) if attributes else []
 
 
@@ -130,12 +130,12 @@ def _named(entry: str) -> set[str]:
 
 
 def _plain(text: str) -> str:
-    """A docstring on one line, without the marks of Python; code in it reads as XML."""
+    """Return a docstring on one line, without reStructuredText markup and with code converted to XML."""
     return " ".join(re.sub(r"(?::\w+:`[~.\w]*?(\w+)`)|``([^`]+)``", _as_xml, text).split())
 
 
 def _as_xml(code: re.Match[str]) -> str:
-    """``Bound(label=...)`` as the element that it becomes, ``at_most`` as the attribute, anything else as it is."""
+    """Return ``Bound(label=...)`` as its element, ``at_most`` as its attribute, and anything else unchanged."""
     written = code[1] or code[2]
     name, _, keyword = written.rstrip(")").partition("(")
     if name in _elements():

@@ -1,4 +1,4 @@
-"""Text from a model or from a file, made safe to show: visible, on one line, of bounded length."""
+"""Sanitize text from a model or a file for display: visible, on one line, of bounded length."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ import unicodedata
 
 
 def visible_line(text: str, longest: int) -> str:
-    """The text on one line, without control and other invisible characters, cut to a length.
+    """Return the text on one line, without control and other invisible characters, cut to a length.
 
-    Invisible are those of the Unicode categories "other" and "separator": terminal sequences, characters that turn the
-    direction of the writing around, joiners without width, private and unassigned ones.
+    The removed characters are those of the Unicode categories "other" and "separator": terminal escape sequences,
+    bidirectional controls, zero-width joiners, private-use and unassigned characters.
     """
     visible = "".join(" " if unicodedata.category(c).startswith(("C", "Z")) else c for c in text)
     flat = " ".join(visible.split())

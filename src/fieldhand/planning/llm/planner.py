@@ -1,7 +1,7 @@
-"""Plan with a language model: ask, read the answer, check it, let the model mend it, at most a few times.
+"""Plan with a language model: ask, parse the answer, check it, and request a limited number of repairs.
 
-A plan that can be used but contradicts what the request says outright goes back once. If it does so again, the operator
-gets it, and approval warns of each contradiction: the model may be right, and a person can see it.
+A usable plan that contradicts the request is returned to the model once. If the contradiction remains, the operator
+receives the plan with a warning for each contradiction, since the model may be right.
 """
 
 from __future__ import annotations
@@ -33,34 +33,34 @@ from fieldhand.task.codec import TaskDraft
 from fieldhand.task.codec_text import hidden_character
 from fieldhand.task.frames import Resource
 
-#: A longer request is a file given by mistake; a model would be paid to read it.
+#: Maximum length of a request in characters; a longer one is probably a wrong file and would cost tokens.
 LONGEST_REQUEST = 8_000
-#: So many problems go back to the model, and into an error; more help neither.
+#: Maximum number of problems sent back to the model or listed in an error.
 MOST_PROBLEMS = 12
-#: Most characters of a sentence that a model assumed.
+#: Maximum length of a model's assumption in characters.
 LONGEST_ASSUMPTION = 400
 
 
 @dataclass(frozen=True, kw_only=True)
 class _Understood:
-    """What a reply comes to: an outcome, or problems, or a plan with doubts (both)."""
+    """Result of parsing a reply: an outcome, a list of problems, or both for a plan with doubts."""
 
     outcome: Outcome | None = None
     problems: tuple[Problem, ...] = ()
 
 
 class LlmPlanner:
-    """A planner behind which a language model stands.
+    """Planner that uses a language model.
 
-    The model names places and never computes them; what it writes is a draft that is checked against the robot's schema
-    and the site before anyone sees it. Ids, goals and the request's words come from the program.
+    The model names places and never computes them; it writes a draft that is checked against the robot's schema and the
+    site before anyone sees it. Ids, goals and the words of the request are added by the program.
 
     Args:
-        settings: Which model and how to ask it.
-        transcript: File to which every exchange is added; None keeps none.
-        chat: Talks to the model; made from the settings if None.
-        now: Gives the time, for the transcript.
-        note: How a transcript was made, kept in its first line.
+        settings: Model and request settings.
+        transcript: File to which every exchange is appended; None for no transcript.
+        chat: Connection to the model; by default created from ``settings``.
+        now: Returns the current time, for the transcript.
+        note: Origin of the transcript, stored in its first line.
     """
 
     def __init__(
@@ -79,11 +79,11 @@ class LlmPlanner:
         self._note = note
 
     def plan(self, request: str, site: Site, robot: RobotProfile, answers: tuple[Answer, ...] = ()) -> Outcome:
-        """Plan one request. Answers go back to the model as what followed its questions.
+        """Plan one request; the operator's answers are sent to the model after the questions.
 
         Raises:
             RequestError: The request is empty or too long.
-            ModelError: The model cannot be reached, or none of its answers can be used.
+            ModelError: The model is unreachable, or none of its answers is usable.
             OutputError: The transcript cannot be written.
         """
         _check(request)
@@ -107,7 +107,7 @@ class LlmPlanner:
         return outcome
 
     def _converse(self, request: str, site: Site, robot: RobotProfile, answers: tuple[Answer, ...]) -> Outcome:
-        """Ask until an answer can be used, at most ``repairs`` times more than once."""
+        """Ask until an answer is usable, with at most ``repairs`` further attempts."""
         talk: list[Message] = [*opening(request, site, robot), *answered(answers)]
         new: Sequence[Message] = talk
         doubted: Outcome | None = None
@@ -123,7 +123,7 @@ class LlmPlanner:
             doubted = outcome or doubted
             if tries_left:
                 new = (repair(said, tries_left),)
-                # Endpoints refuse an assistant's message without text.
+                # Endpoints reject an assistant message without text.
                 talk += [Message(role="assistant", text=reply.text.strip() or "(nothing)"), *new]
         if doubted is not None:
             return doubted
@@ -132,7 +132,7 @@ class LlmPlanner:
     def _understand(
         self, reply: Reply, request: str, site: Site, robot: RobotProfile, answers: tuple[Answer, ...]
     ) -> _Understood:
-        """What a reply comes to."""
+        """Parse and check a reply."""
         name = self._settings.name
         answer = read_answer(reply)
         match answer:
@@ -155,7 +155,7 @@ class LlmPlanner:
                 return _Understood(outcome=planned, problems=doubts(planned.task, draft, site, robot))
 
     def _unusable(self, problems: Sequence[Problem]) -> ModelError:
-        """The clear failure at the end of the last try, with the last problems."""
+        """Return the error for the last failed attempt, with its problems."""
         shown = "; ".join(str(problem) for problem in problems[:MOST_PROBLEMS])
         advice: str = message("say the request in other words, or use a larger model")
         if any(problem.kind == "answer" and "cut off" in problem.message for problem in problems):

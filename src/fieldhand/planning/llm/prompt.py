@@ -1,8 +1,8 @@
-"""What a model is told: its task, the language, examples; then the robot, a summary of the site, the request.
+"""Prompt of a model: its task, the language, examples; then the robot, a summary of the site, and the request.
 
-The first message is the same for every request, so that endpoints which cache prompts can. Its rules stand in
-``instructions.md`` beside this file. The second holds data from files that anyone may have written: it is fenced, cut
-to a length, and said to be data. Trees never go in, so the size does not grow with the orchard.
+The first message is the same for every request, so that endpoints can cache it. Its rules are in ``instructions.md``
+beside this file. The second contains data from untrusted files: it is fenced, cut to a length, and marked as data.
+Trees are never included, so the size is independent of the orchard's.
 """
 
 from __future__ import annotations
@@ -28,19 +28,19 @@ from fieldhand.task.codec_shapes import NAMESPACE, element_name
 from fieldhand.task.conditions import Condition
 from fieldhand.task.plan import Node
 
-#: Most characters of the summary of a robot or of a site, and of one line of either.
+#: Maximum length in characters of the summary of a robot or site, and of each of its lines.
 MOST_DATA = 4_000
 LONGEST_LINE = 400
-#: Most tokens of the first two messages, without the request; a site gets what the rest leaves of them, within bounds.
+#: Maximum number of tokens of the first two messages without the request; the site gets the remainder, within bounds.
 MOST_TOKENS = 5_970
 SITE_TOKENS = (250, 800)
-#: Words that are shown for one action or quantity.
+#: Maximum number of synonyms shown for an action or quantity.
 SAID_WORDS = 5
 
 
 @cache
 def instructions() -> str:
-    """The first message: the same for every robot, site and request."""
+    """Return the first message, which is the same for every robot, site and request."""
     shown = "\n\n".join(f"Request: {request}\nAnswer: {_flat(answer)}" for request, answer in EXAMPLES)
     head = f"# Examples, for another robot ({EXAMPLE_ROBOT}) on another site"
     rules = resources.files(__package__).joinpath("instructions.md").read_text(encoding="utf-8")
@@ -49,12 +49,12 @@ def instructions() -> str:
 
 
 def _flat(document: str) -> str:
-    """A document without the line ends between its elements, each of which a model would have to read."""
+    """Return a document without line breaks between its elements, to save tokens."""
     return re.sub(r">\s+<", "><", document).replace(f' xmlns="{NAMESPACE}"', "")
 
 
 def opening(request: str, site: Site, robot: RobotProfile) -> tuple[Message, Message]:
-    """The first two messages of the conversation about a request."""
+    """Return the first two messages of the conversation about a request."""
     from fieldhand.site.describe import summary_lines
 
     machine = fenced("robot", robot_lines(robot))
@@ -66,17 +66,17 @@ def opening(request: str, site: Site, robot: RobotProfile) -> tuple[Message, Mes
 
 
 def answered(answers: Sequence[Answer]) -> Iterable[Message]:
-    """What the model asked, and what the operator answered."""
+    """Return the model's questions and the operator's answers as messages."""
     for given in answers:
         yield Message(role="assistant", text=f"<question>{escape(given.question)}</question>")
         yield Message(role="user", text=f"The operator answers: {given.answer}")
 
 
 def repair(problems: Sequence[str], tries_left: int) -> Message:
-    """Tells the model what was wrong with its answer.
+    """Return the message that reports the problems of an answer to the model.
 
-    Problems quote names of the site and of the answer, so they stand in a fence as well; elements of the plan language
-    keep their brackets in it, because the model is to find them in its answer.
+    Problems quote names of the site and of the answer, so they are fenced, too; elements of the plan language keep
+    their angle brackets, so that the model can find them in its answer.
     """
     last = "This is the last try." if tries_left == 1 else f"{tries_left} tries are left."
     doubtful = any(problem.startswith("[request]") for problem in problems)
@@ -92,12 +92,12 @@ def repair(problems: Sequence[str], tries_left: int) -> Message:
 
 
 def _harmless(text: str) -> str:
-    """A line that can neither end a fence nor open an element."""
+    """Return a line that can neither end a fence nor open an element."""
     return re.sub("-{3,}", lambda run: " ".join(run[0]), escape(_line(text)))
 
 
 def _elements_kept(escaped: str) -> str:
-    """The line with the elements of the plan language as they are written, none of an answer's own."""
+    """Return the line with elements of the plan language unescaped; other elements stay escaped."""
     return re.sub(r"&lt;(/?)([a-z-]+)&gt;", lambda m: f"<{m[1]}{m[2]}>" if m[2] in _parts() else m[0], escaped)
 
 
@@ -107,10 +107,10 @@ def _parts() -> frozenset[str]:
 
 
 def fenced(name: str, lines: Iterable[str], most: int = MOST_DATA) -> str:
-    """Data from a file, marked as data: no line of it can end the fence, open an element or go on for ever.
+    """Return data from a file as a fenced block that its content cannot end or exceed and that contains no elements.
 
     Args:
-        most: Characters of all lines together.
+        most: Maximum length of all lines together, in characters.
     """
     kept: list[str] = []
     left = most
@@ -125,7 +125,7 @@ def fenced(name: str, lines: Iterable[str], most: int = MOST_DATA) -> str:
 
 
 def robot_lines(robot: RobotProfile) -> list[str]:
-    """What the robot can do: its actions as elements, what they measure, the words that people use for them."""
+    """Return the robot's capabilities: actions as elements, measured quantities, and their synonyms."""
     return [
         f"{robot.name}: {robot.description}",
         "actions:",
@@ -158,7 +158,7 @@ def _bound(value: float | None) -> str:
 
 
 def _plainest(words: Sequence[str]) -> list[str]:
-    """The shortest words, which are those that people use most, in the order of the profile."""
+    """Return the shortest words, usually the most common, in the order of the profile."""
     kept = set(sorted(words, key=lambda word: (len(word.split()), len(word)))[:SAID_WORDS])
     return [word for word in words if word in kept]
 

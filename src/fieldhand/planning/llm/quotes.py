@@ -1,8 +1,8 @@
-"""The words of the request that a draft quotes, found again as ranges of characters: a model cannot count those.
+"""Locate the words that a draft quotes in the request as character ranges, since a model cannot count characters.
 
-A quote is found whatever its case and white space. Words that stand there several times mean the first place that no
-other quote covers, and the last one when all are covered: of "check CO2 ... check the vines", "check" beside "check
-CO2" is the second.
+Case and white space are ignored. Words that occur several times refer to the first occurrence not covered by another
+quote, or to the last one if all are covered: of "check CO2 ... check the vines", "check" beside "check CO2" refers
+to the second.
 """
 
 from __future__ import annotations
@@ -17,15 +17,15 @@ from fieldhand.task.plan import Span
 if TYPE_CHECKING:
     from lxml.etree import _Element
 
-#: Between two quotes of one attribute.
+#: Separator between the quotes of one attribute.
 _BETWEEN = "|"
 
 
 def place_quotes(root: _Element, request: str) -> list[tuple[str, str]]:
-    """Put ranges in place of quotes, and take away ranges that the model wrote. ``root`` is changed.
+    """Replace the quotes in ``root`` by ranges, and remove ranges that the model wrote.
 
     Returns:
-        Where and what, for each quote that is not in the request.
+        Location and description of each quote that the request does not contain.
     """
     quotes: list[tuple[_Element, str, list[Span]]] = []
     for element in root.iter("*"):
@@ -59,12 +59,12 @@ def _name(element: _Element) -> str:
 
 
 def _covered(place: Span, taken: list[Span]) -> bool:
-    """Return True if another quote means these words."""
+    """Return True if another quote already refers to these words."""
     return any(start <= place[0] and place[1] <= end for start, end in taken)
 
 
 def _places(quote: str, request: str) -> list[Span]:
-    """Return everywhere that a quote stands, whatever its case and white space."""
+    """Return every occurrence of a quote, ignoring case and white space."""
     pattern = r"\s+".join(re.escape(word) for word in quote.split())
     places = [m.span() for m in re.finditer(rf"(?<!\w){pattern}(?!\w)", request, re.IGNORECASE)]
     return places or [m.span() for m in re.finditer(pattern, request, re.IGNORECASE)]

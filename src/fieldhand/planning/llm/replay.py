@@ -1,7 +1,7 @@
-"""Record what a model says about a request, and plan again from the record, without the model.
+"""Record a model's answers to a request, and plan again from the record without the model.
 
-A replay goes the whole way (HTTP, reading, checks, repairs), so it shows that answers which were good once still make
-the same plan, whatever has changed in the program since.
+A replay runs the complete process (HTTP, parsing, checks, repairs) and so verifies that recorded answers still lead
+to the same plan after the program has changed.
 """
 
 from __future__ import annotations
@@ -22,15 +22,15 @@ from fieldhand.site.model import Site
 def record(
     request: str, site: Site, robot: RobotProfile, path: Path, *, settings: LlmSettings, note: str = ""
 ) -> Outcome:
-    """Plan one request and keep the transcript in a file of its own, in place of what stood there.
+    """Plan one request and write the transcript to a file, replacing an existing one.
 
     Args:
-        path: The transcript.
-        settings: The model; give it time if a person answers (``timeout_s``).
-        note: How the transcript was made, for whoever reads it later.
+        path: Transcript file.
+        settings: Model settings; increase ``timeout_s`` if a person answers.
+        note: Origin of the transcript, for later readers.
 
     Raises:
-        ModelError: As :meth:`LlmPlanner.plan`; the transcript up to there is kept.
+        ModelError: Raised as by :meth:`LlmPlanner.plan`; the transcript up to the failure is kept.
         OutputError: The file cannot be written.
     """
     try:
@@ -43,19 +43,19 @@ def record(
 
 
 def transcript_endpoint(session: Session) -> ScriptedEndpoint:
-    """An endpoint that gives the recorded answers in their order."""
+    """Return an endpoint that gives the recorded answers in order."""
     return ScriptedEndpoint([ScriptedAnswer(text=e.answer, finish=e.finish or "stop") for e in session.exchanges])
 
 
 def replay(session: Session, site: Site, robot: RobotProfile) -> Outcome:
-    """What comes of the recorded answers today.
+    """Plan again from the recorded answers.
 
     Raises:
-        ModelError: The answers do not make a plan any more, or more or fewer of them are needed than were recorded.
+        ModelError: The answers no longer lead to a plan, or a different number of answers is needed.
     """
     with transcript_endpoint(session) as endpoint:
         model = str(session.about.get("planner", "llm:recorded")).removeprefix("llm:")
-        # One answer was given to each question; a question past the record is a failure, not a fault that may pass.
+        # Each question has one recorded answer; a question beyond the record is a permanent failure.
         settings = replace(endpoint.settings(model=model), resends=0, repairs=max(0, len(session.exchanges) - 1))
         answers = tuple(Answer(**given) for given in session.about.get("answers", ()))
         outcome = LlmPlanner(settings).plan(session.request, site, robot, answers)

@@ -1,8 +1,8 @@
-"""From the document that a model wrote to a plan, or to what is wrong with it, in words that the model can act on.
+"""Parse a model's document into a draft, or into problems described so that the model can correct them.
 
-The schema is asked first, then the references inside the plan, then the site (a zone that it does not have, a selection
-without trees). Approval checks all of this again for every planner; here it is asked early, because a model can mend
-its plan and an operator should not have to.
+The checks are the schema, then references inside the plan, then the site (unknown zones, selectors without trees).
+Approval repeats all of them for every planner; they run early here because a model can repair its plan without
+involving the operator.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ from fieldhand.task.schema import validate
 if TYPE_CHECKING:
     from lxml.etree import _Element
 
-#: Advice to whoever made the request, which a model may not change.
+#: Advice addressed to the author of the request, on which a model must not act.
 _TO_A_PERSON = re.compile(r"(?:ask|say|name|give|add|count from)\b")
 
 Kind = Literal["answer", "schema", "words", "reference", "site", "coordinate", "request"]
@@ -42,13 +42,13 @@ Kind = Literal["answer", "schema", "words", "reference", "site", "coordinate", "
 
 @dataclass(frozen=True, kw_only=True)
 class Problem:
-    """Why an answer cannot be used.
+    """A reason why an answer is unusable.
 
     Attributes:
-        kind: ``answer``: no document could be read; ``schema``: not valid; ``words``: quoted words that are not in
-            the request; ``reference``: a name that nothing binds; ``site``: this site does not have it;
-            ``coordinate``: a position that nobody gave; ``request``: not what the request says.
-        where: Line and element; empty where it is about no place of the document.
+        kind: ``answer``: no readable document; ``schema``: invalid document; ``words``: quoted words missing from the
+            request; ``reference``: an unbound name; ``site``: something that the site lacks; ``coordinate``: an
+            invented position; ``request``: a contradiction with the request.
+        where: Line and element; empty if the problem has no position in the document.
     """
 
     kind: Kind
@@ -60,11 +60,11 @@ class Problem:
 
 
 def read_draft(document: str, capabilities: Capabilities, request: str = "") -> TaskDraft | tuple[Problem, ...]:
-    """The draft that a document holds, or each problem of its form.
+    """Return the draft that a document contains, or the problems of its form.
 
-    The ids of the nodes say where in the document they stand (``line 12 <act>``), for the messages that follow;
-    ``task.build.make_task`` gives them their own. Ids and ranges that the model wrote do not count: it quotes the words
-    of the request, and where they stand is found here.
+    Node ids give the position in the document (``line 12 <act>``), for later messages;
+    ``task.build.make_task`` assigns the final ids. Ids and ranges written by the model are ignored: it quotes words of
+    the request, whose positions are found here.
     """
     data = _with_namespace(document).encode()
     invalid = validate(data, capabilities, draft=True)
@@ -84,14 +84,14 @@ def read_draft(document: str, capabilities: Capabilities, request: str = "") -> 
 
 
 def review(draft: TaskDraft, site: Site, capabilities: Capabilities) -> tuple[Problem, ...]:
-    """Every problem of a draft with its references and with the site, each once."""
+    """Return the problems of a draft with references and with the site, without duplicates."""
     bare = Task(id="draft", command=Command(request=""), composition=Composition(plan=draft.plan))
     unbound = [Problem(kind="reference", message=message) for message in references(bare, capabilities)]
     return tuple(dict.fromkeys([*unbound, *_places(draft.plan, site)]))
 
 
 def _with_namespace(document: str) -> str:
-    """Small models forget the namespace. There is one only, so adding it changes no meaning."""
+    """Add the namespace that small models omit; there is only one, so the meaning does not change."""
     opening = document[: document.find(">") + 1]
     if re.search(r"\sxmlns\s*=", opening):
         return document
@@ -99,7 +99,7 @@ def _with_namespace(document: str) -> str:
 
 
 def _with_lines(root: _Element) -> bytes:
-    """The document with the place of each node as its id, each once."""
+    """Return the document with the position of each node as its unique id."""
     from lxml import etree
 
     nodes = {f"{{{NAMESPACE}}}{element_name(cls)}" for cls in get_args(Node)}
@@ -113,7 +113,7 @@ def _with_lines(root: _Element) -> bytes:
 
 
 def _places(root: Node, site: Site) -> Iterator[Problem]:
-    """Problems with what selectors and conditions expect of the site."""
+    """Yield the problems of selectors and conditions with the site."""
     known = {phrase(name) for name in site.attributes}
     for node in plan.walk(root):
         selector = node.selector
@@ -130,7 +130,7 @@ def _places(root: Node, site: Site) -> Iterator[Problem]:
 
 
 def _unresolved(selector: Selector, site: Site, where: str) -> Iterator[Problem]:
-    """Problems of the largest parts that can be resolved before the mission begins."""
+    """Yield the problems of the largest parts that can be resolved before the mission starts."""
     for part in foreseeable(selector):
         try:
             _resolve(part, site)
@@ -139,7 +139,7 @@ def _unresolved(selector: Selector, site: Site, where: str) -> Iterator[Problem]
 
 
 def _more_than_one(selector: Selector, site: Site, where: str) -> Iterator[Problem]:
-    """An act or a drive goes to one place; several need a for-each, or a choice of one."""
+    """Yield a problem if an action or drive has several places, which require a for-each or a choice of one."""
     if selector.single or isinstance(selector, Bound) or _one_of_a_row(selector):
         return
     if not selector.relative:
@@ -147,14 +147,14 @@ def _more_than_one(selector: Selector, site: Site, where: str) -> Iterator[Probl
             if len(_resolve(selector, site)) == 1:
                 return
         except PlaceError:
-            return  # said already
+            return  # already reported
     name = element_name(type(selector))
     message = f'<{name}> gives several places where one is needed: use a <for-each>, or <take count="1">'
     yield Problem(kind="site", message=message, where=where)
 
 
 def _one_of_a_row(selector: Selector) -> bool:
-    """One tree by its number, of the row of one place."""
+    """Return True if the selector is one tree by its number in the row of one place."""
     of = selector.of if isinstance(selector, InRow) and selector.first == selector.last else None
     return of is not None and of.row_of is not None and of.row_of.single
 
@@ -171,5 +171,5 @@ def _no_attribute(name: str, site: Site, where: str) -> Problem:
 
 
 def _said(error: TaskError | PlaceError) -> str:
-    """Say the fault and what there is; without advice to ask for something else, which only a person may follow."""
+    """Return the fault and the alternatives, without advice that only a person may follow."""
     return f"{error.what}; {error.advice}" if error.advice and not _TO_A_PERSON.match(error.advice) else error.what

@@ -1,14 +1,14 @@
-"""A language model endpoint that answers from a script: for tests, demonstrations without a key, and replays.
+"""Scripted language model endpoint for tests, replays, and demonstrations without a key.
 
-It is a real HTTP server on 127.0.0.1 and speaks the three protocols that the planner speaks, so that everything between
-the planner and a model is exercised and nothing leaves the machine::
+A real HTTP server on 127.0.0.1 speaks the three protocols of the planner, so that everything between planner and
+model is exercised and nothing leaves the machine::
 
     with ScriptedEndpoint(["<question>Which corner?</question>"]) as endpoint:
         planner = LlmPlanner(endpoint.settings())
         planner.plan("Take a picture at the corner", site, robot)
         endpoint.requests[0].text       # what the planner asked
 
-A script also says how an endpoint fails: a status, a body that is no JSON, an answer that is cut off, a long silence.
+A script can also make the endpoint fail: an error status, a body that is not JSON, a truncated answer, a delay.
 """
 
 from __future__ import annotations
@@ -29,13 +29,13 @@ class ScriptedAnswer:
     """One answer of the script.
 
     Attributes:
-        text: What the model says.
-        finish: ``stop``, or ``length`` for an answer that was cut off.
-        status: HTTP status; from 400 on, ``text`` is the message of the error.
-        body: The whole body as it is sent, in place of one made from ``text``.
-        content_type: Of the body.
-        headers: Further headers, such as ``Retry-After``.
-        delay_s: Silence before the answer, in seconds.
+        text: Text of the answer.
+        finish: ``stop``, or ``length`` for a truncated answer.
+        status: HTTP status; from 400 on, ``text`` is the error message.
+        body: Complete response body, replacing the one made from ``text``.
+        content_type: Content type of the body.
+        headers: Additional headers, such as ``Retry-After``.
+        delay_s: Delay before the answer, in seconds.
         hang_up: Close the connection without an answer.
     """
 
@@ -51,7 +51,7 @@ class ScriptedAnswer:
 
 @dataclass(frozen=True, kw_only=True)
 class ScriptedRequest:
-    """What the endpoint was asked: path, headers (lower case names), the JSON body."""
+    """A received request: path, headers (lower-case names), JSON body."""
 
     path: str
     headers: Mapping[str, str]
@@ -59,17 +59,17 @@ class ScriptedRequest:
 
     @property
     def text(self) -> str:
-        """Everything that the messages say, in their order."""
+        """Return the text of all messages, in order."""
         return "\n\n".join(_texts(self.body))
 
 
 class ScriptedEndpoint:
-    """An endpoint on 127.0.0.1 that gives its answers in order, one a request.
+    """Endpoint on 127.0.0.1 that returns its answers in order, one per request.
 
     Args:
-        answers: The script; a bare string is a good answer with that text.
-        repeat_last: Give the last answer again and again; else a request past the end of the script gets HTTP 400.
-        port: Where to listen; 0 takes a free one.
+        answers: Script; a bare string is a successful answer with that text.
+        repeat_last: Repeat the last answer; otherwise a request beyond the end of the script gets HTTP 400.
+        port: Port to listen on; 0 selects a free one.
     """
 
     def __init__(self, answers: Iterable[ScriptedAnswer | str], *, repeat_last: bool = False, port: int = 0) -> None:
@@ -97,10 +97,10 @@ class ScriptedEndpoint:
 
     @property
     def url(self) -> str:
-        """The base address of its OpenAI-compatible interface.
+        """Return the base address of the OpenAI-compatible interface.
 
         Raises:
-            RuntimeError: It is not open (use it in a ``with`` statement).
+            RuntimeError: The endpoint is not open (use it in a ``with`` statement).
         """
         if self._server is None:
             raise RuntimeError("the endpoint is open inside its with statement only")
@@ -109,18 +109,18 @@ class ScriptedEndpoint:
     def settings(
         self, *, provider: Provider = "openai-compatible", model: str = "scripted", timeout_s: float = 30.0
     ) -> LlmSettings:
-        """Settings with which a planner asks this endpoint."""
-        # The clients of Anthropic and Google add the version to the address themselves.
+        """Return settings with which a planner uses this endpoint."""
+        # The clients of Anthropic and Google append the version to the address themselves.
         url = self.url if provider.startswith("openai") else self.url.removesuffix("/v1")
         return LlmSettings(provider=provider, model=model, base_url=url, api_key="scripted-key", timeout_s=timeout_s)
 
     @property
     def unused(self) -> int:
-        """How many answers of the script were not asked for."""
+        """Return the number of answers not yet requested."""
         return max(0, len(self._answers) - len(self.requests))
 
     def take(self, request: ScriptedRequest) -> ScriptedAnswer:
-        """The answer to the next request; silent for as long as the script says, or until the endpoint closes."""
+        """Return the next answer after its delay, or early if the endpoint is closed."""
         with self._lock:
             position = len(self.requests)
             self.requests.append(request)
@@ -139,7 +139,7 @@ class _Server(ThreadingHTTPServer):
         super().__init__(address, _Handler)
 
     def handle_error(self, request: object, client_address: object) -> None:
-        """A client that went away (its time was up) is nothing to print about."""
+        """Ignore clients that disconnected, for example after a timeout."""
 
 
 class _Handler(BaseHTTPRequestHandler):
@@ -170,7 +170,7 @@ class _Handler(BaseHTTPRequestHandler):
 
 
 def _body(path: str, asked: Mapping[str, Any], answer: ScriptedAnswer) -> bytes:
-    """A response in the protocol of the path."""
+    """Return a response body in the protocol of the path."""
     cut = answer.finish == "length"
     body: dict[str, Any]
     if answer.status >= 400:
@@ -208,7 +208,7 @@ def _body(path: str, asked: Mapping[str, Any], answer: ScriptedAnswer) -> bytes:
 
 
 def _texts(value: object) -> list[str]:
-    """Every text of a request body, whichever protocol it is in."""
+    """Return every text of a request body, in any of the protocols."""
     if isinstance(value, dict):
         found = []
         for key, inner in value.items():

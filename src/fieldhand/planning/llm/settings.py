@@ -1,4 +1,4 @@
-"""Which language model, where, and how to ask it: read from the environment.
+"""Settings of the language model and its endpoint, read from the environment.
 
     FIELDHAND_MODEL        openai:NAME | anthropic:NAME | google:NAME | openai-compatible:NAME
     FIELDHAND_BASE_URL     where an OpenAI-compatible endpoint listens, such as http://127.0.0.1:11434/v1
@@ -6,8 +6,8 @@
     FIELDHAND_MODEL_TIMEOUT     seconds that one answer may take (120)
     FIELDHAND_MODEL_MAX_TOKENS  most tokens of one answer (the endpoint's own limit)
 
-Nothing is asked of a model unless ``FIELDHAND_MODEL`` names one: a key that lies in the environment for another program
-is no wish to spend money on planning. A key comes from the environment alone, never from an option that a shell would
+No model is used unless ``FIELDHAND_MODEL`` names one: a key in the environment that belongs to another program is not
+consent to spend money on planning. Keys are read from the environment only, never from an option, which a shell would
 keep in its history.
 """
 
@@ -23,13 +23,13 @@ from fieldhand.language import message
 
 Provider = Literal["openai", "anthropic", "google", "openai-compatible"]
 
-#: How to configure a model, for every message that has to say so.
+#: Configuration advice for error messages.
 HOW_TO_CONFIGURE = message(
     "name a language model in FIELDHAND_MODEL (openai:NAME, anthropic:NAME, google:NAME, or openai-compatible:NAME "
     "with FIELDHAND_BASE_URL), and its key in FIELDHAND_API_KEY"
 )
 
-#: Where each provider's own key may stand. An OpenAI key is never sent to another service that speaks its protocol.
+#: Environment variables for each provider's key. An OpenAI key is never sent to another service with its protocol.
 KEY_VARIABLES: Mapping[Provider, tuple[str, ...]] = {
     "openai": ("OPENAI_API_KEY",),
     "anthropic": ("ANTHROPIC_API_KEY",),
@@ -37,23 +37,23 @@ KEY_VARIABLES: Mapping[Provider, tuple[str, ...]] = {
     "openai-compatible": (),
 }
 
-#: Names by which people also call the providers.
+#: Alternative names of the providers.
 ALIASES: Mapping[str, Provider] = {"google-gla": "google", "gemini": "google", "compatible": "openai-compatible"}
 
 
 @dataclass(frozen=True, kw_only=True)
 class LlmSettings:
-    """A language model and how to ask it.
+    """A language model and its request settings.
 
     Attributes:
-        model: The provider's name for the model.
-        base_url: Where the endpoint is; empty for the provider's own.
-        api_key: Never shown: not in the representation, not in an error, not in a transcript.
+        model: Name of the model at its provider.
+        base_url: Address of the endpoint; empty for the provider's own.
+        api_key: API key, excluded from the representation, errors and transcripts.
         temperature: Sampling temperature, 0 to 2.
-        timeout_s: Seconds that one answer may take, above 0.
-        max_tokens: Most tokens of one answer; None leaves it to the endpoint.
-        resends: How often a request is sent again after a fault that may pass (busy, server error, no connection).
-        repairs: How often the model may mend an answer that cannot be used.
+        timeout_s: Time limit of one answer in seconds, above 0.
+        max_tokens: Maximum number of tokens of one answer; None for the endpoint's limit.
+        resends: Number of retries after a transient fault (busy, server error, no connection).
+        repairs: Number of attempts that the model gets to repair an unusable answer.
     """
 
     provider: Provider
@@ -68,12 +68,12 @@ class LlmSettings:
 
     @property
     def name(self) -> str:
-        """How a plan, a transcript and a message name the planner: ``llm:<model>``."""
+        """Return the planner name used in plans, transcripts and messages: ``llm:<model>``."""
         return f"llm:{self.model}"
 
     @property
     def endpoint(self) -> str:
-        """Where requests go, for messages: without user, password, query or key."""
+        """Return the address of the endpoint for messages, without user, password, query or key."""
         if not self.base_url:
             return self.provider
         parts = urlsplit(self.base_url)
@@ -81,24 +81,24 @@ class LlmSettings:
         return f"{parts.scheme}://{host}{parts.path}"
 
     def redact(self, text: str) -> str:
-        """The text without the key, should an endpoint repeat it."""
+        """Return the text with the key removed, in case an endpoint repeats it."""
         return text.replace(self.api_key, "[key]") if len(self.api_key) >= 4 else text
 
 
 def settings_from_environment(environ: Mapping[str, str], *, model: str = "", base_url: str = "") -> LlmSettings | None:
-    """What the environment says about the language model.
+    """Return the language model settings of the environment.
 
     Args:
         environ: Environment variables.
-        model: Takes the place of ``FIELDHAND_MODEL``, for a command line option.
-        base_url: Takes the place of ``FIELDHAND_BASE_URL``.
+        model: Override of ``FIELDHAND_MODEL``, for a command line option.
+        base_url: Override of ``FIELDHAND_BASE_URL``.
 
     Returns:
-        None where no model is named.
+        The settings, or None if no model is named.
 
     Raises:
-        ModelError: A variable holds what cannot be used. A missing key is no error here but when the model is asked,
-            so that planning without a model goes on working.
+        ModelError: A variable is invalid. A missing key raises only when the model is used, so that planning without a
+            model keeps working.
     """
     wanted = model.strip() or environ.get("FIELDHAND_MODEL", "").strip()
     if not wanted:
@@ -116,10 +116,10 @@ def settings_from_environment(environ: Mapping[str, str], *, model: str = "", ba
 
 
 def require_settings(environ: Mapping[str, str], *, model: str = "", base_url: str = "") -> LlmSettings:
-    """Like :func:`settings_from_environment`, for someone who asked for a language model by name.
+    """Return the settings as :func:`settings_from_environment` does, but require a model.
 
     Raises:
-        ModelError: No model is configured, or a variable cannot be used.
+        ModelError: No model is configured, or a variable is invalid.
     """
     settings = settings_from_environment(environ, model=model, base_url=base_url)
     if settings is None:

@@ -1,8 +1,8 @@
-"""Transcripts: what was said between the planner and a model, as JSON lines.
+"""Transcripts of the conversation between planner and model, as JSON lines.
 
-One session is one request. Its first line says what was asked of whom; each further line is one exchange: the messages
-that were new in it, the answer, and what was wrong with the answer; the last line is how it ended. Keys never reach a
-transcript, because nothing that holds one is written.
+One session covers one request. Its first line records the request and the model; each further line is one exchange
+with its new messages, the answer, and the problems of the answer; the last line is the outcome. No object that
+contains a key is written, so keys never reach a transcript.
 """
 
 from __future__ import annotations
@@ -22,17 +22,17 @@ FORMAT = "fieldhand-transcript/1"
 
 
 def wall_clock() -> datetime:
-    """The time, with its zone."""
+    """Return the current time with its time zone."""
     return datetime.now(UTC)
 
 
 class TranscriptWriter:
-    """Appends sessions to a file, line by line, so that a failure leaves behind what came before it.
+    """Appends sessions to a file line by line, so that everything before a failure is preserved.
 
     Args:
-        path: The file; None writes nothing.
-        now: Gives the time.
-        redact: Takes secrets out of a line: an endpoint may answer with the key that it was sent.
+        path: Transcript file; None for no transcript.
+        now: Returns the current time.
+        redact: Removes secrets from a line, since an endpoint may repeat the key in its answer.
     """
 
     def __init__(
@@ -43,11 +43,11 @@ class TranscriptWriter:
         self._redact = redact
 
     def begin(self, request: str, **about: Any) -> None:
-        """Open a session: the request word for word, and who is asked about what."""
+        """Start a session with the request verbatim and the planner, site and robot."""
         self._write({"kind": "session", "format": FORMAT, "at": self._time(), "request": request, **about})
 
     def exchange(self, new: Sequence[Message], reply: Reply, problems: Sequence[str]) -> None:
-        """Keep one exchange: the messages that were not sent before, the answer, what was wrong with it."""
+        """Append one exchange: the new messages, the answer, and its problems."""
         self._write(
             {
                 "kind": "exchange",
@@ -61,7 +61,7 @@ class TranscriptWriter:
         )
 
     def end(self, outcome: str, detail: str = "") -> None:
-        """Close a session: planned, clarify, refused or failed."""
+        """Close a session with its outcome: planned, clarify, refused or failed."""
         self._write({"kind": "end", "at": self._time(), "outcome": outcome, "detail": detail})
 
     def _time(self) -> str:
@@ -95,11 +95,11 @@ class Exchange:
 
 @dataclass(frozen=True, kw_only=True)
 class Session:
-    """One request of a transcript.
+    """One request of a transcript, with its exchanges.
 
     Attributes:
-        about: What else the first line says (planner, site, robot, how it was made).
-        outcome: planned, clarify, refused or failed; empty if it was cut off.
+        about: Other fields of the first line (planner, site, robot, origin).
+        outcome: ``planned``, ``clarify``, ``refused`` or ``failed``; empty if the session is incomplete.
     """
 
     request: str
@@ -109,7 +109,7 @@ class Session:
 
 
 def read_transcript(path: Path) -> tuple[Session, ...]:
-    """The sessions of a transcript.
+    """Read the sessions of a transcript.
 
     Raises:
         InputError: The file cannot be read, or a line is not of this format.

@@ -1,7 +1,7 @@
-"""Talk to a language model over the network: any provider, one kind of failure.
+"""Network access to language models of any provider, with every failure raised as one exception class.
 
-pydantic-ai speaks the protocols; here stand the limits (time, resends) and the sentences that tell the operator what
-went wrong. Resending is done here alone: the clients below are told not to, or the two would multiply.
+pydantic-ai implements the protocols; this module adds time limits, retries, and error messages for the operator.
+Retries are disabled in the underlying clients, because the two would multiply.
 """
 
 from __future__ import annotations
@@ -20,20 +20,20 @@ if TYPE_CHECKING:
     from pydantic_ai.messages import ModelMessage, ModelResponse
     from pydantic_ai.models import Model
 
-#: HTTP statuses after which the same request may succeed.
+#: HTTP statuses of transient faults, after which the same request may succeed.
 MAY_PASS = frozenset({408, 409, 425, 429, 500, 502, 503, 504, 529})
-#: The longest wait before a request is sent again, in seconds, whatever the endpoint asks for.
+#: Maximum delay before a retry in seconds, even if the endpoint asks for more.
 LONGEST_WAIT_S = 30.0
-#: An endpoint's own words are cut to this many characters.
+#: Maximum number of characters quoted from an endpoint's error.
 QUOTED = 300
 
 
 class ModelChat:
-    """A language model behind an HTTP endpoint.
+    """Language model behind an HTTP endpoint.
 
     Args:
-        settings: Which model and how to ask it.
-        sleep: Waits so many seconds between resends.
+        settings: Model and request settings.
+        sleep: Called with the seconds to wait before a retry.
     """
 
     def __init__(self, settings: LlmSettings, *, sleep: Callable[[float], None] = time.sleep) -> None:
@@ -55,10 +55,10 @@ class ModelChat:
 
 
 def require_extra() -> None:
-    """Check that the optional packages are installed.
+    """Require the optional packages.
 
     Raises:
-        ModelError: They are not.
+        ModelError: A package is not installed.
     """
     try:
         import pydantic_ai  # noqa: F401
@@ -70,10 +70,10 @@ def require_extra() -> None:
 
 
 def require_key(settings: LlmSettings) -> None:
-    """Check that there is a key where the provider wants one.
+    """Require a key if the provider needs one.
 
     Raises:
-        ModelError: There is none.
+        ModelError: The key is missing.
     """
     if not settings.api_key and settings.provider != "openai-compatible":
         names = " or ".join(("FIELDHAND_API_KEY", *KEY_VARIABLES[settings.provider]))
@@ -81,7 +81,7 @@ def require_key(settings: LlmSettings) -> None:
 
 
 def build_model(settings: LlmSettings) -> Model[Any]:
-    """The model as pydantic-ai knows it. Its packages are imported here, the ones of other providers are not."""
+    """Return the pydantic-ai model; only the packages of its provider are imported."""
     url, key = settings.base_url or None, settings.api_key
     match settings.provider:
         case "anthropic":
@@ -98,8 +98,8 @@ def build_model(settings: LlmSettings) -> Model[Any]:
             from pydantic_ai.models.openai import OpenAIChatModel
             from pydantic_ai.providers.openai import OpenAIProvider
 
-            # An endpoint that needs no key still wants the header: without this the client would take
-            # OPENAI_API_KEY from the environment and send it there.
+            # The header is required even by endpoints without keys: without a value the client would send
+            # OPENAI_API_KEY from the environment.
             provider = OpenAIProvider(base_url=url, api_key=key or "no-key")
             return OpenAIChatModel(settings.model, provider=provider)
 
@@ -111,7 +111,7 @@ async def _request(settings: LlmSettings, messages: Sequence[Message]) -> ModelR
     wanted = ModelSettings(temperature=settings.temperature, timeout=settings.timeout_s, max_retries=0)
     if settings.max_tokens is not None:
         wanted["max_tokens"] = settings.max_tokens
-    # The client's own time limit starts anew with every byte, so an endpoint that trickles would never meet it.
+    # The client's own timeout restarts with every byte, so a slowly trickling endpoint would never reach it.
     async with build_model(settings) as model, asyncio.timeout(settings.timeout_s):
         return await model_request(model, _as_messages(messages), model_settings=wanted)
 
@@ -143,7 +143,7 @@ def _reply(response: ModelResponse) -> Reply:
 
 
 def _run(request: Coroutine[Any, Any, ModelResponse]) -> ModelResponse:
-    """Run to the end, also where the caller is inside an event loop already (a web server, a notebook)."""
+    """Run a coroutine to completion, even inside a running event loop (a web server, a notebook)."""
     inside = True
     try:
         asyncio.get_running_loop()
@@ -156,7 +156,7 @@ def _run(request: Coroutine[Any, Any, ModelResponse]) -> ModelResponse:
 
 
 def _wait_s(error: Exception, attempt: int) -> float | None:
-    """Seconds after which sending again makes sense; None if it makes none."""
+    """Return the seconds to wait before a retry, or None if a retry is pointless."""
     from pydantic_ai.exceptions import ModelAPIError, ModelHTTPError
 
     backoff = 0.5 * 2.0**attempt
@@ -170,7 +170,7 @@ def _wait_s(error: Exception, attempt: int) -> float | None:
 
 
 def explain(error: Exception, settings: LlmSettings, *, attempts: int) -> NoReturn:
-    """Raise the ModelError that says what went wrong, where, and what to do.
+    """Raise a ModelError that describes the failure, its location, and the remedy.
 
     Raises:
         ModelError: Always.
@@ -198,7 +198,7 @@ def explain(error: Exception, settings: LlmSettings, *, attempts: int) -> NoRetu
             f"the endpoint cannot be reached ({_cut(why)})",
             "check that it runs, its address in FIELDHAND_BASE_URL, and the network",
         )
-    # What is left is a body that is no answer. The clients trip over some of them (TypeError, AttributeError).
+    # The remaining case is an invalid response body, which makes some clients raise TypeError or AttributeError.
     fail(
         f"the endpoint's answer is not a chat completion ({type(error).__name__}: {_cut(str(error))})",
         "check that FIELDHAND_BASE_URL is the address of a chat endpoint; it usually ends in /v1",
@@ -206,7 +206,7 @@ def explain(error: Exception, settings: LlmSettings, *, attempts: int) -> NoRetu
 
 
 def _about_status(status: int, body: str, settings: LlmSettings) -> tuple[str, str]:
-    """What an HTTP status means and what to do about it."""
+    """Return the meaning of an HTTP status and the advice."""
     said = f": {body}" if body else ""
     key = " or ".join(("FIELDHAND_API_KEY", *KEY_VARIABLES[settings.provider]))
     match status:
@@ -247,7 +247,7 @@ def _timed_out(error: BaseException) -> bool:
 
 
 def _unconnected(error: BaseException) -> bool:
-    """Whether the connection failed or broke, by the names that the clients give it (they share no base class)."""
+    """Return True if the connection failed or broke, judged by class names, as clients share no base class."""
     names = {type(e).__name__ for e in _causes(error)}
     signs = (
         "ConnectError",
@@ -262,7 +262,7 @@ def _unconnected(error: BaseException) -> bool:
 
 
 def _body_text(body: object) -> str:
-    """What the endpoint itself says about the failure, in one line."""
+    """Return the endpoint's own error message on one line."""
     if isinstance(body, dict):
         inner = body.get("error", body)
         body = inner.get("message", inner) if isinstance(inner, dict) else inner
@@ -270,6 +270,6 @@ def _body_text(body: object) -> str:
 
 
 def _cut(text: str) -> str:
-    """The text on one line, and not too long."""
+    """Return the text on one line, cut to a maximum length."""
     text = " ".join(text.split())
     return text if len(text) <= QUOTED else text[:QUOTED] + "..."
