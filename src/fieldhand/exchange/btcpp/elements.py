@@ -1,4 +1,4 @@
-"""The elements of a tree document: their kind, ports and place, whichever way an editor wrote them."""
+"""Elements of a tree document: type, ports and position, in either notation that editors write."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ if TYPE_CHECKING:
 
 #: ``<Action ID="read_co2"/>`` is ``<read_co2/>``.
 _GENERIC = ("Action", "Condition", "Control", "Decorator")
-#: What BehaviorTree.CPP reads as scripts around a node.
+#: Ports that BehaviorTree.CPP treats as scripts around a node.
 _SCRIPTS = ("_skipIf", "_successIf", "_failureIf", "_while", "_onSuccess", "_onFailure", "_onHalted", "_post")
-#: Nodes of BehaviorTree.CPP that a Task can say.
+#: Nodes of BehaviorTree.CPP that have an equivalent in a Task.
 STANDARD = (
     "Sequence", "Fallback", "IfThenElse", "Repeat", "Inverter", "ForceSuccess", "LoopString", "LoopInt", "Script",
     "AlwaysSuccess", "AlwaysFailure", "SubTree",
@@ -33,11 +33,11 @@ STANDARD = (
 
 @dataclass(frozen=True, kw_only=True)
 class Tag:
-    """An element as a node of a tree.
+    """An XML element as a node of a tree.
 
     Attributes:
-        kind: The node's type.
-        ports: Its ports as they are written.
+        kind: Type of the node.
+        ports: Ports as written.
     """
 
     element: _Element
@@ -46,22 +46,22 @@ class Tag:
 
     @property
     def line(self) -> int:
-        """Where it stands."""
+        """Return the position in the document."""
         return line_of(self.element)
 
     @property
     def name(self) -> str:
-        """The name that it was given; empty where it has none of its own."""
+        """Return the node's own name, or an empty string."""
         given = str(self.element.get("name") or "")
         return "" if given == self.kind else given
 
 
 @dataclass(frozen=True, kw_only=True)
 class Elements:
-    """Reads elements of one document for one robot.
+    """Reader of the elements of one document for one robot.
 
     Attributes:
-        source: What to call the document in messages.
+        source: Name of the document in error messages.
     """
 
     source: str
@@ -69,14 +69,14 @@ class Elements:
 
     @cached_property
     def known(self) -> dict[str, frozenset[str]]:
-        """The leaves that may stand in a tree, with the names of their ports."""
+        """Return the leaves accepted in a tree, with the names of their ports."""
         return {leaf.id: frozenset(port.name for port in leaf.ports) for leaf in leaves(self.capabilities)}
 
     def tag(self, element: _Element) -> Tag:
-        """What an element stands for.
+        """Return an element as a node.
 
         Raises:
-            TaskError: No such node is known; its line, its name and the nearest that is.
+            TaskError: The node type is unknown; the message gives line, name and the nearest known type.
         """
         kind = str(element.tag)
         if kind in _GENERIC:
@@ -92,11 +92,11 @@ class Elements:
         return Tag(element=element, kind=kind, ports=ports)
 
     def ports(self, tag: Tag, known: Collection[str], *, scripts: Collection[str] = ()) -> None:
-        """Refuse ports and scripts that a Task cannot say.
+        """Refuse ports and scripts that have no equivalent in a Task.
 
         Args:
-            known: The ports that may stand there.
-            scripts: The scripts around the node that are part of how a Task is written.
+            known: Accepted ports.
+            scripts: Scripts that the notation of a Task uses around this node.
         """
         for name in tag.ports:
             if name not in known:
@@ -108,14 +108,14 @@ class Elements:
                 )
 
     def children(self, tag: Tag, count: int) -> list[_Element]:
-        """The nodes inside, of which there must be so many."""
+        """Return the child nodes after checking their number."""
         found = list(tag.element)
         if len(found) != count:
             raise self.error(tag.element, f"holds {len(found)} nodes, needs {count}", "correct it")
         return found
 
     def fields(self, tag: Tag, cls: type, *, beside: Collection[str] = ()) -> dict[str, Any]:
-        """The plain fields of a class from the ports of a node; what is not given has its default."""
+        """Return the plain fields of a class from the ports of a node, with defaults for missing ports."""
         found: dict[str, Any] = {}
         for attribute in plain_attributes(cls):
             if attribute.field not in beside:
@@ -123,7 +123,7 @@ class Elements:
         return found
 
     def parts(self, tag: Tag, port: str, options: tuple[type, ...]) -> Any:
-        """The one part, such as a selector, that a port holds as XML."""
+        """Return the single part, such as a selector, that a port contains as XML."""
         where = f"{at_line(self.source, tag.line, tag.kind)}, {port}"
         text = tag.ports.get(port, "")
         if not text.lstrip().startswith("<"):
@@ -134,7 +134,7 @@ class Elements:
         return found[0]
 
     def spans(self, tag: Tag, name: str) -> tuple[Span, ...]:
-        """The ranges of the request that an attribute holds; none where an editor dropped it."""
+        """Return the ranges of the request in an attribute, or none if an editor removed it."""
         text = tag.element.get(name)
         try:
             attribute = Attribute(field=name, name=name, kind="spans", default=())
@@ -143,7 +143,7 @@ class Elements:
             raise self.error(tag.element, f"{name}: {error}", "correct it, or take it out") from None
 
     def error(self, element: _Element, what: str, advice: str) -> TaskError:
-        """A problem at an element."""
+        """Return an error located at an element."""
         kind = str(element.get("ID") or element.tag) if element.tag in _GENERIC else str(element.tag)
         return TaskError(what, where=at_line(self.source, line_of(element), kind), advice=advice)
 

@@ -1,4 +1,4 @@
-"""The nodes of a tree as plan nodes."""
+"""Conversion of tree nodes to plan nodes."""
 
 from __future__ import annotations
 
@@ -21,30 +21,30 @@ from fieldhand.task.conditions import AllOf, AnyOf, Condition, Not
 if TYPE_CHECKING:
     from lxml.etree import _Element
 
-#: Nodes of a tree with its subtrees put in their places: more than any mission has.
+#: Maximum number of nodes after subtrees are expanded.
 MAX_NODES = 20_000
 _READING = re.compile(r"\{(?:reading_)?([^{}]+)\}")
 _AFTER_STOP = f"_failureIf={EXIT_ENTRY} != ''"
 
 
 class NodeReader:
-    """Reads nodes of one document.
+    """Reader of the nodes of one document.
 
     Args:
-        elements: Reads its elements.
-        trees: Its trees by name, for subtrees.
+        elements: Reader of the document's elements.
+        trees: Trees by name, for subtrees.
     """
 
     def __init__(self, elements: Elements, trees: Mapping[str, _Element]) -> None:
         self.elements = elements
         self._trees = trees
         self._inside: list[str] = []
-        #: How deep the subtrees under way stand in each other.
+        #: Nesting depth of the subtrees being expanded.
         self._depth = 0
         self._nodes = 0
 
     def node(self, element: _Element, *scripts: str) -> p.Node:
-        """The plan node of an element; ``scripts`` around it are part of how its parent is written."""
+        """Return the plan node of an element; ``scripts`` are those that its parent's notation puts around it."""
         self._nodes += 1
         if self._nodes > MAX_NODES:
             raise self.elements.error(element, f"the tree has more than {MAX_NODES:,} nodes", "use subtrees less often")
@@ -152,14 +152,14 @@ class NodeReader:
         return p.Repeat(**beside, times=self._times(repeat), body=self.node(body[0]), until=until)
 
     def _test(self, element: _Element) -> Condition:
-        """The condition at the end of a round."""
+        """Return the condition at the end of an iteration."""
         if element.tag != "ForceSuccess" or len(element) != 1 or len(element[0]) != 2:
             what = "the test at the end of a round is <ForceSuccess> of a condition and a <Script>"
             raise self.elements.error(element, what, "take it from an exported tree")
         return self._condition(element[0][0])
 
     def _fallback(self, tag: Tag, beside: dict[str, Any]) -> p.Node:
-        """Of more than two children each stands in for those before it."""
+        """Convert a fallback; with more than two children, each replaces those before it."""
         if len(tag.element) < 2:
             raise self.elements.error(tag.element, "holds less than two nodes", "add what to do if the first fails")
         tried = [self.node(child, _AFTER_STOP) for child in tag.element]
@@ -249,10 +249,10 @@ class NodeReader:
 
 
 def _depth(element: _Element) -> int:
-    """How deep an element stands in its document."""
+    """Return the depth of an element in its document."""
     return sum(1 for _ in element.iterancestors())
 
 
 def _entry(loop: Tag, port: str, ending: str) -> str:
-    """The beginning of a loop's blackboard entries: ``n2`` of ``{n2_place}``."""
+    """Return the prefix of a loop's blackboard entries: ``n2`` of ``{n2_place}``."""
     return loop.ports.get(port, "").strip("{}").removesuffix(ending)

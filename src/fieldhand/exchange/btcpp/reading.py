@@ -1,7 +1,7 @@
-"""A Task from a tree of BehaviorTree.CPP v4: one that :mod:`.writing` wrote, or another that is made of known leaves.
+"""Import of BehaviorTree.CPP v4 trees as Tasks, written by :mod:`.writing` or composed of known leaves.
 
-A tree that was written from a Task and not changed gives that Task again. Where it was changed, or drawn in an editor,
-what follows from the plan (ids, goals, state variables) is made anew.
+An unchanged exported tree gives the original Task. For a tree that was changed or drawn in an editor, everything
+derived from the plan (ids, goals, state variables) is created anew.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class _Frames:
-    """What a tree says beside its plan."""
+    """Data of a tree other than its plan."""
 
     id: str = ""
     command: Command
@@ -46,17 +46,18 @@ def read_tree(
     resources: tuple[Resource, ...] = (),
     source: str = "",
 ) -> Task:
-    """The Task that a tree stands for.
+    """Parse a tree into a Task.
 
     Args:
-        data: The document.
-        capabilities: What the robot can do: the leaves that are known.
-        request, resources: What was asked, and for what robot and site, where the tree does not say.
-        source: What to call the document in messages.
+        data: XML document.
+        capabilities: Capabilities of the robot, which define the known leaves.
+        request, resources: Request, robot and site to use if the tree does not contain them.
+        source: Name of the document in error messages.
 
     Raises:
-        TaskError: It is no such tree, is refused before it is read (entities, size, depth), or holds what a Task cannot
-            say: an unknown node, a script, a loop without end; says at which line and node.
+        TaskError: The document is not such a tree, is refused before parsing (entities, size, depth), or contains
+            something without an equivalent in a Task (an unknown node, a script, an endless loop); the message names
+            line and node.
     """
     if not data.strip():
         raise TaskError("the document is empty", where=source, advice="give a tree of BehaviorTree.CPP 4")
@@ -91,7 +92,7 @@ def read_tree(
 
 
 def _fits(command: Command, plan: p.Node) -> bool:
-    """Whether ids stand once each, and the goals are those of the plan."""
+    """Return True if ids are unique and the goals match the plan."""
     nodes = list(p.walk(plan))
     ids = Counter(node.id for node in nodes)
     acts = {(act.id, act.action) for act in p.acts(plan)}
@@ -99,7 +100,7 @@ def _fits(command: Command, plan: p.Node) -> bool:
 
 
 def _trees(root: _Element, elements: Elements) -> tuple[_Element, dict[str, _Element]]:
-    """The main tree and all trees by their names."""
+    """Return the main tree and all trees by name."""
     if root.tag != "root":
         raise elements.error(root, "is no tree of BehaviorTree.CPP", 'its outermost element is <root BTCPP_format="4">')
     if root.get("BTCPP_format") != "4":
@@ -126,7 +127,7 @@ def _trees(root: _Element, elements: Elements) -> tuple[_Element, dict[str, _Ele
 
 
 def _mission(tree: _Element, reader: NodeReader, frames: _Frames) -> tuple[_Frames, p.Node]:
-    """The frames and the plan of a main tree."""
+    """Return the frames and the plan of a main tree."""
     elements, top = reader.elements, tree[0]
     tag = elements.tag(top)
     inside = [elements.tag(child) for child in top]
@@ -167,7 +168,7 @@ def _begun(begin: Tag, elements: Elements, frames: _Frames) -> _Frames:
 
 
 def _exits(ending: Tag, elements: Elements, frames: _Frames) -> _Frames:
-    """What the exits behind the plan say."""
+    """Return the exits defined after the plan."""
     done, over = elements.tag(ending.element[1]), elements.tag(ending.element[2])
     if done.kind != EXIT or over.kind != "Fallback" or len(over.element) != 2:
         what = f"behind the plan stand <{EXIT}> and a <Fallback> for what went otherwise"

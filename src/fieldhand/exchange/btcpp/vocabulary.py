@@ -1,7 +1,7 @@
-"""The leaves that a robot has to bring along for an exported tree, with their ports: the ``TreeNodesModel``.
+"""Leaves that a robot must implement for an exported tree, with their ports: the ``TreeNodesModel``.
 
-Whatever can be said with the nodes of BehaviorTree.CPP itself is said with them; only leaves are ours. Each action of
-the robot is a leaf of its own, and each kind of condition. Ports follow from the dataclasses, as the Task's XML does.
+Control flow uses the nodes of BehaviorTree.CPP; only leaves are specific to this program: one for each action of the
+robot and each kind of condition. Ports are derived from the dataclasses, as the XML of the Task is.
 """
 
 from __future__ import annotations
@@ -21,16 +21,16 @@ if TYPE_CHECKING:
 BEGIN, GO_TO, RESOLVE, ORDER, ALLOWS, EXIT, FAULT = (
     "BeginMission", "GoToPlace", "ResolvePlaces", "OrderSteps", "BudgetAllows", "TakeExit", "HandleFault",
 )  # fmt: skip
-#: The leaf of each kind of condition.
+#: Leaf of each kind of condition.
 CONDITIONS: dict[type, str] = {
     Compare: "CompareReading",
     Between: "ReadingBetween",
     Level: "ReadingIs",
     TreeHas: "TreeHas",
 }
-#: What a leaf of a condition answers where the reading was never taken; it is derived from where the leaf stands.
+#: Port with the result of a condition whose reading was never taken, derived from the leaf's position.
 IF_UNKNOWN = "if_unknown"
-#: Fields that are not ports: the id is the node's name, ranges of the request are attributes of their own.
+#: Fields that are not ports: the id is the node's name, ranges of the request are separate attributes.
 _BESIDE = ("id", "said", "at_said")
 
 Direction = Literal["input", "output"]
@@ -38,12 +38,12 @@ Direction = Literal["input", "output"]
 
 @dataclass(frozen=True, kw_only=True)
 class Port:
-    """One port of a leaf.
+    """A port of a leaf.
 
     Attributes:
-        type: As C++ names it.
+        type: C++ type name.
         default: What holds where the port is not given; None where it must be.
-        about: One line on what it is.
+        about: One-line description.
     """
 
     name: str
@@ -55,7 +55,7 @@ class Port:
 
 @dataclass(frozen=True, kw_only=True)
 class Leaf:
-    """One leaf: an action, or a condition."""
+    """A leaf: an action or a condition."""
 
     id: str
     kind: Literal["Action", "Condition"]
@@ -63,19 +63,19 @@ class Leaf:
 
 
 def port_name(attribute: str) -> str:
-    """The port of a field: C++ programs prefer underscores."""
+    """Return the port of a field, with underscores as usual in C++."""
     return attribute.replace("-", "_")
 
 
 def plain_attributes(cls: type) -> tuple[Attribute, ...]:
-    """The fields of a class that become ports, those that belong to its quantity included."""
+    """Return the fields of a class that become ports, including those of its quantity."""
     shape = shape_of(cls)
     of_quantity = shape.head.attributes if shape.head is not None else ()
     return tuple(a for a in (*shape.attributes, *of_quantity) if a.field not in _BESIDE)
 
 
 def leaves(capabilities: Capabilities) -> tuple[Leaf, ...]:
-    """Every leaf that a tree for this robot may hold."""
+    """Return every leaf that a tree for this robot may contain."""
     frames = tuple(Port(name=n, type=_TEXT, about=f"<{n}> of the Task, as XML") for n in ("command", "constraints"))
     task = Port(name="task", type=_TEXT, about="Id of the Task")
     resources = Port(name="resources", type=_TEXT, default="", about="Robot and site that it was planned for, as XML")
@@ -101,7 +101,7 @@ def leaves(capabilities: Capabilities) -> tuple[Leaf, ...]:
 
 
 def models(capabilities: Capabilities) -> _Element:
-    """The ``TreeNodesModel`` of a robot."""
+    """Return the ``TreeNodesModel`` of a robot."""
     from lxml import etree
 
     root = etree.Element("TreeNodesModel")
@@ -126,7 +126,7 @@ _TYPES = {"integer": "int", "number": "double", "flag": "bool"}
 
 
 def _ports(cls: type, *, beside: tuple[str, ...] = ()) -> tuple[Port, ...]:
-    """Input ports for the plain fields of a class."""
+    """Return input ports for the plain fields of a class."""
     found = []
     for attribute in plain_attributes(cls):
         if attribute.field in beside:
@@ -152,7 +152,7 @@ def _condition_ports(cls: type) -> tuple[Port, ...]:
 
 
 def _action(name: str, capabilities: Capabilities) -> Leaf:
-    """The leaf of an action: what every one has, and the action's own parameters."""
+    """Return the leaf of an action: the common ports, and the parameters of the action."""
     action = capabilities.actions[name]
     about = f"Measures {', '.join(action.measures)}" if action.measures else "Measures nothing"
     common = [p for p in _ports(Act) if p.name != "reading"]

@@ -1,7 +1,7 @@
-"""A Task as a tree of BehaviorTree.CPP v4.
+"""Export of a Task as a tree of BehaviorTree.CPP v4.
 
-Every plan node is one element, whose ``name`` is the node's id; elements without a name are what it needs beside.
-``_said`` holds the words of the request from which it came, as ranges, and ``_description`` those words themselves.
+Every plan node is one element whose ``name`` is the node's id; elements without a name are auxiliary. ``_said``
+contains the ranges of the request that the node came from, and ``_description`` the words themselves.
 
 Blackboard entries: ``n2_places`` and ``n2_place`` of a loop, ``n2_done`` once its condition held, ``n5_order`` and
 ``n5_step`` of steps in any order, ``reading_NAME``, and ``mission_exit``: empty until a stop takes an exit. A stop
@@ -47,14 +47,14 @@ EXIT_ENTRY = "mission_exit"
 
 
 def write_tree(task: Task, capabilities: Capabilities) -> bytes:
-    """A Task as an XML document that BehaviorTree.CPP 4, Groot2 and Nav2 read.
+    """Return a Task as an XML document for BehaviorTree.CPP 4, Groot2 and Nav2.
 
     Args:
-        task: A Task that this robot can carry out.
-        capabilities: What the robot can do: the leaves that the document describes.
+        task: Task that this robot can carry out.
+        capabilities: Capabilities of the robot, which define the leaves described in the document.
 
     Raises:
-        TaskError: It holds what such a document cannot carry; says which node and what.
+        TaskError: The Task contains something that the document cannot represent; the message names the node.
     """
     from lxml import etree
 
@@ -72,7 +72,7 @@ def write_tree(task: Task, capabilities: Capabilities) -> bytes:
 
 
 class _Writer:
-    """Writes the nodes of one Task."""
+    """Writer of the nodes of one Task."""
 
     def __init__(self, task: Task) -> None:
         self._task = task
@@ -82,7 +82,7 @@ class _Writer:
             raise TaskError("nodes of the plan share an id", advice="give each node an id of its own")
 
     def mission(self) -> _Element:
-        """The whole mission: what it is, the plan, and its exits."""
+        """Return the whole mission: metadata, plan and exits."""
         task, composition = self._task, self._task.composition
         begin = _element(
             BEGIN,
@@ -105,7 +105,7 @@ class _Writer:
         )
 
     def node(self, node: p.Node) -> _Element:
-        """The element of a plan node."""
+        """Return the element of a plan node."""
         element = self._of(node)
         quoted = " ... ".join(self._task.command.request[a:b] for a, b in node.said)
         if not node.id:
@@ -143,11 +143,11 @@ class _Writer:
             case p.Act():
                 return self._act(node)
             case p.StopMission(exit=taken):
-                # No script after the node: those run even where a fallback leaves the node out.
+                # No script after the node: it would also run if a fallback skips the node.
                 return _element("Sequence", _script(f"{EXIT_ENTRY} := '{taken}'"), _element("AlwaysFailure"))
 
     def _any_order(self, node: p.AnyOrder, entry: str) -> _Element:
-        """The leaf finds the best order; the loop then does the steps by their numbers."""
+        """Return a leaf that computes the best order, followed by a loop over the numbered steps."""
         steps = []
         for number, step in enumerate(node.steps, start=1):
             one = self.node(step)
@@ -179,14 +179,14 @@ class _Writer:
         return _element("Sequence", *before, _element("Repeat", once, num_cycles=str(node.times)))
 
     def _until(self, until: Condition | None, entry: str, where: str) -> tuple[list[_Element], list[_Element]]:
-        """What stands before a loop, and at the end of each of its rounds, so that a condition ends it."""
+        """Return the nodes before a loop and at the end of each iteration by which a condition ends it."""
         if until is None:
             return [], []
         held = _element("Sequence", self._condition(until, where), _script(f"{entry}_done := true"))
         return [_script(f"{entry}_done := false")], [_element("ForceSuccess", held)]
 
     def _act(self, node: p.Act) -> _Element:
-        """Drive there, if a place is named, then act."""
+        """Return a drive to the place, if one is given, and the action."""
         ports = _ports(node, node.id, beside=("reading", "label") if node.at is not None else ("reading",))
         if node.reading:
             ports["reading"] = _reading(node.reading, node.id)
@@ -201,10 +201,10 @@ class _Writer:
         return _element("Sequence", _element(GO_TO, **go), act)
 
     def _condition(self, condition: Condition, where: str, *, negated: bool = False) -> _Element:
-        """A condition as leaves under Sequence (all), Fallback (any) and Inverter (not).
+        """Return a condition as leaves under Sequence (all), Fallback (any) and Inverter (not).
 
-        What is unknown does not hold, and neither does its opposite: a leaf under an odd number of inverters answers
-        yes where it has nothing to test.
+        An unknown condition is false, and so is its negation: a leaf under an odd number of inverters therefore returns
+        true if it has no reading.
         """
         match condition:
             case AllOf(conditions=inner):
@@ -255,7 +255,7 @@ def _set(element: _Element, attributes: dict[str, str], where: str) -> None:
 
 
 def _ports(part: Any, where: str, *, beside: tuple[str, ...] = ()) -> dict[str, str]:
-    """The plain fields of a part that differ from their defaults."""
+    """Return the plain fields of a part that differ from their defaults."""
     found: dict[str, str] = {}
     for attribute in plain_attributes(type(part)):
         value = getattr(part, attribute.field)
@@ -274,7 +274,7 @@ def _written(attribute: Attribute, value: Any, where: str) -> dict[str, str]:
 
 
 def _plain(text: str, where: str) -> str:
-    """A text that stays one: what stands in braces would be read as the name of a blackboard entry."""
+    """Return a text protected from blackboard substitution, which would replace anything in braces."""
     bare = text.strip()
     if not text:
         raise TaskError("a tree cannot carry an empty text", where=where)

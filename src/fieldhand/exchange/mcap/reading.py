@@ -1,4 +1,4 @@
-"""Read the events of an MCAP file. It may come from anyone: file, records and what they unpack to are bounded."""
+"""Import of events from MCAP files, with size limits on file, records and unpacked data, as files are untrusted."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ if TYPE_CHECKING:
     from mcap.records import Chunk
 
 MAGIC = b"\x89MCAP0\r\n"
-#: Bytes of a file, of one record or chunk, and of all chunks unpacked.
+#: Maximum sizes in bytes: file, single record or chunk, all unpacked chunks.
 MAX_BYTES, MAX_RECORD, MAX_UNPACKED = 500_000_000, 64_000_000, 1_000_000_000
 
 
 def is_mcap(path: Path) -> bool:
-    """Whether a file begins as an MCAP file does; what cannot be read does not."""
+    """Return True if a file starts with the MCAP signature; False if it cannot be read."""
     try:
         with path.open("rb") as file:
             return file.read(len(MAGIC)) == MAGIC
@@ -32,13 +32,13 @@ def is_mcap(path: Path) -> bool:
 
 
 def read_mcap(path: Path) -> tuple[Event, ...]:
-    """The events of a file in the order in which they happened; other topics, and kinds not known, are left out.
+    """Return the events of a file in order of occurrence, skipping other topics and unknown events.
 
-    A file that was cut off gives what it holds up to there.
+    A truncated file gives the events before the truncation.
 
     Raises:
-        InputError: It cannot be read, is no MCAP file, is damaged, or is too large.
-        TaskError: A message of ours is no event; says which.
+        InputError: The file is unreadable, not MCAP, damaged, or too large.
+        TaskError: A message is not a valid event; the message number is given.
     """
     try:
         size = path.stat().st_size
@@ -52,7 +52,7 @@ def read_mcap(path: Path) -> tuple[Event, ...]:
 
 
 def _events(file: _Whole, path: Path) -> Iterator[tuple[int, Event]]:
-    """Each event with its number."""
+    """Yield each event with its number."""
     from mcap.records import Channel, Message
 
     topics: dict[int, str] = {}
@@ -71,7 +71,7 @@ def _events(file: _Whole, path: Path) -> Iterator[tuple[int, Event]]:
 
 
 def _records(file: _Whole, path: Path) -> Iterator[Any]:
-    """The records of a file, those in chunks among them."""
+    """Yield the records of a file, including those in chunks."""
     from mcap.exceptions import EndOfFile, McapError
     from mcap.records import Chunk
     from mcap.stream_reader import StreamReader, breakup_chunk
@@ -96,28 +96,28 @@ def _records(file: _Whole, path: Path) -> Iterator[Any]:
 
 
 class _Whole(io.BufferedIOBase):
-    """A file of which no more is asked for than it has: a field that says a length may say any.
+    """A file that limits reads to its size, whatever a length field claims.
 
     Args:
-        file: At its beginning.
-        size: Of it, in bytes.
+        file: File positioned at its beginning.
+        size: Size of the file in bytes.
     """
 
     def __init__(self, file: IO[bytes], size: int) -> None:
         self._file, self._left = file, size
 
     def read(self, size: int | None = -1) -> bytes:
-        """Up to so many bytes."""
+        """Return up to the given number of bytes."""
         data = self._file.read(self._left if size is None or size < 0 else min(size, self._left))
         self._left -= len(data)
         return data
 
 
 def _unpacked(chunk: Chunk) -> Chunk:
-    """The chunk without compression. No more is unpacked than it says, whatever its contents claim.
+    """Return the chunk without compression, unpacking no more than its declared size.
 
     Raises:
-        ValueError: It holds more, or less.
+        ValueError: The content is larger or smaller than declared.
     """
     import lz4.frame
     import zstandard

@@ -1,4 +1,4 @@
-"""JSON schemas of what is in a file: our events, derived from their classes, and what Foxglove's panels know.
+"""JSON schemas of the messages in a file: events, derived from their classes, and the messages of Foxglove's panels.
 
 The names and fields of the latter are those of Foxglove's message schemas (docs.foxglove.dev, "Message schemas").
 """
@@ -12,7 +12,7 @@ from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
 from fieldhand.task.results import Event
 
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
-#: Topics of events begin with this; the rest is the event's name.
+#: Prefix of the event topics, followed by the name of the event.
 EVENTS = "/mission/"
 
 _NUMBER, _TEXT = {"type": "number"}, {"type": "string"}
@@ -65,7 +65,7 @@ STATE = {
 
 
 def schema_of(event: type[Event]) -> dict[str, Any]:
-    """The schema of one kind of event, as a line of an event log has it."""
+    """Return the schema of one kind of event, as stored in a line of an event log."""
     hints = get_type_hints(event)
     fields = dataclasses.fields(event)
     return {

@@ -56,19 +56,19 @@ if TYPE_CHECKING:
 
 #: Levels of foxglove.Log.
 _INFO, _WARNING, _ERROR = 2, 3, 4
-#: What somebody should look at who reads the log.
+#: Events that are logged as warnings.
 _DOUBTFUL = InDoubt | Resumed | Obstructed | Waited | LimitCrossed | ClockSet
-#: Seconds between positions along a drive.
+#: Interval between positions along a drive, in seconds.
 _EVERY_S = 1.0
-#: At most so many positions along one drive.
+#: Maximum number of positions along one drive.
 _MOST = 2_000
-#: Bytes of a chunk: small, so that little is lost where a mission is cut off.
+#: Chunk size in bytes, small to limit the loss if a mission is interrupted.
 _CHUNK = 65_536
 
 
 @dataclass(frozen=True, kw_only=True)
 class _Message:
-    """One message of one topic."""
+    """A message of one topic."""
 
     topic: str
     schema: dict[str, Any]
@@ -78,17 +78,17 @@ class _Message:
 
 
 class McapLog:
-    """Writes events as they happen.
+    """Writer of events as they occur.
 
     Args:
-        path: File to write; it is replaced, its folder is made.
-        began_s: When the mission began, in seconds since 1970; events count from there. None for what its first
-            event says.
-        tell: Says an event in words, or None where it is not worth a line.
-        site: Drawn on the map, if it is given.
+        path: Output file, replaced if it exists; its folder is created.
+        began_s: Start of the mission in seconds since 1970, to which event times are relative; None for the time in the
+            first event.
+        tell: Returns the description of an event, or None if it needs no log line.
+        site: Site to draw on the map, or None.
 
     Raises:
-        OutputError: It cannot be written, now or later (a full disk).
+        OutputError: The file cannot be written, now or later (such as on a full disk).
     """
 
     def __init__(
@@ -147,7 +147,7 @@ class McapLog:
     # --- what is written ---------------------------------------------------------------------------------------
 
     def _messages(self, event: Event) -> Iterator[_Message]:
-        """The messages of an event, in the order of their times."""
+        """Return the messages of an event in order of time."""
         if isinstance(event, Started) and self._began is None:
             self._began = _seconds_of(event.at)
         if isinstance(event, Started) and self._site is not None:
@@ -180,13 +180,13 @@ class McapLog:
             yield _Message(topic="/state", schema=STATE, t=event.t, data=_json(self._state))
 
     def _shown(self, t: float, *, last: bool = False) -> Iterator[_Message]:
-        """All captures so far: after each of the first, then whenever there is a tenth more, and at the end."""
+        """Yield all captures so far: after each of the first ones, then per 10 % increase, and at the end."""
         if len(self._captures) >= self._next_shown or last:
             self._next_shown = len(self._captures) + max(1, len(self._captures) // 10)
             yield self._geojson("/captures", t, [_capture(e) for e in self._captures if known((e.lat, e.lon))])
 
     def _note(self, event: Event) -> bool:
-        """Keep what an event says of the robot; whether it says anything."""
+        """Store the robot state in an event; return True if it contains any."""
         if isinstance(event, Started | Arrived | Acted | InDoubt | Resumed | Ended):
             self._state["charge_percent"] = event.charge_percent
         if isinstance(event, Arrived | Obstructed | Ended):
@@ -196,7 +196,7 @@ class McapLog:
         return isinstance(event, Started | Arrived | Acted | InDoubt | Obstructed | Resumed | Ended)
 
     def _along(self, event: Event, at: tuple[float, float]) -> Iterator[_Message]:
-        """Positions along a drive to its end or where it was broken off, as if it had gone evenly."""
+        """Return positions along a drive to its end or interruption, at constant speed."""
         drive, self._drive = self._drive, None
         until = event.t
         if (
@@ -257,7 +257,7 @@ class McapLog:
         self._writer.add_message(channel, at, message.data, at, message.sequence)
 
     def _nanoseconds(self, t: float) -> int:
-        """Since 1970; a log whose clock was set back before that stands at its beginning."""
+        """Return the time since 1970; times before the start, from a clock that was set back, become the start."""
         return max(0, round(((self._began or 0.0) + (t if math.isfinite(t) else 0.0)) * 1e9))
 
     def _time(self, t: float) -> dict[str, int]:
@@ -274,7 +274,7 @@ class McapLog:
 
 
 def _seconds_of(moment: str) -> float | None:
-    """Seconds since 1970 of an ISO 8601 moment; None where it is none. A log may come from anywhere."""
+    """Return an ISO 8601 time in seconds since 1970, or None if it is invalid, as logs may be untrusted."""
     try:
         return datetime.fromisoformat(moment).timestamp()
     except (ValueError, OverflowError, OSError):
@@ -282,7 +282,7 @@ def _seconds_of(moment: str) -> float | None:
 
 
 def _site_features(site: Site) -> list[dict[str, Any]]:
-    """Trees, markers and zones, with the colours that map panels read."""
+    """Return trees, markers and zones, with the colours that map panels read."""
     features = []
     for zone in site.zones:
         corners = site.projection.degrees(np.asarray(zone.polygon.exterior.coords)[:, :2])
@@ -298,7 +298,7 @@ def _site_features(site: Site) -> list[dict[str, Any]]:
 
 
 def _blocked_features(event: Obstructed) -> list[dict[str, Any]]:
-    """All that the robot keeps off from now on, and where it stands."""
+    """Return all areas blocked from now on, with the robot's position."""
     style = {"stroke": "#b3261e", "fill": "#b3261e", "fill-opacity": 0.35}
     rings = [[[lon, lat] for lat, lon in area] for area in event.blocked if len(area) > 2]
     closed = [ring if ring[0] == ring[-1] else [*ring, ring[0]] for ring in rings]
@@ -321,5 +321,5 @@ def _feature(geometry: dict[str, Any], properties: dict[str, Any]) -> dict[str, 
 
 
 def _json(value: Any) -> bytes:
-    # Panels show this as it stands. Programs, who want the same text again, have the events.
+    # Panels show this text unchanged; programs that need the exact data read the events.
     return visible_json(value).encode()

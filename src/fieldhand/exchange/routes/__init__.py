@@ -1,1 +1,1 @@
-"""Where a mission goes, for maps, spreadsheets and ground stations: planned from a Task, or driven from a log."""
+"""Routes of a planned Task or a mission log, exported for maps, spreadsheets and ground stations."""

@@ -1,4 +1,4 @@
-"""A route as GeoJSON (RFC 7946): a line for each way, a point for each stop."""
+"""Export of a route as GeoJSON (RFC 7946): a line for each leg, a point for each stop."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from fieldhand.visible import visible_json
 
 
 def write_geojson(route: Route) -> bytes:
-    """A FeatureCollection; what happened beside the stops comes last.
+    """Return a FeatureCollection, with incidents after legs and stops.
 
     Positions are longitude, latitude in degrees, WGS 84, to a hundredth of a millimetre.
     """
@@ -57,7 +57,7 @@ def _of_stop(route: Route, stop: Stop, number: int) -> dict[str, Any]:
 
 
 def _of_incident(one: Incident, behind: int) -> dict[str, Any]:
-    """A point, without a geometry where the log does not say where it was."""
+    """Return an incident as a point, without a geometry if the log has no position."""
     geometry = None if one.at is None else {"type": "Point", "coordinates": _position(one.at)}
     properties = {"what": one.event, "after_stop": behind, "node": one.node, "place": one.place, "t_s": round(one.t, 3)}
     if one.unreachable:

@@ -1,8 +1,8 @@
-"""A planned route as a QGroundControl plan (file format version 1) for a ground rover.
+"""Export of a planned route as a QGroundControl plan (file format version 1) for a ground rover.
 
-A plan of a ground station is a list of waypoints: it knows no condition, no reading and no budget. So it holds the
-straight part of a mission, as far as every branch drives the same ways, and the boundary and keep-outs as a fence. At a
-stop the robot waits as long as the certain work there takes; what it does there a waypoint cannot say.
+A ground station plan is a list of waypoints without conditions, readings or budgets. It therefore contains only the
+part of a mission that every branch drives identically, and the boundary and keep-out zones as a geofence. At a stop
+the robot waits for the duration of the certain work; the work itself cannot be represented.
 """
 
 from __future__ import annotations
@@ -17,19 +17,20 @@ from fieldhand.exchange.incidents import LatLon
 from fieldhand.exchange.routes.route import Route
 from fieldhand.site.model import Site
 
-#: Of MAVLink: MAV_CMD_NAV_WAYPOINT, MAV_FRAME_GLOBAL_RELATIVE_ALT, MAV_TYPE_GROUND_ROVER, MAV_AUTOPILOT_ARDUPILOTMEGA.
+#: MAVLink values: MAV_CMD_NAV_WAYPOINT, MAV_FRAME_GLOBAL_RELATIVE_ALT, MAV_TYPE_GROUND_ROVER,
+#: MAV_AUTOPILOT_ARDUPILOTMEGA.
 _WAYPOINT, _FRAME, _ROVER, _ARDUPILOT = 16, 3, 10, 3
-#: The kind of height of an item: relative to home.
+#: Altitude mode of an item: relative to home.
 _RELATIVE = 1
 
 
 @dataclass(frozen=True, kw_only=True)
 class GroundStationPlan:
-    """A plan and what of the route is in it.
+    """A plan, and the stops that it includes.
 
     Attributes:
-        stops: Stops of the route that are in it.
-        left_out: Stops that are not, since they hang on a reading or on the budget.
+        stops: Number of stops included.
+        left_out: Number of stops omitted because they depend on a reading or the budget.
     """
 
     data: bytes
@@ -38,7 +39,7 @@ class GroundStationPlan:
 
 
 def write_plan(route: Route, site: Site) -> GroundStationPlan:
-    """The straight part of a planned route."""
+    """Return the unconditional part of a planned route."""
     straight = [stop for stop in route.stops if stop.certain]
     items: list[dict[str, Any]] = []
     for stop in straight:
@@ -69,7 +70,7 @@ def write_plan(route: Route, site: Site) -> GroundStationPlan:
 
 
 def _item(at: LatLon, hold_s: float, number: int) -> dict[str, Any]:
-    """A waypoint: seconds to wait, radii (the vehicle's own), heading (any), latitude, longitude, height."""
+    """Return a waypoint: wait in seconds, radii (vehicle defaults), heading (any), latitude, longitude, altitude."""
     return {
         "type": "SimpleItem",
         "autoContinue": True,
@@ -84,7 +85,7 @@ def _item(at: LatLon, hold_s: float, number: int) -> dict[str, Any]:
 
 
 def _fence(site: Site) -> list[dict[str, Any]]:
-    """Boundaries to stay inside of and keep-outs to stay outside of; holes of a polygon turn it round."""
+    """Return boundaries as inclusion fences and keep-out zones as exclusion fences, with holes inverted."""
     found = []
     for kind, inside in (("boundary", True), ("keep_out", False)):
         for zone in site.zones:

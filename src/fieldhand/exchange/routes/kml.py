@@ -1,4 +1,4 @@
-"""A route as KML 2.2 (OGC 07-147r2), for Google Earth and GIS programs."""
+"""Export of a route as KML 2.2 (OGC 07-147r2), for Google Earth and GIS programs."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ if TYPE_CHECKING:
     from lxml.etree import _Element
 
 NAMESPACE = "http://www.opengis.net/kml/2.2"
-#: Colours as KML writes them: alpha, blue, green, red.
+#: Colours in KML order: alpha, blue, green, red.
 _STYLES = (("certain", "ff4f3226"), ("uncertain", "ff008bd4"), ("incident", "ff003b8a"))
 
 
 def write_kml(route: Route) -> bytes:
-    """A document with two folders, ways and stops; elements stand in the order that the schema asks for."""
+    """Return a document with folders of legs and stops, its elements in schema order."""
     from lxml import etree
 
     root = etree.Element(f"{{{NAMESPACE}}}kml", nsmap={None: NAMESPACE})  # type: ignore[dict-item]  # stubs forget None
@@ -80,7 +80,7 @@ def _named(stop: Stop) -> str:
 
 
 def _described(stop: Stop) -> str:
-    """What is done at a stop, a line an action."""
+    """Return the actions at a stop, one per line."""
     lines = []
     for work in stop.work:
         read = ", ".join(

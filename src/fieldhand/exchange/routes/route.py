@@ -1,7 +1,7 @@
-"""A route: the stops and ways of a mission in their order, in degrees.
+"""A route: the stops and legs of a mission in order, in degrees.
 
-A planned route is the branch on which every condition holds. Its stops are certain as far as every other branch drives
-the same ways, and no step has come that the budget may leave out.
+A planned route follows the branch on which every condition holds. Its stops are certain as long as every other branch
+drives the same legs and no optional step has occurred.
 """
 
 from __future__ import annotations
@@ -29,14 +29,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class Work:
-    """One action at a stop, planned or done.
+    """An action at a stop, planned or performed.
 
     Attributes:
-        captures: Made, or to be made.
-        certain: It is done on every branch.
-        failed: Captures that failed.
-        seconds: That it takes; 0 where a log does not say.
-        readings: Of the last capture, value and unit by quantity.
+        captures: Number of captures, planned or made.
+        certain: True if every branch performs the action.
+        failed: Number of failed captures.
+        seconds: Duration; 0 if a log does not contain it.
+        readings: Value and unit of the last capture, by quantity.
     """
 
     node: str
@@ -53,15 +53,15 @@ class Stop:
     """A place where the robot stops.
 
     Attributes:
-        place: Id of the tree, name of the marker or point.
-        at: Where the tree or point is.
-        stand: Where the robot stands.
-        way: The way there from the stop before, its ends included; empty where it does not move.
-        length_m: Metres of that way, as planned or as driven.
-        travelled_m: Metres from the start of the mission.
-        certain: It comes whatever is read and whatever legs cost.
-        home: It is where the mission ends.
-        t: Seconds from the start, of a log; None of a plan.
+        place: Id of the tree, or name of the marker or point.
+        at: Position of the tree or point.
+        stand: Position of the robot.
+        way: Leg from the previous stop, including both ends; empty if the robot does not move.
+        length_m: Length of that leg in metres, as planned or driven.
+        travelled_m: Distance from the start of the mission in metres.
+        certain: True if the stop is visited for all readings and leg costs.
+        home: True at the end of the mission.
+        t: Seconds from the start in a log; None in a plan.
     """
 
     node: str
@@ -80,14 +80,14 @@ class Stop:
 
 @dataclass(frozen=True, kw_only=True)
 class Route:
-    """The stops of a mission.
+    """The stops of a mission, with its start and incidents.
 
     Attributes:
-        name: What it is called in other programs.
-        start: Where the robot begins.
-        speed_m_s: Of driving.
-        driven: It happened; else it is planned.
-        incidents: What happened beside drives and captures, each behind so many stops.
+        name: Name of the route in other programs.
+        start: Start position of the robot.
+        speed_m_s: Driving speed in m/s.
+        driven: True for a route from a log, False for a plan.
+        incidents: Incidents, each with the number of stops before it.
     """
 
     name: str
@@ -99,11 +99,11 @@ class Route:
 
 
 def planned(task: Task, site: Site, robot: RobotProfile) -> Route:
-    """The route of a Task on the branch where every condition holds.
+    """Return the route of a Task on the branch where every condition holds.
 
     Raises:
-        PlaceError: A selector finds nothing here.
-        DriveFault: A place that cannot be reached.
+        PlaceError: A selector matches nothing on this site.
+        DriveFault: A place cannot be reached.
     """
     found = branches(task, site, robot)
     walked = found.walks[0]
@@ -140,12 +140,12 @@ def planned(task: Task, site: Site, robot: RobotProfile) -> Route:
 def driven(
     events: Sequence[Event], *, speed_m_s: float = 0.0, tell: Callable[[Event], str | None] = lambda _: None
 ) -> Route:
-    """The route of an event log. Stops without a place on the earth are left out.
+    """Return the route of an event log, without stops that lack a valid position.
 
     Args:
-        events: The log.
-        speed_m_s: Of driving.
-        tell: Says an event in words, with its time in front.
+        events: Event log.
+        speed_m_s: Driving speed in m/s.
+        tell: Returns the description of an event, preceded by its time, or None.
     """
     started = next((e for e in events if isinstance(e, Started)), None)
     begin = (0.0, 0.0) if started is None else (started.lat, started.lon)
@@ -157,7 +157,7 @@ def driven(
         match event:
             case Driving():
                 path = tuple((a, b) for a, b in event.path if _known((a, b)))
-                # A drive before it that did not arrive ended where this one begins.
+                # An earlier drive that did not arrive ended where this one starts.
                 broken = (*broken, *driven_part(way, path[0])) if way and path else broken
                 way = path
             case Arrived() if _known((event.lat, event.lon)):
@@ -192,11 +192,11 @@ def driven(
 
 
 class _Certain:
-    """What every branch has in common from its beginning on.
+    """The common beginning of all branches.
 
     Attributes:
-        drives: So many drives are the same on every branch.
-        acts: What is done after how many drives, by its node, on every branch.
+        drives: Number of drives that are the same on every branch.
+        acts: Actions performed on every branch, by node and number of drives before them.
     """
 
     def __init__(self, walks: Sequence[Walk], *, complete: bool) -> None:
@@ -206,9 +206,9 @@ class _Certain:
         self.acts = frozenset.intersection(*(acts for _, acts in each))
 
     def _straight(self, walked: Walk, complete: bool) -> tuple[list[tuple[LatLon, ...]], frozenset[tuple[int, str]]]:
-        """The drives and acts of a branch up to the first that the budget may leave out.
+        """Return the drives and acts of a branch up to the first optional step.
 
-        Where not every branch was looked at, also only up to the first condition.
+        If not all branches were explored, the result also ends at the first condition.
         """
         drives: list[tuple[LatLon, ...]] = []
         acts: set[tuple[int, str]] = set()
@@ -223,7 +223,7 @@ class _Certain:
 
 
 def _with(work: tuple[Work, ...], event: Acted) -> tuple[Work, ...]:
-    """The work of a stop with one more capture."""
+    """Return the work of a stop with one more capture added."""
     good = event.status == "success"
     readings = {q: (v, event.units.get(q, "")) for q, v in event.readings.items() if math.isfinite(v)} if good else {}
     last = work[-1] if work and (work[-1].node, work[-1].action) == (event.node, event.action) else None

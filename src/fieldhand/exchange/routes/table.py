@@ -1,4 +1,4 @@
-"""A route as CSV (RFC 4180): one line an action at a stop, one for a stop where nothing is done, one an incident."""
+"""Export of a route as CSV (RFC 4180), with one line per action, per stop without action, and per incident."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ COLUMNS = (
 
 
 def write_csv(route: Route) -> bytes:
-    """The stops in their order, what happened beside them behind the stop before.
+    """Return the stops in order, each incident after the stop that precedes it.
 
-    Text that a spreadsheet would take for a formula begins with an apostrophe.
+    Text that a spreadsheet would interpret as a formula is prefixed with an apostrophe.
     """
     rows: list[tuple[int, tuple[object, ...]]] = []
     for number, stop in enumerate(route.stops, start=1):
