@@ -1,4 +1,4 @@
-"""A mission drawn again from its event log, as it happened (docs/exchange.md, "Replay")."""
+"""Replay of a mission from its event log (docs/exchange.md, "Replay")."""
 
 from fieldhand.exchange.replay.film import film_of
 from fieldhand.exchange.replay.moving import save_animation

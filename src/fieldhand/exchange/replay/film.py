@@ -1,4 +1,4 @@
-"""What is seen of a mission over time: where the robot is, what it captured, its charge, and what it said."""
+"""State of a mission over time for a replay: robot position, captures, charge, and log lines."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True)
 class Capture:
-    """One capture: when and where (metres), and its readings with their units."""
+    """A capture: time, position in metres, and readings with their units."""
 
     t: float
     x: float
@@ -36,12 +36,12 @@ class Capture:
 
 @dataclass(frozen=True, kw_only=True)
 class Sign:
-    """Something that happened beside drives and captures: when, where (metres), and what.
+    """An incident: time, position in metres, and description.
 
     Attributes:
-        mark: One letter or sign that stands for its kind, from :data:`SIGNS`.
-        blocked: Areas that the robot keeps off from then on, as corners; None where nothing changed.
-        beside: So many signs of other kinds stand there already.
+        mark: Character for the kind of incident, from :data:`SIGNS`.
+        blocked: Areas blocked from then on, as corners; None if they did not change.
+        beside: Number of other signs already drawn at this position.
     """
 
     t: float
@@ -53,9 +53,9 @@ class Sign:
     blocked: tuple[Floats, ...] | None = None
 
 
-#: Signs nearer than this are drawn side by side.
+#: Distance in metres below which signs are drawn side by side.
 _TOGETHER_M = 1.5
-#: What is drawn of an event, and what that means. The end of a pause is a line of the story alone.
+#: Sign and legend of each event. The end of a pause appears only among the lines.
 SIGNS = {
     "obstacle": ("!", "way blocked"),
     "in_doubt": ("?", "capture in doubt"),
@@ -69,14 +69,14 @@ SIGNS = {
 
 @dataclass(frozen=True, kw_only=True)
 class Film:
-    """A mission over time. Seconds count from its beginning; metres are the site's.
+    """A mission over time, in seconds from its start and in the metres of the site.
 
     Attributes:
-        track: Corners of the way with their times: columns t, x, y, times never falling.
+        track: Corners of the route with their times: columns t, x, y, with non-decreasing t.
         charge: Columns t and percent of a full battery.
-        lines: What happened, in words, with its time.
-        quantities: What was read, the most often read first.
-        signs: Faults, doubts, pauses and power cuts.
+        lines: Descriptions of events, with their times.
+        quantities: Measured quantities, the most frequent first.
+        signs: Faults, uncertain captures, pauses and power cuts.
     """
 
     title: str
@@ -89,20 +89,20 @@ class Film:
     signs: tuple[Sign, ...] = ()
 
     def blocked_at(self, t: float) -> tuple[Floats, ...]:
-        """What the robot keeps off by then."""
+        """Return the areas blocked at a time."""
         return next((s.blocked for s in reversed(self.signs) if s.t <= t and s.blocked is not None), ())
 
     def at(self, t: float) -> tuple[float, float]:
-        """Where the robot is, in metres."""
+        """Return the robot position at a time, in metres."""
         return (float(np.interp(t, self.track[:, 0], self.track[:, 1])), self._second(t))
 
     def until(self, t: float) -> Floats:
-        """The way driven by then, shape (n, 2), its last point where the robot is."""
+        """Return the route driven up to a time, shape (n, 2), ending at the robot position."""
         passed = self.track[self.track[:, 0] <= t, 1:]
         return np.vstack([passed, self.at(t)])
 
     def charge_at(self, t: float) -> float:
-        """Percent of a full battery."""
+        """Return the charge at a time, in percent of a full battery."""
         return float(np.interp(t, self.charge[:, 0], self.charge[:, 1]))
 
     def _second(self, t: float) -> float:
@@ -110,15 +110,15 @@ class Film:
 
 
 def film_of(events: Sequence[Event], site: Site, *, tell: Callable[[Event], str | None] = lambda _: None) -> Film:
-    """The film of an event log on its site.
+    """Return the replay of an event log on its site.
 
     Args:
-        events: The log; one that was cut off is shown as far as it goes.
-        site: Where it happened.
-        tell: Says an event in words, or None where it is not worth a line.
+        events: Event log; a truncated one is shown as far as it goes.
+        site: Site of the mission.
+        tell: Returns the description of an event, or None if it needs no line.
 
     Raises:
-        InputError: The log does not say where the robot was.
+        InputError: The log contains no robot position.
     """
     track, charge = _Track(site), []
     captures: list[Capture] = []
@@ -165,7 +165,7 @@ def film_of(events: Sequence[Event], site: Site, *, tell: Callable[[Event], str 
 
 
 class _Track:
-    """Corners with their times, which never fall: a clock that was set back stands still."""
+    """Corners with non-decreasing times; a clock that was set back is held."""
 
     def __init__(self, site: Site) -> None:
         self.corners: list[tuple[float, float, float]] = []
@@ -174,7 +174,7 @@ class _Track:
         self._until = math.inf
 
     def begin(self, drive: Driving) -> None:
-        """A drive begins; the one before was broken off where this one starts, if it did not arrive."""
+        """Start a drive; an earlier drive that did not arrive ends at its start."""
         if len(drive.path) < 2 or not all(map(known, drive.path)):
             self._drive = None
             return
@@ -183,11 +183,11 @@ class _Track:
         self._drive, self._until = drive, math.inf
 
     def stop(self, t: float) -> None:
-        """The robot stands still from now on."""
+        """Record the time at which the robot stops on the current drive."""
         self._until = min(self._until, t)
 
     def come(self, t: float, at: LatLon, *, whole: bool = False) -> None:
-        """The robot is here, along the drive in hand; ``whole``: at its end."""
+        """Record the robot position, which ends the current drive; ``whole`` adds its complete path."""
         drive, self._drive = self._drive, None
         if drive is not None:
             path = drive.path if whole else driven_part(drive.path, at)
@@ -200,7 +200,7 @@ class _Track:
             self.corners.append((max(t, latest), float(x), float(y)))
 
     def _along(self, degrees: Floats, since: float, until: float) -> None:
-        """A drive that went evenly along its way."""
+        """Append the corners of a drive at constant speed."""
         xy = self._site.projection.metres(degrees[:, 0], degrees[:, 1])
         lengths = np.hypot(*np.diff(xy, axis=0).T)
         parts = np.concatenate([[0.0], np.cumsum(lengths)]) / max(float(lengths.sum()), 1e-9)
@@ -214,7 +214,7 @@ def _signs(events: Sequence[Event], site: Site, tell: Callable[[Event], str | No
         if one.event not in SIGNS:
             continue
         at = [float(np.interp(one.t, track[:, 0], track[:, k])) for k in (1, 2)]
-        # A capture in doubt is where it was to be made; all else is where the robot is seen.
+        # An uncertain capture is shown at its place, every other incident at the robot position.
         if one.event == "in_doubt" and one.at is not None:
             at = site.projection.metres(*one.at)[0].tolist()
         blocked = None if one.blocked is None else tuple(_ring(area, site) for area in one.blocked if len(area) > 2)

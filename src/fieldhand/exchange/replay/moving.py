@@ -1,4 +1,4 @@
-"""A film as an animated picture: GIF, or MP4 where ffmpeg is installed."""
+"""Replay as an animation: GIF, or MP4 if ffmpeg is installed."""
 
 from __future__ import annotations
 
@@ -22,24 +22,24 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _WAY, _INK, _FAILED, _PLAIN, _SIGN = "#26324f", "#2f2f2f", "#b3261e", "#6a3d9a", "#8a3b00"
-#: Letters of what happened last that have room below the map.
+#: Maximum length in characters of the latest log line below the map.
 _LONGEST = 70
 _FRAMES_A_SECOND = 10
-#: Inches of the picture's height, dots an inch, and seconds for which the last picture stays.
+#: Height of the image in inches, dots per inch, and duration of the last image in seconds.
 _HEIGHT_IN, _DPI, _HOLD_S = 6.0, 80, 1.5
 
 
 def save_animation(film: Film, site: Site, path: Path, *, seconds: float = 10.0) -> None:
-    """Draw a film into a file; the ending says as what: ``.gif`` or ``.mp4``.
+    """Write a replay as an animation; the extension selects the format, ``.gif`` or ``.mp4``.
 
     Args:
-        film: What happened.
-        site: Where.
-        path: Written; its folder is made.
-        seconds: How long the animation is, however long the mission was.
+        film: Replay to draw.
+        site: Site of the mission.
+        path: Output file; its folder is created.
+        seconds: Duration of the animation, independent of the mission's duration.
 
     Raises:
-        OutputError: The file cannot be written, or it is an MP4 and there is no ffmpeg.
+        OutputError: The file cannot be written, or MP4 is requested without ffmpeg.
     """
     import matplotlib.animation as animation
 
@@ -64,7 +64,7 @@ def save_animation(film: Film, site: Site, path: Path, *, seconds: float = 10.0)
 
 
 def _sheet(picture: NDArray[np.uint8]) -> tuple[Figure, Any]:
-    """A figure that holds nothing but a picture, and that picture: quick to write many times."""
+    """Return a figure that contains only an image, and that image, for fast repeated writing."""
     from matplotlib.figure import Figure
 
     high, wide = picture.shape[:2]
@@ -74,7 +74,7 @@ def _sheet(picture: NDArray[np.uint8]) -> tuple[Figure, Any]:
 
 
 class _Scene:
-    """The site, drawn once, and what moves on it."""
+    """The static site and the moving marks drawn on it."""
 
     def __init__(self, film: Film, site: Site) -> None:
         from matplotlib.collections import PolyCollection
@@ -123,7 +123,7 @@ class _Scene:
         self._ground = self._canvas.copy_from_bbox(figure.bbox)
 
     def at(self, t: float) -> NDArray[np.uint8]:
-        """The picture at a time, shape (height, width, 4)."""
+        """Return the image at a time, shape (height, width, 4)."""
         film = self._film
         driven = film.until(t)
         self._way.set_data(driven[:, 0], driven[:, 1])
@@ -137,7 +137,7 @@ class _Scene:
         self._closed.set_verts(film.blocked_at(t))
         signs = [sign for sign in film.signs if sign.t <= t]
         for mark, flag in self._flags.items():
-            # Beside the robot, not under it.
+            # Draw signs beside the robot instead of under it.
             mine = [sign for sign in signs if sign.mark == mark]
             flag.set_data([s.x + (1 + s.beside) * self._aside for s in mine], [s.y for s in mine])
         said = visible(signs[-1].words) if signs else ""
@@ -158,7 +158,7 @@ def _canvas(figure: Figure) -> Any:
 
 
 def _valued_dots(figure: Figure, ax: Axes, valued: list[Capture], quantity: str) -> Any:
-    """Dots coloured by value, with a bar of the whole mission's range beside."""
+    """Draw dots coloured by value, with a colour bar for the range of the whole mission."""
     values = [c.readings[quantity] for c in valued]
     low, high = min(values), max(values)
     if high - low < 1e-9:
@@ -177,5 +177,5 @@ def _xy(captures: list[Capture]) -> Any:
 
 
 def _even(inches: float) -> float:
-    """Inches that come to an even number of dots, as video needs them."""
+    """Return a length in inches that gives an even number of dots, as video codecs require."""
     return 2 * round(inches * _DPI / 2) / _DPI

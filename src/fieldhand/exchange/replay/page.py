@@ -1,4 +1,4 @@
-"""A film as one HTML page that stands alone: no network, no script of others, whatever the log holds stays text."""
+"""Replay as one self-contained HTML page without network access or external scripts; log content stays text."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from fieldhand.visible import visible, visible_json
 
 
 def page_of(film: Film, site: Site) -> bytes:
-    """The page, UTF-8."""
+    """Return the page in UTF-8."""
     here = files("fieldhand.exchange.replay")
     script = (here / "page.js").read_text(encoding="utf-8")
     digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
@@ -92,6 +92,6 @@ def _unit(film: Film, quantity: str) -> str:
 
 
 def _rounded(rows: Any) -> list[list[float]]:
-    """To the centimetre."""
+    """Return the rows rounded to centimetres."""
     found: list[list[float]] = np.round(np.asarray(rows, dtype=np.float64), 2).tolist()
     return found
