@@ -44,7 +44,7 @@ from fieldhand.approval.bundle.opening import unseal
 from fieldhand.approval.bundle.packing import pack
 from fieldhand.approval.keys.signing import SigningKeys
 from fieldhand.approval.keys.trust import TrustStore
-from fieldhand.delivery.link import RobotLink, open_client
+from fieldhand.delivery.robot_client import RobotClient, open_client
 from fieldhand.errors import DeliveryError
 from fieldhand.places.selectors import TreeIs
 from fieldhand.robot.loader import load_robot, profile_bytes
@@ -93,9 +93,9 @@ class Field:
             self.agent.send_signal(how)
             self.agent.communicate(timeout=60)
 
-    def link(self) -> RobotLink:
+    def link(self) -> RobotClient:
         """A sender's link."""
-        return RobotLink(open_client(self.url, TOKEN, None))
+        return RobotClient(open_client(self.url, TOKEN, None))
 
     def bundle(self) -> bytes:
         """A new mission, approved a little later than the one before."""
@@ -182,7 +182,7 @@ def lost_answer(field: Field, data: bytes) -> bool:
         thread = threading.Thread(target=_relay, args=(line, field.port, left, forward), daemon=True)
         thread.start()
         client = open_client(f"http://127.0.0.1:{line.getsockname()[1]}", TOKEN, None)
-        with closing(RobotLink(client)) as link, suppress(DeliveryError):
+        with closing(RobotClient(client)) as link, suppress(DeliveryError):
             link.deliver(data, unseal(data, source="m").hashes)
             link.order(sha256(data).hexdigest(), "start")
         thread.join(10)

@@ -14,7 +14,7 @@ import pytest
 from fieldhand import missions
 from fieldhand.approval.keys.signing import SigningKeys
 from fieldhand.approval.keys.trust import TrustStore
-from fieldhand.delivery.depot import Depot
+from fieldhand.delivery.mission_store import MissionStore
 from fieldhand.errors import FieldhandError, JournalError
 from fieldhand.execution.journal import store
 from fieldhand.folders import FolderLock, FolderTaken, Unguarded, is_locked, require_guarded
@@ -158,12 +158,12 @@ def test_neither_a_store_nor_keys_lie_where_others_can_write(tmp_path: Path) -> 
     trusted, keys = TrustStore(tmp_path / "config"), SigningKeys(tmp_path / "config")
     trusted.trust(KEY.public, name="Ada", at=NOW)
     keys.make("Ada")
-    Depot(tmp_path / "store", accept=nothing, now=lambda: NOW).close()  # type: ignore[arg-type]
+    MissionStore(tmp_path / "store", accept=nothing, now=lambda: NOW).close()  # type: ignore[arg-type]
     for folder, use in (
         ("config", trusted.known),
         ("config/trusted", trusted.known),
         ("config/keys", keys.held),
-        ("store", lambda: Depot(tmp_path / "store", accept=nothing, now=lambda: NOW)),  # type: ignore[arg-type]
+        ("store", lambda: MissionStore(tmp_path / "store", accept=nothing, now=lambda: NOW)),  # type: ignore[arg-type]
     ):
         (tmp_path / folder).chmod(WIDE)
         with pytest.raises(FieldhandError, match="can be written by others; chmod go-w"):

@@ -16,35 +16,35 @@ import pytest
 from fieldhand import missions
 from fieldhand.api.connections import Connections
 from fieldhand.approval.bundle.opening import unseal
-from fieldhand.delivery.link import RobotLink
-from fieldhand.delivery.verified import sha256_of
-from fieldhand.delivery.wire import LONGEST_WAIT_S
+from fieldhand.delivery.bundle_checks import sha256_of
+from fieldhand.delivery.json_models import LONGEST_WAIT_S
+from fieldhand.delivery.robot_client import RobotClient
 from fieldhand.errors import DeliveryError
 from support.missions.signed import good
 from support.processes.certificates import certificate
 from support.processes.crowds import SENT, crowd, is_closed, served, until
-from support.processes.stations import TOKEN, Station, other_mission
+from support.processes.robot_agents import TOKEN, RobotAgentInProcess, other_mission
 
 #: More than the agent has room for from one address.
 MANY = 150
 
 
-def drive(given: missions.Mission) -> object:
+def drive(given: missions.StoredMission) -> object:
     """Carry a mission out in real time: it is under way until it is told to stop."""
     return missions.carry_out(given, speed=1.0, emit=lambda _: None)
 
 
 @pytest.fixture
-def station(tmp_path: Path) -> Iterator[Station]:
-    made = Station(tmp_path, carry=drive)
+def robot_agent(tmp_path: Path) -> Iterator[RobotAgentInProcess]:
+    made = RobotAgentInProcess(tmp_path, carry=drive)
     yield made
     with suppress(Exception):
-        made.crew.tell(made.depot.get(sha256_of(good())), "abort", "the test ends")
-    made.crew.join(30)
+        made.supervisor.give_command(made.mission_store.get(sha256_of(good())), "abort", "the test ends")
+    made.supervisor.join(30)
 
 
 @contextmanager
-def linked(port: int, token: str | None = TOKEN, tls: ssl.SSLContext | None = None) -> Iterator[RobotLink]:
+def linked(port: int, token: str | None = TOKEN, tls: ssl.SSLContext | None = None) -> Iterator[RobotClient]:
     with httpx.Client(
         base_url=f"{'https' if tls else 'http'}://127.0.0.1:{port}",
         headers={"Host": "localhost", "Authorization": f"Bearer {token}"},
@@ -52,7 +52,7 @@ def linked(port: int, token: str | None = TOKEN, tls: ssl.SSLContext | None = No
         trust_env=False,
         verify=tls or True,
     ) as client:
-        yield RobotLink(client)
+        yield RobotClient(client)
 
 
 def command(port: int, tls: ssl.SSLContext | None = None) -> None:
@@ -68,30 +68,32 @@ def command(port: int, tls: ssl.SSLContext | None = None) -> None:
 
 
 @pytest.mark.parametrize("kind", SENT)
-def test_orders_get_through_whoever_else_is_connected(station: Station, kind: str) -> None:
-    with served(station.app) as port, crowd(port, kind, MANY):
+def test_orders_get_through_whoever_else_is_connected(robot_agent: RobotAgentInProcess, kind: str) -> None:
+    with served(robot_agent.app) as port, crowd(port, kind, MANY):
         command(port)
-    station.crew.join(30)
-    assert station.crew.active is None
+    robot_agent.supervisor.join(30)
+    assert robot_agent.supervisor.active is None
 
 
 @pytest.mark.parametrize("kind", ["silent", "no HTTP"])
-def test_orders_get_through_tls_whoever_else_is_connected(station: Station, tmp_path: Path, kind: str) -> None:
+def test_orders_get_through_tls_whoever_else_is_connected(
+    robot_agent: RobotAgentInProcess, tmp_path: Path, kind: str
+) -> None:
     cert, key, _ = certificate(tmp_path, "robot")
     trusting = ssl.create_default_context(cafile=str(cert))
-    with served(station.app, tls=(cert, key)) as port, crowd(port, kind, MANY):
+    with served(robot_agent.app, tls=(cert, key)) as port, crowd(port, kind, MANY):
         command(port, tls=trusting)
 
 
-def test_orders_get_through_those_who_hold_the_token_and_wait(station: Station) -> None:
+def test_orders_get_through_those_who_hold_the_token_and_wait(robot_agent: RobotAgentInProcess) -> None:
     """Watchers and uploads without end, with the right token, from the same address."""
     bundle = sha256_of(good())
     head = f"Host: localhost\r\nAuthorization: Bearer {TOKEN}\r\n"
     watch = f"GET /agent/missions/{bundle}/events?after=999999&wait=25 HTTP/1.1\r\n{head}\r\n".encode()
     upload = f"PUT /agent/missions/{bundle} HTTP/1.1\r\n{head}Content-Length: 100000\r\n\r\n".encode() + b"x" * 100
-    station.upload(good())
-    assert station.crew.tell(station.depot.get(bundle), "start", "a test")
-    with served(station.app) as port, ExitStack() as stack:
+    robot_agent.upload(good())
+    assert robot_agent.supervisor.give_command(robot_agent.mission_store.get(bundle), "start", "a test")
+    with served(robot_agent.app) as port, ExitStack() as stack:
         for k in range(MANY):
             link = stack.enter_context(closing(socket.create_connection(("127.0.0.1", port), timeout=30)))
             with suppress(ConnectionError):
@@ -100,22 +102,22 @@ def test_orders_get_through_those_who_hold_the_token_and_wait(station: Station) 
             heard = link.order_now("abort")
         assert heard is not None
         assert heard.heard
-    station.crew.join(30)
-    assert station.crew.standing(station.depot.get(bundle)).status == "aborted"
+    robot_agent.supervisor.join(30)
+    assert robot_agent.supervisor.status_of(robot_agent.mission_store.get(bundle)).status == "aborted"
 
 
-def test_wrong_tokens_from_the_same_address_keep_no_order_out(station: Station) -> None:
-    with served(station.app) as port:
+def test_wrong_tokens_from_the_same_address_keep_no_order_out(robot_agent: RobotAgentInProcess) -> None:
+    with served(robot_agent.app) as port:
         for _ in range(6):
             with linked(port, token="w" * 30) as link, pytest.raises(DeliveryError):
                 link.robot()
         command(port)
 
 
-def test_no_connection_waits_for_ever(station: Station) -> None:
+def test_no_connection_waits_for_ever(robot_agent: RobotAgentInProcess) -> None:
     """However the other end drags it out; with a byte now and then, too."""
     limits = Connections(header_s=0.2, idle_s=0.2)
-    with served(station.app, limits) as port:
+    with served(robot_agent.app, limits) as port:
         for kind in SENT:
             with crowd(port, kind, 3) as links:
                 for link in links:
@@ -133,54 +135,57 @@ def _dripped(link: socket.socket) -> bool:
     return False
 
 
-def test_a_handshake_that_does_not_come_ends(station: Station, tmp_path: Path) -> None:
+def test_a_handshake_that_does_not_come_ends(robot_agent: RobotAgentInProcess, tmp_path: Path) -> None:
     cert, key, _ = certificate(tmp_path, "robot")
     limits = Connections(header_s=0.2, idle_s=0.2)
-    with served(station.app, limits, (cert, key)) as port, crowd(port, "silent", 3) as links:
+    with served(robot_agent.app, limits, (cert, key)) as port, crowd(port, "silent", 3) as links:
         for link in links:
             until(lambda link=link: is_closed(link))  # type: ignore[misc]
 
 
 @pytest.mark.parametrize("said", ["pause", "return", "abort"])
 def test_an_order_reaches_the_mission_while_its_folder_and_the_store_cannot_be_written(
-    station: Station, said: str
+    robot_agent: RobotAgentInProcess, said: str
 ) -> None:
     bundle = sha256_of(good())
-    station.upload(good())
-    held = station.depot.get(bundle)
-    assert station.crew.tell(held, "start", "a test")
-    folder = station.depot.folder_of(held)
+    robot_agent.upload(good())
+    held = robot_agent.mission_store.get(bundle)
+    assert robot_agent.supervisor.give_command(held, "start", "a test")
+    folder = robot_agent.mission_store.folder_of(held)
     until(lambda: bool(missions.events_of(folder)))
-    with served(station.app) as port, closing(sqlite3.connect(folder / "orders.sqlite", isolation_level=None)) as disk:
+    with (
+        served(robot_agent.app) as port,
+        closing(sqlite3.connect(folder / "orders.sqlite", isolation_level=None)) as disk,
+    ):
         disk.execute("BEGIN IMMEDIATE")
-        with station.depot._guard, station.depot._ledger._guard, linked(port) as link:
+        with robot_agent.mission_store._guard, robot_agent.mission_store._ledger._guard, linked(port) as link:
             heard = link.order_now(said)  # type: ignore[arg-type]
             assert heard is not None
             assert heard.heard
         disk.execute("ROLLBACK")
     if said == "pause":
-        until(lambda: station.crew.standing(held).state == "paused")
-        assert station.crew.tell(held, "resume", "a test", wait=lambda: True)
-        assert station.crew.tell(held, "abort", "a test", wait=lambda: True)
-    station.crew.join(60)
-    found = station.crew.standing(held)
+        until(lambda: robot_agent.supervisor.status_of(held).state == "paused")
+        assert robot_agent.supervisor.give_command(held, "resume", "a test", wait=lambda: True)
+        assert robot_agent.supervisor.give_command(held, "abort", "a test", wait=lambda: True)
+    robot_agent.supervisor.join(60)
+    found = robot_agent.supervisor.status_of(held)
     assert (found.state, found.status) == ("ended", "aborted")
 
 
-def test_an_order_reaches_the_mission_while_another_one_is_verified(station: Station) -> None:
+def test_an_order_reaches_the_mission_while_another_one_is_verified(robot_agent: RobotAgentInProcess) -> None:
     """A second mission arrives, and its verification does not come to an end."""
     bundle, gate, inside = sha256_of(good()), threading.Event(), threading.Event()
-    station.upload(good())
-    accept = station.depot._accept
+    robot_agent.upload(good())
+    accept = robot_agent.mission_store._accept
 
     def slow(data: bytes, source: str) -> object:
         inside.set()
         assert gate.wait(60)
         return accept(data, source)
 
-    assert station.crew.tell(station.depot.get(bundle), "start", "a test")
-    station.depot._accept = slow  # type: ignore[assignment]
-    with served(station.app) as port, linked(port) as sender, linked(port) as operator:
+    assert robot_agent.supervisor.give_command(robot_agent.mission_store.get(bundle), "start", "a test")
+    robot_agent.mission_store._accept = slow  # type: ignore[assignment]
+    with served(robot_agent.app) as port, linked(port) as sender, linked(port) as operator:
         sent = dict(unseal(other_mission(), source="m").hashes)
         second = threading.Thread(target=lambda: sender.deliver(other_mission(), sent))
         second.start()
@@ -190,5 +195,5 @@ def test_an_order_reaches_the_mission_while_another_one_is_verified(station: Sta
         assert heard.heard
         gate.set()
         second.join(60)
-    station.crew.join(30)
-    assert station.crew.standing(station.depot.get(bundle)).status == "aborted"
+    robot_agent.supervisor.join(30)
+    assert robot_agent.supervisor.status_of(robot_agent.mission_store.get(bundle)).status == "aborted"

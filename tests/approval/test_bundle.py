@@ -15,7 +15,7 @@ import fieldhand
 from fieldhand.approval.bundle.container import MANIFEST, unwrap
 from fieldhand.approval.bundle.opening import content_of, unseal
 from fieldhand.approval.keys.public import PublicKey
-from fieldhand.delivery.verified import require_sendable
+from fieldhand.delivery.bundle_checks import require_sendable
 from fieldhand.errors import BundleError, NotTrustedError
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.formats import gis

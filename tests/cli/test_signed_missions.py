@@ -395,7 +395,7 @@ def test_what_was_verified_is_what_is_run_whatever_is_put_in_its_place(
     (other,) = (tmp_path / "missions").iterdir()
     begin = missions.begin
 
-    def swapped(*words: Any) -> missions.Mission:
+    def swapped(*words: Any) -> missions.StoredMission:
         given = begin(*words)
         for file in ("task.xml", "mission.json", "robot.yaml"):
             (given.folder / file).write_bytes((other / file).read_bytes())

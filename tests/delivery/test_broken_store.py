@@ -10,9 +10,9 @@ import pytest
 
 from fieldhand import missions
 from fieldhand.approval.keys.trust import TrustStore
-from fieldhand.delivery.depot import Depot
-from fieldhand.delivery.outbox import Entry, Outbox
-from fieldhand.delivery.verified import acceptance, sha256_of
+from fieldhand.delivery.bundle_checks import acceptance, sha256_of
+from fieldhand.delivery.mission_store import MissionStore
+from fieldhand.delivery.outbox import Outbox, OutboxEntry
 from fieldhand.errors import FieldhandError, StoreError
 from fieldhand.robot.loader import load_robot
 from support.broken_disk import KINDS, Disk, broken
@@ -59,16 +59,16 @@ def at_each_call(
         yield folder, done, f"{kind} at call {n} of {len(calls)}: {calls[n - 1]}"
 
 
-def depot_in(folder: Path) -> Depot:
+def depot_in(folder: Path) -> MissionStore:
     trusted = TrustStore(folder.parent / "config")
     accept = acceptance(robot=load_robot("husky"), sites=(), trusted=trusted, now=lambda: NOW)
-    return Depot(folder / "store", accept=accept, now=lambda: NOW)
+    return MissionStore(folder / "store", accept=accept, now=lambda: NOW)
 
 
-def deliver(depot: Depot) -> None:
-    with depot.receiving() as part:
+def deliver(mission_store: MissionStore) -> None:
+    with mission_store.receiving() as part:
         part.write(good())
-        depot.take(part, sha256_of(good()))
+        mission_store.take(part, sha256_of(good()))
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -78,26 +78,28 @@ def test_a_store_on_a_disk_that_fails_at_any_call(tmp_path: Path, kind: str) -> 
     sha256 = sha256_of(good())
 
     def steps(folder: Path) -> Iterator[Use]:
-        with closing(depot_in(folder)) as depot:
-            yield lambda: deliver(depot)
-            yield lambda: depot.note_begun(sha256)
+        with closing(depot_in(folder)) as mission_store:
+            yield lambda: deliver(mission_store)
+            yield lambda: mission_store.note_begun(sha256)
 
     for folder, done, where in at_each_call(tmp_path, kind, steps, every=9):
-        with closing(depot_in(folder)) as depot:
-            held = depot.find(sha256)
+        with closing(depot_in(folder)) as mission_store:
+            held = mission_store.find(sha256)
             assert held is not None or done < 1, where
             if done < 2 and (held is None or held.begun_at is None):
-                deliver(depot)
-                assert depot.open(sha256).data == good(), where
+                deliver(mission_store)
+                assert mission_store.open(sha256).data == good(), where
             else:
                 with pytest.raises(FieldhandError, match="does not run twice"):
-                    depot.open(sha256)
+                    mission_store.open(sha256)
             assert not list((folder / "store" / "incoming").iterdir()), where
 
 
-def entry(**more: object) -> Entry:
+def entry(**more: object) -> OutboxEntry:
     sha256 = sha256_of(good())
-    return Entry(sha256=sha256, url="https://robot", name="m.mission", start=True, queued_at=1.0, next_at=1.0, **more)  # type: ignore[arg-type]
+    return OutboxEntry(
+        sha256=sha256, url="https://robot", name="m.mission", start=True, queued_at=1.0, next_at=1.0, **more
+    )  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -105,10 +107,10 @@ def test_an_outbox_on_a_disk_that_fails_at_any_call(tmp_path: Path, kind: str) -
     """What was put in waits until it was noted as delivered, and has its bundle as long as it waits."""
 
     def steps(folder: Path) -> list[Use]:
-        outbox, put = Outbox(folder / "outbox"), list[Entry]()
+        outbox, put = Outbox(folder / "outbox"), list[OutboxEntry]()
         return [
             lambda: put.append(outbox.put(entry(), good())),
-            lambda: outbox.note(Entry(**{**vars(put[0]), "state": "delivered"})),
+            lambda: outbox.note(OutboxEntry(**{**vars(put[0]), "state": "delivered"})),
         ]
 
     for folder, done, where in at_each_call(tmp_path, kind, steps):
@@ -119,7 +121,7 @@ def test_an_outbox_on_a_disk_that_fails_at_any_call(tmp_path: Path, kind: str) -
         assert all(outbox.bundle(one) == good() for one in waiting), where
         again = outbox.put(entry(), good())
         assert outbox.bundle(again) == good(), where
-        outbox.note(Entry(**{**vars(again), "state": "delivered"}))
+        outbox.note(OutboxEntry(**{**vars(again), "state": "delivered"}))
         assert [path.name for path in (folder / "outbox").iterdir() if path.suffix == ".mission"] == [], where
 
 
@@ -161,11 +163,11 @@ def test_a_store_that_is_not_there_any_more_takes_nothing(tmp_path: Path) -> Non
     """Of a database that was deleted a second agent could make another, and run the missions of the first again."""
     TrustStore(tmp_path / "config").trust(KEY.public, name="Ada", at=NOW)
     folder = tmp_path / "robot"
-    with closing(depot_in(folder)) as depot:
+    with closing(depot_in(folder)) as mission_store:
         with pytest.raises(StoreError, match="another agent"):
             depot_in(folder)
         (folder / "store" / "depot.sqlite").unlink()
         with pytest.raises(StoreError, match="another agent"):
             depot_in(folder)
         with pytest.raises(StoreError, match="is not at its place any more"):
-            deliver(depot)
+            deliver(mission_store)

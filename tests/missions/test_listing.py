@@ -18,7 +18,7 @@ from fieldhand.cli.app import assemble
 from fieldhand.errors import JournalError
 from fieldhand.execution.journal import store
 from fieldhand.folders import FolderLock
-from fieldhand.missions.listing import Entry, listed, older_than, removable, remove
+from fieldhand.missions.listing import ListedMission, list_missions, older_than, removable, remove
 from fieldhand.task.results import Event
 from support.missions.kept import inputs
 from support.processes.command import Run
@@ -70,13 +70,13 @@ def test_every_mission_is_listed_as_it_stands_and_only_ended_ones_go(tmp_path: P
         os.utime(folder / "mission.json", (k, k))
     (under / "m3" / "journal.sqlite").write_bytes(b"no journal")
     states = ["ended", "interrupted", "ended", "unreadable", "interrupted"]
-    assert [entry.state for entry in listed(under)] == states
+    assert [entry.state for entry in list_missions(under)] == states
     shown = fieldhand("--missions", str(under)).out.splitlines()
     assert [line.split()[0] for line in shown] == ["m0", "m1", "m2", "m3", "m4"]
     assert "completed" in shown[0]
     assert "Measure CO2 at tree 5." in shown[0]
     with FolderLock(under / "m0"):
-        assert [entry.state for entry in listed(under)][:2] == ["running", "interrupted"], "it writes its report"
+        assert [entry.state for entry in list_missions(under)][:2] == ["running", "interrupted"], "it writes its report"
         assert json.loads(fieldhand("--missions", str(under), "--keep", "0", "--json").out)["removed"] == ["m2"]
     record = json.loads(fieldhand("--missions", str(under), "--keep", "0", "--json").out)
     assert record["removed"] == ["m0"]
@@ -88,7 +88,7 @@ def test_every_mission_is_listed_as_it_stands_and_only_ended_ones_go(tmp_path: P
 
 
 def test_a_mission_that_goes_on_meanwhile_stays(tmp_path: Path) -> None:
-    entry = listed(ended(tmp_path, "m0").parent)[0]
+    entry = list_missions(ended(tmp_path, "m0").parent)[0]
     with FolderLock(entry.folder), pytest.raises(JournalError, match="has not ended"):
         remove(entry)
     assert missions.status(entry.folder).now.state == "ended"
@@ -98,7 +98,7 @@ entries = st.lists(
     st.tuples(st.sampled_from(["running", "paused", "interrupted", "ended", "unreadable"]), st.integers(-5, 400))
 ).map(
     lambda drawn: tuple(
-        Entry(
+        ListedMission(
             folder=Path(f"m{k}"), begun=NOW, last=NOW - timedelta(days=days), state=state, status="", request="",
             signed=False,
         )
@@ -109,7 +109,7 @@ entries = st.lists(
 
 @given(entries, st.none() | st.floats(0, 1e12), st.none() | st.integers(0, 6))
 def test_what_may_go_has_ended_is_old_and_is_not_among_the_last(
-    entries: tuple[Entry, ...], days: float | None, keep: int | None
+    entries: tuple[ListedMission, ...], days: float | None, keep: int | None
 ) -> None:
     before = None if days is None else older_than(NOW, days)
     gone = removable(entries, ended_before=before, keep=keep)

@@ -18,7 +18,7 @@ from pathlib import Path
 
 import pytest
 
-from fieldhand.delivery.verified import sha256_of
+from fieldhand.delivery.bundle_checks import sha256_of
 from fieldhand.evaluation.calibration.history import load_missions
 from support.missions.signed import good
 from support.processes.certificates import certificate

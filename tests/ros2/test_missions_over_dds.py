@@ -112,7 +112,7 @@ class Plan:
         """What happens in the plain simulation."""
         return mission.simulate(self.approved, world=world, seed=self.seed, speed=None, emit=lambda _: None).events
 
-    def kept(self, under: Path, vehicle: Vehicle) -> missions.Mission:
+    def kept(self, under: Path, vehicle: Vehicle) -> missions.StoredMission:
         """Its folder."""
         inputs = missions.Inputs(
             authorized=self.approved.authorized,

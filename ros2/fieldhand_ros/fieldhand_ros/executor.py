@@ -30,13 +30,13 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
-from fieldhand.delivery.ledger import Held
-from fieldhand.delivery.standing import Standing
-from fieldhand.delivery.wire import shown
+from fieldhand.delivery.json_models import mission_summary
+from fieldhand.delivery.received_missions import ReceivedMission
+from fieldhand.delivery.received_status import ReceivedStatus
 from fieldhand.errors import FieldhandError, InputError
 from fieldhand.execution.operator_commands import AGENT_COMMANDS, AgentCommand
 from fieldhand.execution.vehicle import Connection
-from fieldhand.program.station import Station, compose_station
+from fieldhand.program.robot_agent import RobotAgent, compose_robot_agent
 
 DONE, REFUSED = TransitionCallbackReturn.SUCCESS, TransitionCallbackReturn.FAILURE
 
@@ -64,8 +64,8 @@ class Executor(LifecycleNode):
             ("go_on", False),
         ):
             self.declare_parameter(name, default)
-        self._station: Station | None = None
-        self._held: Held | None = None
+        self._robot_agent: RobotAgent | None = None
+        self._received: ReceivedMission | None = None
         self._active = False
         #: Why the last transition was refused.
         self._problem = ""
@@ -114,9 +114,9 @@ class Executor(LifecycleNode):
     def let_go(self) -> None:
         """Stop the robot and disconnect; a mission under way is paused and can be continued."""
         with self._guard:
-            station, self._station, self._held, self._active = self._station, None, None, False
-        if station is not None:
-            station.close()
+            robot_agent, self._robot_agent, self._received, self._active = self._robot_agent, None, None, False
+        if robot_agent is not None:
+            robot_agent.close()
 
     def _transition(self, make: Callable[[], None]) -> TransitionCallbackReturn:
         """Perform a transition; refuse it and log the reason if it fails."""
@@ -135,7 +135,7 @@ class Executor(LifecycleNode):
             if not value:
                 raise InputError(f"the parameter {name} is not set", where=self.get_name(), advice="set it first")
         config, store, namespace = (self._text(name) for name in ("config", "missions", "robot_namespace"))
-        station = compose_station(
+        robot_agent = compose_robot_agent(
             os.environ | ({"FIELDHAND_CONFIG": config} if config else {}),
             robot=robot,
             sites=tuple(site for site in self._value("sites") if site),
@@ -150,35 +150,35 @@ class Executor(LifecycleNode):
             tell=self.get_logger().warning,
         )
         try:
-            held = station.take(Path(file))
+            received = robot_agent.take(Path(file))
         except FieldhandError:
-            station.close()
+            robot_agent.close()
             raise
         with self._guard:
-            self._station, self._held = station, held
-        self.get_logger().info(f"{held.name}, signed by {held.signer}: {held.request}")
+            self._robot_agent, self._received = robot_agent, received
+        self.get_logger().info(f"{received.name}, signed by {received.signer}: {received.request}")
 
     def _activate(self) -> None:
-        station = self._at_hand()
+        robot_agent = self._at_hand()
         until = time.monotonic() + ANSWERS_WITHIN_S
-        while missing := station.missing():
+        while missing := robot_agent.missing():
             if time.monotonic() >= until:
                 raise InputError(
                     f"of the robot is missing: {'; '.join(missing)}",
-                    where=station.on,
+                    where=robot_agent.on,
                     advice="start it; if it runs, compare names, robot_namespace and ROS_DOMAIN_ID",
                 )
             time.sleep(LOOK_S)
-        station.crew.make_up()
+        robot_agent.supervisor.write_missing_report()
         self._active = True
-        if self._value("go_on") and (cut := station.crew.go_on()):
+        if self._value("go_on") and (cut := robot_agent.supervisor.continue_interrupted()):
             self.get_logger().info(f"going on with mission {cut[:16]}")
 
     def _rest(self) -> None:
-        self._at_hand().rest(RESTS_WITHIN_S)
+        self._at_hand().pause_for_exit(RESTS_WITHIN_S)
 
     def _clean_up(self) -> None:
-        if self._at_hand().crew.active is not None:
+        if self._at_hand().supervisor.active is not None:
             raise InputError(
                 "the mission is under way: it is paused",
                 where=self.get_name(),
@@ -201,8 +201,8 @@ class Executor(LifecycleNode):
         return answer
 
     def _tell_mission(self, said: AgentCommand) -> tuple[bool, str]:
-        station, held = self._at_hand(), self._held
-        if held is None or (not self._active and said not in _WHEN_INACTIVE):
+        robot_agent, received = self._at_hand(), self._received
+        if received is None or (not self._active and said not in _WHEN_INACTIVE):
             raise InputError(f"the node is not active: it cannot {said}", advice="activate it first")
         until = time.monotonic() + HEARS_WITHIN_S
 
@@ -210,31 +210,31 @@ class Executor(LifecycleNode):
             time.sleep(LOOK_S)
             return time.monotonic() < until
 
-        if not station.crew.tell(held, said, f"{said} was called over ROS 2", wait=wait):
+        if not robot_agent.supervisor.give_command(received, said, f"{said} was called over ROS 2", wait=wait):
             return False, f"the mission has not heard it within {HEARS_WITHIN_S:g} s; it will"
-        standing = station.crew.standing(held)
+        standing = robot_agent.supervisor.status_of(received)
         return True, standing.doing or standing.state
 
-    def _at_hand(self) -> Station:
-        station = self._station
-        if station is None:
+    def _at_hand(self) -> RobotAgent:
+        robot_agent = self._robot_agent
+        if robot_agent is None:
             raise InputError("there is no mission", where=self.get_name(), advice="configure the node first")
-        return station
+        return robot_agent
 
     # --- status --------------------------------------------------------------------------------------------------
 
     def _tell(self) -> None:
         with self._guard:
-            station, held = self._station, self._held
-            standing = None if station is None or held is None else station.crew.standing(held)
-            missing = () if station is None else station.missing()
+            robot_agent, received = self._robot_agent, self._received
+            standing = None if robot_agent is None or received is None else robot_agent.supervisor.status_of(received)
+            missing = () if robot_agent is None else robot_agent.missing()
         said = {
-            "robot": "" if station is None else station.robot.name,
-            "on": "" if station is None else station.on,
+            "robot": "" if robot_agent is None else robot_agent.robot.name,
+            "on": "" if robot_agent is None else robot_agent.on,
             "active": self._active,
             "missing": list(missing),
             "problem": self._problem,
-            "mission": None if standing is None else shown(standing).model_dump(mode="json"),
+            "mission": None if standing is None else mission_summary(standing).model_dump(mode="json"),
         }
         text = json.dumps(said, ensure_ascii=False)
         if text != self._told:
@@ -253,14 +253,14 @@ class Executor(LifecycleNode):
         return str(self._value(name)).strip()
 
 
-def diagnosed(node: str, standing: Standing | None, missing: tuple[str, ...], problem: str) -> DiagnosticStatus:
+def diagnosed(node: str, standing: ReceivedStatus | None, missing: tuple[str, ...], problem: str) -> DiagnosticStatus:
     """Return the state of the mission as a diagnostic status."""
     level, message = DiagnosticStatus.OK, "no mission"
     values = {"missing": "; ".join(missing), "problem": problem}
     if standing is not None:
         message = standing.doing or standing.state
         values |= {
-            "mission": standing.held.name,
+            "mission": standing.received.name,
             "state": standing.state,
             "status": standing.status,
             "reason": standing.reason,

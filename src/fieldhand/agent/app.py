@@ -10,13 +10,13 @@ from fastapi import FastAPI, Request
 from starlette.responses import Response
 
 from fieldhand import __version__
-from fieldhand.agent.gates import Guessing, SmallBodies, TokenGate
-from fieldhand.agent.routes import Identity, router
-from fieldhand.agent.uploads import Uploads
+from fieldhand.agent.routes import RobotIdentity, router
+from fieldhand.agent.token_gate import SmallBodyGate, TokenGate, WrongTokenLimits
+from fieldhand.agent.uploads import UploadLimits
 from fieldhand.api.gates import CallerGate, LastResort, SecurityHeaders
 from fieldhand.api.problems import EscapedAnswer, answer_problems, problem
-from fieldhand.delivery.crew import Crew
-from fieldhand.delivery.depot import Depot
+from fieldhand.delivery.mission_store import MissionStore
+from fieldhand.delivery.mission_supervisor import MissionSupervisor
 from fieldhand.errors import ExecutionError, OutputError
 
 #: Bytes of a body that is no mission.
@@ -24,22 +24,22 @@ SMALL = 64_000
 
 
 def create_agent(
-    depot: Depot,
-    crew: Crew,
-    who: Identity,
+    mission_store: MissionStore,
+    supervisor: MissionSupervisor,
+    who: RobotIdentity,
     *,
     token: str | None,
     hosts: frozenset[str] | None,
-    uploads: Uploads | None = None,
-    guessing: Guessing | None = None,
+    uploads: UploadLimits | None = None,
+    guessing: WrongTokenLimits | None = None,
     clock: Callable[[], float] = time.monotonic,
     sleep: Callable[[float], Awaitable[None]] = anyio.sleep,
 ) -> FastAPI:
     """The agent of one robot.
 
     Args:
-        depot: Where its missions arrive.
-        crew: Who carries them out.
+        mission_store: Where its missions arrive.
+        supervisor: Who carries them out.
         who: What robot it is.
         token: That a caller has to say; None for none.
         hosts: Names under which it may be called; None for any.
@@ -65,10 +65,10 @@ def create_agent(
     async def _too_late(_: Request, error: ExecutionError) -> Response:
         return problem(409, error.what, error.where, error.advice)
 
-    app.include_router(router(depot, crew, who, uploads or Uploads()))
+    app.include_router(router(mission_store, supervisor, who, uploads or UploadLimits()))
     # The last that is added is the first that a request passes.
-    app.add_middleware(SmallBodies, most=SMALL)
-    app.add_middleware(TokenGate, token=token, guessing=guessing or Guessing(), clock=clock, sleep=sleep)
+    app.add_middleware(SmallBodyGate, most=SMALL)
+    app.add_middleware(TokenGate, token=token, guessing=guessing or WrongTokenLimits(), clock=clock, sleep=sleep)
     app.add_middleware(CallerGate, hosts=hosts)
     app.add_middleware(LastResort)
     app.add_middleware(SecurityHeaders)

@@ -11,14 +11,10 @@ from fastapi import APIRouter, Path, Query, Request, Response
 from starlette.concurrency import run_in_threadpool
 
 from fieldhand import __version__
-from fieldhand.agent.order_desk import OrderDesk
-from fieldhand.agent.uploads import Entrance, Uploads, receive, size_of
+from fieldhand.agent.command_handler import CommandHandler
+from fieldhand.agent.uploads import UploadLimits, UploadSlots, receive, size_of
 from fieldhand.api.problems import Turned
-from fieldhand.delivery.crew import Crew
-from fieldhand.delivery.depot import Depot
-from fieldhand.delivery.ledger import Held
-from fieldhand.delivery.standing import Line
-from fieldhand.delivery.wire import (
+from fieldhand.delivery.json_models import (
     LONGEST_WAIT_S,
     MOST_EVENTS,
     CommandRequest,
@@ -27,8 +23,12 @@ from fieldhand.delivery.wire import (
     Receipt,
     RobotState,
     event_lines,
-    shown,
+    mission_summary,
 )
+from fieldhand.delivery.mission_store import MissionStore
+from fieldhand.delivery.mission_supervisor import MissionSupervisor
+from fieldhand.delivery.received_missions import ReceivedMission
+from fieldhand.delivery.received_status import LoggedEvent
 
 #: Missions that are listed.
 LISTED = 50
@@ -39,7 +39,7 @@ Bundle = Annotated[str, Path(pattern=r"^[0-9a-f]{64}$")]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Identity:
+class RobotIdentity:
     """What robot this is, and where it may work; no site where it may work on any.
 
     Attributes:
@@ -54,10 +54,12 @@ class Identity:
     missing: Callable[[], tuple[str, ...]] = tuple
 
 
-def router(depot: Depot, crew: Crew, who: Identity, uploads: Uploads) -> APIRouter:
+def router(
+    mission_store: MissionStore, supervisor: MissionSupervisor, who: RobotIdentity, uploads: UploadLimits
+) -> APIRouter:
     """Every address."""
     routes = APIRouter()
-    entrance, orders = Entrance(uploads.at_once), OrderDesk(depot, crew)
+    entrance, orders = UploadSlots(uploads.at_once), CommandHandler(mission_store, supervisor)
 
     @routes.get("/agent")
     def robot() -> RobotState:
@@ -69,8 +71,8 @@ def router(depot: Depot, crew: Crew, who: Identity, uploads: Uploads) -> APIRout
             version=__version__,
             on=who.on,
             missing=list(who.missing()),
-            active=crew.active,
-            missions=[shown(crew.standing(held)) for held in depot.latest(LISTED)],
+            active=supervisor.active,
+            missions=[mission_summary(supervisor.status_of(received)) for received in mission_store.latest(LISTED)],
         )
 
     @routes.put("/agent/missions/{bundle}")
@@ -78,23 +80,27 @@ def router(depot: Depot, crew: Crew, who: Identity, uploads: Uploads) -> APIRout
         """Take a mission: its bytes, whose SHA-256 is in the address. Nothing runs by this."""
         size = size_of(request, uploads)
         with entrance.entered():
-            receiving = depot.receiving()
+            receiving = mission_store.receiving()
             # The disk may be slow: nothing of it is done in the thread that answers everyone.
-            part = await run_in_threadpool(receiving.__enter__)
+            incoming = await run_in_threadpool(receiving.__enter__)
             try:
-                await receive(request, part, size, uploads)
-                held, new = await run_in_threadpool(depot.take, part, bundle)
+                await receive(request, incoming, size, uploads)
+                received, new = await run_in_threadpool(mission_store.take, incoming, bundle)
             finally:
                 with anyio.CancelScope(shield=True):
                     await run_in_threadpool(receiving.__exit__, None, None, None)
         response.status_code = 201 if new else 200
-        return Receipt(hashes=dict(held.hashes), new=new, mission=shown(await run_in_threadpool(crew.standing, held)))
+        return Receipt(
+            hashes=dict(received.hashes),
+            new=new,
+            mission=mission_summary(await run_in_threadpool(supervisor.status_of, received)),
+        )
 
     @routes.get("/agent/missions/{bundle}")
     def mission(bundle: Bundle) -> Receipt:
         """A mission that has arrived: its hashes, and how it stands."""
-        held = found(bundle)
-        return Receipt(hashes=dict(held.hashes), new=False, mission=shown(crew.standing(held)))
+        received = found(bundle)
+        return Receipt(hashes=dict(received.hashes), new=False, mission=mission_summary(supervisor.status_of(received)))
 
     @routes.post("/agent/missions/{bundle}/orders")
     async def order(bundle: Bundle, body: CommandRequest) -> Heard:
@@ -113,25 +119,27 @@ def router(depot: Depot, crew: Crew, who: Identity, uploads: Uploads) -> APIRout
         wait: Annotated[float, Query(ge=0, le=LONGEST_WAIT_S, allow_inf_nan=False)] = 0.0,
     ) -> Events:
         """The events behind number ``after``; where there are none yet, the answer waits so many seconds for one."""
-        held = await run_in_threadpool(found, bundle)
-        lines, idle = await _awaited(crew, held, after, wait)
-        standing = await run_in_threadpool(crew.standing, held)
-        return Events(events=event_lines(lines), idle=idle, mission=shown(standing))
+        received = await run_in_threadpool(found, bundle)
+        lines, idle = await _awaited(supervisor, received, after, wait)
+        standing = await run_in_threadpool(supervisor.status_of, received)
+        return Events(events=event_lines(lines), idle=idle, mission=mission_summary(standing))
 
-    def found(bundle: str) -> Held:
-        held = depot.find(bundle)
-        if held is None:
+    def found(bundle: str) -> ReceivedMission:
+        received = mission_store.find(bundle)
+        if received is None:
             raise Turned(404, "no such mission has arrived", "send it first")
-        return held
+        return received
 
     return routes
 
 
-async def _awaited(crew: Crew, held: Held, after: int, wait: float) -> tuple[tuple[Line, ...], bool]:
+async def _awaited(
+    supervisor: MissionSupervisor, received: ReceivedMission, after: int, wait: float
+) -> tuple[tuple[LoggedEvent, ...], bool]:
     """The next events, or none after so many seconds, or once none can come."""
     until = anyio.current_time() + wait
     while True:
-        lines, idle = await run_in_threadpool(crew.lines, held, after, MOST_EVENTS)
+        lines, idle = await run_in_threadpool(supervisor.events_after, received, after, MOST_EVENTS)
         if lines or idle or anyio.current_time() >= until:
             return lines, idle
         await anyio.sleep(LOOK_S)

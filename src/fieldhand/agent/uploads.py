@@ -11,16 +11,16 @@ from starlette.requests import ClientDisconnect, Request
 
 from fieldhand.api.problems import Turned
 from fieldhand.approval.bundle.container import MAX_BYTES
-from fieldhand.delivery.arriving import Part
+from fieldhand.delivery.incoming_file import IncomingFile
 
 
 @dataclass(frozen=True, kw_only=True)
-class Uploads:
+class UploadLimits:
     """What one upload may take.
 
     Attributes:
         most: Bytes.
-        at_once: Uploads at the same time.
+        at_once: UploadLimits at the same time.
         idle_s: Seconds without a byte until it is given up.
         start_s, bytes_s: It has so many seconds, and one more for each so many bytes.
     """
@@ -32,7 +32,7 @@ class Uploads:
     bytes_s: float = 20_000.0
 
 
-class Entrance:
+class UploadSlots:
     """Lets so many uploads in at once.
 
     Args:
@@ -58,7 +58,7 @@ class Entrance:
             self._inside -= 1
 
 
-def size_of(request: Request, uploads: Uploads) -> int:
+def size_of(request: Request, uploads: UploadLimits) -> int:
     """What the request says of its size, before anything of it is read.
 
     Raises:
@@ -72,7 +72,7 @@ def size_of(request: Request, uploads: Uploads) -> int:
     return int(told)
 
 
-async def receive(request: Request, part: Part, size: int, uploads: Uploads) -> None:
+async def receive(request: Request, incoming: IncomingFile, size: int, uploads: UploadLimits) -> None:
     """Write the body to the file, whole.
 
     Raises:
@@ -83,15 +83,17 @@ async def receive(request: Request, part: Part, size: int, uploads: Uploads) -> 
     try:
         with anyio.fail_after(uploads.start_s + size / uploads.bytes_s):
             while chunk := await _next(stream, uploads.idle_s):
-                if part.size + len(chunk) > size:
+                if incoming.size + len(chunk) > size:
                     raise Turned(400, "the upload is longer than it said", "send it again")
-                await anyio.to_thread.run_sync(part.write, chunk)
+                await anyio.to_thread.run_sync(incoming.write, chunk)
     except TimeoutError:
-        raise Turned(408, f"the upload came too slowly ({part.size:,} of {size:,} bytes)", "send it again") from None
+        raise Turned(
+            408, f"the upload came too slowly ({incoming.size:,} of {size:,} bytes)", "send it again"
+        ) from None
     except ClientDisconnect:
-        raise _cut_off(part, size) from None
-    if part.size != size:
-        raise _cut_off(part, size)
+        raise _cut_off(incoming, size) from None
+    if incoming.size != size:
+        raise _cut_off(incoming, size)
 
 
 async def _next(stream: AsyncIterator[bytes], idle_s: float) -> bytes:
@@ -103,5 +105,5 @@ async def _next(stream: AsyncIterator[bytes], idle_s: float) -> bytes:
     return b""
 
 
-def _cut_off(part: Part, size: int) -> Turned:
-    return Turned(400, f"the upload was cut off ({part.size:,} of {size:,} bytes)", "send it again")
+def _cut_off(incoming: IncomingFile, size: int) -> Turned:
+    return Turned(400, f"the upload was cut off ({incoming.size:,} of {size:,} bytes)", "send it again")

@@ -165,7 +165,7 @@ def _carry_out(approved: mission.ApprovedMission, orders: Orders, planner: str) 
         return mission.carry_out(approved, vehicle=vehicle, seed=seed, emit=take).events, ""
 
 
-def _begin(approved: mission.ApprovedMission, orders: Orders, kept: Kept, planner: str) -> missions.Mission:
+def _begin(approved: mission.ApprovedMission, orders: Orders, kept: Kept, planner: str) -> missions.StoredMission:
     inputs = missions.Inputs(
         authorized=approved.authorized,
         site=approved.site,
@@ -188,7 +188,7 @@ def _begin(approved: mission.ApprovedMission, orders: Orders, kept: Kept, planne
     return given
 
 
-def go_on(given: missions.Mission, orders: Orders) -> tuple[Event, ...]:
+def go_on(given: missions.StoredMission, orders: Orders) -> tuple[Event, ...]:
     """Carry out what is left of a mission that is kept, as after a power cut."""
     before = missions.events_of(given.folder)
     with _taking(given.site, given.robot, orders, before) as take:

@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
-    from fieldhand.delivery.link import RobotLink
-    from fieldhand.delivery.outbox import Entry
-    from fieldhand.delivery.trusting import Trusting
-    from fieldhand.delivery.verified import Sendable
-    from fieldhand.delivery.wire import Shown
+    from fieldhand.delivery.bundle_checks import Sendable
+    from fieldhand.delivery.json_models import MissionSummary
+    from fieldhand.delivery.outbox import OutboxEntry
+    from fieldhand.delivery.robot_client import RobotClient
+    from fieldhand.delivery.server_certificate import ServerTrust
 
 UrlArgument = Annotated[str, typer.Argument(help="Address of the robot's agent, like https://robot:8443.")]
 MissionOfRobot = Annotated[
@@ -38,42 +38,42 @@ RetrySeedOption = Annotated[
 ]
 
 
-def trusting_of(ca: Path | None, pin: str | None, *, insecure: bool) -> Trusting:
+def trust_of(ca: Path | None, pin: str | None, *, insecure: bool) -> ServerTrust:
     """Whom to believe that it is the robot.
 
     Raises:
         InputError: The pin is none.
     """
-    from fieldhand.delivery.trusting import Trusting, parse_pin
+    from fieldhand.delivery.server_certificate import ServerTrust, parse_pin
 
-    return Trusting(
+    return ServerTrust(
         ca="" if ca is None else str(ca.absolute()), pin="" if pin is None else parse_pin(pin), plain=insecure
     )
 
 
-def open_link(url: str, token_file: Path | None, trusting: Trusting) -> RobotLink:
+def open_robot_client(url: str, token_file: Path | None, trust: ServerTrust) -> RobotClient:
     """The link to a robot.
 
     Raises:
         InputError: The address, the token or the authority's file cannot be used.
         DeliveryError: It shows another certificate than the pinned one.
     """
-    from fieldhand.delivery.link import RobotLink, open_client, require_httpx
-    from fieldhand.delivery.token import read_token
-    from fieldhand.delivery.trusting import context_for, require_address
+    from fieldhand.delivery.agent_token import read_token
+    from fieldhand.delivery.robot_client import RobotClient, open_client, require_httpx
+    from fieldhand.delivery.server_certificate import context_for, require_address
 
     require_httpx()
-    address = require_address(url, trusting)
+    address = require_address(url, trust)
     token = read_token(os.environ, token_file)
-    return RobotLink(open_client(address, token, context_for(address, trusting)))
+    return RobotClient(open_client(address, token, context_for(address, trust)))
 
 
-def link_of(entry: Entry) -> RobotLink:
+def client_for(entry: OutboxEntry) -> RobotClient:
     """The link to the robot for which a mission waits."""
-    from fieldhand.delivery.trusting import Trusting
+    from fieldhand.delivery.server_certificate import ServerTrust
 
     file = Path(entry.token_file) if entry.token_file else None
-    return open_link(entry.url, file, Trusting(ca=entry.ca, pin=entry.pin, plain=entry.plain))
+    return open_robot_client(entry.url, file, ServerTrust(ca=entry.ca, pin=entry.pin, plain=entry.plain))
 
 
 def sendable(data: bytes, source: str) -> Sendable:
@@ -83,13 +83,13 @@ def sendable(data: bytes, source: str) -> Sendable:
         BundleError, NotTrustedError: It is not.
     """
     from fieldhand.approval.memory import trust_store
-    from fieldhand.delivery.verified import require_sendable
+    from fieldhand.delivery.bundle_checks import require_sendable
 
     known = trust_store(os.environ).known()
     return require_sendable(data, source=source, known=known, now=datetime.now(UTC))
 
 
-def find_mission(link: RobotLink, given: str | None) -> Shown:
+def find_mission(link: RobotClient, given: str | None) -> MissionSummary:
     """A mission on the robot: by its file, its SHA-256 or its name; without any, that under way or begun last.
 
     Raises:
@@ -97,7 +97,7 @@ def find_mission(link: RobotLink, given: str | None) -> Shown:
     """
     from fieldhand.approval.bundle.container import read_bundle_file
     from fieldhand.cli.bundles import is_bundle
-    from fieldhand.delivery.verified import sha256_of
+    from fieldhand.delivery.bundle_checks import sha256_of
     from fieldhand.errors import InputError
 
     robot = link.robot()
@@ -119,7 +119,7 @@ def find_mission(link: RobotLink, given: str | None) -> Shown:
     return found[0]
 
 
-def state_line(mission: Shown) -> str:
+def state_line(mission: MissionSummary) -> str:
     """How a mission stands, in a line."""
     ended = f": {mission.status}{f' ({mission.reason})' if mission.reason else ''}" if mission.status else ""
     doing = f", {mission.doing}" if mission.doing and not ended else ""

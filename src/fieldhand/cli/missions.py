@@ -11,7 +11,7 @@ import typer
 from fieldhand.cli.options import JsonOption, MissionsOption
 
 if TYPE_CHECKING:
-    from fieldhand.missions.listing import Entry
+    from fieldhand.missions.listing import ListedMission
 
 _LONGEST = 60
 
@@ -32,11 +32,11 @@ def missions(
 
     from fieldhand.cli import show
     from fieldhand.missions import missions_folder
-    from fieldhand.missions.listing import listed, older_than, removable, remove
+    from fieldhand.missions.listing import list_missions, older_than, removable, remove
 
     under = kept or missions_folder(os.environ)
-    entries = listed(under)
-    gone: tuple[Entry, ...] = ()
+    entries = list_missions(under)
+    gone: tuple[ListedMission, ...] = ()
     if prune is not None or keep is not None:
         before = None if prune is None else older_than(datetime.now(UTC), prune)
         gone = removable(entries, ended_before=before, keep=keep)
@@ -51,7 +51,7 @@ def missions(
         show.out.print(f"removed: {', '.join(e.id for e in gone) or 'none'}")
 
 
-def _record(entry: Entry) -> dict[str, Any]:
+def _record(entry: ListedMission) -> dict[str, Any]:
     return {
         "id": entry.id,
         "begun": entry.begun.isoformat(timespec="seconds"),
@@ -63,7 +63,7 @@ def _record(entry: Entry) -> dict[str, Any]:
     }
 
 
-def _show(entries: tuple[Entry, ...], under: Path) -> None:
+def _show(entries: tuple[ListedMission, ...], under: Path) -> None:
     from fieldhand.cli import show
 
     if not entries:

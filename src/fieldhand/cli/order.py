@@ -28,11 +28,11 @@ def order(
     from contextlib import closing
 
     from fieldhand.cli import show
-    from fieldhand.cli.links import find_mission, open_link, state_line, trusting_of
+    from fieldhand.cli.links import find_mission, open_robot_client, state_line, trust_of
     from fieldhand.execution.operator_commands import parse_agent_command
 
     word = parse_agent_command(said)
-    with closing(open_link(url, token_file, trusting_of(ca, pin, insecure=insecure))) as link:
+    with closing(open_robot_client(url, token_file, trust_of(ca, pin, insecure=insecure))) as link:
         # Without a mission nothing is looked up first: whoever wants the robot to stop shall not wait for a list.
         heard = link.order_now(word, because) if mission is None and word != "start" else None
         if heard is None:

@@ -12,8 +12,8 @@ from fieldhand.cli.links import CaOption, InsecureOption, PinOption, RetrySeedOp
 from fieldhand.cli.options import JsonOption
 
 if TYPE_CHECKING:
-    from fieldhand.delivery.outbox import Entry
-    from fieldhand.delivery.posting import Posting
+    from fieldhand.delivery.outbox import OutboxEntry
+    from fieldhand.delivery.outbox_sender import OutboxSender
 
 
 def send(
@@ -37,15 +37,15 @@ def send(
 
     if (file is None) == (not pending and not watch) or (file is None) != (to is None):
         raise InputError("give a mission with --to, or --pending, or --watch", advice="fieldhand send --help says more")
-    posting = _posting(seed)
+    outbox_sender = _posting(seed)
     if file is not None and to is not None:
-        posted = [_send(posting, file, to, start=start, token_file=token_file, ca=ca, pin=pin, insecure=insecure)]
+        posted = [_send(outbox_sender, file, to, start=start, token_file=token_file, ca=ca, pin=pin, insecure=insecure)]
         _tell(posted, quiet=json)
     else:
-        posted = [] if watch else list(posting.post_due(all_of_them=True))
+        posted = [] if watch else list(outbox_sender.post_due(all_of_them=True))
         _tell(posted, quiet=json)
     if watch:
-        posted += _watch(posting, quiet=json)
+        posted += _watch(outbox_sender, quiet=json)
     last = {entry.n: entry for entry in posted}
     if json:
         show.print_json([record(entry) for entry in last.values()])
@@ -54,33 +54,33 @@ def send(
     raise SystemExit(0 if all(entry.state == "delivered" for entry in last.values()) else 1)
 
 
-def record(entry: Entry) -> dict[str, Any]:
+def record(entry: OutboxEntry) -> dict[str, Any]:
     """A mission of the outbox, as JSON."""
     from dataclasses import asdict
 
     return asdict(entry)
 
 
-def line(entry: Entry) -> str:
+def line(entry: OutboxEntry) -> str:
     """A mission of the outbox, in a line."""
     return f"{entry.name} for {entry.url}: {entry.state}; {entry.said or 'not tried yet'}"
 
 
-def _posting(seed: int | None) -> Posting:
+def _posting(seed: int | None) -> OutboxSender:
     import random
     import time
 
-    from fieldhand.cli.links import link_of, sendable
+    from fieldhand.cli.links import client_for, sendable
     from fieldhand.delivery.outbox import Outbox, outbox_folder
-    from fieldhand.delivery.posting import Posting
+    from fieldhand.delivery.outbox_sender import OutboxSender
 
     rng = random.Random(seed)  # noqa: S311
     outbox = Outbox(outbox_folder(os.environ))
-    return Posting(outbox=outbox, connect=link_of, check=sendable, clock=time.time, rng=rng)
+    return OutboxSender(outbox=outbox, connect=client_for, check=sendable, clock=time.time, rng=rng)
 
 
 def _send(
-    posting: Posting,
+    outbox_sender: OutboxSender,
     file: Path,
     to: str,
     *,
@@ -89,51 +89,51 @@ def _send(
     ca: Path | None,
     pin: str | None,
     insecure: bool,
-) -> Entry:
+) -> OutboxEntry:
     """Check all that can be checked here, put the mission into the outbox, and try to send it."""
     from fieldhand.approval.bundle.container import read_bundle_file
-    from fieldhand.cli.links import sendable, trusting_of
-    from fieldhand.delivery.link import require_httpx
-    from fieldhand.delivery.outbox import Entry
-    from fieldhand.delivery.token import read_token
-    from fieldhand.delivery.trusting import require_address
+    from fieldhand.cli.links import sendable, trust_of
+    from fieldhand.delivery.agent_token import read_token
+    from fieldhand.delivery.outbox import OutboxEntry
+    from fieldhand.delivery.robot_client import require_httpx
+    from fieldhand.delivery.server_certificate import require_address
 
     require_httpx()
     data = read_bundle_file(file)
     found = sendable(data, str(file))
-    trusting = trusting_of(ca, pin, insecure=insecure)
-    url = require_address(to, trusting)
+    trust = trust_of(ca, pin, insecure=insecure)
+    url = require_address(to, trust)
     read_token(os.environ, token_file)
-    now = posting.clock()
-    entry = Entry(
+    now = outbox_sender.clock()
+    entry = OutboxEntry(
         sha256=found.sha256,
         url=url,
         name=file.name,
         start=start,
-        ca=trusting.ca,
-        pin=trusting.pin,
-        plain=trusting.plain,
+        ca=trust.ca,
+        pin=trust.pin,
+        plain=trust.plain,
         token_file="" if token_file is None else str(token_file.absolute()),
         queued_at=now,
         next_at=now,
     )
-    return posting.post(posting.outbox.put(entry, data))
+    return outbox_sender.post(outbox_sender.outbox.put(entry, data))
 
 
-def _watch(posting: Posting, *, quiet: bool) -> list[Entry]:
+def _watch(outbox_sender: OutboxSender, *, quiet: bool) -> list[OutboxEntry]:
     """Send what waits, each when its time has come, until nothing waits."""
     import time
 
-    posted: list[Entry] = []
-    while (wait := posting.next_s()) is not None:
+    posted: list[OutboxEntry] = []
+    while (wait := outbox_sender.next_s()) is not None:
         time.sleep(wait)
-        tried = posting.post_due()
+        tried = outbox_sender.post_due()
         _tell(tried, quiet=quiet)
         posted += tried
     return posted
 
 
-def _tell(entries: list[Entry] | tuple[Entry, ...], *, quiet: bool) -> None:
+def _tell(entries: list[OutboxEntry] | tuple[OutboxEntry, ...], *, quiet: bool) -> None:
     from fieldhand.cli import show
 
     for entry in () if quiet else entries:

@@ -20,7 +20,7 @@ from fieldhand.cli.options import JsonOption
 from fieldhand.cli.outputs import to_file
 
 if TYPE_CHECKING:
-    from fieldhand.delivery.wire import EventLine
+    from fieldhand.delivery.json_models import EventLine
     from fieldhand.errors import UnreachableError
 
 
@@ -47,9 +47,9 @@ def watch(
     from contextlib import ExitStack, closing
 
     from fieldhand.cli import show
-    from fieldhand.cli.links import find_mission, open_link, state_line, trusting_of
-    from fieldhand.delivery.following import follow
-    from fieldhand.delivery.wire import LONGEST_WAIT_S
+    from fieldhand.cli.links import find_mission, open_robot_client, state_line, trust_of
+    from fieldhand.delivery.follow_mission import follow
+    from fieldhand.delivery.json_models import LONGEST_WAIT_S
     from fieldhand.execution.event_log import EventLog
 
     def lost(error: UnreachableError, wait_s: float) -> None:
@@ -57,7 +57,7 @@ def watch(
         time.sleep(wait_s)
 
     with ExitStack() as stack:
-        link = stack.enter_context(closing(open_link(url, token_file, trusting_of(ca, pin, insecure=insecure))))
+        link = stack.enter_context(closing(open_robot_client(url, token_file, trust_of(ca, pin, insecure=insecure))))
         found = find_mission(link, mission)
         log = None if events is None else stack.enter_context(EventLog(events))
 

@@ -31,7 +31,7 @@ _TABLES = (
 
 
 @dataclass(frozen=True, kw_only=True)
-class Entry:
+class OutboxEntry:
     """A mission for a robot.
 
     Attributes:
@@ -40,7 +40,7 @@ class Entry:
         url: Of the robot.
         name: Of the file that was sent.
         start: Start it once it has arrived.
-        ca, pin, plain: As :class:`fieldhand.delivery.trusting.Trusting`.
+        ca, pin, plain: As :class:`fieldhand.delivery.server_certificate.ServerTrust`.
         token_file: Where the token is; empty for the environment. The token itself is not kept.
         queued_at, next_at: When it was given, and when to try next; seconds since 1970.
         tries: So far.
@@ -63,7 +63,7 @@ class Entry:
     said: str = ""
 
 
-_COLUMNS = ", ".join(field.name for field in fields(Entry))
+_COLUMNS = ", ".join(field.name for field in fields(OutboxEntry))
 _NEW = _COLUMNS.removeprefix("n, ")
 
 
@@ -86,7 +86,7 @@ class Outbox:
     def __init__(self, folder: Path) -> None:
         self._folder, self._path = folder, folder / "outbox.sqlite"
 
-    def put(self, entry: Entry, data: bytes) -> Entry:
+    def put(self, entry: OutboxEntry, data: bytes) -> OutboxEntry:
         """Keep a mission until it is delivered; one that was here before is sent anew.
 
         A mission that is to be started takes the place of those that wait to be started on the same robot: these are
@@ -108,7 +108,7 @@ class Outbox:
             number = db.execute(f"INSERT INTO entries ({_NEW}) VALUES ({marks})", values).lastrowid  # noqa: S608
             return _entry(db.execute(f"SELECT {_COLUMNS} FROM entries WHERE n = ?", [number]).fetchone())  # noqa: S608
 
-    def note(self, entry: Entry) -> None:
+    def note(self, entry: OutboxEntry) -> None:
         """Keep what became of a try. What was put in anew meanwhile stays as it is.
 
         Raises:
@@ -127,7 +127,7 @@ class Outbox:
                 if path not in needed:
                     path.unlink()
 
-    def entries(self) -> tuple[Entry, ...]:
+    def entries(self) -> tuple[OutboxEntry, ...]:
         """All, in the order in which they were given.
 
         Raises:
@@ -139,11 +139,11 @@ class Outbox:
             rows = db.execute(f"SELECT {_COLUMNS} FROM entries ORDER BY n").fetchall()  # noqa: S608
             return tuple(_entry(row) for row in rows)
 
-    def waiting(self) -> tuple[Entry, ...]:
+    def waiting(self) -> tuple[OutboxEntry, ...]:
         """Those that are not delivered."""
         return tuple(entry for entry in self.entries() if entry.state == "waiting")
 
-    def bundle(self, entry: Entry) -> bytes:
+    def bundle(self, entry: OutboxEntry) -> bytes:
         """What is to be sent.
 
         Raises:
@@ -186,6 +186,6 @@ class Outbox:
             ) from None
 
 
-def _entry(row: tuple[object, ...]) -> Entry:
+def _entry(row: tuple[object, ...]) -> OutboxEntry:
     values = dict(zip(_COLUMNS.split(", "), row, strict=True))
-    return Entry(**{**values, "start": bool(values["start"]), "plain": bool(values["plain"])})  # type: ignore[arg-type]
+    return OutboxEntry(**{**values, "start": bool(values["start"]), "plain": bool(values["plain"])})  # type: ignore[arg-type]

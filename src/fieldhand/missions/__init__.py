@@ -10,14 +10,13 @@ begin ──▶ folder ──carry_out──▶ events          status and order
     orders.sqlite                                             what people want
 """
 
-from fieldhand.missions.departure import require_charged, require_in_place
 from fieldhand.missions.direct_commands import DirectCommands
-from fieldhand.missions.finding import all_missions, exists, find, missions_folder
+from fieldhand.missions.find_mission import all_missions, exists, find, missions_folder
 from fieldhand.missions.folder import (
     Departure,
     FolderContents,
     Inputs,
-    Mission,
+    StoredMission,
     begin,
     departure_on,
     new_id,
@@ -25,7 +24,7 @@ from fieldhand.missions.folder import (
     read_folder,
     signed_inputs,
 )
-from fieldhand.missions.kept import (
+from fieldhand.missions.mission_status import (
     Status,
     carry_out,
     events_of,
@@ -34,17 +33,18 @@ from fieldhand.missions.kept import (
     lines_after,
     order,
     require_vehicle,
-    stands,
+    stands_still,
     status,
 )
+from fieldhand.missions.start_checks import require_charged, require_in_place
 
 __all__ = [
     "Departure",
     "DirectCommands",
     "FolderContents",
     "Inputs",
-    "Mission",
     "Status",
+    "StoredMission",
     "all_missions",
     "begin",
     "carry_out",
@@ -64,6 +64,6 @@ __all__ = [
     "require_in_place",
     "require_vehicle",
     "signed_inputs",
-    "stands",
+    "stands_still",
     "status",
 ]

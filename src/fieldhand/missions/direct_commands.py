@@ -10,7 +10,7 @@ from fieldhand.execution.operator_commands import OperatorCommand, StoppingComma
 _RANK: dict[str, int] = {"pause": 1, "return": 2, "abort": 3}
 
 
-def nobody() -> OperatorCommand | None:
+def no_command() -> OperatorCommand | None:
     """Give no order."""
     return None
 

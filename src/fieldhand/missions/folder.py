@@ -18,8 +18,8 @@ from fieldhand.execution.vehicle import Connection
 from fieldhand.files import FileFault, read_file, store_names, write_stored, write_whole
 from fieldhand.folders import Unguarded, require_guarded, require_own_file
 from fieldhand.language import message, named
-from fieldhand.missions.direct_commands import nobody
-from fieldhand.missions.signed import require_signed
+from fieldhand.missions.direct_commands import no_command
+from fieldhand.missions.signed_contents import require_signed
 from fieldhand.task.authorization import Authorization, AuthorizedTask
 from fieldhand.visible import json_text
 
@@ -138,7 +138,7 @@ def signed_inputs(
 
 
 @dataclass(frozen=True, kw_only=True)
-class Mission:
+class StoredMission:
     """A mission that was begun. What is carried out is this; nothing of its folder but the journal is read again.
 
     Attributes:
@@ -157,7 +157,7 @@ class Mission:
     sha256: str
     bundle: Bundle | None = None
     departure: Departure | None = None
-    told: Callable[[], OperatorCommand | None] = nobody
+    told: Callable[[], OperatorCommand | None] = no_command
 
     @property
     def id(self) -> str:
@@ -177,7 +177,7 @@ def new_id(at: datetime) -> str:
     return f"{at:%Y%m%d-%H%M%S}-{secrets.token_hex(3)}"
 
 
-def begin(under: Path, name: str, inputs: Inputs) -> Mission:
+def begin(under: Path, name: str, inputs: Inputs) -> StoredMission:
     """Make the folder of a mission. Nothing is done yet; a folder that was not finished is no mission.
 
     Returns:
@@ -232,7 +232,7 @@ def begin(under: Path, name: str, inputs: Inputs) -> Mission:
             where=str(folder),
             advice=message("free some space, or give another folder with --missions"),
         ) from None
-    return Mission(
+    return StoredMission(
         folder=folder,
         authorized=inputs.authorized,
         site=inputs.site,
@@ -277,7 +277,7 @@ class FolderContents:
         except (KeyError, TypeError, ValueError) as error:
             raise _no_mission(self.folder, f"{ABOUT} lacks {error}") from None
 
-    def mission(self, verify: Callable[[bytes, str], Bundle] | None = None) -> Mission:
+    def mission(self, verify: Callable[[bytes, str], Bundle] | None = None) -> StoredMission:
         """Return the mission that these bytes are.
 
         Args:
@@ -309,7 +309,7 @@ class FolderContents:
         else:
             authorized, site, robot = self._unsigned(authorization, site_file, lenient=lenient)
         world = files.get("world.yaml")
-        return Mission(
+        return StoredMission(
             folder=folder,
             authorized=authorized,
             site=site,
@@ -364,7 +364,7 @@ def read_folder(folder: Path) -> FolderContents:
     return FolderContents(folder=folder, about=about, whole=whole, files=files)
 
 
-def open_mission(folder: Path, verify: Callable[[bytes, str], Bundle] | None = None) -> Mission:
+def open_mission(folder: Path, verify: Callable[[bytes, str], Bundle] | None = None) -> StoredMission:
     """Return the mission of a folder.
 
     Args:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from fieldhand.errors import FieldhandError, JournalError
 from fieldhand.folders import is_locked
-from fieldhand.missions.finding import all_missions, begun_at
+from fieldhand.missions.find_mission import all_missions, begun_at
 from fieldhand.missions.folder import JOURNAL, read_about, read_kept, remove_folder
 from fieldhand.task.event_lines import from_json
 from fieldhand.task.results import Continued, Ended, Exited, Paused
@@ -18,7 +18,7 @@ _TURNS = tuple(f'{{"event": "{kind.event}"' for kind in (Paused, Continued, Exit
 
 
 @dataclass(frozen=True, kw_only=True)
-class Entry:
+class ListedMission:
     """One mission of a list.
 
     Attributes:
@@ -42,18 +42,18 @@ class Entry:
         return self.folder.name
 
 
-def listed(under: Path) -> tuple[Entry, ...]:
+def list_missions(under: Path) -> tuple[ListedMission, ...]:
     """Every mission that was begun there, the one begun last at the end."""
     return tuple(_entry(folder) for folder in all_missions(under))
 
 
 def removable(
-    entries: tuple[Entry, ...], *, ended_before: datetime | None = None, keep: int | None = None
-) -> tuple[Entry, ...]:
+    entries: tuple[ListedMission, ...], *, ended_before: datetime | None = None, keep: int | None = None
+) -> tuple[ListedMission, ...]:
     """Missions that have ended and may go; never one that runs, is paused, was cut off or cannot be read.
 
     Args:
-        entries: From :func:`listed`.
+        entries: From :func:`list_missions`.
         ended_before: Only those whose last event is older.
         keep: Not the last so many of those that have ended.
     """
@@ -71,7 +71,7 @@ def older_than(now: datetime, days: float) -> datetime:
         return datetime.min.replace(tzinfo=UTC)
 
 
-def remove(entry: Entry) -> None:
+def remove(entry: ListedMission) -> None:
     """Remove the folder of a mission that has ended.
 
     Raises:
@@ -82,7 +82,7 @@ def remove(entry: Entry) -> None:
     remove_folder(entry.folder)
 
 
-def _entry(folder: Path) -> Entry:
+def _entry(folder: Path) -> ListedMission:
     from fieldhand.evaluation.progress import state_of
     from fieldhand.execution.journal.store import read_summary
     from fieldhand.task.codec import decode
@@ -99,9 +99,11 @@ def _entry(folder: Path) -> Entry:
         why = (
             str(error) if isinstance(error, FieldhandError) else f"its mission.json or journal cannot be read: {error}"
         )
-        return Entry(folder=folder, begun=begun, last=begun, state="unreadable", status=why, request="", signed=False)
+        return ListedMission(
+            folder=folder, begun=begun, last=begun, state="unreadable", status=why, request="", signed=False
+        )
     state, end = state_of([event for event in events if event is not None], running=running)
-    return Entry(
+    return ListedMission(
         folder=folder,
         begun=begun,
         last=last,

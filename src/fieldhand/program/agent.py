@@ -15,7 +15,7 @@ from fieldhand.visible import print_error
 if TYPE_CHECKING:
     from fastapi import FastAPI
 
-    from fieldhand.program.station import Station
+    from fieldhand.program.robot_agent import RobotAgent
 
 
 def agent(
@@ -58,8 +58,8 @@ def agent(
     from fieldhand.api.serving import require_extra, require_free
     from fieldhand.cli.driver_options import connection_of, refuse_simulation_options
     from fieldhand.cli.flight import parse_speed
-    from fieldhand.delivery.token import read_token
-    from fieldhand.program.station import compose_station
+    from fieldhand.delivery.agent_token import read_token
+    from fieldhand.program.robot_agent import compose_robot_agent
 
     require_extra()
     pace = parse_speed(speed or "1")
@@ -71,7 +71,7 @@ def agent(
     tls = _tls(cert, key)
     _require_guarded(host, token=token is not None, tls=tls is not None, insecure=insecure)
     require_free(host, port)
-    station = compose_station(
+    robot_agent = compose_robot_agent(
         os.environ,
         robot=robot,
         sites=tuple(site or ()),
@@ -84,29 +84,29 @@ def agent(
         tell=_tell,
     )
     try:
-        app = create_app(station, token=token, host=host)
-        station.crew.make_up()
-        if resume and (cut := station.crew.go_on()):
+        app = create_app(robot_agent, token=token, host=host)
+        robot_agent.supervisor.write_missing_report()
+        if resume and (cut := robot_agent.supervisor.continue_interrupted()):
             print_error(f"going on with mission {cut[:16]}")
         _serve(app, host, port, tls, token)
     finally:
-        station.close()
+        robot_agent.close()
 
 
-def create_app(station: Station, *, token: str | None, host: str) -> FastAPI:
-    """What answers for a station."""
+def create_app(robot_agent: RobotAgent, *, token: str | None, host: str) -> FastAPI:
+    """Create the HTTP application of a robot agent."""
     from fieldhand.agent.app import create_agent
-    from fieldhand.agent.routes import Identity
+    from fieldhand.agent.routes import RobotIdentity
     from fieldhand.api.serving import hosts_for
 
-    who = Identity(
-        robot=station.robot.name,
-        robot_sha256=station.robot.sha256,
-        sites=tuple(place.name for place in station.sites),
-        on=station.on,
-        missing=station.missing,
+    who = RobotIdentity(
+        robot=robot_agent.robot.name,
+        robot_sha256=robot_agent.robot.sha256,
+        sites=tuple(place.name for place in robot_agent.sites),
+        on=robot_agent.on,
+        missing=robot_agent.missing,
     )
-    return create_agent(station.depot, station.crew, who, token=token, hosts=hosts_for(host))
+    return create_agent(robot_agent.mission_store, robot_agent.supervisor, who, token=token, hosts=hosts_for(host))
 
 
 def _tell(line: str) -> None:

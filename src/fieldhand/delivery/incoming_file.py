@@ -10,7 +10,7 @@ from pathlib import Path
 from fieldhand.errors import StoreError
 
 
-class Part:
+class IncomingFile:
     """What has come so far.
 
     Args:

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
-from fieldhand.delivery.verified import sha256_of
-from fieldhand.delivery.wire import LONGEST_WAIT_S, Events, Heard, Receipt, RobotState
+from fieldhand.delivery.bundle_checks import sha256_of
+from fieldhand.delivery.json_models import LONGEST_WAIT_S, Events, Heard, Receipt, RobotState
 from fieldhand.errors import DeliveryError, InputError, UnreachableError
 from fieldhand.execution.operator_commands import AgentCommand
 
@@ -53,7 +53,7 @@ def open_client(url: str, token: str | None, context: ssl.SSLContext | None) -> 
     )
 
 
-class RobotLink:
+class RobotClient:
     """A robot's agent, as its sender sees it.
 
     Args:

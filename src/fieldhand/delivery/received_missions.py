@@ -26,7 +26,7 @@ _COLUMNS = "sha256, task, request, signer, approved_at, received_at, hashes, beg
 
 
 @dataclass(frozen=True, kw_only=True)
-class Held:
+class ReceivedMission:
     """A mission that has arrived.
 
     Attributes:
@@ -55,8 +55,8 @@ class Held:
         return self.sha256[:16]
 
 
-class Ledger:
-    """The database of a depot. Safe for several threads.
+class ReceivedMissions:
+    """The database of a mission_store. Safe for several threads.
 
     Args:
         path: It is made if it is not there.
@@ -85,7 +85,7 @@ class Ledger:
             self._db.close()
             self._lock.close()
 
-    def note(self, held: Held) -> None:
+    def note(self, held: ReceivedMission) -> None:
         """Keep that a mission has arrived."""
         row = [
             held.sha256,
@@ -111,33 +111,33 @@ class Ledger:
                 [at, sha256],
             )
 
-    def find(self, sha256: str) -> Held | None:
+    def find(self, sha256: str) -> ReceivedMission | None:
         """The mission of that bundle, if it has arrived."""
         found = self._rows("WHERE sha256 = ?", sha256)
         return found[0] if found else None
 
-    def later(self, task: str, approved_at: float) -> Held | None:
+    def later(self, task: str, approved_at: float) -> ReceivedMission | None:
         """A mission of the same Task that was approved later, if one has arrived."""
         found = self._rows("WHERE task = ? AND approved_at > ? ORDER BY approved_at DESC LIMIT 1", task, approved_at)
         return found[0] if found else None
 
-    def latest(self, most: int) -> tuple[Held, ...]:
+    def latest(self, most: int) -> tuple[ReceivedMission, ...]:
         """Those that arrived last, in the order in which they came."""
         return self._rows("ORDER BY n DESC LIMIT ?", most)[::-1]
 
-    def last_begun(self) -> Held | None:
+    def last_begun(self) -> ReceivedMission | None:
         """The one that was begun last, whatever the clock said."""
         found = self._rows("WHERE turn IS NOT NULL ORDER BY turn DESC LIMIT 1")
         return found[0] if found else None
 
-    def all(self) -> tuple[Held, ...]:
+    def all(self) -> tuple[ReceivedMission, ...]:
         """Every mission that has arrived."""
         return self._rows("ORDER BY n")
 
-    def _rows(self, where: str, *values: object) -> tuple[Held, ...]:
+    def _rows(self, where: str, *values: object) -> tuple[ReceivedMission, ...]:
         with self._guard, self._said():
             rows = self._db.execute(f"SELECT {_COLUMNS} FROM held {where}", values).fetchall()  # noqa: S608
-            return tuple(_held(row) for row in rows)
+            return tuple(_received_mission(row) for row in rows)
 
     def _require_in_place(self) -> None:
         """Refuse to write to a database that was deleted or replaced: what it says then nobody would find again.
@@ -216,9 +216,9 @@ class Ledger:
             ) from None
 
 
-def _held(row: tuple[str, str, str, str, float, str, str, str | None]) -> Held:
+def _received_mission(row: tuple[str, str, str, str, float, str, str, str | None]) -> ReceivedMission:
     sha256, task, request, signer, approved_at, received_at, hashes, begun_at = row
-    return Held(
+    return ReceivedMission(
         sha256=sha256,
         task=task,
         request=request,

@@ -10,15 +10,15 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from fieldhand.delivery.crew import Crew
-from fieldhand.delivery.depot import Depot
-from fieldhand.delivery.ledger import Held
+from fieldhand.delivery.mission_store import MissionStore
+from fieldhand.delivery.mission_supervisor import MissionSupervisor
+from fieldhand.delivery.received_missions import ReceivedMission
 
 if TYPE_CHECKING:
     from fieldhand.approval.bundle.opening import Bundle
     from fieldhand.execution.vehicle import Connection
     from fieldhand.execution.world import World
-    from fieldhand.missions import Mission
+    from fieldhand.missions import StoredMission
     from fieldhand.robot.model import RobotProfile
     from fieldhand.site.model import Site
 
@@ -27,7 +27,7 @@ _RESTS_WITHIN_S, _LOOK_S = 5.0, 0.02
 
 
 @dataclass(frozen=True, kw_only=True)
-class Station:
+class RobotAgent:
     """What takes missions and carries them out, one at a time.
 
     Attributes:
@@ -39,13 +39,13 @@ class Station:
 
     robot: RobotProfile
     sites: tuple[Site, ...]
-    depot: Depot
-    crew: Crew
+    mission_store: MissionStore
+    supervisor: MissionSupervisor
     on: str = "simulation"
     missing: Callable[[], tuple[str, ...]] = tuple
     let_go: ExitStack = field(default_factory=ExitStack)
 
-    def take(self, file: Path) -> Held:
+    def take(self, file: Path) -> ReceivedMission:
         """Verify a mission that lies on this machine, and keep it; from then on it may be started.
 
         Raises:
@@ -59,11 +59,11 @@ class Station:
         from fieldhand.approval.bundle.container import read_bundle_file
 
         data = read_bundle_file(file)
-        with self.depot.receiving() as part:
-            part.write(data)
-            return self.depot.take(part, hashlib.sha256(data).hexdigest())[0]
+        with self.mission_store.receiving() as incoming:
+            incoming.write(data)
+            return self.mission_store.take(incoming, hashlib.sha256(data).hexdigest())[0]
 
-    def rest(self, within_s: float = _RESTS_WITHIN_S) -> None:
+    def pause_for_exit(self, within_s: float = _RESTS_WITHIN_S) -> None:
         """Let the robot stand still, if a mission is under way; ``resume`` goes on with it."""
         until = time.monotonic() + within_s
 
@@ -71,16 +71,16 @@ class Station:
             time.sleep(_LOOK_S)
             return time.monotonic() < until
 
-        self.crew.rest(wait)
+        self.supervisor.pause_for_exit(wait)
 
     def close(self) -> None:
         """Let the robot stand still, and let go of everything: the program ends."""
-        self.rest()
+        self.pause_for_exit()
         self.let_go.close()
-        self.depot.close()
+        self.mission_store.close()
 
 
-def compose_station(
+def compose_robot_agent(
     environ: Mapping[str, str],
     *,
     robot: str,
@@ -92,8 +92,8 @@ def compose_station(
     lenient: bool = False,
     connection: Connection | None = None,
     tell: Callable[[str], None],
-) -> Station:
-    """The station of a robot.
+) -> RobotAgent:
+    """Compose the agent of a robot.
 
     Args:
         environ: Says where trusted keys lie, and what else is kept.
@@ -112,7 +112,7 @@ def compose_station(
 
     from fieldhand import missions, past
     from fieldhand.approval.memory import approval_memory, trust_store
-    from fieldhand.delivery.verified import acceptance
+    from fieldhand.delivery.bundle_checks import acceptance
     from fieldhand.execution.world import World
     from fieldhand.execution.world_file import load_world
     from fieldhand.robot.loader import load_robot
@@ -128,7 +128,7 @@ def compose_station(
     def admit(bundle: Bundle) -> None:
         memory.admit(bundle.manifest, bundle.signer.fingerprint, clock=_now(), source="the mission")
 
-    depot = Depot(
+    mission_store = MissionStore(
         store or missions.missions_folder(environ).parent / "agent",
         accept=acceptance(robot=profile, sites=places, trusted=trusted, now=_now),
         now=_now,
@@ -136,34 +136,36 @@ def compose_station(
     )
     conclude = partial(_conclude, past.history_folder(environ), tell)
     if connection is None:
-        crew = Crew(
-            depot,
+        supervisor = MissionSupervisor(
+            mission_store,
             carry=partial(missions.carry_out, speed=speed, emit=lambda _: None),
             world=here,
             check=partial(_require_sound, here),
             conclude=conclude,
             seed=seed,
         )
-        return Station(robot=profile, sites=places, depot=depot, crew=crew)
+        return RobotAgent(robot=profile, sites=places, mission_store=mission_store, supervisor=supervisor)
     from fieldhand.execution.drivers.registry import driver_kind
-    from fieldhand.program.aboard import Aboard
+    from fieldhand.program.mission_connector import MissionConnector
 
     let_go, missing = ExitStack(), None
     with ExitStack() as stack:
-        stack.callback(depot.close)
+        stack.callback(mission_store.close)
         kind = driver_kind(connection.transport)
         if kind.watch is not None:
             presence = kind.watch(profile, connection)
             let_go.callback(presence.close)
             missing = presence.missing
-        aboard = Aboard(connection, kind.connect)
-        let_go.callback(aboard.close)
+        connector = MissionConnector(connection, kind.connect)
+        let_go.callback(connector.close)
         stack.pop_all()
-    return Station(
+    return RobotAgent(
         robot=profile,
         sites=places,
-        depot=depot,
-        crew=Crew(depot, carry=aboard.carry, check=aboard.check, conclude=conclude, seed=seed),
+        mission_store=mission_store,
+        supervisor=MissionSupervisor(
+            mission_store, carry=connector.carry, check=connector.check, conclude=conclude, seed=seed
+        ),
         on=str(connection),
         missing=missing or tuple,
         let_go=let_go,
@@ -174,20 +176,20 @@ def _now() -> datetime:
     return datetime.now(UTC)
 
 
-def _conclude(history: Path, tell: Callable[[str], None], given: Mission) -> None:
+def _conclude(history: Path, tell: Callable[[str], None], stored: StoredMission) -> None:
     """Leave the report of a mission in its folder, and keep what it cost."""
     from fieldhand import mission, missions, past
 
     done = past.conclude(
-        given.authorized,
-        given.site,
-        given.robot,
-        missions.events_of(given.folder),
-        estimate=mission.review(given.authorized.task, given.site, given.robot).estimate,
-        folder=given.folder,
+        stored.authorized,
+        stored.site,
+        stored.robot,
+        missions.events_of(stored.folder),
+        estimate=mission.review(stored.authorized.task, stored.site, stored.robot).estimate,
+        folder=stored.folder,
         history=history,
         at=_now(),
-        bundle=given.bundle,
+        bundle=stored.bundle,
     )
     if done.not_kept:
         tell(done.not_kept)

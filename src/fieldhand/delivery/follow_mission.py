@@ -5,8 +5,8 @@ from __future__ import annotations
 import random
 from collections.abc import Callable
 
-from fieldhand.delivery.link import RobotLink
-from fieldhand.delivery.wire import EventLine, Shown
+from fieldhand.delivery.json_models import EventLine, MissionSummary
+from fieldhand.delivery.robot_client import RobotClient
 from fieldhand.errors import UnreachableError
 
 #: Seconds until the second try, doubled with each further one up to the longest.
@@ -14,7 +14,7 @@ FIRST_S, LONGEST_S = 1.0, 60.0
 
 
 def follow(
-    link: RobotLink,
+    link: RobotClient,
     sha256: str,
     *,
     take: Callable[[EventLine], None],
@@ -23,7 +23,7 @@ def follow(
     lost: Callable[[UnreachableError, float], None],
     rng: random.Random,
     after: int = 0,
-) -> Shown:
+) -> MissionSummary:
     """Take every event of a mission, until nobody carries it out.
 
     Args:

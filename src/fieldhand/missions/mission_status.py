@@ -19,7 +19,7 @@ from fieldhand.missions.folder import (
     ORDERS,
     REPORT,
     Departure,
-    Mission,
+    StoredMission,
     read_about,
     read_kept,
 )
@@ -54,7 +54,7 @@ class Status:
 
 
 def carry_out(
-    given: Mission,
+    stored: StoredMission,
     *,
     speed: float | None = None,
     vehicle: Vehicle | None = None,
@@ -65,7 +65,7 @@ def carry_out(
     """Carry a mission out, or go on with one that was cut off; one that has ended gives its result again.
 
     Args:
-        given: From :func:`open_mission`.
+        stored: From :func:`open_mission`.
         vehicle: The robot on which it was begun; None for a mission in simulation, which is made here.
         speed: Of the simulation, as :func:`fieldhand.execution.vehicle.simulation`.
         emit: Takes each event that is new, once it is safe on the disk; :func:`events_of` gives those before.
@@ -80,11 +80,11 @@ def carry_out(
     from fieldhand.execution.operator_commands import CommandFile
     from fieldhand.execution.vehicle import simulation
 
-    require_vehicle(given.id, given.departure, simulated=vehicle is None or vehicle.simulated)
+    require_vehicle(stored.id, stored.departure, simulated=vehicle is None or vehicle.simulated)
     if vehicle is None:
-        vehicle = simulation(given.site, given.robot, given.world, seed=given.seed, speed=speed)
-    elif given.departure is not None:
-        vehicle = replace(vehicle, charge_percent=given.departure.charge_percent)
+        vehicle = simulation(stored.site, stored.robot, stored.world, seed=stored.seed, speed=speed)
+    elif stored.departure is not None:
+        vehicle = replace(vehicle, charge_percent=stored.departure.charge_percent)
     write = vehicle.disk(emit)
 
     def tell(line: str) -> None:
@@ -92,20 +92,20 @@ def carry_out(
         if event is not None:
             write(event)
 
-    folder = given.folder
+    folder = stored.folder
     with (
-        Journal(folder / JOURNAL, given.sha256, folder / LOG, tell) as journal,
+        Journal(folder / JOURNAL, stored.sha256, folder / LOG, tell) as journal,
         closing(CommandFile(folder / ORDERS)) as order_file,
     ):
-        approved = mission.ApprovedMission(authorized=given.authorized, site=given.site, robot=given.robot)
+        approved = mission.ApprovedMission(authorized=stored.authorized, site=stored.site, robot=stored.robot)
         run = mission.carry_out(
             approved,
             vehicle=vehicle,
-            seed=given.seed,
+            seed=stored.seed,
             emit=emit,
             interrupted=interrupted,
             watched=watched,
-            orders=latest(given.told, order_file.current),
+            orders=latest(stored.told, order_file.current),
             log=journal,
         )
         return run.result
@@ -178,7 +178,7 @@ def status(folder: Path) -> Status:
     )
 
 
-def stands(folder: Path) -> bool:
+def stands_still(folder: Path) -> bool:
     """Whether the robot was in no goal when it was last seen; a pause may take a moment until it is so.
 
     Raises:

@@ -14,11 +14,11 @@ from functools import partial
 import anyio
 
 from fieldhand.api.problems import Turned
-from fieldhand.delivery.crew import Crew, Direct
-from fieldhand.delivery.depot import Depot
-from fieldhand.delivery.ledger import Held
-from fieldhand.delivery.standing import Standing
-from fieldhand.delivery.wire import CommandRequest, Heard, shown
+from fieldhand.delivery.json_models import CommandRequest, Heard, mission_summary
+from fieldhand.delivery.mission_store import MissionStore
+from fieldhand.delivery.mission_supervisor import DirectCommand, MissionSupervisor
+from fieldhand.delivery.received_missions import ReceivedMission
+from fieldhand.delivery.received_status import ReceivedStatus
 
 #: Seconds until an order that was not heard is answered, and how much longer the disk may take.
 ANSWER_WITHIN_S, DISK_WITHIN_S = 5.0, 5.0
@@ -26,25 +26,25 @@ ANSWER_WITHIN_S, DISK_WITHIN_S = 5.0, 5.0
 AT_ONCE = 16
 
 
-class OrderDesk:
+class CommandHandler:
     """Takes orders.
 
     Args:
-        depot: Where missions have arrived.
-        crew: Who carries them out.
+        mission_store: Where missions have arrived.
+        supervisor: Who carries them out.
         answer_within_s, disk_within_s: Seconds until an order is answered that was not heard, and until one is answered
             without the disk.
     """
 
     def __init__(
         self,
-        depot: Depot,
-        crew: Crew,
+        mission_store: MissionStore,
+        supervisor: MissionSupervisor,
         *,
         answer_within_s: float = ANSWER_WITHIN_S,
         disk_within_s: float = DISK_WITHIN_S,
     ) -> None:
-        self._depot, self._crew = depot, crew
+        self._mission_store, self._supervisor = mission_store, supervisor
         self._answer_s, self._disk_s = answer_within_s, disk_within_s
         self._threads = ThreadPoolExecutor(AT_ONCE, thread_name_prefix="order")
 
@@ -58,20 +58,25 @@ class OrderDesk:
         if bundle is None and order.order == "start":
             raise Turned(422, "no mission is named", "name the one to start")
         reason = order.because or f"{order.order} from elsewhere"
-        active = self._crew.under_way
+        active = self._supervisor.under_way
         direct = None
         if active is not None and bundle in (None, active.sha256):
-            direct = self._crew.tell_directly(active.sha256, order.order, reason)
+            direct = self._supervisor.give_direct_command(active.sha256, order.order, reason)
         with anyio.move_on_after(self._answer_s + self._disk_s):
             return await asyncio.get_running_loop().run_in_executor(
                 self._threads, partial(self._keep, order, reason, bundle, active, direct)
             )
         if direct is None or active is None:
             raise Turned(503, "the robot's disk does not answer", "try again in a moment")
-        return Heard(heard=direct.heard, mission=shown(Standing(held=active, state="running")))
+        return Heard(heard=direct.heard, mission=mission_summary(ReceivedStatus(received=active, state="running")))
 
     def _keep(
-        self, order: CommandRequest, reason: str, bundle: str | None, active: Held | None, direct: Direct | None
+        self,
+        order: CommandRequest,
+        reason: str,
+        bundle: str | None,
+        active: ReceivedMission | None,
+        direct: DirectCommand | None,
     ) -> Heard:
         """Tell the mission by its folder, too, and wait until it has heard the order."""
         until = time.monotonic() + self._answer_s
@@ -81,15 +86,15 @@ class OrderDesk:
             return time.monotonic() < until
 
         if direct is not None and active is not None:
-            held = active
-            heard = self._crew.follow(held, direct, wait=wait)
+            received = active
+            heard = self._supervisor.follow(received, direct, wait=wait)
         else:
-            held = self._found(bundle)
-            heard = self._crew.tell(held, order.order, reason, wait=wait)
-        return Heard(heard=heard, mission=shown(self._crew.standing(held)))
+            received = self._found(bundle)
+            heard = self._supervisor.give_command(received, order.order, reason, wait=wait)
+        return Heard(heard=heard, mission=mission_summary(self._supervisor.status_of(received)))
 
-    def _found(self, bundle: str | None) -> Held:
-        held = self._crew.latest if bundle is None else self._depot.find(bundle)
-        if held is None:
+    def _found(self, bundle: str | None) -> ReceivedMission:
+        received = self._supervisor.latest if bundle is None else self._mission_store.find(bundle)
+        if received is None:
             raise Turned(404, "no such mission has arrived" if bundle else "no mission was begun", "send it first")
-        return held
+        return received

@@ -15,14 +15,14 @@ from fastapi import FastAPI
 
 from fieldhand import missions
 from fieldhand.agent.app import create_agent
-from fieldhand.agent.gates import Guessing
-from fieldhand.agent.routes import Identity
-from fieldhand.agent.uploads import Uploads
+from fieldhand.agent.routes import RobotIdentity
+from fieldhand.agent.token_gate import WrongTokenLimits
+from fieldhand.agent.uploads import UploadLimits
 from fieldhand.approval.keys.trust import TrustStore
-from fieldhand.delivery.crew import Carry, Crew
-from fieldhand.delivery.depot import Depot
-from fieldhand.delivery.link import RobotLink
-from fieldhand.delivery.verified import acceptance, sha256_of
+from fieldhand.delivery.bundle_checks import acceptance, sha256_of
+from fieldhand.delivery.mission_store import MissionStore
+from fieldhand.delivery.mission_supervisor import Carry, MissionSupervisor
+from fieldhand.delivery.robot_client import RobotClient
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.model import Site
 from support.missions.signed import KEY, NOW, orchard_files, pack_mission
@@ -32,7 +32,7 @@ TOKEN = "a-token-that-nobody-guesses-0123456789"
 HEADERS = {"Authorization": f"Bearer {TOKEN}", "Host": "localhost"}
 
 
-def fly(given: missions.Mission) -> object:
+def fly(given: missions.StoredMission) -> object:
     """Carry a mission out, as fast as it goes."""
     return missions.carry_out(given, speed=None, emit=lambda _: None)
 
@@ -44,7 +44,7 @@ def other_mission() -> bytes:
 
 
 @dataclass
-class Station:
+class RobotAgentInProcess:
     """A robot with its agent.
 
     Attributes:
@@ -58,7 +58,7 @@ class Station:
     robot: str = "husky"
     carry: Carry = fly
     conclude: Carry = lambda _: None
-    uploads: Uploads = field(default_factory=Uploads)
+    uploads: UploadLimits = field(default_factory=UploadLimits)
     token: str | None = TOKEN
     slept: list[float] = field(default_factory=list)
     seconds: float = 0.0
@@ -72,16 +72,18 @@ class Station:
         """Start the agent on what lies in its store."""
         profile = load_robot(self.robot)
         accept = acceptance(robot=profile, sites=self.sites, trusted=self.trusted, now=lambda: self.now())
-        self.depot = Depot(self.store, accept=accept, now=lambda: self.now())
-        self.crew = Crew(self.depot, carry=lambda given: self.carry(given), conclude=lambda given: self.conclude(given))
+        self.mission_store = MissionStore(self.store, accept=accept, now=lambda: self.now())
+        self.supervisor = MissionSupervisor(
+            self.mission_store, carry=lambda given: self.carry(given), conclude=lambda given: self.conclude(given)
+        )
         self.app: FastAPI = create_agent(
-            self.depot,
-            self.crew,
-            Identity(robot=profile.name, robot_sha256=profile.sha256, sites=()),
+            self.mission_store,
+            self.supervisor,
+            RobotIdentity(robot=profile.name, robot_sha256=profile.sha256, sites=()),
             token=self.token,
             hosts=frozenset({"localhost"}),
             uploads=self.uploads,
-            guessing=Guessing(),
+            guessing=WrongTokenLimits(),
             clock=lambda: self.seconds,
             sleep=self._sleep,
         )
@@ -92,14 +94,14 @@ class Station:
 
     def again(self) -> None:
         """End the agent, and start it anew."""
-        self.crew.join(LONG_S)
-        self.depot.close()
+        self.supervisor.join(LONG_S)
+        self.mission_store.close()
         self.begin()
 
-    def link(self, lose: Callable[[httpx.Request], str] = lambda _: "") -> RobotLink:
+    def link(self, lose: Callable[[httpx.Request], str] = lambda _: "") -> RobotClient:
         """A sender's link; ``lose`` says of each request whether ``request`` or ``answer`` is lost."""
-        transport = Line(self.app, lose)
-        return RobotLink(
+        transport = LossyTransport(self.app, lose)
+        return RobotClient(
             httpx.Client(
                 transport=transport, base_url="http://localhost", headers={"Authorization": f"Bearer {self.token}"}
             )
@@ -107,7 +109,7 @@ class Station:
 
     def call(self, method: str, path: str, **more: Any) -> httpx.Response:
         """One request with the token."""
-        with httpx.Client(transport=Line(self.app, lambda _: ""), base_url="http://localhost") as client:
+        with httpx.Client(transport=LossyTransport(self.app, lambda _: ""), base_url="http://localhost") as client:
             return client.request(method, path, headers=HEADERS | more.pop("headers", {}), **more)
 
     def upload(self, data: bytes, sha256: str | None = None, **more: Any) -> httpx.Response:
@@ -150,7 +152,7 @@ class Station:
     def is_empty(self) -> bool:
         """Whether nothing of any mission is there."""
         folders = [self.store / name for name in ("bundles", "incoming", "missions")]
-        return not any(any(folder.iterdir()) for folder in folders) and not self.depot.latest(9)
+        return not any(any(folder.iterdir()) for folder in folders) and not self.mission_store.latest(9)
 
     def events(self, data: bytes) -> list[str]:
         """The lines of a mission's log."""
@@ -160,7 +162,7 @@ class Station:
         self.slept.append(seconds)
 
 
-class Line(httpx.BaseTransport):
+class LossyTransport(httpx.BaseTransport):
     """The line between sender and agent."""
 
     def __init__(self, app: FastAPI, lose: Callable[[httpx.Request], str]) -> None:
@@ -188,7 +190,7 @@ class Line(httpx.BaseTransport):
 def patient(carry: Carry, gate: Any) -> Carry:
     """Carries a mission out once the gate is open."""
 
-    def wait(given: missions.Mission) -> object:
+    def wait(given: missions.StoredMission) -> object:
         assert gate.wait(LONG_S)
         return carry(given)
 

@@ -19,7 +19,7 @@ from fieldhand.api.problems import problem
 
 
 @dataclass(frozen=True, kw_only=True)
-class Guessing:
+class WrongTokenLimits:
     """Limits on wrong tokens. A right one passes at any time.
 
     Attributes:
@@ -40,7 +40,7 @@ class TokenGate:
     """Lets through who says the token, before a byte of a body is read.
 
     The right token passes whatever came before it from its address, which others may share. So the length of the token
-    (:data:`fieldhand.delivery.token.SHORTEST`) keeps it from being guessed; delays only spare the robot work.
+    (:data:`fieldhand.delivery.agent_token.SHORTEST`) keeps it from being guessed; delays only spare the robot work.
 
     Args:
         token: None where nobody has to say one.
@@ -53,7 +53,7 @@ class TokenGate:
         app: ASGIApp,
         *,
         token: str | None,
-        guessing: Guessing,
+        guessing: WrongTokenLimits,
         clock: Callable[[], float],
         sleep: Callable[[float], Awaitable[None]],
     ) -> None:
@@ -108,7 +108,7 @@ def is_order(scope: Scope) -> bool:
     return bool(scope["method"] == "POST" and scope["path"].endswith("/orders"))
 
 
-class SmallBodies:
+class SmallBodyGate:
     """Turns away a large body of every request but an upload, which counts its own.
 
     Args:

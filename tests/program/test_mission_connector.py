@@ -12,23 +12,23 @@ import pytest
 from fieldhand import missions
 from fieldhand.approval.keys.trust import TrustStore
 from fieldhand.clock import SimulatedClock
-from fieldhand.delivery.crew import Crew, Standing
-from fieldhand.delivery.depot import Depot
-from fieldhand.delivery.verified import acceptance, sha256_of
+from fieldhand.delivery.bundle_checks import acceptance, sha256_of
+from fieldhand.delivery.mission_store import MissionStore
+from fieldhand.delivery.mission_supervisor import MissionSupervisor, ReceivedStatus
 from fieldhand.errors import ExecutionError, FieldhandError, NotApprovedError, Ros2Error
 from fieldhand.execution.drivers.simulated_driver import SimulatedDriver
 from fieldhand.execution.journal import store
 from fieldhand.execution.operator_commands import parse_agent_command
 from fieldhand.execution.vehicle import Connection, Vehicle
 from fieldhand.execution.world import World
-from fieldhand.program.aboard import Aboard
+from fieldhand.program.mission_connector import MissionConnector
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
 from support.missions.signed import KEY, NOW, good
 from support.processes.patience import LONG_S
-from support.processes.stations import fly, other_mission
+from support.processes.robot_agents import fly, other_mission
 
 BY = Connection(transport="dds", domain=3)
 
@@ -51,20 +51,22 @@ class Agent:
         trusted = TrustStore(folder / "config")
         trusted.trust(KEY.public, name="Ada", at=NOW)
         accept = acceptance(robot=load_robot("husky"), sites=(), trusted=trusted, now=lambda: NOW)
-        self.depot = Depot(folder / "store", accept=accept, now=lambda: NOW)
+        self.mission_store = MissionStore(folder / "store", accept=accept, now=lambda: NOW)
         self.begin()
         for data in (good(), other_mission()):
-            with self.depot.receiving() as part:
+            with self.mission_store.receiving() as part:
                 part.write(data)
-                self.depot.take(part, sha256_of(data))
+                self.mission_store.take(part, sha256_of(data))
 
     def begin(self) -> None:
         """Start it, as after a power cut."""
-        self.aboard = Aboard(BY, self.board)
-        self.crew = Crew(self.depot, carry=self.aboard.carry, check=self.aboard.check)
+        self.connector = MissionConnector(BY, self.connect)
+        self.supervisor = MissionSupervisor(self.mission_store, carry=self.connector.carry, check=self.connector.check)
 
     @contextmanager
-    def board(self, site: Site, robot: RobotProfile, task: Task, by: Connection, within_s: float) -> Iterator[Vehicle]:
+    def connect(
+        self, site: Site, robot: RobotProfile, task: Task, by: Connection, within_s: float
+    ) -> Iterator[Vehicle]:
         assert task.composition.plan
         assert by == BY
         assert within_s > 0
@@ -78,14 +80,14 @@ class Agent:
         finally:
             self.let_go += 1
 
-    def tell(self, data: bytes, said: str) -> Standing:
-        held = self.depot.get(sha256_of(data))
-        self.crew.tell(held, parse_agent_command(said), "a test")
-        self.crew.join(LONG_S)
-        return self.crew.standing(held)
+    def tell(self, data: bytes, said: str) -> ReceivedStatus:
+        held = self.mission_store.get(sha256_of(data))
+        self.supervisor.give_command(held, parse_agent_command(said), "a test")
+        self.supervisor.join(LONG_S)
+        return self.supervisor.status_of(held)
 
     def folders(self) -> list[str]:
-        return [folder.name for folder in (self.depot.missions).iterdir()]
+        return [folder.name for folder in (self.mission_store.missions).iterdir()]
 
 
 @pytest.fixture
@@ -97,7 +99,9 @@ def test_a_mission_is_carried_out_on_the_robot_that_was_looked_at(agent: Agent) 
     found = agent.tell(good(), "start")
     assert (found.state, found.status) == ("ended", "completed")
     assert (agent.reached, agent.let_go) == (1, 1)
-    departure = missions.read_folder(agent.depot.folder_of(agent.depot.get(sha256_of(good())))).departure
+    departure = missions.read_folder(
+        agent.mission_store.folder_of(agent.mission_store.get(sha256_of(good())))
+    ).departure
     assert departure == missions.Departure(by=BY, charge_percent=90.0)
 
 
@@ -123,7 +127,7 @@ def test_a_robot_that_was_reached_for_one_mission_carries_no_other_out(
     assert (agent.reached, agent.let_go) == (1, 0)
     assert agent.tell(other_mission(), "start").status == "completed"
     assert (agent.reached, agent.let_go) == (2, 2)
-    agent.aboard.close()
+    agent.connector.close()
     assert agent.let_go == 2
 
 
@@ -142,13 +146,13 @@ def test_a_mission_that_was_cut_off_reaches_its_robot_anew(agent: Agent, monkeyp
 
 
 def test_a_mission_of_the_simulation_does_not_go_on_on_the_robot(agent: Agent) -> None:
-    agent.crew = Crew(agent.depot, carry=lambda _: None)
+    agent.supervisor = MissionSupervisor(agent.mission_store, carry=lambda _: None)
     assert agent.tell(good(), "start").state == "interrupted"
     agent.begin()
     found = agent.tell(good(), "resume")
     assert "begun in simulation and cannot be gone on with on a robot" in found.fault
     assert agent.reached == 0
-    given = missions.open_mission(agent.depot.folder_of(agent.depot.get(sha256_of(good()))))
+    given = missions.open_mission(agent.mission_store.folder_of(agent.mission_store.get(sha256_of(good()))))
     assert given.departure is None
     fly(given)
     with pytest.raises(ExecutionError, match="has ended"):

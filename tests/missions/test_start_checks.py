@@ -134,7 +134,7 @@ class Robot:
         return Vehicle(driver=self.driver, clock=self.clock, charge_percent=self.driver.charge_percent(), by=BY)
 
 
-def begun(tmp_path: Path, robot: Robot) -> missions.Mission:
+def begun(tmp_path: Path, robot: Robot) -> missions.StoredMission:
     given = replace(inputs(), world=None, departure=missions.departure_on(robot.vehicle))
     return missions.begin(tmp_path, "m1", given)
 

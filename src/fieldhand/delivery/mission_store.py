@@ -21,9 +21,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from fieldhand import missions
-from fieldhand.delivery.arriving import Part, unwritable
-from fieldhand.delivery.ledger import Held, Ledger
-from fieldhand.delivery.verified import Accept
+from fieldhand.delivery.bundle_checks import Accept
+from fieldhand.delivery.incoming_file import IncomingFile, unwritable
+from fieldhand.delivery.received_missions import ReceivedMission, ReceivedMissions
 from fieldhand.errors import BundleError, ExecutionError, StoreError
 from fieldhand.files import move_whole
 from fieldhand.folders import Unguarded, require_guarded
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from fieldhand.approval.bundle.opening import Bundle
 
 
-class Depot:
+class MissionStore:
     """The missions of one robot; one process at a time has it open.
 
     Args:
@@ -67,7 +67,7 @@ class Depot:
             ) from None
         except OSError as error:
             raise unwritable(folder, error) from None
-        self._ledger = Ledger(folder / "depot.sqlite")
+        self._ledger = ReceivedMissions(folder / "depot.sqlite")
         self._sweep()
 
     def close(self) -> None:
@@ -77,7 +77,7 @@ class Depot:
     # --- arrive --------------------------------------------------------------------------------------------------
 
     @contextmanager
-    def receiving(self) -> Iterator[Part]:
+    def receiving(self) -> Iterator[IncomingFile]:
         """A place for what arrives. It is gone at the end, unless :meth:`take` has taken it.
 
         Raises:
@@ -87,17 +87,17 @@ class Depot:
             descriptor, name = tempfile.mkstemp(dir=self._incoming)
         except OSError as error:
             raise unwritable(self._incoming, error) from None
-        part = Part(Path(name), descriptor)
+        incoming = IncomingFile(Path(name), descriptor)
         try:
-            yield part
+            yield incoming
         finally:
-            part.drop()
+            incoming.drop()
 
-    def take(self, part: Part, told: str) -> tuple[Held, bool]:
+    def take(self, incoming: IncomingFile, told: str) -> tuple[ReceivedMission, bool]:
         """Verify what has arrived and keep it; from then on it may be begun.
 
         Args:
-            part: All that has arrived.
+            incoming: All that has arrived.
             told: The SHA-256 that the sender gave.
 
         Returns:
@@ -109,7 +109,7 @@ class Depot:
             ExecutionError: The same mission is here with a later approval.
             StoreError: It cannot be written.
         """
-        sha256 = part.settle()
+        sha256 = incoming.settle()
         if sha256 != told:
             raise BundleError(
                 f"what arrived has SHA-256 {sha256}, what was sent {told}",
@@ -117,16 +117,16 @@ class Depot:
                 advice="send it again",
             )
         try:
-            data = part.path.read_bytes()
+            data = incoming.path.read_bytes()
         except OSError as error:
-            raise unwritable(part.path, error) from None
+            raise unwritable(incoming.path, error) from None
         bundle = self._verified(data, sha256)
         with self._guard:
             known = self.find(sha256)
             if known is None:
                 self._require_latest(bundle)
                 self._admit(bundle)
-            self._put(part, sha256)
+            self._put(incoming, sha256)
             if known is None:
                 self._note(bundle)
             return self.get(sha256), known is None
@@ -137,17 +137,17 @@ class Depot:
             raise StoreError("the disk gives back other bytes than were written", where=str(self._folder))
         return bundle
 
-    def _put(self, part: Part, sha256: str) -> None:
+    def _put(self, incoming: IncomingFile, sha256: str) -> None:
         path = self._path(sha256)
         try:
-            move_whole(part.path, path)
+            move_whole(incoming.path, path)
         except OSError as error:
             raise unwritable(path, error) from None
 
     def _note(self, bundle: Bundle) -> None:
         task = bundle.authorized.task
         self._ledger.note(
-            Held(
+            ReceivedMission(
                 sha256=bundle.hashes["bundle"],
                 task=task.id,
                 request=task.command.request,
@@ -166,11 +166,11 @@ class Depot:
 
     # --- look ----------------------------------------------------------------------------------------------------
 
-    def find(self, sha256: str) -> Held | None:
+    def find(self, sha256: str) -> ReceivedMission | None:
         """The mission of that bundle, if it has arrived."""
         return self._ledger.find(sha256)
 
-    def get(self, sha256: str) -> Held:
+    def get(self, sha256: str) -> ReceivedMission:
         """The mission of that bundle.
 
         Raises:
@@ -181,17 +181,17 @@ class Depot:
             raise StoreError("no such mission has arrived", where=sha256[:16], advice="send it first")
         return found
 
-    def latest(self, most: int) -> tuple[Held, ...]:
+    def latest(self, most: int) -> tuple[ReceivedMission, ...]:
         """Those that arrived last, in the order in which they came."""
         return self._ledger.latest(most)
 
-    def last_begun(self) -> Held | None:
+    def last_begun(self) -> ReceivedMission | None:
         """The one that was begun last."""
         return self._ledger.last_begun()
 
-    def folder_of(self, held: Held) -> Path:
+    def folder_of(self, received: ReceivedMission) -> Path:
         """Where a mission is kept once it was begun."""
-        return self.missions / held.name
+        return self.missions / received.name
 
     def verify(self, data: bytes, source: str) -> Bundle:
         """A bundle that may run here now, verified.
@@ -212,10 +212,12 @@ class Depot:
             BundleError, StoreError: It is not what arrived any more, or has not arrived.
             NotTrustedError: Its key was revoked since.
         """
-        held = self.get(sha256)
-        if held.begun_at is not None:
-            raise ExecutionError(f"this mission was begun at {held.begun_at}; it does not run twice", where=held.name)
-        later = self._ledger.later(held.task, held.approved_at)
+        received = self.get(sha256)
+        if received.begun_at is not None:
+            raise ExecutionError(
+                f"this mission was begun at {received.begun_at}; it does not run twice", where=received.name
+            )
+        later = self._ledger.later(received.task, received.approved_at)
         if later is not None:
             raise _superseded(later)
         path = self._path(sha256)
@@ -245,10 +247,10 @@ class Depot:
     def _sweep(self) -> None:
         """Leave nothing of what did not arrive, and know of each mission that was begun that it was."""
         known = self._ledger.all()
-        names = {f"{held.sha256}.mission" for held in known}
-        for held in known:
-            if held.begun_at is None and missions.exists(self.folder_of(held)):
-                self.note_begun(held.sha256)
+        names = {f"{received.sha256}.mission" for received in known}
+        for received in known:
+            if received.begun_at is None and missions.exists(self.folder_of(received)):
+                self.note_begun(received.sha256)
         try:
             for path in (*self._incoming.iterdir(), *self._bundles.iterdir()):
                 if path.parent == self._incoming or path.name not in names:
@@ -257,7 +259,7 @@ class Depot:
             raise unwritable(self._folder, error) from None
 
 
-def _superseded(later: Held) -> ExecutionError:
+def _superseded(later: ReceivedMission) -> ExecutionError:
     return ExecutionError(
         f"the same mission is here with a later approval ({later.name})",
         where=later.task,

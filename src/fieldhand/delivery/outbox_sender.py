@@ -8,9 +8,9 @@ from contextlib import closing
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 
-from fieldhand.delivery.link import RobotLink
-from fieldhand.delivery.outbox import Entry, Outbox
-from fieldhand.delivery.verified import Sendable
+from fieldhand.delivery.bundle_checks import Sendable
+from fieldhand.delivery.outbox import Outbox, OutboxEntry
+from fieldhand.delivery.robot_client import RobotClient
 from fieldhand.errors import FieldhandError, UnreachableError
 
 #: Seconds until the second try, doubled with each further one up to the longest; each is drawn between half and all.
@@ -18,18 +18,18 @@ FIRST_S, LONGEST_S = 4.0, 300.0
 #: Seconds after which a mission that waited is delivered, but not started any more: nobody expects it.
 START_WITHIN_S = 12 * 3600.0
 
-Connect = Callable[[Entry], RobotLink]
+Connect = Callable[[OutboxEntry], RobotClient]
 Check = Callable[[bytes, str], Sendable]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Posting:
+class OutboxSender:
     """Hands missions over.
 
     Attributes:
         outbox: Where they wait.
         connect: Opens the link to a robot.
-        check: Sees whether a bundle is whole; see :func:`fieldhand.delivery.verified.require_sendable`.
+        check: Sees whether a bundle is whole; see :func:`fieldhand.delivery.bundle_checks.require_sendable`.
         clock: Seconds since 1970.
         rng: Draws how long to wait, so that many senders do not come back at once.
     """
@@ -40,7 +40,7 @@ class Posting:
     clock: Callable[[], float]
     rng: random.Random
 
-    def post(self, entry: Entry) -> Entry:
+    def post(self, entry: OutboxEntry) -> OutboxEntry:
         """Try to deliver one.
 
         Returns:
@@ -60,7 +60,7 @@ class Posting:
         self.outbox.note(done)
         return done
 
-    def post_due(self, *, all_of_them: bool = False) -> tuple[Entry, ...]:
+    def post_due(self, *, all_of_them: bool = False) -> tuple[OutboxEntry, ...]:
         """Try to deliver those whose time has come, or all that wait."""
         now = self.clock()
         # A clock that was set back would let them wait for as long as it was set back.
@@ -72,7 +72,7 @@ class Posting:
         waits = [min(LONGEST_S, max(0.0, e.next_at - self.clock())) for e in self.outbox.waiting()]
         return min(waits, default=None)
 
-    def _deliver(self, entry: Entry) -> str:
+    def _deliver(self, entry: OutboxEntry) -> str:
         """Hand one over, and start it if that was asked for and is still expected.
 
         Returns:

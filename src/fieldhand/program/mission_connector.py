@@ -22,11 +22,11 @@ if TYPE_CHECKING:
 ANSWERS_WITHIN_S, AWAKE_WITHIN_S = 15.0, 300.0
 
 #: Reaches the robot within so many seconds, for as long as the context lasts.
-Board = Callable[["Site", "RobotProfile", "Task", "Connection", float], AbstractContextManager["Vehicle"]]
+ConnectRobot = Callable[["Site", "RobotProfile", "Task", "Connection", float], AbstractContextManager["Vehicle"]]
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Boarded:
+class _ConnectedRobot:
     """The robot, reached for one mission.
 
     Attributes:
@@ -39,17 +39,17 @@ class _Boarded:
     let_go: ExitStack
 
 
-class Aboard:
-    """Gives :class:`~fieldhand.delivery.crew.Crew` its ``check`` and its ``carry``. One mission at a time.
+class MissionConnector:
+    """Connection to the robot for each mission: ``check`` and ``carry`` of a mission supervisor, one mission at a time.
 
     Args:
         by: How the robot is reached.
-        board: Reaches it (:func:`fieldhand.execution.drivers.ros2.robot_connection.connected_robot`).
+        connect: Reaches it (:func:`fieldhand.execution.drivers.ros2.robot_connection.connected_robot`).
     """
 
-    def __init__(self, by: Connection, board: Board) -> None:
-        self._by, self._board = by, board
-        self._boarded: _Boarded | None = None
+    def __init__(self, by: Connection, connect: ConnectRobot) -> None:
+        self._by, self._connect = by, connect
+        self._connected: _ConnectedRobot | None = None
 
     def check(self, bundle: Bundle) -> missions.Departure:
         """See that a mission may begin: the robot answers, stands on the site and has the charge.
@@ -66,13 +66,13 @@ class Aboard:
         if review.errors:
             raise NotApprovedError("; ".join(str(problem.line()) for problem in review.errors))
         with ExitStack() as stack:
-            vehicle = stack.enter_context(self._board(bundle.site, bundle.robot, task, self._by, ANSWERS_WITHIN_S))
+            vehicle = stack.enter_context(self._connect(bundle.site, bundle.robot, task, self._by, ANSWERS_WITHIN_S))
             missions.require_in_place(bundle.site, bundle.robot, vehicle.driver)
             missions.require_charged(review, bundle.site, bundle.robot, vehicle.driver.charge_percent())
-            self._boarded = _Boarded(bundle=bundle.hashes["bundle"], vehicle=vehicle, let_go=stack.pop_all())
+            self._connected = _ConnectedRobot(bundle=bundle.hashes["bundle"], vehicle=vehicle, let_go=stack.pop_all())
         return missions.Departure(by=self._by, charge_percent=vehicle.charge_percent)
 
-    def carry(self, given: missions.Mission) -> object:
+    def carry(self, stored: missions.StoredMission) -> object:
         """Carry a mission out that was checked, or go on with one that was cut off.
 
         Raises:
@@ -80,22 +80,22 @@ class Aboard:
             ExecutionError: It was begun in simulation, or the robot cannot go on from where it stands.
             JournalError: As :func:`fieldhand.missions.carry_out`.
         """
-        missions.require_vehicle(given.id, given.departure, simulated=False)
-        boarded, self._boarded = self._boarded, None
+        missions.require_vehicle(stored.id, stored.departure, simulated=False)
+        connected, self._connected = self._connected, None
         with ExitStack() as stack:
-            if boarded is not None:
-                stack.callback(boarded.let_go.close)
-            if boarded is None or given.bundle is None or boarded.bundle != given.bundle.hashes["bundle"]:
+            if connected is not None:
+                stack.callback(connected.let_go.close)
+            if connected is None or stored.bundle is None or connected.bundle != stored.bundle.hashes["bundle"]:
                 vehicle = stack.enter_context(
-                    self._board(given.site, given.robot, given.authorized.task, self._by, AWAKE_WITHIN_S)
+                    self._connect(stored.site, stored.robot, stored.authorized.task, self._by, AWAKE_WITHIN_S)
                 )
-                missions.require_in_place(given.site, given.robot, vehicle.driver)
+                missions.require_in_place(stored.site, stored.robot, vehicle.driver)
             else:
-                vehicle = boarded.vehicle
-            return missions.carry_out(given, vehicle=vehicle, emit=lambda _: None)
+                vehicle = connected.vehicle
+            return missions.carry_out(stored, vehicle=vehicle, emit=lambda _: None)
 
     def close(self) -> None:
         """Let go of a robot that was reached for a mission that was not carried out."""
-        if self._boarded is not None:
-            self._boarded.let_go.close()
-            self._boarded = None
+        if self._connected is not None:
+            self._connected.let_go.close()
+            self._connected = None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from fieldhand.delivery.ledger import Held
+from fieldhand.delivery.received_missions import ReceivedMission
 
 #: ``waiting``: it has arrived and was never begun. ``lost``: it was begun, and its folder is gone
 #: or cannot be read.
@@ -13,7 +13,7 @@ State = Literal["waiting", "running", "paused", "interrupted", "ended", "lost"]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Standing:
+class ReceivedStatus:
     """How a mission stands.
 
     Attributes:
@@ -25,7 +25,7 @@ class Standing:
         report: Where its report lies on this machine; empty before it was written.
     """
 
-    held: Held
+    received: ReceivedMission
     state: State
     status: str = ""
     reason: str = ""
@@ -40,7 +40,7 @@ class Standing:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Line:
+class LoggedEvent:
     """An event as its mission's log has it.
 
     Attributes:

@@ -14,7 +14,7 @@ _WAIT_S = 10.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class Trusting:
+class ServerTrust:
     """Whom to believe that it is the robot.
 
     Attributes:
@@ -44,7 +44,7 @@ def parse_pin(text: str) -> str:
     return pin
 
 
-def require_address(url: str, trusting: Trusting) -> str:
+def require_address(url: str, trust: ServerTrust) -> str:
     """The address of a robot, without a slash at its end.
 
     Raises:
@@ -57,18 +57,18 @@ def require_address(url: str, trusting: Trusting) -> str:
         host, parts = None, urlsplit("")
     if parts.scheme not in ("http", "https") or not host or parts.query or parts.fragment or parts.username:
         raise InputError(f"'{url[:80]}' is no address of a robot", advice="give one like https://robot:8443")
-    if parts.scheme == "http" and not trusting.plain and host not in ("localhost", "127.0.0.1", "::1"):
+    if parts.scheme == "http" and not trust.plain and host not in ("localhost", "127.0.0.1", "::1"):
         raise InputError(
             "everyone on the way could read the token", where=url, advice="use https, or say --insecure if you mean it"
         )
-    if parts.scheme == "http" and (trusting.ca or trusting.pin):
+    if parts.scheme == "http" and (trust.ca or trust.pin):
         raise InputError(
             "there is no certificate without TLS", where=url, advice="use https, or leave out --ca and --pin"
         )
     return url.rstrip("/")
 
 
-def context_for(url: str, trusting: Trusting) -> ssl.SSLContext:
+def context_for(url: str, trust: ServerTrust) -> ssl.SSLContext:
     """What checks the robot's certificate.
 
     With a pin the certificate is fetched, compared, and then trusted alone: nothing is sent before that, and whoever
@@ -79,14 +79,14 @@ def context_for(url: str, trusting: Trusting) -> ssl.SSLContext:
         DeliveryError: The robot shows another certificate than the pinned one.
         UnreachableError: It shows none, because it does not answer.
     """
-    if trusting.pin and url.startswith("https:"):
-        return _pinned(url, trusting.pin)
+    if trust.pin and url.startswith("https:"):
+        return _pinned(url, trust.pin)
     try:
-        return ssl.create_default_context(cafile=trusting.ca or None)
+        return ssl.create_default_context(cafile=trust.ca or None)
     except (OSError, ssl.SSLError) as error:
         raise InputError(
             f"the certificate of the authority cannot be read: {error.strerror or error}",
-            where=trusting.ca,
+            where=trust.ca,
             advice="give a PEM file with --ca",
         ) from None
 

@@ -9,7 +9,7 @@ from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from fieldhand.delivery.standing import Line, Standing, State
+from fieldhand.delivery.received_status import LoggedEvent, ReceivedStatus, State
 from fieldhand.execution.operator_commands import AgentCommand
 
 #: Events in one answer.
@@ -24,7 +24,7 @@ class _Answer(BaseModel):
     model_config = ConfigDict(frozen=True)
 
 
-class Shown(_Answer):
+class MissionSummary(_Answer):
     """A mission, and how it stands."""
 
     bundle: Sha256
@@ -52,7 +52,7 @@ class Receipt(_Answer):
 
     hashes: dict[str, Sha256]
     new: bool
-    mission: Shown
+    mission: MissionSummary
 
 
 class RobotState(_Answer):
@@ -70,7 +70,7 @@ class RobotState(_Answer):
     on: str = ""
     missing: list[str] = []
     active: Sha256 | None
-    missions: list[Shown]
+    missions: list[MissionSummary]
 
 
 class EventLine(_Answer):
@@ -90,7 +90,7 @@ class Events(_Answer):
 
     events: list[EventLine]
     idle: bool
-    mission: Shown
+    mission: MissionSummary
 
 
 class CommandRequest(BaseModel):
@@ -106,20 +106,20 @@ class Heard(_Answer):
     """Whether the mission has heard the order, and how it stands."""
 
     heard: bool
-    mission: Shown
+    mission: MissionSummary
 
 
-def shown(standing: Standing) -> Shown:
+def mission_summary(standing: ReceivedStatus) -> MissionSummary:
     """A mission as it is told to others."""
-    held = standing.held
-    return Shown(
-        bundle=held.sha256,
-        mission=held.name,
-        task=held.task,
-        request=held.request,
-        signer=held.signer,
-        received_at=held.received_at,
-        begun_at=held.begun_at,
+    received = standing.received
+    return MissionSummary(
+        bundle=received.sha256,
+        mission=received.name,
+        task=received.task,
+        request=received.request,
+        signer=received.signer,
+        received_at=received.received_at,
+        begun_at=received.begun_at,
         state=standing.state,
         status=standing.status,
         reason=standing.reason,
@@ -134,6 +134,6 @@ def shown(standing: Standing) -> Shown:
     )
 
 
-def event_lines(lines: tuple[Line, ...]) -> list[EventLine]:
+def event_lines(lines: tuple[LoggedEvent, ...]) -> list[EventLine]:
     """Events as they are told to others."""
     return [EventLine(n=line.n, at=line.at, line=line.line) for line in lines]
