@@ -1,6 +1,6 @@
-"""A signed mission on its way to a robot, and what the robot does with it, whatever happens to the link between them.
+"""Delivery of signed missions to a robot, and their execution there, with a link that may fail at any time.
 
-sender:  bundle ──▶ Outbox ──▶ RobotClient ─ ─ ─▶ MissionStore ──▶ MissionSupervisor ──▶ a mission's folder     :robot
-                      ▲ later     │ ◀─ ─ ─ hashes, state, events ◀──┘
+sender:  bundle ──▶ Outbox ──▶ RobotClient ─ ─ ▶ MissionStore ──▶ MissionSupervisor ──▶ a mission's folder   :robot
+                      ▲ later     │ ◀─ ─ ─ hashes, state, events ◀──────┘
                       └───────────┘
 """

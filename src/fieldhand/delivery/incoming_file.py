@@ -1,4 +1,4 @@
-"""A bundle that is still arriving: a file that nothing else knows."""
+"""The temporary file of a bundle that is being received."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from fieldhand.errors import StoreError
 
 
 class IncomingFile:
-    """What has come so far.
+    """The part of an upload that has been received so far.
 
     Args:
-        path: Where it is written to.
-        descriptor: Of that file, open for writing.
+        path: Path of the file.
+        descriptor: File descriptor, open for writing.
 
     Attributes:
-        size: Bytes so far.
+        size: Bytes written so far.
     """
 
     def __init__(self, path: Path, descriptor: int) -> None:
@@ -28,7 +28,7 @@ class IncomingFile:
         self._sum = hashlib.sha256()
 
     def write(self, chunk: bytes) -> None:
-        """Take what came.
+        """Append the bytes to the file.
 
         Raises:
             StoreError: The disk is full, or fails.
@@ -41,10 +41,10 @@ class IncomingFile:
         self.size += len(chunk)
 
     def settle(self) -> str:
-        """Wait until all of it is on the disk.
+        """Close the file once all of it is on the disk.
 
         Returns:
-            Its SHA-256.
+            SHA-256 of the file.
 
         Raises:
             StoreError: The disk is full, or fails.
@@ -58,7 +58,7 @@ class IncomingFile:
         return self._sum.hexdigest()
 
     def drop(self) -> None:
-        """Leave nothing of it."""
+        """Close and remove the file."""
         with suppress(OSError):
             self._file.close()
         with suppress(OSError):
@@ -66,5 +66,5 @@ class IncomingFile:
 
 
 def unwritable(path: Path, error: OSError) -> StoreError:
-    """That the disk is full, or that nobody may write there."""
+    """Return the error for a path that cannot be written."""
     return StoreError(f"cannot be written: {error.strerror or error}", where=str(path), advice="free some space")

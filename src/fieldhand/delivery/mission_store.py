@@ -1,4 +1,4 @@
-"""Where the missions of a robot lie once they have arrived: each whole and verified, or not there at all.
+"""The store of the missions that a robot has received: each is complete and verified, or absent.
 
     depot.sqlite            what arrived, and when; one process at a time holds it
     bundles/SHA256.mission  the bundles, under names that are computed here
@@ -71,7 +71,7 @@ class MissionStore:
         self._sweep()
 
     def close(self) -> None:
-        """Let go of it."""
+        """Close the database and release the lock."""
         self._ledger.close()
 
     # --- arrive --------------------------------------------------------------------------------------------------

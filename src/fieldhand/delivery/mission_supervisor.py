@@ -1,4 +1,4 @@
-"""What a robot is told to do with the missions that have arrived: one at a time, and each at most once.
+"""Execution of the missions that a robot has received: one at a time, and each at most once.
 
 Nothing here starts by itself, with one exception that has to be asked for: going on with a mission after a power cut.
 """
@@ -34,7 +34,7 @@ REPORTED_WITHIN_S = 60.0
 
 @dataclass(frozen=True, kw_only=True)
 class DirectCommand:
-    """An order that was given in memory."""
+    """A command that was passed in memory."""
 
     orders: missions.DirectCommands
     order: OperatorCommand

@@ -1,4 +1,4 @@
-"""What has arrived at a robot, and what of it was begun: one SQLite file that one process at a time has open."""
+"""The database of received missions: one SQLite file that one process at a time has open."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _COLUMNS = "sha256, task, request, signer, approved_at, received_at, hashes, beg
 
 @dataclass(frozen=True, kw_only=True)
 class ReceivedMission:
-    """A mission that has arrived.
+    """A mission that the robot has received.
 
     Attributes:
         sha256: Of the bundle.
@@ -56,7 +56,7 @@ class ReceivedMission:
 
 
 class ReceivedMissions:
-    """The database of a mission_store. Safe for several threads.
+    """The database of a mission store. Safe for several threads.
 
     Args:
         path: It is made if it is not there.

@@ -1,4 +1,4 @@
-"""How a mission at a robot stands, and the lines of its log."""
+"""The status of a mission on a robot, and the events of its log."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ State = Literal["waiting", "running", "paused", "interrupted", "ended", "lost"]
 
 @dataclass(frozen=True, kw_only=True)
 class ReceivedStatus:
-    """How a mission stands.
+    """The status of a received mission.
 
     Attributes:
         status: How it ended (``completed``, ...); empty before.
@@ -41,7 +41,7 @@ class ReceivedStatus:
 
 @dataclass(frozen=True, kw_only=True)
 class LoggedEvent:
-    """An event as its mission's log has it.
+    """An event from the log of a mission.
 
     Attributes:
         n: Its number, from 1, without a gap.

@@ -1,4 +1,4 @@
-"""How a sender knows that it talks to the robot: by an authority, the usual ones or its own, or by one certificate."""
+"""Verification of a robot's TLS certificate: by a certificate authority or by a pinned certificate."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _WAIT_S = 10.0
 
 @dataclass(frozen=True, kw_only=True)
 class ServerTrust:
-    """Whom to believe that it is the robot.
+    """The certificates that a sender accepts from a robot.
 
     Attributes:
         ca: PEM file of the authority that signed its certificate; empty for those that the system knows.
