@@ -5,7 +5,7 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fieldhand.api.admission import Admission, Place, Rank, network_of
+from fieldhand.api.admission import Admission, AdmittedConnection, Rank, network_of
 
 ranks = st.sampled_from(list(Rank))
 
@@ -17,7 +17,7 @@ class Crowd:
         self.admission = Admission(total=total, of_address=of_address)
         self.closed: list[int] = []
         self.ranks: dict[int, Rank] = {}
-        self.places: dict[int, Place] = {}
+        self.places: dict[int, AdmittedConnection] = {}
 
     def come(self, address: str, rank: Rank = Rank.WAITING) -> int:
         number = len(self.places)

@@ -9,7 +9,7 @@ import pytest
 
 from fieldhand.approval.preview import draw_map
 from fieldhand.approval.readback import read_back
-from fieldhand.approval.stops import Leg, Plan, Stop, plan_of
+from fieldhand.approval.stops import DrawnPlan, Leg, MapStop, plan_of
 from fieldhand.evaluation.report.maps import draw_map as report_map
 from fieldhand.forecast.estimate import estimate
 from fieldhand.places.selectors import Corners
@@ -49,11 +49,11 @@ def _picture():
 def planned(site, trees):
     """A plan that visits trees one after the other, from the start and back."""
     stops = tuple(
-        Stop(place=t.place, labels=[f"1.{k}"], actions={"take_thermal_picture": "certain"}, certainty="certain")
+        MapStop(place=t.place, labels=[f"1.{k}"], actions={"take_thermal_picture": "certain"}, certainty="certain")
         for k, t in enumerate(trees, start=1)
     )
     way = [site.start.xy, *(t.place.xy for t in trees), site.start.xy]
-    return Plan(stops=stops, legs=tuple(Leg(points=leg, certainty="certain") for leg in itertools.pairwise(way)))
+    return DrawnPlan(stops=stops, legs=tuple(Leg(points=leg, certainty="certain") for leg in itertools.pairwise(way)))
 
 
 def drawn(site, trees):

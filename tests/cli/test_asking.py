@@ -12,8 +12,8 @@ import pytest
 
 from fieldhand.cli import asking, show
 from fieldhand.cli.asking import MOST_QUESTIONS, Replies, plan_and_ask
-from fieldhand.cli.inputs import Ground
 from fieldhand.errors import RequestError
+from fieldhand.mission.documents import SiteAndRobot
 from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import open_site
@@ -22,7 +22,7 @@ from fieldhand.task.build import make_task
 from fieldhand.task.plan import StopMission
 from support.processes.command import fieldhand
 
-GROUND = Ground(site=open_site("demo"), robot=load_robot("husky"))
+GROUND = SiteAndRobot(site=open_site("demo"), robot=load_robot("husky"))
 PLANNED = Planned(task=make_task(request="go", plan=StopMission(id=""), measures={}), planner="asks")
 
 

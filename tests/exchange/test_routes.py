@@ -16,7 +16,7 @@ from shapely.geometry import LineString, Point, shape
 from fieldhand.exchange.routes.geojson import write_geojson
 from fieldhand.exchange.routes.ground_station import write_plan
 from fieldhand.exchange.routes.kml import write_kml
-from fieldhand.exchange.routes.route import Route
+from fieldhand.exchange.routes.route import ExportedRoute
 from fieldhand.exchange.routes.table import write_csv
 from fieldhand.site.geojson import load_demo
 from fieldhand.task.results import Acted, Arrived
@@ -38,7 +38,7 @@ KML_ORDER = {
 
 
 @pytest.fixture(params=["planned", "driven"])
-def route(request: pytest.FixtureRequest) -> Route:
+def route(request: pytest.FixtureRequest) -> ExportedRoute:
     return planned_route() if request.param == "planned" else driven_route()
 
 
@@ -63,7 +63,7 @@ def test_what_every_branch_does_is_certain_and_nothing_else() -> None:
     assert [stop.certain for stop in planned_route(PARTING).stops] == [True, False, False, False]
 
 
-def test_geojson_is_rfc_7946(route: Route) -> None:
+def test_geojson_is_rfc_7946(route: ExportedRoute) -> None:
     found = json.loads(write_geojson(route))
     assert found["type"] == "FeatureCollection"
     assert not found.keys() & {"crs", "coordinates", "geometries", "geometry", "properties"}
@@ -82,7 +82,7 @@ def test_geojson_is_rfc_7946(route: Route) -> None:
         assert Point(one.coords[-1]).distance(Point(two.coords[0])) < 1e-7
 
 
-def test_kml_has_the_elements_and_order_of_its_schema(route: Route) -> None:
+def test_kml_has_the_elements_and_order_of_its_schema(route: ExportedRoute) -> None:
     root = etree.fromstring(write_kml(route))
     assert root.tag == f"{KML}kml"
     assert [child.tag for child in root] == [f"{KML}Document"]
@@ -116,7 +116,7 @@ def test_kml_says_what_a_gis_program_reads(tmp_path: Path) -> None:
     assert info["features"] == len(planned_route().stops)
 
 
-def test_csv_has_the_stops_in_order_and_no_formula(route: Route) -> None:
+def test_csv_has_the_stops_in_order_and_no_formula(route: ExportedRoute) -> None:
     evil = replace(route, stops=(replace(route.stops[0], place="=HYPERLINK(1)"), *route.stops[1:]))
     rows = list(csv.DictReader(io.StringIO(write_csv(evil).decode(), newline="")))
     numbers = [int(row["stop"]) for row in rows]

@@ -27,7 +27,7 @@ from fieldhand.task.plan import (
     Try,
     walk,
 )
-from fieldhand.task.run import Run, StackFrame, carry_out
+from fieldhand.task.run import PlanRun, StackFrame, carry_out
 
 WORD = ("", "a", "b")
 
@@ -83,7 +83,7 @@ class Scripted:
     """
 
     def __init__(self, plan: Node, luck: list[int], *, unlucky: bool = True) -> None:
-        self.run = Run(plan)
+        self.run = PlanRun(plan)
         self.luck, self.unlucky = iter(luck), unlucky
         self.asked: list[ask.Instruction] = []
         self.open: list[Node] = []
@@ -243,7 +243,7 @@ def test_a_visit_that_is_given_up_does_not_count_and_is_not_among_the_label() ->
     body = Act(id="", action="look")
     loop = ForEach(id="", select=Trees(), body=body, label="t", at_most=2, optional=True)
     plan = make_task(request="", plan=loop, measures={}).composition.plan
-    run, bound, driven = Run(plan), [], []
+    run, bound, driven = PlanRun(plan), [], []
 
     def answer(request: ask.Instruction) -> Any:
         match request:
@@ -280,5 +280,5 @@ def test_a_failure_in_the_otherwise_of_a_try_is_not_caught_by_that_try() -> None
             if request.node.action != "wait":
                 raise Failed(request.node.id)
 
-    carry_out(Run(plan).program(), answer)
+    carry_out(PlanRun(plan).program(), answer)
     assert done == ["look", "listen", "wait"]

@@ -44,7 +44,7 @@ def rank_of(scope: MutableMapping[str, Any]) -> Rank | None:
 
 
 @dataclass(eq=False, kw_only=True)
-class Place:
+class AdmittedConnection:
     """A connection that was admitted.
 
     Attributes:
@@ -71,13 +71,13 @@ class Admission:
     def __init__(self, *, total: int, of_address: int) -> None:
         self._total, self._of_address = total, of_address
         self._numbers = itertools.count()
-        self._places: dict[int, Place] = {}
+        self._places: dict[int, AdmittedConnection] = {}
         self._counts: Counter[str] = Counter()
 
     def __len__(self) -> int:
         return len(self._places)
 
-    def enter(self, address: str, *, rank: Callable[[], Rank], close: Callable[[], None]) -> Place:
+    def enter(self, address: str, *, rank: Callable[[], Rank], close: Callable[[], None]) -> AdmittedConnection:
         """Admit a connection; close another one if there are too many.
 
         Args:
@@ -85,7 +85,7 @@ class Admission:
             rank: Gives its rank at any time.
             close: Ends it at once.
         """
-        place = Place(number=next(self._numbers), address=network_of(address), rank=rank, close=close)
+        place = AdmittedConnection(number=next(self._numbers), address=network_of(address), rank=rank, close=close)
         self._places[place.number] = place
         self._counts[place.address] += 1
         if self._counts[place.address] > self._of_address:
@@ -94,7 +94,7 @@ class Admission:
             self._close_one(None)
         return place
 
-    def leave(self, place: Place) -> None:
+    def leave(self, place: AdmittedConnection) -> None:
         """Forget a connection that has ended; nothing happens if it is forgotten already."""
         if self._places.pop(place.number, None) is not None:
             self._counts[place.address] -= 1

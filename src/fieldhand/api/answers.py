@@ -5,16 +5,16 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import Any
 
-from fieldhand.api.inputs import Ground
 from fieldhand.api.maps import choices_map, plan_map, site_map
 from fieldhand.language import ENGLISH, Language, message
 from fieldhand.mission import Review
+from fieldhand.mission.documents import SiteAndRobot
 from fieldhand.planning.planner import Clarify, Refused
 from fieldhand.task.frames import Task
 from fieldhand.task.request_coverage import ROLE_NAMES, has_ranges, request_pieces
 
 
-def unplanned_answer(outcome: Clarify | Refused, ground: Ground) -> dict[str, Any]:
+def unplanned_answer(outcome: Clarify | Refused, ground: SiteAndRobot) -> dict[str, Any]:
     """A question, with where its choices lead, or a refusal."""
     match outcome:
         case Clarify():
@@ -41,7 +41,7 @@ def words_answer(task: Task, language: Language = ENGLISH) -> list[dict[str, str
     ]
 
 
-def review_answer(review: Review, ground: Ground, language: Language = ENGLISH) -> dict[str, Any]:
+def review_answer(review: Review, ground: SiteAndRobot, language: Language = ENGLISH) -> dict[str, Any]:
     """A review: may it be approved, what has to be confirmed, what is wrong, what will be done and takes, and where."""
     estimate = review.estimate
     return {

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, cast
 import h11
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
-from fieldhand.api.admission import Admission, Place, Rank, rank_of
+from fieldhand.api.admission import Admission, AdmittedConnection, Rank, rank_of
 
 if TYPE_CHECKING:
     from uvicorn.config import Config
@@ -83,7 +83,7 @@ class BoundedProtocol(H11Protocol):
         *,
         admission: Admission,
         limits: Connections,
-        place: Place | None = None,
+        place: AdmittedConnection | None = None,
     ) -> None:
         super().__init__(config, server_state, app_state, loop)
         self._admission, self._limits, self._place = admission, limits, place
@@ -201,7 +201,7 @@ class _Handshake(asyncio.Protocol):
     def connection_lost(self, exc: Exception | None) -> None:  # noqa: ARG002  # asyncio names it
         self._lost = True
 
-    async def _secure(self, transport: asyncio.Transport, place: Place) -> None:
+    async def _secure(self, transport: asyncio.Transport, place: AdmittedConnection) -> None:
         loop = asyncio.get_running_loop()
         try:
             secured = await loop.start_tls(

@@ -6,7 +6,7 @@ Nothing here opens a file that a caller names: a site is the built-in one or the
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import PurePath
 from typing import Annotated, Any, Literal
@@ -15,6 +15,7 @@ from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Fie
 
 from fieldhand.errors import ProfileError, SiteError
 from fieldhand.language import languages
+from fieldhand.mission.documents import SiteAndRobot
 from fieldhand.planning.planner import Answer
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -139,26 +140,18 @@ class RunBody(OnGround):
         return self
 
 
-@dataclass(frozen=True, kw_only=True)
-class Ground:
-    """The site and the robot that a call is about."""
-
-    site: Site
-    robot: RobotProfile
-
-
 def answers_of(body: PlanBody | RunBody) -> tuple[Answer, ...]:
     """The answers that came with a request."""
     return tuple(Answer(question=given.question, answer=given.answer) for given in body.answers)
 
 
-def open_ground(body: OnGround) -> Ground:
+def open_ground(body: OnGround) -> SiteAndRobot:
     """Open both.
 
     Raises:
         SiteError, ProfileError: One of them cannot be used.
     """
-    return Ground(site=open_choice(body.site), robot=open_robot(body.robot))
+    return SiteAndRobot(site=open_choice(body.site), robot=open_robot(body.robot))
 
 
 def open_choice(choice: Literal["demo"] | SiteText | dict[str, Any]) -> Site:

@@ -14,12 +14,13 @@ from fastapi import APIRouter
 
 from fieldhand import mission
 from fieldhand.api.answers import unplanned_answer
-from fieldhand.api.inputs import Ground, RunBody, answers_of, open_ground, open_task
+from fieldhand.api.inputs import RunBody, answers_of, open_ground, open_task
 from fieldhand.api.maps import driven_map
 from fieldhand.api.plan import Planners
 from fieldhand.api.work import Limits, Workers
 from fieldhand.approval.production import require_unsigned_allowed
 from fieldhand.evaluation.event_text import EventText, goal_names
+from fieldhand.mission.documents import SiteAndRobot
 from fieldhand.planning.planner import Planned
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import Task
@@ -74,7 +75,7 @@ def _deadline(seconds: float) -> Callable[[], str | None]:
     return lambda: f"the simulation took longer than {seconds:g} s" if time.monotonic() > until else None
 
 
-def _answer(run: mission.Run, ground: Ground) -> dict[str, Any]:
+def _answer(run: mission.Run, ground: SiteAndRobot) -> dict[str, Any]:
     authorized, events, assessment = run.mission.authorized, run.events, run.assessment
     ended = next(event for event in reversed(events) if isinstance(event, Ended))
     tell = EventText(ground.robot).line
@@ -95,7 +96,7 @@ def _answer(run: mission.Run, ground: Ground) -> dict[str, Any]:
     }
 
 
-def _goals(task: Task, ground: Ground, assessment: mission.Assessment) -> list[dict[str, Any]]:
+def _goals(task: Task, ground: SiteAndRobot, assessment: mission.Assessment) -> list[dict[str, Any]]:
     nodes = {goal.id: goal.node for goal in task.command.goals}
     name = goal_names(task, ground.robot)
     return [

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fieldhand.approval.problem import Problem
+from fieldhand.approval.problem import PlanProblem
 from fieldhand.language import joined, message
 from fieldhand.task.frames import Task
 from fieldhand.task.request_coverage import has_ranges, request_pieces
@@ -11,14 +11,14 @@ from fieldhand.task.request_coverage import has_ranges, request_pieces
 _MOST_QUOTED = 8
 
 
-def unaccounted(task: Task) -> tuple[Problem, ...]:
+def unaccounted(task: Task) -> tuple[PlanProblem, ...]:
     """Return a warning that quotes the unused words of the request, or an empty tuple if every word was used."""
     lost = [piece.text.strip() for piece in request_pieces(task) if piece.role == "nothing"]
     if not lost:
         return ()
     if not has_ranges(task):
         return (
-            Problem(
+            PlanProblem(
                 where=message("request"),
                 what=message("the Task does not say which of its words became what"),
                 advice=message("compare the plan with every word of the request"),
@@ -29,7 +29,7 @@ def unaccounted(task: Task) -> tuple[Problem, ...]:
     if len(lost) > _MOST_QUOTED:
         shown = message("{places} and {count} more", places=shown, count=len(lost) - _MOST_QUOTED)
     return (
-        Problem(
+        PlanProblem(
             where=message("request"),
             what=message("nothing in the plan comes from {words}", words=shown),
             advice=message("say it in other words, or approve only if the plan is right without it"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 
 from fieldhand.approval.paths import say_decisions
-from fieldhand.approval.problem import Problem, node_in
+from fieldhand.approval.problem import PlanProblem, node_in
 from fieldhand.approval.sentences import say_place
 from fieldhand.errors import DriveFault
 from fieldhand.forecast.branches import Branches
@@ -20,26 +20,26 @@ from fieldhand.task.frames import Task
 TOLERANCE_M = 0.01
 
 
-def branch_problems(explored: Branches, task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]:
+def branch_problems(explored: Branches, task: Task, site: Site, robot: RobotProfile) -> Iterator[PlanProblem]:
     """Yield the problems of every branch: unreachable places, tests of readings never taken, forbidden drives."""
     for broken in explored.broken:
         error, on = broken.error, say_decisions(broken.decisions, task, robot)
         what = message("{what} (on the branch: {branch})", what=error.what, branch=on) if on else error.what
         node, where = node_in(error.where)
         node = broken.node if not node and isinstance(error, DriveFault) else node
-        yield Problem(node=node, where=where, what=what, advice=error.advice)
+        yield PlanProblem(node=node, where=where, what=what, advice=error.advice)
     walks = (*explored.walks, *explored.optional_walks)
     yield from _unread(walks, task, robot)
     steps = (*(s for w in walks for s in w.steps), *(s for b in explored.broken for s in b.steps))
     for node, through in driven_through(steps, site):
-        yield Problem(
+        yield PlanProblem(
             node=node,
             where=site.name,
             what=message("the drive there goes {through}", through=through),
             advice=message("choose other trees, or another way"),
         )
     if not explored.complete:
-        yield Problem(
+        yield PlanProblem(
             where=message("plan"),
             what=message("it has more branches than were looked at ({count})", count=len(explored.walks)),
             advice=message("nest fewer conditions, or watch the mission"),
@@ -47,10 +47,10 @@ def branch_problems(explored: Branches, task: Task, site: Site, robot: RobotProf
         )
 
 
-def exit_problems(forecast: Estimate, site: Site) -> Iterator[Problem]:
+def exit_problems(forecast: Estimate, site: Site) -> Iterator[PlanProblem]:
     """Yield the problems of the exit routes after faults."""
     for place, home, error in forecast.exits.broken:
-        yield Problem(
+        yield PlanProblem(
             where=site.name,
             what=message(
                 "after a fault at {place} there is no way to {home}: {why}",
@@ -62,7 +62,7 @@ def exit_problems(forecast: Estimate, site: Site) -> Iterator[Problem]:
             severity="warning",
         )
     for node, through in driven_through(forecast.exits.steps, site):
-        yield Problem(
+        yield PlanProblem(
             node=node,
             where=site.name,
             what=message("the way home from there after a fault goes {through}", through=through),
@@ -70,7 +70,7 @@ def exit_problems(forecast: Estimate, site: Site) -> Iterator[Problem]:
         )
 
 
-def _unread(walks: Sequence[Walk], task: Task, robot: RobotProfile) -> Iterator[Problem]:
+def _unread(walks: Sequence[Walk], task: Task, robot: RobotProfile) -> Iterator[PlanProblem]:
     """Yield tests of readings that are missing on a branch; warnings if only a fault or the budget leads there."""
     found: dict[tuple[str, str], Walk] = {}
     for walked in sorted(walks, key=_troubled):
@@ -79,7 +79,7 @@ def _unread(walks: Sequence[Walk], task: Task, robot: RobotProfile) -> Iterator[
     for (node, reading), walked in found.items():
         on = say_decisions(walked.decisions, task, robot)
         what = message("it tests the reading '{reading}', which nothing has taken", reading=reading)
-        yield Problem(
+        yield PlanProblem(
             node=node,
             where=message("plan"),
             what=message("{what} (on the branch: {branch})", what=what, branch=on) if on else what,

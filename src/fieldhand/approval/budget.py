@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from fieldhand.approval.problem import Problem
+from fieldhand.approval.problem import PlanProblem
 from fieldhand.errors import FieldhandError
 from fieldhand.forecast.estimate import BranchEstimate, Estimate
 from fieldhand.forecast.mission_state import Work
@@ -27,7 +27,7 @@ from fieldhand.task.plan import acts, walk
 _HOPELESS = 0.5
 
 
-def budget_problems(task: Task, site: Site, robot: RobotProfile, forecast: Estimate) -> Iterator[Problem]:
+def budget_problems(task: Task, site: Site, robot: RobotProfile, forecast: Estimate) -> Iterator[PlanProblem]:
     """Yield the problems of a mission's budgets, with the figures."""
     nothing = list(_nothing_fits(task, site, robot)) if _does_nothing(task, forecast.branches) else []
     if nothing:
@@ -36,7 +36,7 @@ def budget_problems(task: Task, site: Site, robot: RobotProfile, forecast: Estim
     worst = forecast.worst
     hopeless = any(c.exceeded and c.chance > _HOPELESS for c in worst.chances)
     for sentence in forecast.problems:
-        yield Problem(
+        yield PlanProblem(
             where=message("budget"),
             what=sentence,
             advice=message("allow more, or ask for less"),
@@ -50,7 +50,7 @@ def _does_nothing(task: Task, branches: tuple[BranchEstimate, ...]) -> bool:
     return does and any(b.shed for b in branches) and all(b.captures == 0 for b in branches)
 
 
-def _nothing_fits(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]:
+def _nothing_fits(task: Task, site: Site, robot: RobotProfile) -> Iterator[PlanProblem]:
     """Yield each limit that even the cheapest single visit exceeds."""
     drives = drives_for(site, robot)
     home = site.home(task.composition.nominal, site.start)
@@ -69,7 +69,7 @@ def _nothing_fits(task: Task, site: Site, robot: RobotProfile) -> Iterator[Probl
             work = resource.of_work(robot, Work(seconds=seconds, joules=joules))
             need = sum(metres) * resource.per_metre + work
             amount, limit = _amount(resource, need), _amount(resource, resource.limit)
-            sentence = Problem(
+            sentence = PlanProblem(
                 node=node.id,
                 where=message("budget"),
                 what=message(

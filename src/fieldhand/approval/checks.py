@@ -16,7 +16,7 @@ from fieldhand.approval.battery import battery_problems
 from fieldhand.approval.branch_checks import branch_problems, exit_problems
 from fieldhand.approval.budget import budget_problems
 from fieldhand.approval.doubts import doubts
-from fieldhand.approval.problem import Problem, node_in, with_words
+from fieldhand.approval.problem import PlanProblem, node_in, with_words
 from fieldhand.approval.sentences import say_place
 from fieldhand.brief import brief_repr
 from fieldhand.errors import FieldhandError, PlaceError, TaskError
@@ -36,7 +36,7 @@ from fieldhand.task.plan import Node, walk
 from fieldhand.task.references import references
 from fieldhand.task.schema import validate
 
-__all__ = ["Examination", "Problem", "check", "examine"]
+__all__ = ["Examination", "PlanProblem", "check", "examine"]
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -52,18 +52,18 @@ class Examination:
     task: Task
     site: Site
     robot: RobotProfile
-    problems: tuple[Problem, ...]
+    problems: tuple[PlanProblem, ...]
     estimate: Estimate | None
 
     __repr__ = brief_repr
 
     @property
-    def errors(self) -> tuple[Problem, ...]:
+    def errors(self) -> tuple[PlanProblem, ...]:
         """Return the problems that forbid approval."""
         return tuple(p for p in self.problems if p.severity == "error")
 
 
-def check(task: Task, site: Site, robot: RobotProfile, document: bytes | None = None) -> tuple[Problem, ...]:
+def check(task: Task, site: Site, robot: RobotProfile, document: bytes | None = None) -> tuple[PlanProblem, ...]:
     """Return every problem of a Task for this site and robot, errors first.
 
     Args:
@@ -113,11 +113,11 @@ def examine(
     return Examination(task=task, site=site, robot=robot, problems=found, estimate=forecast)
 
 
-def _errors(problems: list[Problem]) -> bool:
+def _errors(problems: list[PlanProblem]) -> bool:
     return any(p.severity == "error" for p in problems)
 
 
-def _document(task: Task, robot: RobotProfile, document: bytes | None) -> Iterator[Problem]:
+def _document(task: Task, robot: RobotProfile, document: bytes | None) -> Iterator[PlanProblem]:
     """Validate the document against the robot's schema: actions, parameters, quantities, units and vocabulary."""
     try:
         data = encode(task) if document is None else document
@@ -128,17 +128,17 @@ def _document(task: Task, robot: RobotProfile, document: bytes | None) -> Iterat
         where = message("line {number}", number=found.line)
         if found.element:
             where = message("line {number}, {element}", number=found.line, element=f"<{found.element}>")
-        yield Problem(where=where, what=found.message)
+        yield PlanProblem(where=where, what=found.message)
 
 
-def _references(task: Task, robot: RobotProfile) -> Iterator[Problem]:
+def _references(task: Task, robot: RobotProfile) -> Iterator[PlanProblem]:
     nodes = [node.id for node in walk(task.composition.plan)]
     for sentence in references(task, capabilities_of(robot)):
         node = next((n for n in nodes if n and f"'{n}'" in sentence), "")
-        yield Problem(node=node, where=message("plan"), what=sentence)
+        yield PlanProblem(node=node, where=message("plan"), what=sentence)
 
 
-def _resources(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]:
+def _resources(task: Task, site: Site, robot: RobotProfile) -> Iterator[PlanProblem]:
     """Compare the SHA-256 of the site and robot profile with those that the Task was planned for."""
     here: dict[Literal["site", "robot"], tuple[str, str]] = {
         "site": (site.name, site.sha256),
@@ -151,7 +151,7 @@ def _resources(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]
                 "site": message("the Task does not say for which site it was planned"),
                 "robot": message("the Task does not say for which robot it was planned"),
             }
-            yield Problem(where=message("resources"), what=what[kind], severity="warning")
+            yield PlanProblem(where=message("resources"), what=what[kind], severity="warning")
         for resource in planned:
             if resource.sha256 == sha256:
                 continue
@@ -163,10 +163,10 @@ def _resources(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]
                 "site": message("plan it again for this site, or give that one"),
                 "robot": message("plan it again for this robot, or give that one"),
             }
-            yield Problem(where=message("resources"), what=planned_for, advice=advice[kind])
+            yield PlanProblem(where=message("resources"), what=planned_for, advice=advice[kind])
 
 
-def _places(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]:
+def _places(task: Task, site: Site, robot: RobotProfile) -> Iterator[PlanProblem]:
     """Check each selector that is resolved before the start: it matches enough places, and they are reachable."""
     drives = drives_for(site, robot)
     yield from _exits(task, site, drives)
@@ -188,7 +188,7 @@ def _places(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]:
             yield from _left_out(steps[node.id], closed, site)
             continue
         for place, reason in closed:
-            yield Problem(
+            yield PlanProblem(
                 node=node.id,
                 where=site.name,
                 what=message("{place} is {reason}", place=say_place(place), reason=reason),
@@ -196,7 +196,7 @@ def _places(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]:
             )
 
 
-def _left_out(node: Node, closed: list[tuple[Place, str]], site: Site) -> Iterator[Problem]:
+def _left_out(node: Node, closed: list[tuple[Place, str]], site: Site) -> Iterator[PlanProblem]:
     """Warn about optional visits and steps that will be skipped because their place is unreachable."""
     if closed:
         place, reason = closed[0]
@@ -212,7 +212,7 @@ def _left_out(node: Node, closed: list[tuple[Place, str]], site: Site) -> Iterat
             )
         else:
             what = message("{place} will be left out: {why}", place=say_place(place), why=said)
-        yield Problem(
+        yield PlanProblem(
             node=node.id,
             where=site.name,
             what=what,
@@ -221,14 +221,14 @@ def _left_out(node: Node, closed: list[tuple[Place, str]], site: Site) -> Iterat
         )
 
 
-def _exits(task: Task, site: Site, drives: Drives) -> Iterator[Problem]:
+def _exits(task: Task, site: Site, drives: Drives) -> Iterator[PlanProblem]:
     """Check that every exit place after a fault is reachable from the start."""
     start = start_place(drives)
     for taken in task.composition.faulted:
         home = site.home(taken.then, start)
         reason = "" if home.xy == start.xy else drives.problem(home)
         if reason:
-            yield Problem(
+            yield PlanProblem(
                 where=site.name,
                 what=message(
                     "{place}, to which the robot is to go on the fault {fault}, is {reason}",
@@ -253,6 +253,6 @@ def _resolved(node: Node, selector: Selector, site: Site) -> tuple[Place, ...]:
     return places
 
 
-def _of_error(error: FieldhandError, node: str = "") -> Problem:
+def _of_error(error: FieldhandError, node: str = "") -> PlanProblem:
     found, where = node_in(error.where)
-    return Problem(node=found or node, where=where, what=error.what, advice=error.advice)
+    return PlanProblem(node=found or node, where=where, what=error.what, advice=error.advice)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from fieldhand.approval.problem import Problem
+from fieldhand.approval.problem import PlanProblem
 from fieldhand.facts import mismatches
 from fieldhand.language import message
 from fieldhand.robot.model import RobotProfile
@@ -12,16 +12,16 @@ from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
 
 
-def doubts(task: Task, site: Site, robot: RobotProfile) -> Iterator[Problem]:
+def doubts(task: Task, site: Site, robot: RobotProfile) -> Iterator[PlanProblem]:
     """Yield the warnings that the planner attached to the Task and every detected contradiction with the request."""
     for said in task.command.warnings:
-        yield Problem(
+        yield PlanProblem(
             where=message("request"), what=said, advice=message("read every line of the plan"), severity="warning"
         )
     if not task.command.request.strip():
         return  # without a request there is nothing to contradict
     for found in mismatches(task, site, robot):
-        yield Problem(
+        yield PlanProblem(
             node=found.node,
             where=message("request"),
             what=message("perhaps not what was asked: {doubt}", doubt=found.message),

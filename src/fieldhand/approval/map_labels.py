@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from fieldhand.approval.marks import INK, MANY_STOPS, WAY, stop_size
-from fieldhand.approval.stops import Stop
+from fieldhand.approval.stops import MapStop
 from fieldhand.site.drawing.labels import XY, Labels
 from fieldhand.site.drawing.window import Window
 
@@ -23,7 +23,7 @@ _NUMBERED, _ROUND = 12, (50, 10, 5)
 _MOST_RUNS = 3
 
 
-def draw_labels(ax: Axes, labels: Labels, stops: Sequence[Stop], disc: float) -> None:
+def draw_labels(ax: Axes, labels: Labels, stops: Sequence[MapStop], disc: float) -> None:
     """Write the number of each stop beside it, and the tree id if there are few stops.
 
     Args:
@@ -45,7 +45,7 @@ def draw_labels(ax: Axes, labels: Labels, stops: Sequence[Stop], disc: float) ->
         labels.put(text, spots, font=_SMALL_FONT, colour=INK, bold=True, over_trees=True, zorder=14, gid="label")
 
 
-def label_window(labels: Labels, window: Window, stops: Sequence[Stop]) -> None:
+def label_window(labels: Labels, window: Window, stops: Sequence[MapStop]) -> None:
     """Write the range of steps that an inset window shows beside its frame."""
     (west, south), (east, north) = labels.at((window.west, window.south)), labels.at((window.east, window.north))
     text = ", ".join(_runs(stops))
@@ -59,7 +59,7 @@ def label_window(labels: Labels, window: Window, stops: Sequence[Stop]) -> None:
     labels.put(text, spots, font=_FONT, colour=INK, bold=True, over_trees=True, zorder=14, gid="window label")
 
 
-def _name(ax: Axes, labels: Labels, stop: Stop, disc: float) -> None:
+def _name(ax: Axes, labels: Labels, stop: MapStop, disc: float) -> None:
     """Write the number of a stop as close to it as possible, with its tree id if there is space."""
     number = ", ".join(_ranges(stop.labels))
     if not number:
@@ -79,13 +79,13 @@ def _name(ax: Axes, labels: Labels, stop: Stop, disc: float) -> None:
             return
 
 
-def _by_worth(stops: Sequence[Stop]) -> list[tuple[Stop, str]]:
+def _by_worth(stops: Sequence[MapStop]) -> list[tuple[MapStop, str]]:
     """Return the stops to number with their text, by priority: ends of each loop, then the roundest numbers."""
     last: dict[str, int] = {}
     for label in (label for stop in stops for label in stop.labels):
         loop, _, visit = label.partition(".")
         last[loop] = max(last.get(loop, 0), int(visit or 0))
-    found: list[tuple[int, Stop, str]] = []
+    found: list[tuple[int, MapStop, str]] = []
     for stop in stops:
         worth = {label: _worth(label, last) for label in stop.labels}
         shown = [label for label in stop.labels if worth[label] is not None]
@@ -104,7 +104,7 @@ def _worth(label: str, last: dict[str, int]) -> int | None:
     return next((k for k, step in enumerate(_ROUND, start=1) if int(visit) % step == 0), None)
 
 
-def _runs(stops: Sequence[Stop]) -> list[str]:
+def _runs(stops: Sequence[MapStop]) -> list[str]:
     """Return the steps of the stops as ranges: "1.1-1.91", "3-7"."""
     ends: dict[str, list[str]] = {}
     for label in (label for stop in stops for label in stop.labels):

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from fieldhand.approval.stops import Certainty, Leg, Stop
+from fieldhand.approval.stops import Certainty, Leg, MapStop
 from fieldhand.site.drawing.ground import disc_diameter
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ _OUTER, _OUTER_OF_MANY = 10.5, 8.0
 MANY_STOPS = 16
 
 
-def colours_of(stops: Sequence[Stop]) -> dict[str, str]:
+def colours_of(stops: Sequence[MapStop]) -> dict[str, str]:
     """Return a colour for each action, in order of first appearance."""
     names = list(dict.fromkeys(action for stop in stops for action in stop.actions))
     return {name: PALETTE[k % len(PALETTE)] for k, name in enumerate(names)}
@@ -77,13 +77,13 @@ def draw_arrows(ax: Axes, legs: Sequence[Leg]) -> None:
                 )
 
 
-def disc_size(ax: Axes, stops: Sequence[Stop]) -> float:
+def disc_size(ax: Axes, stops: Sequence[MapStop]) -> float:
     """Return the disc diameter in points, smaller where stops are many or close together on the map."""
     most = _OUTER if len(stops) <= MANY_STOPS else _OUTER_OF_MANY
     return disc_diameter(ax, np.array([stop.place.xy for stop in stops]).reshape(-1, 2), most)
 
 
-def draw_stop(ax: Axes, stop: Stop, colours: dict[str, str], disc: float) -> None:
+def draw_stop(ax: Axes, stop: MapStop, colours: dict[str, str], disc: float) -> None:
     """Draw concentric discs, one per action; a hollow disc marks an uncertain action."""
     x, y = stop.place.xy
     if stop.place.stand is not None:
@@ -109,6 +109,6 @@ def draw_stop(ax: Axes, stop: Stop, colours: dict[str, str], disc: float) -> Non
         size -= disc / 2
 
 
-def stop_size(stop: Stop, disc: float) -> float:
+def stop_size(stop: MapStop, disc: float) -> float:
     """Return the diameter of a stop's outermost disc, in points."""
     return disc + disc / 2 * max(0, min(len(stop.actions), 4) - 1)

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 from fieldhand.approval.marks import INK, LINES, WAY
 from fieldhand.approval.readback import ReadBack, say_totals
-from fieldhand.approval.sentences import Line
-from fieldhand.approval.stops import Certainty, Plan
+from fieldhand.approval.sentences import ReadBackLine
+from fieldhand.approval.stops import Certainty, DrawnPlan
 from fieldhand.language import Language, message
 from fieldhand.language.words import capitalised, say_action
 from fieldhand.task.frames import Task
@@ -35,7 +35,9 @@ _SCALES = (1.25, 1.15, 1.05, 0.95, 0.85)
 _UNIT = re.compile(r"(\d) (m|min|h|s|%|°C|ppm)(?!\w)")
 
 
-def draw_panel(ax: Axes, task: Task, plan: Plan, words: ReadBack, colours: dict[str, str], language: Language) -> float:
+def draw_panel(
+    ax: Axes, task: Task, plan: DrawnPlan, words: ReadBack, colours: dict[str, str], language: Language
+) -> float:
     """Write the text from top to bottom; steps that do not fit are counted, while legend and totals always appear.
 
     Returns:
@@ -44,9 +46,9 @@ def draw_panel(ax: Axes, task: Task, plan: Plan, words: ReadBack, colours: dict[
     legend, totals = _legend(plan, colours, language), language.read(say_totals(words.totals))
     request = " ".join(task.command.request.split())
     writer = next(
-        (w for w in map(partial(_Writer, ax), _SCALES) if _fits(w, request, words, totals, len(legend))), None
+        (w for w in map(partial(_PanelWriter, ax), _SCALES) if _fits(w, request, words, totals, len(legend))), None
     )
-    writer = writer or _Writer(ax, _SCALES[-1])
+    writer = writer or _PanelWriter(ax, _SCALES[-1])
     for line in writer.wrapped(f"“{request}”", _REQUEST_PT, most=_REQUEST_ROWS):
         writer.write(line, _REQUEST_PT, style="italic")
     writer.skip(9)
@@ -76,20 +78,20 @@ def _legend_points(entries: int) -> float:
     return (entries * 1.55 + 0.8) * _SMALL_PT
 
 
-def _below(writer: _Writer, totals: tuple[str, ...], entries: int) -> float:
+def _below(writer: _PanelWriter, totals: tuple[str, ...], entries: int) -> float:
     """Return the height of legend and totals, in points."""
     rows = sum(len(writer.wrapped(text, _SMALL_PT)) for text in totals)
     return (_legend_points(entries) + 6 + (rows + 0.5) * _LEADING * _SMALL_PT) * writer.scale
 
 
-def _rows(writer: _Writer, line: Line) -> list[str]:
+def _rows(writer: _PanelWriter, line: ReadBackLine) -> list[str]:
     """Return a step with its number as rows, with a hanging indent."""
     number = f"{line.number}. " if line.number is not None else ""
     margin = " " * (_INDENT * line.indent)
     return writer.wrapped(f"{number}{line.text}", _STEP_PT, margin=margin, hang=" " * (len(number) + 1))
 
 
-def _fits(writer: _Writer, request: str, words: ReadBack, totals: tuple[str, ...], entries: int) -> bool:
+def _fits(writer: _PanelWriter, request: str, words: ReadBack, totals: tuple[str, ...], entries: int) -> bool:
     """Return True if all text fits at the writer's scale."""
     asked = len(writer.wrapped(f"“{request}”", _REQUEST_PT))
     head = asked * _REQUEST_PT * _LEADING + 9
@@ -98,7 +100,7 @@ def _fits(writer: _Writer, request: str, words: ReadBack, totals: tuple[str, ...
     return asked <= _REQUEST_ROWS and (head + steps) * writer.scale + _below(writer, totals, entries) < writer.left
 
 
-def _write_steps(writer: _Writer, lines: tuple[Line, ...], room: float, language: Language) -> None:
+def _write_steps(writer: _PanelWriter, lines: tuple[ReadBackLine, ...], room: float, language: Language) -> None:
     """Write the steps that fit; the read-back lists them all."""
     bottom = writer.left - room
     for k, line in enumerate(lines):
@@ -113,7 +115,7 @@ def _write_steps(writer: _Writer, lines: tuple[Line, ...], room: float, language
         writer.skip(1.5)
 
 
-class _Writer:
+class _PanelWriter:
     """Writes lines of text from the top of an axes downwards, measured in points.
 
     Args:
@@ -171,7 +173,7 @@ class _Writer:
         self.left -= points * self.scale
 
 
-def _legend(plan: Plan, colours: dict[str, str], language: Language) -> list[Artist]:
+def _legend(plan: DrawnPlan, colours: dict[str, str], language: Language) -> list[Artist]:
     from matplotlib.lines import Line2D
 
     def disc(colour: str, edge: str, label: str) -> Artist:

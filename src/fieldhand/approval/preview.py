@@ -9,7 +9,7 @@ from fieldhand.approval.map_labels import draw_labels, label_window
 from fieldhand.approval.marks import colours_of, disc_size, draw_arrows, draw_leg, draw_stop
 from fieldhand.approval.panel import draw_panel
 from fieldhand.approval.readback import ReadBack, read_back
-from fieldhand.approval.stops import Plan, plan_of
+from fieldhand.approval.stops import DrawnPlan, plan_of
 from fieldhand.forecast.estimate import Estimate
 from fieldhand.language import ENGLISH, Language, message
 from fieldhand.robot.model import RobotProfile
@@ -60,7 +60,7 @@ def plan_figure(
     return draw_map(task, site, plan, words, language)
 
 
-def draw_map(task: Task, site: Site, plan: Plan, words: ReadBack, language: Language = ENGLISH) -> Figure:
+def draw_map(task: Task, site: Site, plan: DrawnPlan, words: ReadBack, language: Language = ENGLISH) -> Figure:
     """Return a figure with the map and the text beside it, attached to no window.
 
     If trees are too close together on the map and the work covers only part of the site, an enlarged view of that part
@@ -92,7 +92,7 @@ def draw_map(task: Task, site: Site, plan: Plan, words: ReadBack, language: Lang
     return figure
 
 
-def _draw_plan(ax: Axes, plan: Plan, colours: dict[str, str], disc: float) -> None:
+def _draw_plan(ax: Axes, plan: DrawnPlan, colours: dict[str, str], disc: float) -> None:
     for leg in plan.legs:
         draw_leg(ax, leg)
     draw_arrows(ax, plan.legs)
@@ -101,7 +101,7 @@ def _draw_plan(ax: Axes, plan: Plan, colours: dict[str, str], disc: float) -> No
 
 
 def _draw_window(
-    figure: Figure, site: Site, plan: Plan, window: Window, colours: dict[str, str], tall_in: float
+    figure: Figure, site: Site, plan: DrawnPlan, window: Window, colours: dict[str, str], tall_in: float
 ) -> None:
     """Draw an enlarged view of the working area below the text, with the given height."""
     height = float(figure.get_size_inches()[1])

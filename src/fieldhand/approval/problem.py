@@ -16,7 +16,7 @@ _MOST_QUOTED = 120
 
 
 @dataclass(frozen=True, kw_only=True)
-class Problem:
+class PlanProblem:
     """An error of a Task, or a warning that its approver must confirm.
 
     Attributes:
@@ -62,7 +62,7 @@ def node_in(where: str) -> tuple[str, str]:
     return ("", where) if found is None else (found[1], found[2] or "")
 
 
-def with_words(problem: Problem, task: Task) -> Problem:
+def with_words(problem: PlanProblem, task: Task) -> PlanProblem:
     """Return the problem with the words of the request that its node came from, and the node's place."""
     node = next((n for n in plan.walk(task.composition.plan) if n.id == problem.node), None) if problem.node else None
     if node is None:

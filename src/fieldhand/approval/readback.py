@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 from fieldhand.approval.paths import FAULTS, say_decisions
 from fieldhand.approval.resolved import gather
-from fieldhand.approval.sentences import Line, say_exit_after, write_lines
+from fieldhand.approval.sentences import ReadBackLine, say_exit_after, write_lines
 from fieldhand.brief import brief_repr
 from fieldhand.forecast.estimate import BranchEstimate, Estimate, Figure
 from fieldhand.forecast.resource_limits import ResourceKind, reserve_percent
@@ -24,7 +24,7 @@ from fieldhand.site.model import Site
 from fieldhand.task.build import FAULTED_EXITS
 from fieldhand.task.frames import Budget, FaultedExit, Task, Then
 
-__all__ = ["Line", "ReadBack", "Totals", "read_back"]
+__all__ = ["ReadBack", "ReadBackLine", "Totals", "read_back"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,7 +60,7 @@ class ReadBack:
         usual: Default sentences of ``limits`` and ``faults``, present unless the request overrides them.
     """
 
-    lines: tuple[Line, ...]
+    lines: tuple[ReadBackLine, ...]
     limits: tuple[str, ...]
     faults: tuple[str, ...]
     assumptions: tuple[str, ...]
@@ -247,7 +247,7 @@ def _totals(estimate: Estimate, task: Task, robot: RobotProfile) -> Totals:
     )
 
 
-def _numbered(line: Line) -> str:
+def _numbered(line: ReadBackLine) -> str:
     number = f"{line.number:>3}." if line.number is not None else "    "
     return joined("", ("     " * line.indent, number, " ", line.text))
 

@@ -12,7 +12,7 @@ from fieldhand.task.plan import Node
 
 
 @dataclass(frozen=True, kw_only=True)
-class Found:
+class ResolvedPlaces:
     """The resolved places of one node.
 
     Attributes:
@@ -42,7 +42,7 @@ class Found:
         return next(iter(places.values())) if self.known and len(places) == 1 else None
 
 
-def gather(task: Task, walks: Sequence[Walk], short: float = 0.0) -> Mapping[str, Found]:
+def gather(task: Task, walks: Sequence[Walk], short: float = 0.0) -> Mapping[str, ResolvedPlaces]:
     """Return the resolved places of each node by its id, without nodes that no walk reached.
 
     Args:
@@ -51,12 +51,12 @@ def gather(task: Task, walks: Sequence[Walk], short: float = 0.0) -> Mapping[str
     """
     doubtful = _doubtful(task.composition.plan)
     per_walk = [_of_walk(w) for w in walks]
-    found: dict[str, Found] = {}
+    found: dict[str, ResolvedPlaces] = {}
     for node_id in {n: None for one in per_walk for n in one}:
         seen = [one[node_id] for one in per_walk if node_id in one]
         first = seen[0]
         same = all(a[0] == b[0] for other in seen for a, b in zip(first, other, strict=False))
-        found[node_id] = Found(
+        found[node_id] = ResolvedPlaces(
             visits=tuple(places for places, _, _ in first),
             shed=first[0][1],
             known=same and node_id not in doubtful,

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from fieldhand.approval.clauses import say_act, say_condition
-from fieldhand.approval.resolved import Found
+from fieldhand.approval.resolved import ResolvedPlaces
 from fieldhand.approval.visits import in_order, say_expected, say_expected_visits, say_ids
 from fieldhand.language import counted, message, shaped
 from fieldhand.language.words import say_marker, say_name, say_number, say_times, say_tree
@@ -23,7 +23,7 @@ Names = dict[str, str]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Line:
+class ReadBackLine:
     """A line of a read-back.
 
     Attributes:
@@ -47,7 +47,9 @@ def say_place(place: Place) -> str:
     return say_marker(place.id) if place.kind == "marker" else place.id
 
 
-def write_lines(task: Task, site: Site, robot: RobotProfile, found: Mapping[str, Found]) -> tuple[Line, ...]:
+def write_lines(
+    task: Task, site: Site, robot: RobotProfile, found: Mapping[str, ResolvedPlaces]
+) -> tuple[ReadBackLine, ...]:
     """Return the plan and its nominal exit as lines.
 
     Args:
@@ -55,7 +57,7 @@ def write_lines(task: Task, site: Site, robot: RobotProfile, found: Mapping[str,
         site, robot: Site and robot of the mission.
         found: Resolved places of each node, from :func:`fieldhand.approval.resolved.gather`.
     """
-    writer = _Writer(robot, found)
+    writer = _LineWriter(robot, found)
     writer.node(task.composition.plan, 0)
     writer.step(task.composition.plan.id, 0, say_exit(task.composition.nominal, site))
     return tuple(writer.lines)
@@ -95,11 +97,11 @@ class _Taken:
     there: bool = True
 
 
-class _Writer:
+class _LineWriter:
     """Writes the lines, and tracks the names by which later steps refer to earlier ones."""
 
-    def __init__(self, robot: RobotProfile, found: Mapping[str, Found]) -> None:
-        self.lines: list[Line] = []
+    def __init__(self, robot: RobotProfile, found: Mapping[str, ResolvedPlaces]) -> None:
+        self.lines: list[ReadBackLine] = []
         self._robot, self._found = robot, found
         self._number = 0
         #: Description of each label, and the place of each reading.
@@ -110,11 +112,13 @@ class _Writer:
     def step(self, node: str, indent: int, text: str, also: tuple[str, ...] = ()) -> int:
         """Write a line with the next step number."""
         self._number += 1
-        self.lines.append(Line(number=self._number, node=node, indent=indent, text=shaped(text, _one_line), also=also))
+        self.lines.append(
+            ReadBackLine(number=self._number, node=node, indent=indent, text=shaped(text, _one_line), also=also)
+        )
         return self._number
 
     def _open(self, node: str, indent: int, text: str) -> None:
-        self.lines.append(Line(number=None, node=node, indent=indent, text=shaped(text, _one_line)))
+        self.lines.append(ReadBackLine(number=None, node=node, indent=indent, text=shaped(text, _one_line)))
 
     def node(self, node: Node, indent: int) -> None:
         match node:
@@ -248,7 +252,7 @@ class _Writer:
             at = message("At each of {trees}", trees=said)
         return in_order(node, message("{at_places} {ids}", at_places=at, ids=say_ids(node.select, found)), len(places))
 
-    def _optional_visits(self, node: ForEach, said: str, found: Found | None) -> str:
+    def _optional_visits(self, node: ForEach, said: str, found: ResolvedPlaces | None) -> str:
         at = message("At as many of {trees} as the budget allows", trees=said)
         if node.at_most is not None:
             at = message("{at_places}, at most {count}", at_places=at, count=node.at_most)

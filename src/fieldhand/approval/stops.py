@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Literal
 
-from fieldhand.approval.sentences import Line
+from fieldhand.approval.sentences import ReadBackLine
 from fieldhand.forecast.walk_steps import Walk, WalkStep
 from fieldhand.site.model import Place
 from fieldhand.task.frames import Task
@@ -17,7 +17,7 @@ XY = tuple[float, float]
 
 
 @dataclass(kw_only=True)
-class Stop:
+class MapStop:
     """A place where the mission performs actions.
 
     Attributes:
@@ -40,14 +40,14 @@ class Leg:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Plan:
+class DrawnPlan:
     """Stops and legs to draw, in driving order on the most likely branch."""
 
-    stops: tuple[Stop, ...]
+    stops: tuple[MapStop, ...]
     legs: tuple[Leg, ...]
 
 
-def plan_of(task: Task, walks: Sequence[Walk], lines: Iterable[Line]) -> Plan:
+def plan_of(task: Task, walks: Sequence[Walk], lines: Iterable[ReadBackLine]) -> DrawnPlan:
     """Return the stops and legs of a mission.
 
     Args:
@@ -63,12 +63,12 @@ def plan_of(task: Task, walks: Sequence[Walk], lines: Iterable[Line]) -> Plan:
     gatherer = _Gatherer(task, walks, numbers)
     for k, walked in enumerate(walks):
         gatherer.add(walked, first=k == 0)
-    return Plan(stops=tuple(gatherer.stops.values()), legs=tuple(gatherer.legs.values()))
+    return DrawnPlan(stops=tuple(gatherer.stops.values()), legs=tuple(gatherer.legs.values()))
 
 
 class _Gatherer:
     def __init__(self, task: Task, walks: Sequence[Walk], numbers: Mapping[str, int]) -> None:
-        self.stops: dict[XY, Stop] = {}
+        self.stops: dict[XY, MapStop] = {}
         self.legs: dict[tuple[XY, ...], Leg] = {}
         self._numbers = numbers
         self._optional = _of_optional(task.composition.plan)
@@ -103,7 +103,7 @@ class _Gatherer:
 
     def _stop(self, step: WalkStep, certainty: Certainty, visits: dict[str, int]) -> None:
         place = step.places[0]
-        stop = self.stops.setdefault(place.xy, Stop(place=place))
+        stop = self.stops.setdefault(place.xy, MapStop(place=place))
         number = self._numbers.get(step.node.id)
         label = "" if number is None else str(number)
         act = step.node.act

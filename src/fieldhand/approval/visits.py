@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fieldhand.approval.resolved import Found
+from fieldhand.approval.resolved import ResolvedPlaces
 from fieldhand.language import counted, message
 from fieldhand.language.words import say_rounded
 from fieldhand.places.selector import Selector
@@ -13,7 +13,7 @@ from fieldhand.task.plan import ForEach
 _SURE, _NAMED = 0.9, 6
 
 
-def say_expected(found: Found | None) -> str:
+def say_expected(found: ResolvedPlaces | None) -> str:
     """Return the forecast for an optional step: it fits the budget or not, or how often if it is repeated."""
     if found is None:
         return ""
@@ -23,7 +23,7 @@ def say_expected(found: Found | None) -> str:
     return message("(by the estimate it does)") if fit else message("(by the estimate it does not)")
 
 
-def say_expected_visits(found: Found | None) -> str:
+def say_expected_visits(found: ResolvedPlaces | None) -> str:
     """Return the expected number of optional visits, the probability of running short, and the visits dropped first."""
     if found is None or found.visit_forecast is None:
         return ""
@@ -44,7 +44,7 @@ def say_expected_visits(found: Found | None) -> str:
     return message("({expectation}; {gone_first})", expectation=chance, gone_first=first)
 
 
-def say_ids(selector: Selector, found: Found | None) -> str:
+def say_ids(selector: Selector, found: ResolvedPlaces | None) -> str:
     """Return the ids of the places if they are few and not named yet."""
     if found is None:
         return ""

@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Protocol
 from fieldhand import mission
 from fieldhand.cli import show
 from fieldhand.cli.console import working
-from fieldhand.cli.inputs import Ground, may_ask
+from fieldhand.cli.inputs import may_ask
 from fieldhand.errors import NotApprovedError, NotConfirmedError
 from fieldhand.language import Language, Message, counted, joined, message
 from fieldhand.language.words import some_names
+from fieldhand.mission.documents import SiteAndRobot
 from fieldhand.task.frames import Task
 
 if TYPE_CHECKING:
@@ -48,7 +49,7 @@ class Consent(Protocol):
         ...
 
 
-def review_plan(ground: Ground, task: Task, document: bytes | None, consent: Consent) -> mission.Review:
+def review_plan(ground: SiteAndRobot, task: Task, document: bytes | None, consent: Consent) -> mission.Review:
     """Check a Task and show what it will do.
 
     Raises:

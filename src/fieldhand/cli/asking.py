@@ -12,12 +12,13 @@ from pathlib import Path
 from fieldhand import mission
 from fieldhand.cli.bundles import is_bundle
 from fieldhand.cli.console import Words, err, working
-from fieldhand.cli.inputs import Ground, may_ask
+from fieldhand.cli.inputs import may_ask
 from fieldhand.cli.show import fail_outcome, show_question
 from fieldhand.errors import InputError, RequestError
 from fieldhand.files import STANDARD, FileFault, read_file
 from fieldhand.language import ENGLISH, Language, message, recalled
 from fieldhand.language.words import some_names
+from fieldhand.mission.documents import SiteAndRobot
 from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Planner
 from fieldhand.task.frames import Task
 
@@ -50,7 +51,7 @@ class Replies:
     language: Language = ENGLISH
 
 
-def plan_and_ask(request: str, ground: Ground, planner: Planner, replies: Replies) -> tuple[str, Outcome]:
+def plan_and_ask(request: str, ground: SiteAndRobot, planner: Planner, replies: Replies) -> tuple[str, Outcome]:
     """Plan a request, one question after the other.
 
     Returns:
@@ -103,7 +104,7 @@ def plan_and_ask(request: str, ground: Ground, planner: Planner, replies: Replie
 
 
 def plan_or_read(
-    words: str, ground: Ground, planner: str, transcript: Path | None, replies: Replies
+    words: str, ground: SiteAndRobot, planner: str, transcript: Path | None, replies: Replies
 ) -> tuple[Task, bytes | None, str]:
     """The Task of a request, or of a Task document if ``words`` is a file that ends in ``.xml``; and who planned it.
 

@@ -16,9 +16,9 @@ from fieldhand.language import ENGLISH, Language, Number, message
 
 if TYPE_CHECKING:
     from fieldhand.cli.approving import Consent
-    from fieldhand.cli.inputs import Ground
     from fieldhand.execution.vehicle import Connection, Vehicle
     from fieldhand.mission import Review
+    from fieldhand.mission.documents import SiteAndRobot
     from fieldhand.missions import Departure
     from fieldhand.task.frames import Task
 
@@ -193,7 +193,7 @@ def refuse_simulation_options(connection: Connection | None, *, world: Path | No
 
 @contextmanager
 def connected(
-    ground: Ground, task: Task, connection: Connection | None, *, quiet: bool, language: Language = ENGLISH
+    ground: SiteAndRobot, task: Task, connection: Connection | None, *, quiet: bool, language: Language = ENGLISH
 ) -> Iterator[Vehicle | None]:
     """Connect to the robot for the duration of the context; None for the simulation.
 
@@ -219,7 +219,7 @@ def connected(
         yield vehicle
 
 
-def see_off(ground: Ground, review: Review, vehicle: Vehicle, consent: Consent) -> None:
+def see_off(ground: SiteAndRobot, review: Review, vehicle: Vehicle, consent: Consent) -> None:
     """See whether the robot may set out, before a wheel turns, and say where it stands and what charge it has.
 
     Raises:

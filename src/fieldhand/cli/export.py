@@ -14,8 +14,8 @@ from fieldhand.cli.outputs import to_file
 from fieldhand.errors import InputError
 
 if TYPE_CHECKING:
-    from fieldhand.cli.inputs import Ground
-    from fieldhand.exchange.routes.route import Route
+    from fieldhand.exchange.routes.route import ExportedRoute
+    from fieldhand.mission.documents import SiteAndRobot
     from fieldhand.task.results import Event
 
 #: What each format can hold.
@@ -152,7 +152,7 @@ def _of_log(source: _Source, to: str, output: Path) -> _Made:
     if to == "events":
         return _Made(data="".join(to_json(event) + "\n" for event in events).encode(), facts=facts)
     if to == "mcap":
-        ground: Ground | None = None
+        ground: SiteAndRobot | None = None
         if folder is not None:
             ground = plan_of_folder(folder).ground
         elif site is not None:
@@ -165,7 +165,7 @@ def _of_log(source: _Source, to: str, output: Path) -> _Made:
     return _Made(data=_WRITERS[to](route), facts=facts | _facts(route))
 
 
-def _write_mcap(events: tuple[Event, ...], output: Path, ground: Ground | None, robot: str) -> None:
+def _write_mcap(events: tuple[Event, ...], output: Path, ground: SiteAndRobot | None, robot: str) -> None:
     from fieldhand.evaluation.event_text import EventText
     from fieldhand.exchange.mcap import McapLog
     from fieldhand.robot.loader import load_robot
@@ -176,27 +176,27 @@ def _write_mcap(events: tuple[Event, ...], output: Path, ground: Ground | None, 
             log(event)
 
 
-def _facts(route: Route) -> dict[str, Any]:
+def _facts(route: ExportedRoute) -> dict[str, Any]:
     metres = route.stops[-1].travelled_m if route.stops else 0.0
     return {"stops": len(route.stops), "travelled_m": round(metres, 3), "driven": route.driven}
 
 
-def _geojson(route: Route) -> bytes:
+def _geojson(route: ExportedRoute) -> bytes:
     from fieldhand.exchange.routes.geojson import write_geojson
 
     return write_geojson(route)
 
 
-def _kml(route: Route) -> bytes:
+def _kml(route: ExportedRoute) -> bytes:
     from fieldhand.exchange.routes.kml import write_kml
 
     return write_kml(route)
 
 
-def _csv(route: Route) -> bytes:
+def _csv(route: ExportedRoute) -> bytes:
     from fieldhand.exchange.routes.table import write_csv
 
     return write_csv(route)
 
 
-_WRITERS: dict[str, Callable[[Route], bytes]] = {"geojson": _geojson, "kml": _kml, "csv": _csv}
+_WRITERS: dict[str, Callable[[ExportedRoute], bytes]] = {"geojson": _geojson, "kml": _kml, "csv": _csv}

@@ -15,11 +15,12 @@ from fieldhand.cli import show
 from fieldhand.cli.approving import approve_plan, review_plan
 from fieldhand.cli.bundles import signer_record
 from fieldhand.cli.driver_options import see_off
-from fieldhand.cli.inputs import Ground, GroundFiles, write_file
+from fieldhand.cli.inputs import InputFiles, write_file
 from fieldhand.cli.outputs import left_in
 from fieldhand.cli.show import note
 from fieldhand.errors import InputError
 from fieldhand.language import ENGLISH, Language, kept_in_log, message
+from fieldhand.mission.documents import SiteAndRobot
 from fieldhand.task.frames import Task
 from fieldhand.task.results import Ended, Event, MissionStatus
 
@@ -42,7 +43,7 @@ class Kept:
     """
 
     under: Path
-    files: GroundFiles
+    files: InputFiles
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -84,7 +85,7 @@ class Orders:
 
 
 def fly(
-    ground: Ground,
+    ground: SiteAndRobot,
     task: Task,
     document: bytes | None,
     orders: Orders,
@@ -141,7 +142,7 @@ def parse_speed(text: str | None) -> float | None:
     return speed
 
 
-def leave_plan(ground: Ground, review: mission.Review, document: bytes | None, orders: Orders) -> None:
+def leave_plan(ground: SiteAndRobot, review: mission.Review, document: bytes | None, orders: Orders) -> None:
     """Write Task and map before a wheel turns, so that an unwritable folder costs no mission."""
     if orders.folder is None:
         return

@@ -12,7 +12,7 @@ from fieldhand import files
 from fieldhand.cli.outputs import unwritable
 from fieldhand.cli.show import note
 from fieldhand.language import ENGLISH, Language
-from fieldhand.robot.model import RobotProfile
+from fieldhand.mission.documents import SiteAndRobot
 from fieldhand.site.model import Site
 
 if TYPE_CHECKING:
@@ -20,15 +20,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Ground:
-    """The site and the robot that a command works on."""
-
-    site: Site
-    robot: RobotProfile
-
-
-@dataclass(frozen=True, kw_only=True)
-class GroundFiles:
+class InputFiles:
     """Site and robot as they were read, for what keeps them: a mission's folder, a bundle.
 
     Attributes:
@@ -41,7 +33,7 @@ class GroundFiles:
     lenient: bool
 
 
-def open_ground(site: str, robot: str, *, lenient: bool = False, language: Language = ENGLISH) -> Ground:
+def open_ground(site: str, robot: str, *, lenient: bool = False, language: Language = ENGLISH) -> SiteAndRobot:
     """Open both; of a leniently read site say what was left out.
 
     Raises:
@@ -52,7 +44,7 @@ def open_ground(site: str, robot: str, *, lenient: bool = False, language: Langu
 
 def read_ground(
     site: str, robot: str, *, lenient: bool = False, language: Language = ENGLISH
-) -> tuple[Ground, GroundFiles]:
+) -> tuple[SiteAndRobot, InputFiles]:
     """Open both as :func:`open_ground`, and return the bytes from which they were read, too: each file is read once.
 
     Raises:
@@ -65,8 +57,8 @@ def read_ground(
     opened = site_of(files, lenient=lenient)
     tell_left_out(opened, lenient=lenient, language=language)
     profile, source = profile_bytes(robot)
-    ground = Ground(site=opened, robot=parse_profile(profile, source=source))
-    return ground, GroundFiles(site=files, profile=profile, lenient=lenient)
+    ground = SiteAndRobot(site=opened, robot=parse_profile(profile, source=source))
+    return ground, InputFiles(site=files, profile=profile, lenient=lenient)
 
 
 def tell_left_out(site: Site, *, lenient: bool, language: Language = ENGLISH) -> None:

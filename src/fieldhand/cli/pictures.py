@@ -11,11 +11,11 @@ from fieldhand.language import ENGLISH, Language
 from fieldhand.mission import Review
 
 if TYPE_CHECKING:
-    from fieldhand.cli.inputs import Ground
+    from fieldhand.mission.documents import SiteAndRobot
     from fieldhand.planning.planner import Clarify
 
 
-def draw_plan(path: Path, review: Review, ground: Ground, language: Language = ENGLISH) -> None:
+def draw_plan(path: Path, review: Review, ground: SiteAndRobot, language: Language = ENGLISH) -> None:
     """The map of a planned mission.
 
     Raises:
@@ -30,7 +30,7 @@ def draw_plan(path: Path, review: Review, ground: Ground, language: Language = E
     save_map(review.task, ground.site, ground.robot, review.estimate, path, language)
 
 
-def draw_question(path: Path, asked: Clarify, ground: Ground) -> None:
+def draw_question(path: Path, asked: Clarify, ground: SiteAndRobot) -> None:
     """The map of a question, if its choices differ there.
 
     Raises:

@@ -9,9 +9,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from fieldhand.cli.bundles import is_bundle, read_unverified, require_site
-from fieldhand.cli.inputs import Ground, open_ground
+from fieldhand.cli.inputs import open_ground
 from fieldhand.errors import InputError
 from fieldhand.language import ENGLISH, Language, message
+from fieldhand.mission.documents import SiteAndRobot
 
 if TYPE_CHECKING:
     from fieldhand.past import Log
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Plan:
+class RecordedPlan:
     """What was to be done, where and with what.
 
     Attributes:
@@ -32,7 +33,7 @@ class Plan:
 
     task: Task
     document: bytes
-    ground: Ground
+    ground: SiteAndRobot
     authorization: Authorization | None = None
     signed: str = ""
     hashes: Sequence[tuple[str, str]] = ()
@@ -56,7 +57,7 @@ def folder_of(given: str | None, under: Path | None) -> Path | None:
     return missions.find(under or missions.missions_folder(os.environ), given)
 
 
-def plan_of_folder(folder: Path) -> Plan:
+def plan_of_folder(folder: Path) -> RecordedPlan:
     """What a mission's folder holds; every byte has to be the one that it began with.
 
     Raises:
@@ -67,10 +68,10 @@ def plan_of_folder(folder: Path) -> Plan:
     contents = missions.read_folder(folder)
     given = contents.mission()
     bundle = None if contents.signed is None else read_unverified(contents.signed, str(folder))
-    return Plan(
+    return RecordedPlan(
         task=given.authorized.task,
         document=contents.files["task.xml"],
-        ground=Ground(site=given.site, robot=given.robot),
+        ground=SiteAndRobot(site=given.site, robot=given.robot),
         authorization=given.authorized.authorization,
         signed="" if bundle is None else bundle.signed,
         hashes=() if bundle is None else (("signed mission", bundle.sha256),),
@@ -96,7 +97,7 @@ def log_of_folder(folder: Path) -> Log:
 
 def plan_of_files(
     task: Path, site: str | None, robot: str | None, *, lenient: bool, language: Language = ENGLISH
-) -> Plan:
+) -> RecordedPlan:
     """A Task document with site and robot, or a signed mission, which has its own.
 
     Raises:
@@ -109,10 +110,10 @@ def plan_of_files(
         return plan_of_bundle(task)
     ground = ground_of(require_site(site), robot, lenient=lenient, language=language)
     read, document = mission.read_task(task, ground.robot)
-    return Plan(task=read, document=document, ground=ground)
+    return RecordedPlan(task=read, document=document, ground=ground)
 
 
-def plan_of_bundle(file: Path) -> Plan:
+def plan_of_bundle(file: Path) -> RecordedPlan:
     """What a signed mission holds, whoever signed it.
 
     Raises:
@@ -122,17 +123,17 @@ def plan_of_bundle(file: Path) -> Plan:
     from fieldhand.approval.bundle.opening import authorization_of
 
     found = read_unverified(read_bundle_file(file), str(file))
-    return Plan(
+    return RecordedPlan(
         task=found.content.task,
         document=found.document,
-        ground=Ground(site=found.content.site, robot=found.content.robot),
+        ground=SiteAndRobot(site=found.content.site, robot=found.content.robot),
         authorization=authorization_of(found.content.manifest),
         signed=found.signed,
         hashes=(("signed mission", found.sha256),),
     )
 
 
-def ground_of(site: str, robot: str | None, *, lenient: bool, language: Language = ENGLISH) -> Ground:
+def ground_of(site: str, robot: str | None, *, lenient: bool, language: Language = ENGLISH) -> SiteAndRobot:
     """Site and robot; those of a signed mission, where one is given for the site.
 
     Raises:

@@ -44,9 +44,9 @@ def resume(
     from fieldhand.cli.bundles import tell_signer, verify
     from fieldhand.cli.driver_options import connected, connection_again, refuse_simulation_options
     from fieldhand.cli.flight import Orders, conclude, go_on, leave_plan, parse_speed
-    from fieldhand.cli.inputs import Ground
     from fieldhand.cli.tell import tell
     from fieldhand.language import message, spoken
+    from fieldhand.mission.documents import SiteAndRobot
 
     language = spoken(lang, os.environ)
     pace = parse_speed(speed)
@@ -87,7 +87,7 @@ def resume(
         language=language,
         bundle=given.bundle,
     )
-    ground = Ground(site=given.site, robot=given.robot)
+    ground = SiteAndRobot(site=given.site, robot=given.robot)
     review = steps.review(given.authorized.task, given.site, given.robot)
     approved = steps.ApprovedMission(
         authorized=given.authorized, site=given.site, robot=given.robot, estimate=review.estimate

@@ -76,11 +76,12 @@ def run(
     from fieldhand.cli.bundles import is_bundle, open_mission, require_site, tell_signer
     from fieldhand.cli.driver_options import connected, connection_of, refuse_simulation_options
     from fieldhand.cli.flight import Kept, Orders, fly, parse_speed
-    from fieldhand.cli.inputs import Ground, GroundFiles, read_ground
+    from fieldhand.cli.inputs import InputFiles, read_ground
     from fieldhand.cli.outputs import require_folder
     from fieldhand.execution.world import World
     from fieldhand.execution.world_file import load_world
     from fieldhand.language import spoken
+    from fieldhand.mission.documents import SiteAndRobot
 
     language = spoken(lang, os.environ)
     pace = parse_speed(speed)
@@ -95,8 +96,8 @@ def run(
         require_unsigned_allowed(os.environ, asked=production)
         ground, files = read_ground(require_site(site), robot or "husky", lenient=lenient, language=language)
     else:
-        ground = Ground(site=bundle.site, robot=bundle.robot)
-        files = GroundFiles(site=bundle.files, profile=bundle.profile, lenient=bundle.manifest.site.lenient)
+        ground = SiteAndRobot(site=bundle.site, robot=bundle.robot)
+        files = InputFiles(site=bundle.files, profile=bundle.profile, lenient=bundle.manifest.site.lenient)
         if not json:
             show.out.print(language.say(tell_signer(bundle)))
     given = World() if world is None else load_world(world)

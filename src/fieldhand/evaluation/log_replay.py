@@ -37,7 +37,7 @@ from fieldhand.task.results import (
     Visiting,
     Waited,
 )
-from fieldhand.task.run import Outcome, Run, StackFrame, carry_out
+from fieldhand.task.run import Outcome, PlanRun, StackFrame, carry_out
 
 
 def replay_log(plan: Node, events: Sequence[Event]) -> dict[str, CaptureCount]:
@@ -90,7 +90,7 @@ class _Replay:
         self._of: dict[str, list[int]] = {}
         for position, event in enumerate(self._events):
             self._of.setdefault(event.node, []).append(position)
-        self._run = Run(plan)
+        self._run = PlanRun(plan)
         self._run.entered, self._run.left = self._entered, self._left
 
     def run(self) -> dict[str, CaptureCount]:

@@ -37,7 +37,7 @@ from fieldhand.site.model import Place, Site
 from fieldhand.task.build import exit_of
 from fieldhand.task.frames import Fault, Task, Then
 from fieldhand.task.results import Acted, Arrived, ClockSet, Driving, Event, Faulted, InDoubt, MissionStatus, Resumed
-from fieldhand.task.run import Run
+from fieldhand.task.run import PlanRun
 
 #: Seconds of the mission between two polls while the robot waits.
 LOOK_AGAIN_S = 1.0
@@ -113,7 +113,7 @@ class ActiveMission:
         self.visited: list[str] = []
         self.bound: dict[str, tuple[Place, ...]] = {}
         self.readings: dict[str, Mapping[str, float]] = {}
-        self.run = Run(task.composition.plan)
+        self.run = PlanRun(task.composition.plan)
         self.travelled_m = 0.0
         self.driven: tuple[tuple[float, float], ...] = ()
         self.ending: Ending | None = None

@@ -18,7 +18,7 @@ from fieldhand.site.model import Place, Site
 from fieldhand.task.frames import Task
 from fieldhand.task.nodes.base import Failed
 from fieldhand.task.plan import Node
-from fieldhand.task.run import Run
+from fieldhand.task.run import PlanRun
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
@@ -95,7 +95,7 @@ class WalkState:
         #: Id of the node that drove last, or tried to.
         self.bound_for = ""
         #: The nodes in hand.
-        self.plan = Run(task.composition.plan)
+        self.plan = PlanRun(task.composition.plan)
         self.samples = samples
         self.spent = Spent()
         #: Every place that was gone to, in order; also those where the walk stood already.

@@ -2,16 +2,26 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
 
 if TYPE_CHECKING:
     from fieldhand.approval.bundle.opening import Bundle
     from fieldhand.approval.keys.trust import TrustStore
+
+
+@dataclass(frozen=True, kw_only=True)
+class SiteAndRobot:
+    """The site and the robot that a command or a call is about."""
+
+    site: Site
+    robot: RobotProfile
 
 
 def read_task(path: Path, robot: RobotProfile) -> tuple[Task, bytes]:

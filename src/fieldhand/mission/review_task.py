@@ -11,7 +11,7 @@ from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
 
 if TYPE_CHECKING:
-    from fieldhand.approval.checks import Examination, Problem
+    from fieldhand.approval.checks import Examination, PlanProblem
     from fieldhand.approval.readback import ReadBack
     from fieldhand.forecast.estimate import Estimate
 
@@ -46,7 +46,7 @@ class Review:
         return self.examination.robot
 
     @property
-    def problems(self) -> tuple[Problem, ...]:
+    def problems(self) -> tuple[PlanProblem, ...]:
         """Every problem found, errors first."""
         return self.examination.problems
 
@@ -56,7 +56,7 @@ class Review:
         return self.examination.estimate
 
     @property
-    def errors(self) -> tuple[Problem, ...]:
+    def errors(self) -> tuple[PlanProblem, ...]:
         """The problems that forbid approval."""
         return self.examination.errors
 

@@ -20,7 +20,7 @@ from fieldhand.site.feature_kinds import (
     text_of,
 )
 from fieldhand.site.formats.faults import Faults, UnusableFeature
-from fieldhand.site.formats.records import Records, UnusablePart
+from fieldhand.site.formats.records import SiteRecords, UnusablePart
 from fieldhand.terms import Value
 from fieldhand.visible import find_hidden, visible
 
@@ -92,7 +92,7 @@ class FeatureSet:
     closed: list[int] = field(default_factory=list)
 
 
-def gather(records: Records, faults: Faults) -> FeatureSet:
+def gather(records: SiteRecords, faults: Faults) -> FeatureSet:
     """Sort the features into points, areas and barriers; what cannot be used goes to ``faults``."""
     gathered = FeatureSet()
     reader = _FeatureReader(gathered, lenient=faults.lenient)

@@ -18,7 +18,7 @@ from fieldhand.site.features import gather
 from fieldhand.site.formats.faults import Faults
 from fieldhand.site.formats.files import SiteFiles, read_files, records_of
 from fieldhand.site.formats.geojson import geojson_records
-from fieldhand.site.formats.records import MAX_BYTES, Records, too_big
+from fieldhand.site.formats.records import MAX_BYTES, SiteRecords, too_big
 from fieldhand.site.model import Site
 
 
@@ -102,7 +102,7 @@ def parse_site(data: bytes, *, name: str, source: str = "", lenient: bool = Fals
         return _site(records, name=name, source=at, sha256=sha256, lenient=lenient)
 
 
-def _site(records: Records, *, name: str, source: str, sha256: str, lenient: bool) -> Site:
+def _site(records: SiteRecords, *, name: str, source: str, sha256: str, lenient: bool) -> Site:
     faults = Faults(source, records.unit, lenient=lenient)
     gathered = gather(records, faults)
     own = records.name.strip()

@@ -40,7 +40,7 @@ def _unheard(*_: object) -> None:
     """Do nothing: the default listener."""
 
 
-class Run:
+class PlanRun:
     """One execution of a plan.
 
     Args:

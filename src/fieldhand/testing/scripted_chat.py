@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from fieldhand.planning.llm.chat import Message, Reply
+from fieldhand.planning.llm.chat import ChatMessage, Reply
 from fieldhand.planning.llm.planner import LlmPlanner
 from fieldhand.planning.llm.settings import LlmSettings
 
@@ -25,7 +25,7 @@ class ScriptedChat:
         self.answers = answers
         self.told: list[str] = []
 
-    def ask(self, messages: Sequence[Message]) -> Reply:
+    def ask(self, messages: Sequence[ChatMessage]) -> Reply:
         self.told.append(messages[-1].text)
         return Reply(text=self.answers[min(len(self.told), len(self.answers)) - 1])
 

@@ -139,7 +139,7 @@ def test_a_plan_has_the_same_shape_however_it_is_said() -> None:
     from fieldhand.places import selectors as s
     from fieldhand.planning.english import draft as d
 
-    at = d.Block(steps=[d.Capture(action="read_co2", at=s.TreeIs(tree="4"), said=((0, 4),))])
-    gone = d.Block(steps=[d.Go(place=s.TreeIs(tree="4")), d.Capture(action="read_co2", said=((9, 12),))])
+    at = d.DraftBlock(steps=[d.DraftCapture(action="read_co2", at=s.TreeIs(tree="4"), said=((0, 4),))])
+    gone = d.DraftBlock(steps=[d.Go(place=s.TreeIs(tree="4")), d.DraftCapture(action="read_co2", said=((9, 12),))])
     assert shape(at) == shape(gone)
-    assert shape(at) != shape(d.Block(steps=[d.Capture(action="read_co2", at=s.TreeIs(tree="5"))]))
+    assert shape(at) != shape(d.DraftBlock(steps=[d.DraftCapture(action="read_co2", at=s.TreeIs(tree="5"))]))

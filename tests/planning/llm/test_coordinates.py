@@ -8,7 +8,7 @@ import pytest
 
 from fieldhand.errors import ModelError
 from fieldhand.planning.llm.coordinates import coordinates
-from fieldhand.planning.llm.review import Problem, read_draft, review
+from fieldhand.planning.llm.review import AnswerProblem, read_draft, review
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import load_robot
@@ -25,7 +25,7 @@ MEASURED = grid(4, 6, extra={"lat": 37.30009, "Longitude": -120.5, "zone code": 
 REQUEST = "Take a picture of the first tree."
 
 
-def problems(plan: str, request: str = REQUEST, site: Site = SITE) -> tuple[Problem, ...]:
+def problems(plan: str, request: str = REQUEST, site: Site = SITE) -> tuple[AnswerProblem, ...]:
     draft = read_draft(task_document(plan), ABLE)
     if not isinstance(draft, TaskDraft):
         return draft

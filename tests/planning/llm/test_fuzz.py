@@ -12,7 +12,7 @@ from fieldhand.planning.llm.answer import LONGEST_ANSWER, TaskAnswer, Unusable, 
 from fieldhand.planning.llm.chat import Reply
 from fieldhand.planning.llm.coordinates import coordinates
 from fieldhand.planning.llm.doubts import doubts
-from fieldhand.planning.llm.review import Problem, read_draft, review
+from fieldhand.planning.llm.review import AnswerProblem, read_draft, review
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import open_site
@@ -44,11 +44,11 @@ SPLICES = [
 ]  # fmt: skip
 
 
-def read(document: str) -> tuple[Problem, ...]:
+def read(document: str) -> tuple[AnswerProblem, ...]:
     """Everything that is done with a document before it is a plan."""
     answer = read_answer(Reply(text=document))
     if not isinstance(answer, TaskAnswer):
-        return (Problem(kind="answer", message=getattr(answer, "reason", "question or refusal")),)
+        return (AnswerProblem(kind="answer", message=getattr(answer, "reason", "question or refusal")),)
     draft = read_draft(answer.document, ABLE)
     if not isinstance(draft, TaskDraft):
         return draft
@@ -59,7 +59,7 @@ def read(document: str) -> tuple[Problem, ...]:
     return doubts(task, draft, DEMO, HUSKY)
 
 
-def is_typed(found: tuple[Problem, ...]) -> bool:
+def is_typed(found: tuple[AnswerProblem, ...]) -> bool:
     return all(p.kind in KINDS and p.message and "\n" not in str(p) for p in found)
 
 

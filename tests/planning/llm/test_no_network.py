@@ -6,7 +6,7 @@ import os
 
 import pytest
 
-from fieldhand.planning.llm.chat import Message
+from fieldhand.planning.llm.chat import ChatMessage
 from fieldhand.planning.llm.settings import LlmSettings, Provider
 from fieldhand.planning.llm.transport import ModelChat
 
@@ -15,7 +15,7 @@ from fieldhand.planning.llm.transport import ModelChat
 def test_a_real_model_cannot_be_asked(provider: Provider) -> None:
     chat = ModelChat(LlmSettings(provider=provider, model="m", api_key="k" * 20))
     with pytest.raises(pytest.fail.Exception, match="a test tried to"):
-        chat.ask([Message(role="user", text="hello")])
+        chat.ask([ChatMessage(role="user", text="hello")])
 
 
 def test_an_address_without_a_name_cannot_be_asked_either() -> None:
@@ -23,7 +23,7 @@ def test_an_address_without_a_name_cannot_be_asked_either() -> None:
     with pytest.RaisesGroup(
         pytest.RaisesExc(pytest.fail.Exception, match=r"192\.0\.2\.1"), flatten_subgroups=True, allow_unwrapped=True
     ):
-        chat.ask([Message(role="user", text="hello")])
+        chat.ask([ChatMessage(role="user", text="hello")])
 
 
 def test_no_key_of_the_developer_is_in_the_environment() -> None:

@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 from hypothesis import HealthCheck, given, settings
 
-from fieldhand.planning.llm.review import Problem, read_draft, review
+from fieldhand.planning.llm.review import AnswerProblem, read_draft, review
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import open_site
@@ -28,7 +28,7 @@ def document(plan: str, xmlns: str = XMLNS) -> str:
     return f"<task{xmlns}>\n<task-composition>\n<plan>\n{plan}\n</plan>\n</task-composition>\n</task>"
 
 
-def problems(plan: str) -> tuple[Problem, ...]:
+def problems(plan: str) -> tuple[AnswerProblem, ...]:
     draft = read_draft(document(plan), AMIGA)
     return draft if isinstance(draft, tuple) else review(draft, SITE, AMIGA)
 

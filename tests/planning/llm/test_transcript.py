@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from fieldhand.errors import InputError, OutputError
-from fieldhand.planning.llm.chat import Message, Reply
+from fieldhand.planning.llm.chat import ChatMessage, Reply
 from fieldhand.planning.llm.transcript import TranscriptWriter, read_transcript
 
 NOON = datetime(2025, 6, 1, 12, tzinfo=UTC)
@@ -18,9 +18,11 @@ def write(path: Path, request: str = "Visit the trees.") -> None:
     writer = TranscriptWriter(path, now=lambda: NOON)
     writer.begin(request, planner="llm:m", note="by hand")
     writer.exchange(
-        [Message(role="system", text="rules\nof two lines"), Message(role="user", text=request)], Reply(text="a"), ["p"]
+        [ChatMessage(role="system", text="rules\nof two lines"), ChatMessage(role="user", text=request)],
+        Reply(text="a"),
+        ["p"],
     )
-    writer.exchange([Message(role="user", text="mend it")], Reply(text="ü ≤ 2", finish="length"), [])
+    writer.exchange([ChatMessage(role="user", text="mend it")], Reply(text="ü ≤ 2", finish="length"), [])
     writer.end("planned")
 
 
@@ -35,7 +37,7 @@ def test_what_is_written_can_be_read_back(tmp_path: Path) -> None:
         ("a", "stop", ("p",)),
         ("ü ≤ 2", "length", ()),
     ]
-    assert first.exchanges[0].messages[0] == Message(role="system", text="rules\nof two lines")
+    assert first.exchanges[0].messages[0] == ChatMessage(role="system", text="rules\nof two lines")
 
 
 def test_no_file_is_written_where_none_is_named() -> None:

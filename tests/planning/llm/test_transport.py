@@ -10,16 +10,16 @@ from dataclasses import replace
 import pytest
 
 from fieldhand.errors import ModelError
-from fieldhand.planning.llm.chat import Message
+from fieldhand.planning.llm.chat import ChatMessage
 from fieldhand.planning.llm.scripted import ScriptedAnswer, ScriptedEndpoint
 from fieldhand.planning.llm.settings import LlmSettings, Provider
 from fieldhand.planning.llm.transport import LONGEST_WAIT_S, ModelChat
 
 TALK = (
-    Message(role="system", text="be brief"),
-    Message(role="user", text="first"),
-    Message(role="assistant", text="second"),
-    Message(role="user", text="third"),
+    ChatMessage(role="system", text="be brief"),
+    ChatMessage(role="user", text="first"),
+    ChatMessage(role="assistant", text="second"),
+    ChatMessage(role="user", text="third"),
 )
 
 

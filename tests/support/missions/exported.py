@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import cache
 
-from fieldhand.exchange.routes.route import Route, driven, planned
+from fieldhand.exchange.routes.route import ExportedRoute, driven, planned
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.loader import load_robot
@@ -34,10 +34,10 @@ def flight() -> Flight:
 
 
 @cache
-def planned_route(request: str = STRAIGHT) -> Route:
+def planned_route(request: str = STRAIGHT) -> ExportedRoute:
     return planned(task_of(request), load_demo(), load_robot("husky"))
 
 
 @cache
-def driven_route() -> Route:
+def driven_route() -> ExportedRoute:
     return driven(flight().events)

@@ -21,7 +21,7 @@ from fieldhand.task import instructions as ask
 from fieldhand.task.frames import Task
 from fieldhand.task.nodes.base import Stopped
 from fieldhand.task.plan import ForEach, Node
-from fieldhand.task.run import Run, StackFrame, carry_out
+from fieldhand.task.run import PlanRun, StackFrame, carry_out
 
 
 class Paper:
@@ -103,7 +103,7 @@ def frames_at(plan: Node, node_id: str, time: int = 1) -> tuple[StackFrame, ...]
         node_id: The node.
         time: How often it has been reached then, this time included.
     """
-    run, found = Run(plan), list[tuple[StackFrame, ...]]()
+    run, found = PlanRun(plan), list[tuple[StackFrame, ...]]()
 
     def entered(node: Node) -> None:
         if node.id == node_id:

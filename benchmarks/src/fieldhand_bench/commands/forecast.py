@@ -30,8 +30,9 @@ def bench_forecast(
     from fieldhand.cli import show
     from fieldhand.cli.asking import Replies, plan_or_read
     from fieldhand.cli.bundles import require_site
-    from fieldhand.cli.inputs import Ground, open_ground
+    from fieldhand.cli.inputs import open_ground
     from fieldhand.errors import InputError
+    from fieldhand.mission.documents import SiteAndRobot
     from fieldhand.robot.loader import load_robot
     from fieldhand_bench.commands.machine import machine
     from fieldhand_bench.repeated import compare
@@ -43,7 +44,7 @@ def bench_forecast(
         kind, _, trees = made.partition(":")
         if not (trees.isdecimal() and 20 <= int(trees) <= 20_000):
             raise InputError(f"'{made}' is no generated site", where="--made", advice="give straight:2000, for one")
-        ground = Ground(site=made_block(kind, int(trees)), robot=load_robot(robot))
+        ground = SiteAndRobot(site=made_block(kind, int(trees)), robot=load_robot(robot))
     task, _, _ = plan_or_read(request, ground, "english", None, Replies(given=(), assume=True, ask=False))
     flown: list[Mission] = []
 

@@ -12,7 +12,7 @@ from fieldhand import mission
 from fieldhand.approval.authorize import EveryWarning
 from fieldhand.errors import ModelError, NotApprovedError
 from fieldhand.planning.english.planner import EnglishPlanner
-from fieldhand.planning.llm.chat import Chat, Message, Reply
+from fieldhand.planning.llm.chat import Chat, ChatMessage, Reply
 from fieldhand.planning.planner import Clarify, Outcome, Planned, Planner, Refused
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
@@ -47,7 +47,7 @@ class Metered:
         self.tries = 0
         self.tokens = 0
 
-    def ask(self, messages: Sequence[Message]) -> Reply:
+    def ask(self, messages: Sequence[ChatMessage]) -> Reply:
         self.tries += 1
         reply = self._chat.ask(messages)
         self.tokens += sum(reply.tokens)

@@ -55,11 +55,11 @@ Words = Annotated[str, Field(max_length=100_000), AfterValidator(_printable)]
 Moment = Annotated[str, Field(max_length=40), AfterValidator(_moment)]
 
 
-class _Part(BaseModel):
+class _FilePart(BaseModel):
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
 
 
-class Approved(_Part):
+class Approved(_FilePart):
     """An approval: the approver, the time, the confirmed warnings, and the language of the read-back (ISO 639).
 
     Attributes:
@@ -75,7 +75,7 @@ class Approved(_Part):
     language: Annotated[str, Field(pattern=r"^[a-z]{2,3}$")]
 
 
-class TaskPart(_Part):
+class TaskPart(_FilePart):
     """The Task, stored as ``task.xml``."""
 
     id: Line
@@ -84,7 +84,7 @@ class TaskPart(_Part):
     planner: Line
 
 
-class SitePart(_Part):
+class SitePart(_FilePart):
     """The site.
 
     Attributes:
@@ -101,14 +101,14 @@ class SitePart(_Part):
     lenient: bool
 
 
-class RobotPart(_Part):
+class RobotPart(_FilePart):
     """The robot, whose profile is stored as ``robot.yaml``."""
 
     name: Line
     sha256: Sha256
 
 
-class Manifest(_Part):
+class Manifest(_FilePart):
     """The signed content of a bundle.
 
     Attributes:

@@ -59,7 +59,7 @@ def write_tree(task: Task, capabilities: Capabilities) -> bytes:
     from lxml import etree
 
     root = etree.Element("root", BTCPP_format="4", main_tree_to_execute=MAIN_TREE)
-    etree.SubElement(root, "BehaviorTree", ID=MAIN_TREE).append(_Writer(task).mission())
+    etree.SubElement(root, "BehaviorTree", ID=MAIN_TREE).append(_TreeWriter(task).mission())
     root.append(models(capabilities))
     etree.indent(root)
     data: bytes = etree.tostring(root, xml_declaration=True, encoding="UTF-8") + b"\n"
@@ -71,7 +71,7 @@ def write_tree(task: Task, capabilities: Capabilities) -> bytes:
     return data
 
 
-class _Writer:
+class _TreeWriter:
     """Writer of the nodes of one Task."""
 
     def __init__(self, task: Task) -> None:

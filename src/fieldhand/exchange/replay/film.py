@@ -21,7 +21,7 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Capture:
+class ReplayCapture:
     """A capture: time, position in metres, and readings with their units."""
 
     t: float
@@ -83,7 +83,7 @@ class Film:
     seconds: float
     track: Floats
     charge: Floats
-    captures: tuple[Capture, ...]
+    captures: tuple[ReplayCapture, ...]
     lines: tuple[tuple[float, str], ...]
     quantities: tuple[str, ...]
     signs: tuple[Sign, ...] = ()
@@ -121,7 +121,7 @@ def film_of(events: Sequence[Event], site: Site, *, tell: Callable[[Event], str 
         InputError: The log contains no robot position.
     """
     track, charge = _Track(site), []
-    captures: list[Capture] = []
+    captures: list[ReplayCapture] = []
     lines: list[tuple[float, str]] = []
     for event in events:
         if not math.isfinite(event.t):
@@ -229,11 +229,11 @@ def _ring(area: Sequence[LatLon], site: Site) -> Floats:
     return site.projection.metres(degrees[:, 0], degrees[:, 1])
 
 
-def _capture(event: Acted, site: Site) -> Capture:
+def _capture(event: Acted, site: Site) -> ReplayCapture:
     x, y = site.projection.metres(event.lat, event.lon)[0]
     good = event.status == "success"
     readings = {q: v for q, v in event.readings.items() if good and math.isfinite(v)}
-    return Capture(
+    return ReplayCapture(
         t=event.t, x=float(x), y=float(y), place=event.place, action=event.action, good=good,
         readings=readings, units=event.units,
     )  # fmt: skip

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from fieldhand.clock import clock_time
 from fieldhand.errors import OutputError
-from fieldhand.exchange.replay.film import Capture, Film
+from fieldhand.exchange.replay.film import Film, ReplayCapture
 from fieldhand.language.words import capitalised, say_name, say_unit
 from fieldhand.site.drawing import draw_site, name_site, site_figure
 from fieldhand.site.drawing.saving import make_text_visible
@@ -47,7 +47,7 @@ def save_animation(film: Film, site: Site, path: Path, *, seconds: float = 10.0)
         what = "an MP4 needs the program ffmpeg, which is not installed"
         raise OutputError(what, where=str(path), advice="install ffmpeg, or end the name in .gif or .html")
     kind = animation.FFMpegWriter if path.suffix.lower() == ".mp4" else animation.PillowWriter
-    frames = _Scene(film, site)
+    frames = _MovingScene(film, site)
     writer = kind(fps=_FRAMES_A_SECOND)
     times = np.linspace(0.0, film.seconds, max(2, round(seconds * _FRAMES_A_SECOND)))
     times = np.append(times, [film.seconds] * round(_HOLD_S * _FRAMES_A_SECOND))
@@ -73,7 +73,7 @@ def _sheet(picture: NDArray[np.uint8]) -> tuple[Figure, Any]:
     return figure, figure.figimage(picture)
 
 
-class _Scene:
+class _MovingScene:
     """The static site and the moving marks drawn on it."""
 
     def __init__(self, film: Film, site: Site) -> None:
@@ -157,7 +157,7 @@ def _canvas(figure: Figure) -> Any:
     return FigureCanvasAgg(figure)
 
 
-def _valued_dots(figure: Figure, ax: Axes, valued: list[Capture], quantity: str) -> Any:
+def _valued_dots(figure: Figure, ax: Axes, valued: list[ReplayCapture], quantity: str) -> Any:
     """Draw dots coloured by value, with a colour bar for the range of the whole mission."""
     values = [c.readings[quantity] for c in valued]
     low, high = min(values), max(values)
@@ -172,7 +172,7 @@ def _valued_dots(figure: Figure, ax: Axes, valued: list[Capture], quantity: str)
     return dots
 
 
-def _xy(captures: list[Capture]) -> Any:
+def _xy(captures: list[ReplayCapture]) -> Any:
     return np.array([(c.x, c.y) for c in captures], dtype=np.float64).reshape(-1, 2)
 
 

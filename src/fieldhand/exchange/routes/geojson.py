@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 from fieldhand.exchange.incidents import Incident, LatLon
-from fieldhand.exchange.routes.route import Route, Stop
+from fieldhand.exchange.routes.route import ExportedRoute, RouteStop
 from fieldhand.visible import visible_json
 
 
-def write_geojson(route: Route) -> bytes:
+def write_geojson(route: ExportedRoute) -> bytes:
     """Return a FeatureCollection, with incidents after legs and stops.
 
     Positions are longitude, latitude in degrees, WGS 84, to a hundredth of a millimetre.
@@ -32,7 +32,7 @@ def write_geojson(route: Route) -> bytes:
     return (visible_json(collection, indent=1) + "\n").encode()
 
 
-def _of_stop(route: Route, stop: Stop, number: int) -> dict[str, Any]:
+def _of_stop(route: ExportedRoute, stop: RouteStop, number: int) -> dict[str, Any]:
     found: dict[str, Any] = {
         "what": "end" if stop.home else "stop",
         "number": number,
@@ -65,7 +65,7 @@ def _of_incident(one: Incident, behind: int) -> dict[str, Any]:
     return _feature(geometry, properties | {"said": one.words})
 
 
-def _certainty(route: Route, stop: Stop) -> dict[str, Any]:
+def _certainty(route: ExportedRoute, stop: RouteStop) -> dict[str, Any]:
     return {} if route.driven else {"certain": stop.certain}
 
 

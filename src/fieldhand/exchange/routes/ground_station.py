@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from fieldhand.exchange.incidents import LatLon
-from fieldhand.exchange.routes.route import Route
+from fieldhand.exchange.routes.route import ExportedRoute
 from fieldhand.site.model import Site
 
 #: MAVLink values: MAV_CMD_NAV_WAYPOINT, MAV_FRAME_GLOBAL_RELATIVE_ALT, MAV_TYPE_GROUND_ROVER,
@@ -38,7 +38,7 @@ class GroundStationPlan:
     left_out: int
 
 
-def write_plan(route: Route, site: Site) -> GroundStationPlan:
+def write_plan(route: ExportedRoute, site: Site) -> GroundStationPlan:
     """Return the unconditional part of a planned route."""
     straight = [stop for stop in route.stops if stop.certain]
     items: list[dict[str, Any]] = []

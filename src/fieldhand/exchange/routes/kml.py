@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldhand.exchange.incidents import LatLon
-from fieldhand.exchange.routes.route import Route, Stop
+from fieldhand.exchange.routes.route import ExportedRoute, RouteStop
 from fieldhand.language.words import capitalised, say_action, say_name, say_number, say_unit
 from fieldhand.visible import visible
 
@@ -17,7 +17,7 @@ NAMESPACE = "http://www.opengis.net/kml/2.2"
 _STYLES = (("certain", "ff4f3226"), ("uncertain", "ff008bd4"), ("incident", "ff003b8a"))
 
 
-def write_kml(route: Route) -> bytes:
+def write_kml(route: ExportedRoute) -> bytes:
     """Return a document with folders of legs and stops, its elements in schema order."""
     from lxml import etree
 
@@ -71,15 +71,15 @@ def _placemark(folder: _Element, name: str, about: str, style: str) -> _Element:
     return mark
 
 
-def _style(stop: Stop) -> str:
+def _style(stop: RouteStop) -> str:
     return "certain" if stop.certain else "uncertain"
 
 
-def _named(stop: Stop) -> str:
+def _named(stop: RouteStop) -> str:
     return f"tree {stop.place}" if stop.kind == "tree" else stop.place
 
 
-def _described(stop: Stop) -> str:
+def _described(stop: RouteStop) -> str:
     """Return the actions at a stop, one per line."""
     lines = []
     for work in stop.work:
@@ -91,7 +91,7 @@ def _described(stop: Stop) -> str:
     return "\n".join(lines)
 
 
-def _data(route: Route, stop: Stop, number: int) -> dict[str, str]:
+def _data(route: ExportedRoute, stop: RouteStop, number: int) -> dict[str, str]:
     found = {"stop": str(number), "place": stop.place, "node": stop.node, "travelled_m": f"{stop.travelled_m:.3f}"}
     if stop.t is not None:
         found["t_s"] = f"{stop.t:.3f}"

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Work:
+class ExportedWork:
     """An action at a stop, planned or performed.
 
     Attributes:
@@ -49,7 +49,7 @@ class Work:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Stop:
+class RouteStop:
     """A place where the robot stops.
 
     Attributes:
@@ -72,14 +72,14 @@ class Stop:
     way: tuple[LatLon, ...] = ()
     length_m: float = 0.0
     travelled_m: float = 0.0
-    work: tuple[Work, ...] = ()
+    work: tuple[ExportedWork, ...] = ()
     certain: bool = True
     home: bool = False
     t: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
-class Route:
+class ExportedRoute:
     """The stops of a mission, with its start and incidents.
 
     Attributes:
@@ -92,13 +92,13 @@ class Route:
 
     name: str
     start: LatLon
-    stops: tuple[Stop, ...]
+    stops: tuple[RouteStop, ...]
     speed_m_s: float
     driven: bool
     incidents: tuple[tuple[int, Incident], ...] = ()
 
 
-def planned(task: Task, site: Site, robot: RobotProfile) -> Route:
+def planned(task: Task, site: Site, robot: RobotProfile) -> ExportedRoute:
     """Return the route of a Task on the branch where every condition holds.
 
     Raises:
@@ -109,7 +109,7 @@ def planned(task: Task, site: Site, robot: RobotProfile) -> Route:
     walked = found.walks[0]
     known = _Certain(found.walks if found.complete else (walked,), complete=found.complete)
     first = next((s.context.here for s in walked.steps), site.start)
-    stops: list[Stop] = [_stop(first, site, node="", certain=True)]
+    stops: list[RouteStop] = [_stop(first, site, node="", certain=True)]
     travelled, drives = 0.0, 0
     for step in walked.steps:
         if step.kind in ("drive", "exit") and step.drive is not None:
@@ -119,7 +119,7 @@ def planned(task: Task, site: Site, robot: RobotProfile) -> Route:
         elif step.kind == "exit":
             stops[-1] = replace(stops[-1], home=True)
         elif step.kind == "act" and step.node.act is not None:
-            done = Work(
+            done = ExportedWork(
                 node=step.node.id,
                 action=step.node.act.action,
                 captures=step.captures,
@@ -128,7 +128,7 @@ def planned(task: Task, site: Site, robot: RobotProfile) -> Route:
             )
             stops[-1] = replace(stops[-1], work=(*stops[-1].work, done))
     begin = stops[0]
-    return Route(
+    return ExportedRoute(
         name=task.id,
         start=begin.stand,
         stops=tuple(stops if begin.work or begin.home else stops[1:]),
@@ -139,7 +139,7 @@ def planned(task: Task, site: Site, robot: RobotProfile) -> Route:
 
 def driven(
     events: Sequence[Event], *, speed_m_s: float = 0.0, tell: Callable[[Event], str | None] = lambda _: None
-) -> Route:
+) -> ExportedRoute:
     """Return the route of an event log, without stops that lack a valid position.
 
     Args:
@@ -149,7 +149,7 @@ def driven(
     """
     started = next((e for e in events if isinstance(e, Started)), None)
     begin = (0.0, 0.0) if started is None else (started.lat, started.lon)
-    stops: list[Stop] = []
+    stops: list[RouteStop] = []
     here = begin
     way: tuple[LatLon, ...] = ()
     broken: tuple[LatLon, ...] = ()
@@ -163,7 +163,7 @@ def driven(
             case Arrived() if _known((event.lat, event.lon)):
                 here = (event.lat, event.lon)
                 stops.append(
-                    Stop(
+                    RouteStop(
                         node=event.node, kind=event.kind, place=event.place, at=here, stand=here,
                         way=broken + way, length_m=event.leg_m, travelled_m=event.travelled_m, t=event.t,
                     )
@@ -174,7 +174,7 @@ def driven(
                     metres = stops[-1].travelled_m if stops else 0.0
                     at = (event.lat, event.lon)
                     stops.append(
-                        Stop(
+                        RouteStop(
                             node=event.node, kind=event.kind, place=event.place, at=at, stand=here,
                             travelled_m=metres, t=event.t,
                         )
@@ -188,7 +188,7 @@ def driven(
     beside = tuple(
         (sum(stop.t is not None and stop.t <= one.t for stop in stops), one) for one in incidents(events, tell)
     )
-    return Route(name=name, start=begin, stops=tuple(stops), speed_m_s=speed_m_s, driven=True, incidents=beside)
+    return ExportedRoute(name=name, start=begin, stops=tuple(stops), speed_m_s=speed_m_s, driven=True, incidents=beside)
 
 
 class _Certain:
@@ -222,13 +222,13 @@ class _Certain:
         return drives, frozenset(acts)
 
 
-def _with(work: tuple[Work, ...], event: Acted) -> tuple[Work, ...]:
+def _with(work: tuple[ExportedWork, ...], event: Acted) -> tuple[ExportedWork, ...]:
     """Return the work of a stop with one more capture added."""
     good = event.status == "success"
     readings = {q: (v, event.units.get(q, "")) for q, v in event.readings.items() if math.isfinite(v)} if good else {}
     last = work[-1] if work and (work[-1].node, work[-1].action) == (event.node, event.action) else None
     if last is None:
-        last, work = Work(node=event.node, action=event.action, captures=0), (*work, None)  # type: ignore[arg-type]
+        last, work = ExportedWork(node=event.node, action=event.action, captures=0), (*work, None)  # type: ignore[arg-type]
     more = replace(
         last,
         captures=last.captures + (event.count if good else 0),
@@ -238,7 +238,7 @@ def _with(work: tuple[Work, ...], event: Acted) -> tuple[Work, ...]:
     return (*work[:-1], more)
 
 
-def _driven_to(step: WalkStep, site: Site, travelled: float, certain: bool) -> Stop:
+def _driven_to(step: WalkStep, site: Site, travelled: float, certain: bool) -> RouteStop:
     assert step.drive is not None  # noqa: S101  the caller looked
     way = _degrees(site, step.drive.points)
     made = _stop(step.places[0], site, node=step.node.id, certain=certain)
@@ -247,9 +247,11 @@ def _driven_to(step: WalkStep, site: Site, travelled: float, certain: bool) -> S
     )
 
 
-def _stop(place: Place, site: Site, *, node: str, certain: bool) -> Stop:
+def _stop(place: Place, site: Site, *, node: str, certain: bool) -> RouteStop:
     stand = _degrees(site, [place.stand or place.xy])[0]
-    return Stop(node=node, kind=place.kind, place=place.id, at=(place.lat, place.lon), stand=stand, certain=certain)
+    return RouteStop(
+        node=node, kind=place.kind, place=place.id, at=(place.lat, place.lon), stand=stand, certain=certain
+    )
 
 
 def _degrees(site: Site, points: ArrayLike) -> tuple[LatLon, ...]:

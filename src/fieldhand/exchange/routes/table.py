@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fieldhand.exchange.routes.route import Route, Work
+from fieldhand.exchange.routes.route import ExportedRoute, ExportedWork
 from fieldhand.visible import csv_text
 
 COLUMNS = (
@@ -11,7 +11,7 @@ COLUMNS = (
 )  # fmt: skip
 
 
-def write_csv(route: Route) -> bytes:
+def write_csv(route: ExportedRoute) -> bytes:
     """Return the stops in order, each incident after the stop that precedes it.
 
     Text that a spreadsheet would interpret as a formula is prefixed with an apostrophe.
@@ -20,7 +20,7 @@ def write_csv(route: Route) -> bytes:
     for number, stop in enumerate(route.stops, start=1):
         beginning = (number, stop.kind, stop.place, *(round(d, 9) for d in (*stop.at, *stop.stand)))
         way = (round(stop.length_m, 3), round(stop.travelled_m, 3), "" if stop.t is None else round(stop.t, 3))
-        for work in stop.work or (Work(node=stop.node, action="", captures=0),):
+        for work in stop.work or (ExportedWork(node=stop.node, action="", captures=0),):
             readings = "; ".join(f"{q} {v} {u}".strip() for q, (v, u) in work.readings.items())
             certain = "" if route.driven else "yes" if stop.certain and work.certain else "no"
             what = (work.node, work.action, work.captures or "", work.failed or "", readings)

@@ -7,11 +7,11 @@ from dataclasses import replace
 from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.faults import unclear
-from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.found import FoundPlace
 from fieldhand.planning.english.hand import ACTS
 from fieldhand.planning.english.places import are_several, find
 from fieldhand.planning.english.rewriting import silent
-from fieldhand.planning.english.syntax import Chain, Part, Places
+from fieldhand.planning.english.syntax import Chain, ClausePart, Places
 from fieldhand.planning.english.tokens import Term
 from fieldhand.site.model import Site
 
@@ -24,10 +24,10 @@ _ELSEWHERE = ("go", "visit", "lead", "come_back", "stop", "repeat")
 _BETWEEN = ("order", "budget", "distinct")
 
 
-def with_areas(parts: tuple[Part, ...], site: Site) -> tuple[Part, ...]:
+def with_areas(parts: tuple[ClausePart, ...], site: Site) -> tuple[ClausePart, ...]:
     """The parts of a sentence, an area in front of a command put behind the trees that it is about."""
-    made: list[Part] = []
-    area: Part | None = None  # rows along which the robot was sent, for the rest of the sentence
+    made: list[ClausePart] = []
+    area: ClausePart | None = None  # rows along which the robot was sent, for the rest of the sentence
     for part in parts:
         at = next((k for k in range(len(made) - 1, -1, -1) if made[k].kind not in _BETWEEN), None)
         lead = None if at is None else made[at]
@@ -62,11 +62,11 @@ def with_areas(parts: tuple[Part, ...], site: Site) -> tuple[Part, ...]:
     return tuple(made)
 
 
-def _stops(part: Part) -> bool:
+def _stops(part: ClausePart) -> bool:
     return part.kind in ("visit", "lead", "go") and part.places is not None and part.spacing is None
 
 
-def _stop_along(lead: Part, part: Part) -> Part | None:
+def _stop_along(lead: ClausePart, part: ClausePart) -> ClausePart | None:
     """ "Drive down row 3, stop at every third tree and ..."."""
     if part.places is None or lead.places is None or not _open(part, ids=False) or len(lead.places.chains) != 1:
         return None
@@ -76,7 +76,7 @@ def _stop_along(lead: Part, part: Part) -> Part | None:
     return replace(part, places=places, terms=(*lead.terms, *part.terms), then=lead.then)
 
 
-def _merged(lead: Part, part: Part, site: Site) -> Part | None:
+def _merged(lead: ClausePart, part: ClausePart, site: Site) -> ClausePart | None:
     """A command with the area, the rows or the spacing in front of it; None if they do not belong to it."""
     if lead.spacing is not None and part.spacing is not None:
         raise unclear(lead.terms, message("two distances between stops cannot be kept"), message("say one"))
@@ -112,13 +112,13 @@ def _merged(lead: Part, part: Part, site: Site) -> Part | None:
     return replace(whole, places=_in_area(part.places, lead, area), tails=tails if found.rows else whole.tails)
 
 
-def _clash(lead: Part) -> Part:
+def _clash(lead: ClausePart) -> ClausePart:
     raise unclear(
         lead.terms, message("stops at a distance need a line of their own"), message("say 'every 20 m along row 4'")
     )
 
 
-def _without_places(lead: Part, whole: Part, found: Found) -> Part | None:
+def _without_places(lead: ClausePart, whole: ClausePart, found: FoundPlace) -> ClausePart | None:
     """ "In row 3, take 5 pictures": the rows are where it is done."""
     if not found.region or any(_is_each(t) for t in whole.tails):
         return None
@@ -127,7 +127,7 @@ def _without_places(lead: Part, whole: Part, found: Found) -> Part | None:
     return replace(whole, places=lead.places, relation=relation, tails=tails)
 
 
-def _some_of_them(part: Part, area: Chain) -> Part | None:
+def _some_of_them(part: ClausePart, area: Chain) -> ClausePart | None:
     """ "Drive along a row of 5 trees and take a picture at 3 of them"."""
     them = next(
         (t for t in part.tails if t.kind == "THERE" and t.text.lower().startswith("of ") and are_several(t)), None
@@ -143,7 +143,7 @@ def _some_of_them(part: Part, area: Chain) -> Part | None:
     return replace(part, places=replace(places, chains=(chain,)), tails=tails)
 
 
-def _in_each(part: Part, lead: Part, area: Chain) -> Part | None:
+def _in_each(part: ClausePart, lead: ClausePart, area: Chain) -> ClausePart | None:
     """ "Visit rows 2 and 4 and take 2 pictures in each": in each of the rows."""
     chains = part.places.chains if part.places is not None else ()
     alone = len(chains) == 1 and len(chains[0].phrases) == 1 and not chains[0].phrases[0].nominals
@@ -155,7 +155,7 @@ def _in_each(part: Part, lead: Part, area: Chain) -> Part | None:
     return replace(part, places=replace(lead.places, chains=(chain,)))
 
 
-def _in_area(places: Places, lead: Part, area: Chain) -> Places:
+def _in_area(places: Places, lead: ClausePart, area: Chain) -> Places:
     relation = lead.relation or silent("AT", lead.terms[-1].end)
     if relation.kind == "FOR":
         relation = replace(relation, kind="AT")
@@ -170,7 +170,7 @@ def _in_area(places: Places, lead: Part, area: Chain) -> Places:
     return replace(places, chains=chains)
 
 
-def _goes_along(lead: Part, site: Site) -> bool:
+def _goes_along(lead: ClausePart, site: Site) -> bool:
     return lead.kind == "go" and lead.places is not None and find(lead.places, site).rows
 
 
@@ -178,7 +178,7 @@ def _is_each(term: Term) -> bool:
     return term.kind == "THERE" and are_several(term)
 
 
-def _open(part: Part, *, ids: bool) -> bool:
+def _open(part: ClausePart, *, ids: bool) -> bool:
     """Whether a command does not say itself where its trees are."""
     return part.places is not None and is_open(part.places, ids=ids)
 

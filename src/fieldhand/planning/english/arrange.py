@@ -54,7 +54,7 @@ _TO_DO = frozenset({"in order to", "so as to", "so that we", "so that i", "so we
 
 
 @dataclass(frozen=True, kw_only=True)
-class Sentence:
+class ArrangedSentence:
     """A sentence ready for the grammar.
 
     Attributes:
@@ -75,7 +75,7 @@ class Arranged:
         remarks: What is said besides.
     """
 
-    sentences: tuple[Sentence, ...]
+    sentences: tuple[ArrangedSentence, ...]
     filler: tuple[Span, ...] = ()
     reasons: tuple[str, ...] = ()
     remarks: tuple[str, ...] = ()
@@ -97,7 +97,7 @@ def arrange(asked: Asked) -> Arranged:
         Unclear: An order or a limit that means nothing here.
     """
     kept, filler, reasons = list(asked.terms), list(asked.filler), asked.reasons
-    sentences: list[Sentence] = []
+    sentences: list[ArrangedSentence] = []
     for group in in_time(with_opposites(_split(kept, filler))):
         sentence, silent = _sentence(group)
         filler += silent
@@ -176,14 +176,14 @@ def _contrasted(before: list[Term]) -> bool:
     return False
 
 
-def _sentence(terms: list[Term]) -> tuple[Sentence, list[Span]]:
+def _sentence(terms: list[Term]) -> tuple[ArrangedSentence, list[Span]]:
     terms = with_spacing(with_amounts(with_allowances(with_passives(terms))))
     terms = with_row_words(with_ids(with_row_ids(terms)))
     terms = with_at_most(classed(with_orders(terms)))
     terms = with_limits(terms)
     terms = _tersely(_with_heads(terms))
     terms, then, silent = separated(terms)
-    return Sentence(terms=tuple(terms), then=then), silent
+    return ArrangedSentence(terms=tuple(terms), then=then), silent
 
 
 def _ranks_go_on(terms: list[Term]) -> bool:

@@ -7,11 +7,11 @@ from collections.abc import Iterable
 from fieldhand.language import Message, message, named
 from fieldhand.language.words import say_action
 from fieldhand.planning.english.faults import Question, text_of
-from fieldhand.planning.english.syntax import NounPhrase, Part
+from fieldhand.planning.english.syntax import ClausePart, PlacePhrase
 
 
 def how_many(
-    phrase: NounPhrase, numbers: tuple[str, ...] = ("2", "3", "4"), *, asked: str = "", of_all: bool = False
+    phrase: PlacePhrase, numbers: tuple[str, ...] = ("2", "3", "4"), *, asked: str = "", of_all: bool = False
 ) -> Question:
     """How many of what a noun phrase names.
 
@@ -35,7 +35,7 @@ def how_many(
     )
 
 
-def which_of(phrase: NounPhrase, asked: str, *, there: int, claimed: int | None) -> Question:
+def which_of(phrase: PlacePhrase, asked: str, *, there: int, claimed: int | None) -> Question:
     """All of what a noun phrase names, or any so many of them; ``claimed``: None where there are not so many."""
     every = f"all {_named(phrase)}" if there > 1 else f"the {_named(phrase)}"
     choices: dict[str, str] = {message("all {count} of them", context="answer", count=there): every} if there else {}
@@ -45,7 +45,7 @@ def which_of(phrase: NounPhrase, asked: str, *, there: int, claimed: int | None)
     return Question(asked, tuple(choices), terms=phrase.terms, words=tuple(choices.values()))
 
 
-def every_or_how_many(part: Part) -> Question:
+def every_or_how_many(part: ClausePart) -> Question:
     """At every tree of an area, or at so many of them."""
     asked = message("'{said}': at every tree, or at how many?", context="question", said=text_of(part.terms))
     choices = (message("at every tree", context="answer"), message("at 4 trees", context="answer"))
@@ -58,7 +58,7 @@ def every_or_how_many(part: Part) -> Question:
     return Question(asked, choices, terms=part.places.terms, words=words)
 
 
-def each_or_in_all(part: Part, asked: str, choices: tuple[str, str], number: int) -> Question:
+def each_or_in_all(part: ClausePart, asked: str, choices: tuple[str, str], number: int) -> Question:
     """At each of several places, or at so many of them; ``choices`` say it in this order."""
     if part.places is None:
         return Question(asked, choices)
@@ -77,5 +77,5 @@ def _in_words(action: str) -> Message | None:
     return said if isinstance(said, Message) else None
 
 
-def _named(phrase: NounPhrase) -> str:
+def _named(phrase: PlacePhrase) -> str:
     return text_of(t for group in phrase.nominals for t in group)

@@ -18,7 +18,7 @@ _OF_ONE = re.compile(r"\b(?:its|whose|each|that picture's|the picture's) (?:aver
 _YIELDS_AVERAGE = re.compile(r"\b(?:average|mean)\b", re.IGNORECASE)
 
 
-def check_averages(root: d.Block, request: str, robot: RobotProfile) -> None:
+def check_averages(root: d.DraftBlock, request: str, robot: RobotProfile) -> None:
     """Add the word for an average to the condition on a reading that is one.
 
     Raises:
@@ -28,13 +28,13 @@ def check_averages(root: d.Block, request: str, robot: RobotProfile) -> None:
     choices = [step for step, _ in d.walk(root) if isinstance(step, d.Choice) and readings(step.condition)]
     if not said or not choices:
         return
-    captures = {step.reading: step for step, _ in d.walk(root) if isinstance(step, d.Capture) and step.reading}
+    captures = {step.reading: step for step, _ in d.walk(root) if isinstance(step, d.DraftCapture) and step.reading}
     looped = {
         inner.reading
         for step, _ in d.walk(root)
         if isinstance(step, d.Loop | d.Times)
         for inner, _ in d.walk(step.body)
-        if isinstance(inner, d.Capture)
+        if isinstance(inner, d.DraftCapture)
     }
     for choice in choices:
         tested = [captures[name] for name in readings(choice.condition) if name in captures]

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from fieldhand.language import message
 from fieldhand.planning.english.faults import PLAINLY, Unclear, spans_of, text_of, unclear
-from fieldhand.planning.english.syntax import NounPhrase
+from fieldhand.planning.english.syntax import PlacePhrase
 from fieldhand.planning.english.tokens import Term
 from fieldhand.planning.planner import Reason
 
@@ -30,7 +30,7 @@ class Bag:
         compared: Comparisons, each with its terms, negation first.
     """
 
-    phrase: NounPhrase
+    phrase: PlacePhrase
     count: int | None = None
     article: str = ""
     each: bool = False
@@ -128,7 +128,7 @@ class Bag:
         return unclear(self.phrase.terms, what, advice)
 
 
-def bag_of(phrase: NounPhrase) -> Bag:
+def bag_of(phrase: PlacePhrase) -> Bag:
     """The words of a phrase."""
     bag = Bag(phrase=phrase)
     for term in phrase.quantity:

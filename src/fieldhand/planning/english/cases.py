@@ -14,7 +14,7 @@ from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.hand import ACTS, Hand
 from fieldhand.planning.english.places import find
 from fieldhand.planning.english.several import Share, one_after_another, share_of
-from fieldhand.planning.english.syntax import Part, parse_places
+from fieldhand.planning.english.syntax import ClausePart, parse_places
 from fieldhand.planning.english.tested import Predicate, place_in, quantities_of, read_condition
 from fieldhand.planning.english.tokens import Term
 from fieldhand.task import conditions as c
@@ -29,12 +29,12 @@ def _spans(said: Iterable[tuple[Span, ...]]) -> tuple[Span, ...]:
 class Cases(Hand):
     """Reads conditions."""
 
-    def _condition(self, part: Part, *, trailing: bool) -> None:
+    def _condition(self, part: ClausePart, *, trailing: bool) -> None:
         """An "if": it stands behind what it tests, and holds what follows it, or what stands before it."""
         held = self._last_steps if trailing else []
         if part.terms[0].value == "where" and not trailing:
             self._gather_captures()
-        captures = [(step, block) for step, block in d.walk(self.told.root) if isinstance(step, d.Capture)]
+        captures = [(step, block) for step, block in d.walk(self.told.root) if isinstance(step, d.DraftCapture)]
         self._objects_at_if = self._objects
         known = [cap for cap, _ in captures if cap not in held and not (trailing and cap in self._aside)]
         terms, place = place_in(part.terms[1:])
@@ -54,13 +54,13 @@ class Cases(Hand):
         condition = tested.condition(names)
         if part.terms[0].value == "unless":
             condition = c.Not(condition=condition)
-        choice = d.Choice(condition=condition, then=d.Block(), said=part.said)
+        choice = d.Choice(condition=condition, then=d.DraftBlock(), said=part.said)
         if trailing and any(cap is None for cap in made):
             self._hold_at_tree(held, choice, part)
             return
         block.add(choice)
         if trailing:
-            self._aside += [step for step in held if isinstance(step, d.Capture)]
+            self._aside += [step for step in held if isinstance(step, d.DraftCapture)]
             self._move(held, choice.then)
         self._choice = choice
         self._sentence_choices.append(choice)
@@ -74,7 +74,7 @@ class Cases(Hand):
         places = None if ahead.places is None else self._related(ahead)
         return ahead.kind in ACTS and (places is None or places.here)
 
-    def _of_several(self, share: Share, known: list[d.Capture], part: Part, held: list[d.Step]) -> None:
+    def _of_several(self, share: Share, known: list[d.DraftCapture], part: ClausePart, held: list[d.Step]) -> None:
         """ "If both are low": a condition on several readings, each of them taken by itself."""
         captures = self._captures_of(share, known, part)
         each = []
@@ -88,7 +88,7 @@ class Cases(Hand):
         condition = share.of(each)
         if part.terms[0].value == "unless":
             condition = c.Not(condition=condition)
-        choice = d.Choice(condition=condition, then=d.Block(), said=part.said)
+        choice = d.Choice(condition=condition, then=d.DraftBlock(), said=part.said)
         self._block_of_condition(captures, part).add(choice)
         if held:
             self._move(held, choice.then)
@@ -96,7 +96,7 @@ class Cases(Hand):
         self._choice, self._scope = choice, choice.then
         self._sentence_choices.append(choice)
 
-    def _captures_of(self, share: Share, known: list[d.Capture], part: Part) -> list[d.Capture]:
+    def _captures_of(self, share: Share, known: list[d.DraftCapture], part: ClausePart) -> list[d.DraftCapture]:
         """The captures whose readings a condition on several is about."""
         last = read_condition(share.terms, known, self._robot, self._site).predicates[0].capture
         if last is None:
@@ -106,11 +106,13 @@ class Cases(Hand):
                 at = loop.body.steps.index(last)
                 blocks = one_after_another(loop, holder, self._site, part.terms)
                 found = [[st for st in block.steps if not isinstance(st, d.Go)][at] for block in blocks]
-                captures = [st for st in found if isinstance(st, d.Capture)]
+                captures = [st for st in found if isinstance(st, d.DraftCapture)]
                 break
         else:
             block = next(b for step, b in d.walk(self.told.root) if step is last)
-            alike = [st for st in block.steps if isinstance(st, d.Capture) and st.action == last.action and st in known]
+            alike = [
+                st for st in block.steps if isinstance(st, d.DraftCapture) and st.action == last.action and st in known
+            ]
             captures = alike if share.size is None else alike[-share.size :]
         if len(captures) < 2 or (share.size is not None and len(captures) != share.size):
             what = message("{count} readings of that are taken before it", count=len(captures))
@@ -120,11 +122,11 @@ class Cases(Hand):
     def _gather_captures(self) -> None:
         """ "At the north-west corner and at tree 9 ... Wherever it is low": the captures before it become a round."""
         steps = self.told.root.steps
-        run: list[d.Capture] = []
+        run: list[d.DraftCapture] = []
         for step in reversed(steps):
-            alike = isinstance(step, d.Capture) and step.at is not None and not step.reading
+            alike = isinstance(step, d.DraftCapture) and step.at is not None and not step.reading
             if (
-                not isinstance(step, d.Capture)
+                not isinstance(step, d.DraftCapture)
                 or not alike
                 or (run and (step.action, step.count) != (run[0].action, run[0].count))
             ):
@@ -132,8 +134,8 @@ class Cases(Hand):
             run.insert(0, step)
         if len(run) < 2 or any(step.at is not None and step.at.relative for step in run):
             return
-        body = d.Block(
-            steps=[d.Capture(action=run[0].action, count=run[0].count, said=_spans(step.said for step in run))]
+        body = d.DraftBlock(
+            steps=[d.DraftCapture(action=run[0].action, count=run[0].count, said=_spans(step.said for step in run))]
         )
         places = s.UnionOf(parts=tuple(step.at for step in run if step.at is not None))
         loop = d.Loop(select=places, body=body, order="given", said=_spans(step.at_said for step in run))
@@ -141,7 +143,7 @@ class Cases(Hand):
         self.told.root.add(loop)
         self._loop = loop
 
-    def _hold_at_tree(self, held: list[d.Step], choice: d.Choice, part: Part) -> None:
+    def _hold_at_tree(self, held: list[d.Step], choice: d.Choice, part: ClausePart) -> None:
         """What a tree is can be asked once the robot is there: drive first, then test, then do."""
         first = held[0] if held else None
         if isinstance(first, d.Loop):
@@ -150,7 +152,7 @@ class Cases(Hand):
                 for inner in d.blocks_of(step):
                     inner.parent = choice.then
             first.body.add(choice)
-        elif isinstance(first, d.Capture) and all(isinstance(step, d.Capture) for step in held):
+        elif isinstance(first, d.DraftCapture) and all(isinstance(step, d.DraftCapture) for step in held):
             holder = next(b for step, b in d.walk(self.told.root) if step is first)
             if first.at is not None:
                 holder.steps.insert(holder.steps.index(first), d.Go(place=first.at, said=first.said))
@@ -165,7 +167,7 @@ class Cases(Hand):
             )
         self._choice, self._scope = choice, choice.then
 
-    def _check_it(self, terms: tuple[Term, ...], known: list[d.Capture], part: Part) -> None:
+    def _check_it(self, terms: tuple[Term, ...], known: list[d.DraftCapture], part: ClausePart) -> None:
         """ "If it is low, ... If it is high, ...": the second "it" may be what the first case took."""
         if self._same_test(terms, known):
             return
@@ -188,7 +190,7 @@ class Cases(Hand):
                     message("'{said}': which reading is meant?", context="question", said=text_of(part.terms)), names
                 )
 
-    def _same_test(self, terms: tuple[Term, ...], known: list[d.Capture]) -> bool:
+    def _same_test(self, terms: tuple[Term, ...], known: list[d.DraftCapture]) -> bool:
         """ "If it's not below 33 °C, ...; if it is below 33 °C, ...": two cases of one reading. Whether they are."""
         before = self._choice.condition if self._choice is not None else None
         before = before.condition if isinstance(before, c.Not) else before
@@ -207,7 +209,7 @@ class Cases(Hand):
         known[:] = tested or known
         return bool(tested)
 
-    def _continues(self, terms: tuple[Term, ...], known: list[d.Capture], before: list[d.Capture]) -> bool:
+    def _continues(self, terms: tuple[Term, ...], known: list[d.DraftCapture], before: list[d.DraftCapture]) -> bool:
         """Whether the words tell by themselves which of two readings is meant.
 
         "If it is low, ..., if it is high, ..." are two cases of one reading; "when that is low as well" is another.
@@ -229,7 +231,7 @@ class Cases(Hand):
             return True
         return any(t.kind == "IT" and t.text.lower() in ("that", "that one") for t in terms)
 
-    def _place_tested(self, terms: tuple[Term, ...], part: Part) -> s.Selector | None:
+    def _place_tested(self, terms: tuple[Term, ...], part: ClausePart) -> s.Selector | None:
         """The place that a condition names ("the CO2 at tree 4")."""
         if not terms:
             return None
@@ -252,8 +254,8 @@ class Cases(Hand):
         return found.selector
 
     def _tested_capture(
-        self, predicate: Predicate, at: s.Selector | None, part: Part, trailing: bool
-    ) -> d.Capture | None:
+        self, predicate: Predicate, at: s.Selector | None, part: ClausePart, trailing: bool
+    ) -> d.DraftCapture | None:
         """The capture whose reading a predicate tests; taken first if nothing took it."""
         if not predicate.missing:
             if predicate.capture is None:
@@ -263,7 +265,7 @@ class Cases(Hand):
             raise unclear(part.terms, message("nothing before it measures that"), message("measure first, then test"))
         if at is None:
             self._needs_place(part)
-        capture = d.Capture(action=predicate.missing, at=at, said=part.said)
+        capture = d.DraftCapture(action=predicate.missing, at=at, said=part.said)
         (self._scope if at is not None else self._here(part, None, False)[0]).add(capture)
         said, action = text_of(part.terms), say_action(predicate.missing)
         there = message("'{said}' is measured first ({action}), there.", context="assumption", said=said, action=action)
@@ -276,7 +278,7 @@ class Cases(Hand):
         self.told.assumptions.append(there if at is not None else then)
         return capture
 
-    def _block_of_condition(self, captures: list[d.Capture], part: Part) -> d.Block:
+    def _block_of_condition(self, captures: list[d.DraftCapture], part: ClausePart) -> d.DraftBlock:
         """Where a condition stands: behind the last of what it tests, where the others are known too."""
         if not captures:
             inside = self._loop is not None and self._within(self._loop.body, self.told.root)
@@ -291,20 +293,20 @@ class Cases(Hand):
             )
         return block
 
-    def _bound(self, capture: d.Capture | None) -> str:
+    def _bound(self, capture: d.DraftCapture | None) -> str:
         if capture is None:
             return ""
         capture.reading = capture.reading or self._fresh()
         return capture.reading
 
-    def _so(self, part: Part) -> None:
+    def _so(self, part: ClausePart) -> None:
         """ "If so": the question before it is answered with yes."""
         if self._choice is None or self._choice.then.steps:
             raise unclear(part.terms, message("there is no question before it"))
         self._choice.said += part.said
         self._scope = self._choice.then
 
-    def _otherwise(self, part: Part) -> None:
+    def _otherwise(self, part: ClausePart) -> None:
         choice = self._choice
         if choice is None:
             raise unclear(part.terms, message("there is no 'if' before it"))
@@ -321,7 +323,7 @@ class Cases(Hand):
                     message("say each 'if' with its 'otherwise' in turn"),
                 )
         choice.said += part.said
-        choice.otherwise = d.Block(parent=choice.then.parent)
+        choice.otherwise = d.DraftBlock(parent=choice.then.parent)
         if self._loop is not None and self._within(self._loop.body, choice.then):  # of the other case
             around = [st for st, _ in d.walk(self.told.root) if isinstance(st, d.Loop) and self._holds(st, choice)]
             self._loop = around[-1] if around else None
@@ -330,7 +332,7 @@ class Cases(Hand):
             self._objects = ()  # "otherwise take another" may mean what either case takes
         self._scope = choice.otherwise
 
-    def _after_otherwise(self, part: Part) -> None:
+    def _after_otherwise(self, part: ClausePart) -> None:
         """ "Otherwise read the temperature, then go to tree 9": what comes then is for both cases.
 
         With "and then" it goes on with the second; and where that only drives so far, it does so with "then" too.
@@ -339,7 +341,7 @@ class Cases(Hand):
         choice = self._choice
         if choice is None or block is not choice.otherwise or not part.then or part.joined:
             return
-        if not any(isinstance(step, d.Capture) for step, _ in d.walk(block)) or block.parent is None:
+        if not any(isinstance(step, d.DraftCapture) for step, _ in d.walk(block)) or block.parent is None:
             return
         self._scope = block.parent
         both = message("'{said}' is done in both cases.", context="assumption", said=text_of(part.terms))
@@ -348,19 +350,19 @@ class Cases(Hand):
     def _holds(self, loop: d.Loop, choice: d.Choice) -> bool:
         return any(step is choice for step, _ in d.walk(loop.body))
 
-    def _failing(self, part: Part) -> None:
+    def _failing(self, part: ClausePart) -> None:
         steps = list(self._last_steps)
         if not steps:
             raise unclear(part.terms, message("there is nothing before it that could fail"))
         holder = next(b for st, b in d.walk(self.told.root) if st is steps[0])
-        attempt = d.Attempt(body=d.Block(), fallback=d.Block(), said=part.said)
+        attempt = d.Attempt(body=d.DraftBlock(), fallback=d.DraftBlock(), said=part.said)
         place = holder.steps.index(steps[0])
         self._move(steps, attempt.body)
         holder.steps.insert(place, attempt)
         attempt.body.parent = attempt.fallback.parent = holder
         self._scope = attempt.fallback
 
-    def _move(self, steps: list[d.Step], into: d.Block) -> None:
+    def _move(self, steps: list[d.Step], into: d.DraftBlock) -> None:
         inner = {id(st) for step in steps for b in d.blocks_of(step) for st, _ in d.walk(b)}
         for step in steps:
             if id(step) in inner:

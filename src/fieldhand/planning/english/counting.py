@@ -8,10 +8,10 @@ from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.asking import each_or_in_all, every_or_how_many
 from fieldhand.planning.english.faults import Question, text_of, unclear
-from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.found import FoundPlace
 from fieldhand.planning.english.selections import are_several_rows, named_places
 from fieldhand.planning.english.sets import some_of
-from fieldhand.planning.english.syntax import Object, Part
+from fieldhand.planning.english.syntax import ClausePart, Object
 
 Wanted = tuple[tuple[str, int | None], ...]
 
@@ -37,12 +37,12 @@ def number_of_objects(thing: Object) -> int | None:
     return number
 
 
-def counts_each(found: Found | None, part: Part) -> bool:
+def counts_each(found: FoundPlace | None, part: ClausePart) -> bool:
     """Whether a count is meant at each place ("2 pictures at each corner") rather than in all."""
     return (found is not None and found.each) or any(t.kind == "EACHTAIL" for t in part.tails)
 
 
-def counted(found: Found, part: Part, wanted: Wanted) -> Found:
+def counted(found: FoundPlace, part: ClausePart, wanted: Wanted) -> FoundPlace:
     """The places of a command, its number of captures taken as a number of places where it is one.
 
     Raises:
@@ -77,10 +77,10 @@ def counted(found: Found, part: Part, wanted: Wanted) -> Found:
         return replace(found, selector=replace(selector, count=count), counted=count)
     if named := named_places(selector):
         return found if len(named) == count else _either(part, count, len(named))
-    return Found(selector=some_of(selector, count), many=True, counted=count)
+    return FoundPlace(selector=some_of(selector, count), many=True, counted=count)
 
 
-def _either(part: Part, count: int, size: int) -> Found:
+def _either(part: ClausePart, count: int, size: int) -> FoundPlace:
     raise each_or_in_all(
         part,
         message(
@@ -97,7 +97,7 @@ def _either(part: Part, count: int, size: int) -> Found:
     )
 
 
-def _in_rows(found: Found, part: Part, count: int | None, plural: bool) -> Found:
+def _in_rows(found: FoundPlace, part: ClausePart, count: int | None, plural: bool) -> FoundPlace:
     """Captures in rows: at every tree of them ("pictures of row 3"), or at so many trees."""
     text = text_of(part.terms)
     whole = found.selector == s.Rows() and not found.one_by_one
@@ -109,7 +109,7 @@ def _in_rows(found: Found, part: Part, count: int | None, plural: bool) -> Found
     number = count or 1
     if found.one_by_one:
         parts: tuple[s.Selector, ...] = tuple(s.Take(count=number, of=row) for row in found.one_by_one)
-        return Found(selector=s.UnionOf(parts=parts), many=True, each=True)
+        return FoundPlace(selector=s.UnionOf(parts=parts), many=True, each=True)
     if counts_each(found, part) and not isinstance(found.selector, s.Successive):
         raise Question(
             message(
@@ -125,15 +125,15 @@ def _in_rows(found: Found, part: Part, count: int | None, plural: bool) -> Found
         raise each_or_in_all(
             part, asked, (message("one in each of them", context="answer"), message("one in all", context="answer")), 1
         )
-    return Found(selector=some_of(found.selector, number), many=number > 1, counted=number)
+    return FoundPlace(selector=some_of(found.selector, number), many=number > 1, counted=number)
 
 
-def _says_one(part: Part) -> bool:
+def _says_one(part: ClausePart) -> bool:
     """Whether the command says that it wants one ("a picture")."""
     return bool(part.objects) and any(t.text.lower() in ("a", "an", "one") for t in part.objects[0].quantity)
 
 
-def _in_area(found: Found, part: Part, count: int | None, plural: bool) -> Found:
+def _in_area(found: FoundPlace, part: ClausePart, count: int | None, plural: bool) -> FoundPlace:
     """Captures in an area: at one tree of it, at as many as there are captures, or at every tree."""
     if count is None and plural:
         if found.selector == s.Trees():
@@ -143,4 +143,4 @@ def _in_area(found: Found, part: Part, count: int | None, plural: bool) -> Found
     if count is None and (found.selector == s.Trees() or of_it):  # "a picture of the northern half"
         raise every_or_how_many(part)
     number = count or 1
-    return Found(selector=some_of(found.selector, number), many=number > 1, counted=number)
+    return FoundPlace(selector=some_of(found.selector, number), many=number > 1, counted=number)

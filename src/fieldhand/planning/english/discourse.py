@@ -23,13 +23,13 @@ from fieldhand.planning.english.asking import every_or_how_many
 from fieldhand.planning.english.counting import Wanted, counts_each
 from fieldhand.planning.english.ellipsis import Elliptic
 from fieldhand.planning.english.faults import Question, spans_of, text_of, unclear
-from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.found import FoundPlace
 from fieldhand.planning.english.hand import ACTS as _ACTS
 from fieldhand.planning.english.hand import said_of_places
 from fieldhand.planning.english.lines import as_stops, points_over, stops_of
 from fieldhand.planning.english.places import find
 from fieldhand.planning.english.selections import says_how_many
-from fieldhand.planning.english.syntax import Part
+from fieldhand.planning.english.syntax import ClausePart
 from fieldhand.planning.english.tokens import Term
 from fieldhand.task.plan import Span
 
@@ -48,12 +48,12 @@ COMMANDS = (
 )
 
 
-def _waits(following: tuple[Part, ...]) -> bool:
+def _waits(following: tuple[ClausePart, ...]) -> bool:
     """Whether what follows a place is done there: it has none of its own."""
     return bool(following) and following[0].kind in _ACTS and following[0].places is None
 
 
-def _goes_on(following: tuple[Part, ...]) -> bool:
+def _goes_on(following: tuple[ClausePart, ...]) -> bool:
     """Whether a command stands right behind a condition, with nothing between: it is what the condition decides."""
     return bool(following) and following[0].bare and following[0].kind in COMMANDS and following[0].kind != "lead"
 
@@ -61,7 +61,7 @@ def _goes_on(following: tuple[Part, ...]) -> bool:
 class Discourse(Elliptic):
     """Reads the parts of a request in order. One instance reads one request."""
 
-    def read(self, parts: tuple[Part, ...]) -> None:
+    def read(self, parts: tuple[ClausePart, ...]) -> None:
         """Read one sentence.
 
         Raises:
@@ -124,7 +124,7 @@ class Discourse(Elliptic):
                 [self._pending], message("an order needs several places"), message("say which places are visited in it")
             )
 
-    def _read_command(self, part: Part) -> None:
+    def _read_command(self, part: ClausePart) -> None:
         if part.kind in ("come_back", "stop"):
             self._close_allowance()  # the way home and the end are for all
         self._after_until(part)
@@ -138,7 +138,7 @@ class Discourse(Elliptic):
         self._sentence_steps += new
         self._sentence_acts = self._sentence_acts or part.kind in _ACTS
 
-    def _command(self, part: Part) -> None:
+    def _command(self, part: ClausePart) -> None:
         match part.kind:
             case "more_objects" if self._says_again(part, self._wanted(part.objects, part)):
                 pass
@@ -167,7 +167,7 @@ class Discourse(Elliptic):
         if part.kind not in ("lead",):
             self._last_verb = part.kind if part.kind not in ("more_places", "more_objects") else self._last_verb
 
-    def _act_on_places(self, part: Part) -> None:
+    def _act_on_places(self, part: ClausePart) -> None:
         """ "Measure another tree for CO2", "photograph every tree", "take another"."""
         if part.objects:
             self._act(part, self._wanted(part.objects, part))
@@ -178,7 +178,7 @@ class Discourse(Elliptic):
             return
         self._act(part, self._wanted((), part))
 
-    def _more_places(self, part: Part) -> None:
+    def _more_places(self, part: ClausePart) -> None:
         """ "..., then the north-east corner": what was done before, there."""
         if self._at_each_of_them(part) or self._lists(part):
             return
@@ -202,13 +202,13 @@ class Discourse(Elliptic):
             self._act(elided[0], elided[1])
             return
         if part.places is not None and part.relation is not None and find(part.places, self._site).region:
-            last = [step for step, _ in d.walk(self.told.root) if isinstance(step, d.Capture)]
+            last = [step for step, _ in d.walk(self.told.root) if isinstance(step, d.DraftCapture)]
             at = last[-1].at if last else None
             if self._loop is not None or at is None or at.any_of is None:  # "... and of row 4"
                 raise every_or_how_many(part)
         self._act(part, self._objects)
 
-    def _act(self, part: Part, wanted: Wanted) -> None:
+    def _act(self, part: ClausePart, wanted: Wanted) -> None:
         """Captures at a place, at several, or where the robot is."""
         part, wanted = as_stops(part, wanted)
         found = None if part.places is None else self._related(part)
@@ -225,9 +225,9 @@ class Discourse(Elliptic):
             raise Question(message("'{said}': at each of which places?", context="question", said=text_of(part.terms)))
         if found is not None and found.object_only:  # "at yet another one"
             number = found.counted or 1
-            found = Found(selector=s.Take(count=number, of=s.NotVisited()), many=number > 1, counted=number)
+            found = FoundPlace(selector=s.Take(count=number, of=s.NotVisited()), many=number > 1, counted=number)
         if found is None and self._loop is None and any(t.kind == "ASMANY" for o in part.objects for t in o.quantity):
-            found = Found(selector=s.Trees(), many=True)
+            found = FoundPlace(selector=s.Trees(), many=True)
         if found is not None and found.all_or_these and self._loop is not None:
             found = replace(found, here=True, these=True)
         found = self._lined(found, part, wanted)
@@ -242,14 +242,14 @@ class Discourse(Elliptic):
             if len(wanted) == 1 and not per_place and self._spreads(block, captures):
                 captures = 1
             said = spans_of([t for t in part.terms if not self._of_another(t, index, part)])
-            step = d.Capture(action=action, at=at if index == 0 else None, count=captures, said=said)
+            step = d.DraftCapture(action=action, at=at if index == 0 else None, count=captures, said=said)
             step.command = self._commands
             step.at_said = said_of_places(part) if index == 0 and part.places is not None else ()
             block.add(step)
             done.append((action, captures))
         self._objects = tuple(done)
 
-    def _lined(self, found: Found | None, part: Part, wanted: Wanted) -> Found | None:
+    def _lined(self, found: FoundPlace | None, part: ClausePart, wanted: Wanted) -> FoundPlace | None:
         """Places that are points: at a spacing, or spread over a zone; and trees of the rows that were gone to."""
         if part.spacing is not None:
             if found is not None and found.here:
@@ -277,11 +277,11 @@ class Discourse(Elliptic):
             )
         return found
 
-    def _of_another(self, term: Term, index: int, part: Part) -> bool:
+    def _of_another(self, term: Term, index: int, part: ClausePart) -> bool:
         """Whether a term names another capture of the same command."""
         return any(term in thing.terms for k, thing in enumerate(part.objects) if k != index) or term.kind == "JOIN"
 
-    def _distinct(self, part: Part) -> None:
+    def _distinct(self, part: ClausePart) -> None:
         """ "Each at a different tree": what a number of captures in an area means anyway."""
         select = self._loop.select if self._loop is not None else None
         if self._loop is not None and self._loop.optional:
@@ -294,7 +294,7 @@ class Discourse(Elliptic):
         if self._loop is not None:
             self._loop.said += part.said
 
-    def _order(self, part: Part) -> None:
+    def _order(self, part: ClausePart) -> None:
         if part.terms[0].kind == "ORDERED":
             if self._pending is not None:
                 raise unclear(part.terms, message("two orders cannot be kept"), message("say one"))
@@ -310,7 +310,7 @@ class Discourse(Elliptic):
                 self._one_after_the_other(self._loop)
             self._loop.said += part.said
 
-    def _repeat(self, part: Part) -> None:
+    def _repeat(self, part: ClausePart) -> None:
         """ "Do the same": what was done at the last place, at the place that this sentence has gone to."""
         sentence = self._gone_to(part)
         old = [st for st in self.told.root.steps if id(st) not in sentence]
@@ -358,7 +358,7 @@ class Discourse(Elliptic):
                     words=(f"{text_of(part.terms)} at another tree", ""),
                 )
             times = self._further(part, times)
-            body = d.Block()
+            body = d.DraftBlock()
             repeating.append(made, body)
             self._scope.add(d.Times(times=times, body=body, said=part.said))
             return

@@ -13,11 +13,11 @@ from fieldhand.task.plan import Span
 
 
 @dataclass(eq=False)
-class Block:
+class DraftBlock:
     """Steps one after the other."""
 
     steps: list[Step] = field(default_factory=list)
-    parent: Block | None = None
+    parent: DraftBlock | None = None
 
     def add(self, step: Step) -> None:
         """Append a step, and make its blocks know where they stand."""
@@ -35,7 +35,7 @@ class Go:
 
 
 @dataclass(eq=False)
-class Capture:
+class DraftCapture:
     """An action at a place, or at the place in hand."""
 
     action: str
@@ -52,7 +52,7 @@ class Loop:
     """A block at each of several places."""
 
     select: s.Selector
-    body: Block
+    body: DraftBlock
     order: Literal["best", "given"] = "best"
     optional: bool = False
     at_most: int | None = None
@@ -65,7 +65,7 @@ class Times:
     """A block a number of times."""
 
     times: int
-    body: Block
+    body: DraftBlock
     until: c.Condition | None = None
     said: tuple[Span, ...] = ()
 
@@ -75,8 +75,8 @@ class Choice:
     """A block where a condition holds, and another where it does not."""
 
     condition: c.Condition
-    then: Block
-    otherwise: Block | None = None
+    then: DraftBlock
+    otherwise: DraftBlock | None = None
     said: tuple[Span, ...] = ()
 
 
@@ -84,8 +84,8 @@ class Choice:
 class Attempt:
     """A block, and another if it fails."""
 
-    body: Block
-    fallback: Block
+    body: DraftBlock
+    fallback: DraftBlock
     said: tuple[Span, ...] = ()
 
 
@@ -93,7 +93,7 @@ class Attempt:
 class Maybe:
     """A block that may be left out where too little is left for it."""
 
-    body: Block
+    body: DraftBlock
     said: tuple[Span, ...] = ()
 
 
@@ -105,10 +105,10 @@ class Halt:
     here: bool = False
 
 
-Step = Go | Capture | Loop | Times | Choice | Attempt | Maybe | Halt
+Step = Go | DraftCapture | Loop | Times | Choice | Attempt | Maybe | Halt
 
 
-def blocks_of(step: Step) -> list[Block]:
+def blocks_of(step: Step) -> list[DraftBlock]:
     """The blocks inside a step."""
     match step:
         case Loop(body=body) | Times(body=body) | Maybe(body=body):
@@ -121,7 +121,7 @@ def blocks_of(step: Step) -> list[Block]:
             return []
 
 
-def walk(block: Block) -> Iterator[tuple[Step, Block]]:
+def walk(block: DraftBlock) -> Iterator[tuple[Step, DraftBlock]]:
     """Every step below a block, in the order of the text, with the block that holds it."""
     for step in block.steps:
         yield step, block
@@ -129,14 +129,14 @@ def walk(block: Block) -> Iterator[tuple[Step, Block]]:
             yield from walk(inner)
 
 
-def shape(block: Block) -> tuple[object, ...]:
+def shape(block: DraftBlock) -> tuple[object, ...]:
     """What a block does, without the words that say it: equal for blocks that do the same."""
     made: list[object] = []
     for step in block.steps:
         match step:
             case Go():
                 made.append(("go", step.place))
-            case Capture():
+            case DraftCapture():
                 made += [("go", step.at)] if step.at is not None else []
                 made.append((step.action, step.count))
             case Loop():
@@ -146,16 +146,18 @@ def shape(block: Block) -> tuple[object, ...]:
     return tuple(made)
 
 
-def copy_block(block: Block, keep: Callable[[Step], bool], renamed: dict[str, str], fresh: Callable[[], str]) -> Block:
+def copy_block(
+    block: DraftBlock, keep: Callable[[Step], bool], renamed: dict[str, str], fresh: Callable[[], str]
+) -> DraftBlock:
     """A copy with readings of its own. Steps that ``keep`` refuses are left out, and choices that hold nothing then."""
-    made = Block()
+    made = DraftBlock()
     for step in block.steps:
         if not keep(step):
             continue
         match step:
             case Go():
                 made.add(Go(place=step.place, said=step.said))
-            case Capture():
+            case DraftCapture():
                 reading = ""
                 if step.reading:
                     reading = renamed[step.reading] = fresh()
@@ -199,7 +201,7 @@ def rename(condition: c.Condition, renamed: dict[str, str]) -> c.Condition:
             return condition
 
 
-def node_of(block: Block) -> p.Node:
+def node_of(block: DraftBlock) -> p.Node:
     """A block as a plan node; one step alone needs no sequence around it."""
     nodes = tuple(_node(step) for step in block.steps)
     return nodes[0] if len(nodes) == 1 else p.InOrder(id="", steps=nodes)
@@ -209,7 +211,7 @@ def _node(step: Step) -> p.Node:
     match step:
         case Go():
             return p.GoTo(id="", place=step.place, said=step.said)
-        case Capture():
+        case DraftCapture():
             return p.Act(
                 id="",
                 action=step.action,

@@ -12,18 +12,18 @@ from fieldhand.planning.english import repeating
 from fieldhand.planning.english.asking import choices_of_actions
 from fieldhand.planning.english.counting import Wanted
 from fieldhand.planning.english.faults import Question, text_of, unclear
-from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.found import FoundPlace
 from fieldhand.planning.english.hand import ACTS
 from fieldhand.planning.english.leaving import Leaving
 from fieldhand.planning.english.places import find
 from fieldhand.planning.english.selections import may_be_listed
-from fieldhand.planning.english.syntax import Part
+from fieldhand.planning.english.syntax import ClausePart
 
 
 class Elliptic(Leaving):
     """Reads parts that go on with what the command before them asks for."""
 
-    def _elided(self, part: Part) -> tuple[Part, Wanted] | None:
+    def _elided(self, part: ClausePart) -> tuple[ClausePart, Wanted] | None:
         """ "Another", "two in the western half": of what, the command before says. None if the part names trees."""
         if part.places is None or not find(part.places, self._site).object_only:
             return None
@@ -46,7 +46,7 @@ class Elliptic(Leaving):
         places = replace(part.places, chains=(rest,))
         return replace(part, places=places, relation=first.relations[0]), objects
 
-    def _at_each_of_them(self, part: Part) -> bool:
+    def _at_each_of_them(self, part: ClausePart) -> bool:
         """ "For each of them: ...": what follows is done at each of the places that were spoken of. Whether it is."""
         if part.places is None or not any(p.kind in (*ACTS, "condition") for p in self._following[:1]):
             return False
@@ -60,7 +60,7 @@ class Elliptic(Leaving):
         self._scope = self._loop.body
         return True
 
-    def _ends_a_series(self, part: Part) -> bool:
+    def _ends_a_series(self, part: ClausePart) -> bool:
         """ "..., then the south-west corner, and finish in the north-east": the last place of a series."""
         if (
             part.places is None
@@ -72,11 +72,13 @@ class Elliptic(Leaving):
         found = find(part.places, self._site)
         if found.selector.named_marker or found.here or found.region or found.many:
             return False
-        same = [step.at for step, _ in d.walk(self.told.root) if isinstance(step, d.Capture) and step.at is not None]
+        same = [
+            step.at for step, _ in d.walk(self.told.root) if isinstance(step, d.DraftCapture) and step.at is not None
+        ]
         same += [step.place for step, _ in d.walk(self.told.root) if isinstance(step, d.Go)]
         return sum(type(at) is type(found.selector) for at in same) > 1
 
-    def _gone_to(self, part: Part) -> set[int]:
+    def _gone_to(self, part: ClausePart) -> set[int]:
         """The steps of this sentence from the last place on that it goes to: what is done again comes before them."""
         said_where = part.places is not None and not self._related(part).here
         placed = [k for k, st in enumerate(self._sentence_steps) if repeating.has_place(st)]
@@ -87,7 +89,7 @@ class Elliptic(Leaving):
             return set()
         return {id(step) for step in self._sentence_steps[placed[-1] :]}
 
-    def _in_another_area(self, old: list[d.Step], found: Found, part: Part) -> bool:
+    def _in_another_area(self, old: list[d.Step], found: FoundPlace, part: ClausePart) -> bool:
         """ "Do the same in row 8" behind what was done at several places of row 6. Whether it is that."""
         passage = repeating.passage_in_area(old, found.selector)
         made = repeating.copied(passage, lambda _: True, self._fresh)
@@ -98,7 +100,7 @@ class Elliptic(Leaving):
         repeating.append(made, self._scope)
         return True
 
-    def _lists(self, part: Part) -> bool:
+    def _lists(self, part: ClausePart) -> bool:
         """ "At the corners: first the south-west one, then ...": the places one by one that were named together."""
         loop = self._loop
         if loop is None or loop not in self._sentence_steps or part.places is None:
@@ -116,11 +118,15 @@ class Elliptic(Leaving):
             loop.order = "given"
         return True
 
-    def _says_again(self, part: Part, wanted: Wanted) -> bool:
+    def _says_again(self, part: ClausePart, wanted: Wanted) -> bool:
         """ "..., one leaf sample per tree": what the command before it asks for already. Whether it is."""
         last = self._loop.body.steps[-1] if self._loop is not None and self._loop.body.steps else None
         each = self._loop is not None and self._loop in self._sentence_steps
-        if not each or not isinstance(last, d.Capture) or wanted not in (((last.action, 1),), ((last.action, None),)):
+        if (
+            not each
+            or not isinstance(last, d.DraftCapture)
+            or wanted not in (((last.action, 1),), ((last.action, None),))
+        ):
             return False
         there = any(t.kind in ("THERE", "EACHTAIL") for t in part.tails) or (
             part.places is not None and [t.kind for t in part.places.terms] == ["EACH", "TREE"]
@@ -137,7 +143,7 @@ class Elliptic(Leaving):
             return False
         return ahead.places is None or self._related(ahead).here
 
-    def _further(self, part: Part, times: int) -> int:
+    def _further(self, part: ClausePart, times: int) -> int:
         """How many times more a passage is done that has been done once: "three more times", "three times in all"."""
         said = next(t.text.lower() for t in part.tails if t.kind == "COUNT")
         if "more" in said.split() or "further" in said.split():

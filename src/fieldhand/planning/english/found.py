@@ -8,7 +8,7 @@ from fieldhand.places import selectors as s
 
 
 @dataclass(frozen=True, kw_only=True)
-class Found:
+class FoundPlace:
     """What a noun phrase selects.
 
     Attributes:

@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
-from fieldhand.planning.english.limits import Amount, Limit, with_amounts
+from fieldhand.planning.english.limits import Amount, LimitPhrase, with_amounts
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.english.rewriting import silent
 from fieldhand.planning.english.spacing import Stops
@@ -33,7 +33,7 @@ _MOST = frozenset({"ASMANY", "ASCAN"})
 
 
 @dataclass
-class _Scene:
+class _RequestScene:
     """The words of a request by what they are."""
 
     terms: Sequence[Term]
@@ -87,7 +87,7 @@ def gist(terms: Sequence[Term], glue: frozenset[str]) -> list[Term] | None:
         return None  # "the corners of both blocks"
     noun = next((t for t in nouns if t.kind == "NOUN"), nouns[0])
     numbers = [t for t, after in pairwise([*flat, flat[-1]]) if t.kind == "NUM" and after.kind not in _AREAS]
-    scene = _Scene(terms=flat, noun=noun, kinds=frozenset(t.kind for t in flat), numbers=numbers)
+    scene = _RequestScene(terms=flat, noun=noun, kinds=frozenset(t.kind for t in flat), numbers=numbers)
     for reading in _READINGS:
         made = reading(scene)
         if made is not None:
@@ -105,7 +105,7 @@ def _distinct(numbers: Sequence[Term]) -> list[Term]:
     return list({t.value: t for t in reversed(numbers)}.values())[::-1]
 
 
-def _take(scene: _Scene, *rest: Term) -> list[Term]:
+def _take(scene: _RequestScene, *rest: Term) -> list[Term]:
     """ "Take a picture", and what follows."""
     noun = scene.noun
     verb = silent("TAKE", noun.start)
@@ -121,11 +121,11 @@ def _trees(near: Term) -> Term:
     return _word("TREE", near, plural=True)
 
 
-def _at(scene: _Scene) -> list[Term]:
+def _at(scene: _RequestScene) -> list[Term]:
     return [] if scene.noun.kind == "ACTV" else [_word("AT", scene.noun, "at")]
 
 
-def _area(scene: _Scene) -> list[Term] | None:
+def _area(scene: _RequestScene) -> list[Term] | None:
     """ "In the northern half"; nothing if no area is said, None if several are."""
     said, sides = scene.all(*_AREAS), scene.all("DIR")
     if not said and not sides:
@@ -137,7 +137,7 @@ def _area(scene: _Scene) -> list[Term] | None:
     return [_word("AT", side, "in"), _word("DET", side, "the"), side, part]
 
 
-def _best(scene: _Scene) -> list[Term] | None:
+def _best(scene: _RequestScene) -> list[Term] | None:
     """ "The 10 trees with the highest reward"."""
     best, attribute, count = scene.one("SUPER"), scene.one("ATTR"), _distinct(scene.numbers)
     area = _area(scene)
@@ -152,7 +152,7 @@ def _best(scene: _Scene) -> list[Term] | None:
     return _take(scene, *_at(scene), _word("DET", count[0], "the"), count[0], _trees(count[0]), *ranked, *area)
 
 
-def _some_of_a_row(scene: _Scene) -> list[Term] | None:
+def _some_of_a_row(scene: _RequestScene) -> list[Term] | None:
     """ "3 trees of a row of 5"."""
     counts = sorted(_distinct(scene.numbers), key=lambda t: float(t.value))
     row = next(iter(scene.all("ROW", "CONSECUTIVE")), None)
@@ -166,7 +166,7 @@ def _some_of_a_row(scene: _Scene) -> list[Term] | None:
     return [*along, *trees, *_take(scene, *_at(scene), few, _word("THERE", few, "of them"))]
 
 
-def _corners(scene: _Scene) -> list[Term] | None:
+def _corners(scene: _RequestScene) -> list[Term] | None:
     """ "The four corner trees, in any order"."""
     counts = _distinct(scene.numbers)
     corner = next(iter(scene.all("CORNER")), None)
@@ -180,7 +180,7 @@ def _corners(scene: _Scene) -> list[Term] | None:
     return _take(scene, *_at(scene), each, replace(corner, plural=False))
 
 
-def _as_many_as_fit(scene: _Scene) -> list[Term] | None:
+def _as_many_as_fit(scene: _RequestScene) -> list[Term] | None:
     """ "As many trees as possible within 100 m"."""
     amount = scene.one("AMOUNT")
     if amount is None or scene.numbers or not isinstance(amount.value, Amount):
@@ -192,14 +192,14 @@ def _as_many_as_fit(scene: _Scene) -> list[Term] | None:
         return None
     if not scene.only(*_OF_A_BUDGET) or not any(t.kind == "TREE" for t in scene.terms):
         return None
-    limit = Limit(unit=unit, amount=amount.value.number, said=amount.span)
+    limit = LimitPhrase(unit=unit, amount=amount.value.number, said=amount.span)
     budget = Term(kind="BUDGET", text=amount.text, start=amount.start, end=amount.end, value=limit)
     first = many[0]
     wanted = [_word("ASMANY", first, "as many"), _trees(first), _word("ASCAN", first, "as you can")]
     return _take(scene, *_at(scene), *wanted, _word("COMMA", amount, ","), budget)
 
 
-def _apart(scene: _Scene) -> list[Term] | None:
+def _apart(scene: _RequestScene) -> list[Term] | None:
     """ "Three readings, 15 m apart"."""
     amount, counts = scene.one("AMOUNT"), _distinct(scene.numbers)
     times = scene.one("COUNT")
@@ -215,7 +215,7 @@ def _apart(scene: _Scene) -> list[Term] | None:
     return [silent("TAKE", scene.noun.start), count, scene.noun, spacing]
 
 
-def _in_an_area(scene: _Scene) -> list[Term] | None:
+def _in_an_area(scene: _RequestScene) -> list[Term] | None:
     """ "The yellow trees of the northern half", "four trees on the east side"."""
     area, kind, counts = _area(scene), scene.one("ATTRVAL"), _distinct(scene.numbers)
     if not area or len(counts) > 1 or not scene.only(*_OF_AREAS) or not any(t.kind == "TREE" for t in scene.terms):
@@ -230,7 +230,7 @@ def _in_an_area(scene: _Scene) -> list[Term] | None:
     return _take(scene, *_at(scene), how_many, *described, _trees(how_many), *area)
 
 
-def _one_after_another(scene: _Scene) -> list[Term] | None:
+def _one_after_another(scene: _RequestScene) -> list[Term] | None:
     """ "A picture at the north-west, then the north-east corner ..."."""
     sides = scene.all("DIR")
     ways = [t for t in sides if len(str(t.value)) == 2]
@@ -251,7 +251,7 @@ def _one_after_another(scene: _Scene) -> list[Term] | None:
     return made
 
 
-def _at_each(scene: _Scene, ways: Sequence[Term]) -> bool:
+def _at_each(scene: _RequestScene, ways: Sequence[Term]) -> bool:
     """Whether the capture is asked for at each place, not only at the first or the last one."""
     if scene.all("EACH") or any(t.plural for t in scene.all("CORNER")):
         return True
@@ -271,7 +271,7 @@ def _to(number: int) -> list[float]:
     return [float(k) for k in range(2, number + 1)]
 
 
-_READINGS: tuple[Callable[[_Scene], list[Term] | None], ...] = (
+_READINGS: tuple[Callable[[_RequestScene], list[Term] | None], ...] = (
     _best,
     _some_of_a_row,
     _corners,

@@ -11,13 +11,13 @@ from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.attributes import hinted
 from fieldhand.planning.english.counting import Wanted, counted, number_of_objects
 from fieldhand.planning.english.faults import Question, spans_of, text_of, unclear
-from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.found import FoundPlace
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.english.onebyone import counted_from
 from fieldhand.planning.english.places import are_several, beyond, find
 from fieldhand.planning.english.selections import all_but, is_spot, skips_rows, so_many_nearby, starts_here
 from fieldhand.planning.english.spacing import Ranking
-from fieldhand.planning.english.syntax import Object, Part
+from fieldhand.planning.english.syntax import ClausePart, Object
 from fieldhand.planning.english.tokens import Term
 from fieldhand.planning.english.told import Told
 from fieldhand.robot.model import RobotProfile
@@ -38,7 +38,7 @@ def _counts(selector: s.Selector, side: str) -> bool:
     return skips_rows(selector)
 
 
-def said_of_places(part: Part) -> tuple[Span, ...]:
+def said_of_places(part: ClausePart) -> tuple[Span, ...]:
     """The words of a part that say where; all of them where nothing is captured in it."""
     if part.kind not in ACTS or part.places is None:
         return part.said
@@ -63,12 +63,12 @@ class Hand:
         self._objects_at_if: tuple[tuple[str, int], ...] = ()
         self._objects_of_case: tuple[tuple[str, int], ...] = ()  # the same of the case that an "otherwise" ends
         self._last_verb = ""
-        self._aside: list[d.Capture] = []  # held by an "if" behind them: a later "if it" does not mean them
+        self._aside: list[d.DraftCapture] = []  # held by an "if" behind them: a later "if it" does not mean them
         self._choice: d.Choice | None = None
         self._ended: d.Choice | None = None  # holds what is done where a round ends that "until" ends
         self._ended_round: d.Loop | d.Times | None = None
         self._found_one: d.Choice | None = None  # the same once it holds something
-        self._following: tuple[Part, ...] = ()  # what follows in the sentence
+        self._following: tuple[ClausePart, ...] = ()  # what follows in the sentence
         self._sentence_choices: list[d.Step] = []
         self._pending: Term | None = None  # an order said before the places that it is about
         self._area_gone_to = ""  # the same of another area
@@ -78,13 +78,15 @@ class Hand:
         self._sentence_steps: list[d.Step] = []
         self._sentence_acts = False
         self._last_steps: list[d.Step] = []
-        self._allowing: Part | None = None  # "if the battery allows", until all that it is said of has been read
+        self._allowing: ClausePart | None = None  # "if the battery allows", until all that it is said of has been read
         self._allowed_after: frozenset[int] = frozenset()  # the steps that were there before
         self._known_before_lead: frozenset[int] = frozenset()
         self._allowances = 0  # that have been read
         self._scope = self.told.root
 
-    def _where(self, found: Found | None, part: Part, wanted: Wanted) -> tuple[d.Block, s.Selector | None, bool]:
+    def _where(
+        self, found: FoundPlace | None, part: ClausePart, wanted: Wanted
+    ) -> tuple[d.DraftBlock, s.Selector | None, bool]:
         """The block that captures belong to, the place they name, and whether that is one of several places."""
         there = any(t.kind == "THERE" for t in part.tails)
         if found is None or found.here or there:
@@ -96,7 +98,9 @@ class Hand:
         loop = self._add_loop(found, part)
         return loop.body, None, True
 
-    def _here(self, part: Part, found: Found | None, there: bool) -> tuple[d.Block, s.Selector | None, bool]:
+    def _here(
+        self, part: ClausePart, found: FoundPlace | None, there: bool
+    ) -> tuple[d.DraftBlock, s.Selector | None, bool]:
         """Captures without a place of their own."""
         these = (found is not None and found.these) or any(t.kind == "THERE" and are_several(t) for t in part.tails)
         if these:
@@ -121,7 +125,7 @@ class Hand:
             words=(f"{text_of(part.terms)} at each of them", ""),
         )
 
-    def _gather(self, part: Part) -> None:
+    def _gather(self, part: ClausePart) -> None:
         """ "Each of them": places that were driven to one after the other become places to do something at."""
         if self._loop is not None:
             return
@@ -137,17 +141,17 @@ class Hand:
         self._scope.steps = self._scope.steps[: -len(stops)]
         said = tuple(span for stop in stops for span in stop.said)
         places = s.UnionOf(parts=tuple(stop.place for stop in stops))
-        self._loop = d.Loop(select=places, body=d.Block(), order="given", said=said)
+        self._loop = d.Loop(select=places, body=d.DraftBlock(), order="given", said=said)
         self._scope.add(self._loop)
 
-    def _add_loop(self, found: Found, part: Part) -> d.Loop:
+    def _add_loop(self, found: FoundPlace, part: ClausePart) -> d.Loop:
         given = any(t.kind == "INORDER" for t in part.tails)
         select = found.selector
         if taken := so_many_nearby(select.any_of, select.size.low):
             select = taken  # "go to trees nearby | and take two pictures"
         loop = d.Loop(
             select=select,
-            body=d.Block(),
+            body=d.DraftBlock(),
             order="given" if given else "best",
             optional=found.optional,
             at_most=found.at_most,
@@ -163,7 +167,7 @@ class Hand:
         self._loop = loop
         return loop
 
-    def _spreads(self, block: d.Block, captures: int) -> bool:
+    def _spreads(self, block: d.DraftBlock, captures: int) -> bool:
         """ "Go to nearby trees and take two pictures": at two trees, one each. Whether it is said so."""
         loop = self._loop
         if loop is None or block is not loop.body or loop.body.steps or captures < 2:
@@ -237,21 +241,21 @@ class Hand:
             )
         return str(ranking.attribute[0])
 
-    def _within(self, block: d.Block | None, outer: d.Block) -> bool:
+    def _within(self, block: d.DraftBlock | None, outer: d.DraftBlock) -> bool:
         while block is not None:
             if block is outer:
                 return True
             block = block.parent
         return False
 
-    def _needs_place(self, part: Part) -> None:
+    def _needs_place(self, part: ClausePart) -> None:
         """Something done "there" needs a place that was spoken of; "here" is where the robot stands."""
         if any(t.kind == "THERE" and t.text.lower() == "here" for t in part.terms):
             return
-        if not any(isinstance(step, d.Go | d.Capture | d.Loop) for step, _ in d.walk(self.told.root)):
+        if not any(isinstance(step, d.Go | d.DraftCapture | d.Loop) for step, _ in d.walk(self.told.root)):
             raise Question(message("'{said}': at which tree or trees?", context="question", said=text_of(part.terms)))
 
-    def _related(self, part: Part) -> Found:
+    def _related(self, part: ClausePart) -> FoundPlace:
         """The places of a part, with the relation that ties them to its verb."""
         if part.places is None:
             raise unclear(part.terms, message("a place was expected"))
@@ -277,22 +281,22 @@ class Hand:
             case "NEXTTO" if found.many:
                 return found  # "the soil beside four trees": at each of them
             case "NEXTTO":
-                return Found(selector=s.Nearest(to=plain, adjacent=True))
+                return FoundPlace(selector=s.Nearest(to=plain, adjacent=True))
             case "NEAR" if is_spot(plain):
                 return found
             case "NEAR":
-                return Found(selector=s.Nearest(to=plain))
+                return FoundPlace(selector=s.Nearest(to=plain))
             case "WITHIN":
-                return Found(selector=s.Within(distance_m=relation.value, to=plain), many=True, region=True)
+                return FoundPlace(selector=s.Within(distance_m=relation.value, to=plain), many=True, region=True)
             case "BEYOND":
                 away = s.Excluding(places=beyond(relation.value, plain))
-                return Found(selector=away, many=True, region=True)
+                return FoundPlace(selector=away, many=True, region=True)
             case "OUTSIDE" | "EXCEPT":
-                return Found(selector=all_but(plain), many=True, region=True)
+                return FoundPlace(selector=all_but(plain), many=True, region=True)
             case _:
                 raise unclear(part.terms, message("'{said}' does not fit there", said=relation.text))
 
-    def _one_of_two(self, part: Part) -> Found | None:
+    def _one_of_two(self, part: ClausePart) -> FoundPlace | None:
         """ "The southern one": of the two places that were spoken of last, the one that is farther to that side."""
         phrase = part.places.chains[0].phrases[0] if part.places is not None else None
         terms = [] if phrase is None or part.places is None else [t for group in phrase.nominals for t in group]
@@ -301,15 +305,15 @@ class Hand:
             return None
         spoken: list[s.Selector] = []
         for step, _ in d.walk(self.told.root):
-            place = step.place if isinstance(step, d.Go) else step.at if isinstance(step, d.Capture) else None
+            place = step.place if isinstance(step, d.Go) else step.at if isinstance(step, d.DraftCapture) else None
             known = place is None or place.named_marker or place in spoken
             if place is not None and not known and place.single and not place.relative:
                 spoken.append(place)
         if len(spoken) < 2:
             return None
-        return Found(selector=s.Extreme(side=terms[0].value, of=s.UnionOf(parts=tuple(spoken[-2:]))))
+        return FoundPlace(selector=s.Extreme(side=terms[0].value, of=s.UnionOf(parts=tuple(spoken[-2:]))))
 
-    def _check_rows(self, found: Found, part: Part) -> None:
+    def _check_rows(self, found: FoundPlace, part: ClausePart) -> None:
         """ "5 trees down", "that row", "across the aisle": from a tree that has been spoken of."""
         self.told.assumptions += found.assumed
         first = part.places.chains[0].phrases[0].terms if part.places is not None else ()
@@ -332,7 +336,7 @@ class Hand:
             )
         if not any(starts_here(part_) for part_ in found.selector.walk()):
             return
-        if not any(isinstance(step, d.Go | d.Capture | d.Loop) for step, _ in d.walk(self.told.root)):
+        if not any(isinstance(step, d.Go | d.DraftCapture | d.Loop) for step, _ in d.walk(self.told.root)):
             said = text_of(part.terms)
             asked = (
                 message("'{said}': which row?", context="question", said=said)
@@ -350,7 +354,7 @@ class Hand:
         self._readings += 1
         return f"r{self._readings}"
 
-    def _wanted(self, objects: tuple[Object, ...], part: Part) -> Wanted:
+    def _wanted(self, objects: tuple[Object, ...], part: ClausePart) -> Wanted:
         """The actions that a command asks for, each with its number if one is said."""
         if objects:
             return tuple((self._action(o.noun, part), number_of_objects(o)) for o in objects)
@@ -376,7 +380,7 @@ class Hand:
             words=words if terms else (),
         )
 
-    def _action(self, noun: Term, part: Part) -> str:
+    def _action(self, noun: Term, part: ClausePart) -> str:
         if noun.kind == "READING":
             measuring = [a for a in self._robot.actions if a.measures]
             if len(measuring) == 1:

@@ -13,7 +13,7 @@ from fieldhand.planning.english.attributes import filtered
 from fieldhand.planning.english.bag import Bag
 from fieldhand.planning.english.bare import named_trees
 from fieldhand.planning.english.faults import Question, text_of
-from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.found import FoundPlace
 from fieldhand.planning.english.rows import check_rows
 from fieldhand.planning.english.rowwords import From, Steps
 from fieldhand.planning.english.sets import Group
@@ -29,7 +29,7 @@ _AMBIGUOUS_ENDS = (
 _ENDS_IN_WORDS = ("the northern end", "the southern end", "both ends")
 
 
-def named_in_rows(bag: Bag, group: Group, site: Site) -> Found:
+def named_in_rows(bag: Bag, group: Group, site: Site) -> FoundPlace:
     """ "Trees 4 to 9 of row 2": by their numbers in the row, not by their ids.
 
     Raises:
@@ -74,7 +74,7 @@ def named_in_rows(bag: Bag, group: Group, site: Site) -> Found:
         selector = trees[0] if len(trees) == 1 else s.UnionOf(parts=trees)
     bag.finish()
     many = len(numbers) > 1 or several
-    return Found(selector=selector, many=many, each=bag.each or bool(group.one_by_one), assumed=group.assumed)
+    return FoundPlace(selector=selector, many=many, each=bag.each or bool(group.one_by_one), assumed=group.assumed)
 
 
 def excepted_in_rows(bag: Bag, group: Group, site: Site) -> s.Selector:
@@ -168,7 +168,7 @@ def several_rows(of: s.Selector, group: Group, site: Site) -> bool:
     return len(set(site.planting.row_of[index].tolist())) > 1
 
 
-def ranked_in_rows(bag: Bag, of: s.Selector, group: Group, site: Site) -> Found:
+def ranked_in_rows(bag: Bag, of: s.Selector, group: Group, site: Site) -> FoundPlace:
     """ "The first three trees of every row", "the last tree of row 3", "the third tree from the end of row 2"."""
     check_rows(bag, site)
     rank, last, behind = bag.take("ORD"), bag.take("LAST"), bag.take("BACKORD")
@@ -203,10 +203,10 @@ def ranked_in_rows(bag: Bag, of: s.Selector, group: Group, site: Site) -> Found:
         first, end = -end, -first
     many = end > first or several_rows(of, group, site)
     selector = s.InRow(first=first, last=end, counted_from=side_along(bag, start.side, of, site), of=of)
-    return Found(selector=selector, many=many, each=bag.each or bool(group.one_by_one))
+    return FoundPlace(selector=selector, many=many, each=bag.each or bool(group.one_by_one))
 
 
-def ends_of_rows(bag: Bag, group: Group, site: Site) -> Found:
+def ends_of_rows(bag: Bag, group: Group, site: Site) -> FoundPlace:
     """ "Both ends of each row", "the northern end of row 4", "the start of row 2"."""
     of = group.kept(filtered(bag, group.area, site))
     start, finish = bag.take("START"), bag.take("FINISH")
@@ -232,22 +232,22 @@ def ends_of_rows(bag: Bag, group: Group, site: Site) -> Found:
             )
         bag.take("NEAREST")
         nearest = s.Nearest(to=group.anchor, of=s.UnionOf(parts=(first, last)))
-        return Found(selector=nearest, counted=1, assumed=group.assumed)
+        return FoundPlace(selector=nearest, counted=1, assumed=group.assumed)
     if start is not None or side != "usual":
         bag.any = False
-        return Found(selector=first, many=several, each=each, assumed=group.assumed)
+        return FoundPlace(selector=first, many=several, each=each, assumed=group.assumed)
     if bag.any or bag.article in ("a", "an"):
         asked = message("'{said}': which of the two ends?", context="question", said=text_of(bag.phrase.terms))
         raise Question(asked, _AMBIGUOUS_ENDS, terms=bag.phrase.terms, words=_ENDS_IN_WORDS)
     if plural or bag.each:
-        return Found(selector=s.UnionOf(parts=(first, last)), many=True, each=each, assumed=group.assumed)
+        return FoundPlace(selector=s.UnionOf(parts=(first, last)), many=True, each=each, assumed=group.assumed)
     said_as = message(
         "'{said}' is the one where the count along the row ends.", context="assumption", said=text_of(bag.phrase.terms)
     )
-    return Found(selector=last, many=several, each=each, assumed=(*group.assumed, said_as))
+    return FoundPlace(selector=last, many=several, each=each, assumed=(*group.assumed, said_as))
 
 
-def every_nth(bag: Bag, group: Group, site: Site) -> Found:
+def every_nth(bag: Bag, group: Group, site: Site) -> FoundPlace:
     """ "Every third tree": what stands before the noun is what is counted, what stands behind it is tested then."""
     check_rows(bag, site)
     every, begin = bag.take("EVERYNTH"), bag.take("STARTNTH")
@@ -279,7 +279,7 @@ def every_nth(bag: Bag, group: Group, site: Site) -> Found:
     bag.put("ATTRVAL", behind)
     selector = group.kept(filtered(bag, selector, site))
     bag.take("PLOT")
-    return Found(selector=selector, many=True, each=True)
+    return FoundPlace(selector=selector, many=True, each=True)
 
 
 def parted(area: s.Selector) -> tuple[s.Selector, list[s.Where]]:
@@ -304,7 +304,7 @@ def parted(area: s.Selector) -> tuple[s.Selector, list[s.Where]]:
     return replace(outer, of=inner), tests
 
 
-def stepped(bag: Bag, group: Group, site: Site) -> Found:
+def stepped(bag: Bag, group: Group, site: Site) -> FoundPlace:
     """ "5 trees down": along the row of the tree in hand, or of another one."""
     check_rows(bag, site)
     said = bag.take("STEP")
@@ -320,7 +320,7 @@ def stepped(bag: Bag, group: Group, site: Site) -> Found:
         side_along(bag, _side(steps.towards), origin, site)
     _check_origin(bag, origin)
     selector = s.AlongRow(trees=steps.trees, towards=steps.towards, origin=origin)
-    return Found(selector=selector, counted=1)
+    return FoundPlace(selector=selector, counted=1)
 
 
 def _side(towards: Towards) -> CountedFrom:
@@ -328,7 +328,7 @@ def _side(towards: Towards) -> CountedFrom:
     return sides.get(towards, "usual")
 
 
-def next_in_row(bag: Bag, group: Group) -> Found | None:
+def next_in_row(bag: Bag, group: Group) -> FoundPlace | None:
     """ "The next tree in the row", "the next three trees of the row"."""
     row = group.rows
     origin = None if row is None else row.row_of
@@ -344,11 +344,11 @@ def next_in_row(bag: Bag, group: Group) -> Found | None:
     towards: Towards = "up" if group.upwards else "down"
     parts = tuple(s.AlongRow(trees=k, towards=towards, origin=origin) for k in range(1, number + 1))
     if number == 1:
-        return Found(selector=parts[0], counted=1)
-    return Found(selector=s.UnionOf(parts=parts), many=True, counted=number)
+        return FoundPlace(selector=parts[0], counted=1)
+    return FoundPlace(selector=s.UnionOf(parts=parts), many=True, counted=number)
 
 
-def opposite(bag: Bag, group: Group, site: Site) -> Found:
+def opposite(bag: Bag, group: Group, site: Site) -> FoundPlace:
     """ "The tree across the aisle", "the tree opposite tree 12"."""
     check_rows(bag, site)
     said = bag.take("OPPOSITE")
@@ -360,10 +360,10 @@ def opposite(bag: Bag, group: Group, site: Site) -> Found:
     if side != "usual":
         check_over(bag, side, origin, site, message("no aisle lies to the {side}", side=COMPASS[side]))
     _check_origin(bag, origin)
-    return Found(selector=s.Across(origin=origin, side=side), counted=1)
+    return FoundPlace(selector=s.Across(origin=origin, side=side), counted=1)
 
 
-def successive_trees(bag: Bag, group: Group) -> Found:
+def successive_trees(bag: Bag, group: Group) -> FoundPlace:
     """ "4 trees in a row", "four consecutive trees in row 2": one after the other."""
     bag.take("CONSECUTIVE")
     if not bag.only("TREE") or bag.count is None or group.anchor is not None or bag.definite or bag.each:
@@ -373,7 +373,7 @@ def successive_trees(bag: Bag, group: Group) -> Found:
     bag.any = False
     bag.finish()
     selector = s.Successive(count=bag.count, of=group.kept(group.area))
-    return Found(selector=selector, many=bag.count > 1, counted=bag.count, assumed=group.assumed)
+    return FoundPlace(selector=selector, many=bag.count > 1, counted=bag.count, assumed=group.assumed)
 
 
 def _check_origin(bag: Bag, origin: s.Selector) -> None:

@@ -9,15 +9,15 @@ from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.bag import bag_of
 from fieldhand.planning.english.faults import Question, text_of
-from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.found import FoundPlace
 from fieldhand.planning.english.selections import starts_here
-from fieldhand.planning.english.syntax import Chain, NounPhrase, Places
+from fieldhand.planning.english.syntax import Chain, PlacePhrase, Places
 from fieldhand.planning.english.tokens import Term
 
 _RANKS = ("MOST", "SUPER", "ORD", "LAST", "BACKORD")
 
 
-def check_of_row(places: Places, found: list[Found]) -> None:
+def check_of_row(places: Places, found: list[FoundPlace]) -> None:
     """ "The first tree and the last tree of row 6": is the first that of the row too?"""
     bare = [c for c in places.chains if len(c.phrases) == 1 and bag_of(c.phrases[0]).has("ORD", "LAST")]
     if bare and any(isinstance(part, s.InRow) for f in found for part in f.selector.walk()):
@@ -31,7 +31,7 @@ def check_of_row(places: Places, found: list[Found]) -> None:
         raise Question(asked, choices, terms=bare[0].terms, words=words)
 
 
-def of_the_other(places: Places, found: list[Found]) -> Chain | None:
+def of_the_other(places: Places, found: list[FoundPlace]) -> Chain | None:
     """ "Row 4, the easternmost tree": with a comma alone, an area says where the other is; None if that is not said."""
     if len(found) != 2 or set(places.joins[0].text) - set(", "):
         return None
@@ -53,7 +53,7 @@ def of_the_other(places: Places, found: list[Found]) -> Chain | None:
     return Chain(phrases=(*inner.phrases, *area.phrases), relations=(*inner.relations, relation, *area.relations))
 
 
-def check_comma(places: Places, found: list[Found]) -> None:
+def check_comma(places: Places, found: list[FoundPlace]) -> None:
     """ "The yellow trees, every other tree": with a comma alone, the second may be of the first."""
     if all(set(join.text) <= set(", ") for join in places.joins) and sum(f.many for f in found) > 1:
         parts = [text_of(chain.terms).replace(" ,", ",") for chain in places.chains]
@@ -76,7 +76,7 @@ def read_as(places: Places, whole: Chain) -> str:
     return message("'{said}' is read as '{meant}'.", context="assumption", said=said, meant=meant)
 
 
-def from_each_other(found: list[Found]) -> list[Found]:
+def from_each_other(found: list[FoundPlace]) -> list[FoundPlace]:
     """ "Tree 80 and the tree opposite": the second is counted from the first."""
     made = found[:1]
     for one in found[1:]:
@@ -129,7 +129,7 @@ def _of_a_row(chain: Chain) -> bool:
     return len(chain.phrases) == 2 and any(g[0].kind in ("ROW", "ROWIDS") for g in chain.phrases[1].nominals)
 
 
-def _headed(phrase: NounPhrase, nominals: tuple[tuple[Term, ...], ...], *, plural: bool) -> NounPhrase:
+def _headed(phrase: PlacePhrase, nominals: tuple[tuple[Term, ...], ...], *, plural: bool) -> PlacePhrase:
     """A phrase with the words that another one shares with it."""
     whole = (*phrase.nominals, *nominals)
     if not plural:

@@ -7,7 +7,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.motion import Motion
-from fieldhand.planning.english.syntax import Part
+from fieldhand.planning.english.syntax import ClausePart
 
 #: Words that do not say what must be enough.
 _BUDGET_UNSAID = frozenset({"if possible", "if at all possible", "where possible", "if feasible", "optionally"})
@@ -20,7 +20,7 @@ class Leaving(Motion):
     way home left out.
     """
 
-    def _allowance(self, part: Part, parts: tuple[Part, ...], commands: tuple[str, ...]) -> None:
+    def _allowance(self, part: ClausePart, parts: tuple[ClausePart, ...], commands: tuple[str, ...]) -> None:
         """Make the last command optional, or, where it stands before commands, remember from where on they are."""
         self._close_allowance()
         index = next(k for k, one in enumerate(parts) if one is part)
@@ -67,13 +67,13 @@ class Leaving(Motion):
             self._leave_out(list(self._last_steps))
             self._allowing = None
 
-    def _said_of_loop(self, part: Part, known: frozenset[int]) -> None:
+    def _said_of_loop(self, part: ClausePart, known: frozenset[int]) -> None:
         """ "At every yellow tree, if the battery allows, ...": it can be said of the round, or of each visit."""
         if any(isinstance(step, d.Loop) for step, _ in d.walk(self.told.root) if id(step) not in known):
             advice = message("say 'at as many of them as you can', or begin the sentence with it")
             raise unclear(part.terms, message("is it said of all these places, or of each of them?"), advice)
 
-    def _otherwise(self, part: Part) -> None:
+    def _otherwise(self, part: ClausePart) -> None:
         if self._choice is None and self._allowances:
             what = message("a step for which too little is left is left out, and nothing stands in for it")
             raise unclear(part.terms, what, message("leave the 'otherwise' out"))
@@ -127,7 +127,7 @@ class Leaving(Motion):
                     said=said,
                 )
             )
-        made = d.Maybe(body=d.Block(), said=part.said)
+        made = d.Maybe(body=d.DraftBlock(), said=part.said)
         del holder.steps[at : at + len(whole)]
         for step in whole:
             made.body.add(step)
@@ -137,7 +137,7 @@ class Leaving(Motion):
     def _may_be_left_out(self, step: d.Step) -> bool:
         return isinstance(step, d.Maybe) or (isinstance(step, d.Loop) and step.optional)
 
-    def _inside_optional(self, block: d.Block) -> bool:
+    def _inside_optional(self, block: d.DraftBlock) -> bool:
         return any(
             self._may_be_left_out(step) and any(self._within(block, inner) for inner in d.blocks_of(step))
             for step, _ in d.walk(self.told.root)
@@ -147,7 +147,7 @@ class Leaving(Motion):
         return frozenset(id(step) for step, _ in d.walk(self.told.root))
 
 
-def place_unsure(block: d.Block) -> d.Step | None:
+def place_unsure(block: d.DraftBlock) -> d.Step | None:
     """The first step whose place hangs on whether a step before it is left out; None where there is none."""
     try:
         _follow(block, False)
@@ -164,11 +164,11 @@ class _Unsure(Exception):
         super().__init__()
 
 
-def _follow(block: d.Block, unsure: bool) -> bool:
+def _follow(block: d.DraftBlock, unsure: bool) -> bool:
     """Go through the steps of a block; whether it is unsure where the robot is, before and after."""
     for step in block.steps:
         match step:
-            case d.Go(place=place) | d.Capture(at=place) | d.Loop(select=place):
+            case d.Go(place=place) | d.DraftCapture(at=place) | d.Loop(select=place):
                 if unsure and (place is None or any(isinstance(part, s.Here) for part in place.walk())):
                     raise _Unsure(step)
                 unsure = False
@@ -182,4 +182,4 @@ def _follow(block: d.Block, unsure: bool) -> bool:
 
 
 def _goes(step: d.Step) -> bool:
-    return isinstance(step, d.Go | d.Loop) or (isinstance(step, d.Capture) and step.at is not None)
+    return isinstance(step, d.Go | d.Loop) or (isinstance(step, d.DraftCapture) and step.at is not None)

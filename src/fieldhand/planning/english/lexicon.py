@@ -9,7 +9,7 @@ from difflib import get_close_matches
 from functools import cached_property
 
 from fieldhand.planning.english.kinds import CONTINUES, RELATIONS, TESTS
-from fieldhand.planning.english.naming import Entry, Phrase, robot_entries, site_entries, split
+from fieldhand.planning.english.naming import NameEntry, Phrase, robot_entries, site_entries, split
 from fieldhand.planning.english.shared import shared_vocabulary
 from fieldhand.planning.english.tokens import Term, Word
 from fieldhand.robot.model import RobotProfile
@@ -38,7 +38,7 @@ class Lexicon:
         site: Whose rows and blocks may have names; they are looked for only where a row or a block is spoken of.
     """
 
-    own: Mapping[Phrase, Entry]
+    own: Mapping[Phrase, NameEntry]
     trees: Mapping[str, str]
     site: Site
 
@@ -59,7 +59,7 @@ class Lexicon:
         """The words of some length, which a word may be a misspelling of."""
         return tuple(sorted(word for word in self.vocabulary if len(word) >= _SPELLABLE and word.isalpha()))
 
-    def entry(self, phrase: Phrase) -> Entry | None:
+    def entry(self, phrase: Phrase) -> NameEntry | None:
         """What a phrase is; None if it is not known."""
         return self.own.get(phrase) or shared_vocabulary().get(phrase)
 
@@ -187,7 +187,7 @@ class Lexicon:
         if words[at].kind not in ("word", "unit", "number"):
             return None
         phrase: list[str] = []
-        best: tuple[Entry, int] | None = None
+        best: tuple[NameEntry, int] | None = None
         for used, word in enumerate(words[at:], start=1):
             if word.kind == "dash":
                 continue
@@ -220,7 +220,7 @@ class Lexicon:
 
 def lexicon_for(robot: RobotProfile, site: Site) -> Lexicon:
     """The lexicon of a robot on a site. The robot's words come before the site's; none replaces function words."""
-    own: dict[Phrase, Entry] = {}
+    own: dict[Phrase, NameEntry] = {}
     for phrase, entry in site_entries(site):
         if phrase not in shared_vocabulary():
             own.setdefault(phrase, entry)

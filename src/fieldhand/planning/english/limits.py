@@ -19,7 +19,7 @@ class Amount:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Limit:
+class LimitPhrase:
     """A limit on a resource.
 
     Attributes:
@@ -33,7 +33,7 @@ class Limit:
     keep: bool = False
     said: Span = (0, 0)
 
-    def as_said(self, said: Span) -> Limit:
+    def as_said(self, said: Span) -> LimitPhrase:
         """The same, said elsewhere."""
         return replace(self, said=said)
 
@@ -134,7 +134,7 @@ def with_limits(terms: list[Term]) -> list[Term]:
             value = amount if isinstance(amount, Amount) else Amount(number=float(amount), unit="percent")
             text = " ".join(t.text for t in inside)
             start, end = inside[0].start, inside[-1].end
-            limit = Limit(amount=value.number, unit=value.unit, keep=keep, said=(start, end))
+            limit = LimitPhrase(amount=value.number, unit=value.unit, keep=keep, said=(start, end))
             budget = Term(kind="BUDGET", text=text, start=start, end=end, value=limit)
             terms = [*before, budget, *terms[last + 1 :]]
     return _within(terms)

@@ -8,10 +8,10 @@ from fieldhand.language import Number, message
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.counting import Wanted
 from fieldhand.planning.english.faults import Question, text_of, unclear
-from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.found import FoundPlace
 from fieldhand.planning.english.onebyone import one_by_one, spread_over
 from fieldhand.planning.english.selections import zone_of_points
-from fieldhand.planning.english.syntax import Part
+from fieldhand.planning.english.syntax import ClausePart
 from fieldhand.site.model import Site
 
 #: Rows that are left to the planner.
@@ -19,7 +19,7 @@ _ANY_ROW = (["a", "row"], ["any", "row"], ["one", "row"], ["some", "row"], ["one
 _LINE = message("say along which row, or in which zone: 'every 20 m along row 4'")
 
 
-def as_stops(part: Part, wanted: Wanted) -> tuple[Part, Wanted]:
+def as_stops(part: ClausePart, wanted: Wanted) -> tuple[ClausePart, Wanted]:
     """ "In four spots 20 m apart": so many captures, each at a stop of its own."""
     chain = part.places.chains[0] if part.places is not None and len(part.places.chains) == 1 else None
     if part.spacing is not None and chain is not None and [t.text.lower() for t in chain.terms] in _ANY_ROW:
@@ -37,7 +37,7 @@ def as_stops(part: Part, wanted: Wanted) -> tuple[Part, Wanted]:
     return replace(part, places=places, relation=relation), tuple((action, numbers[0]) for action, _ in wanted)
 
 
-def stops_of(found: Found | None, part: Part, wanted: Wanted, site: Site) -> Found:
+def stops_of(found: FoundPlace | None, part: ClausePart, wanted: Wanted, site: Site) -> FoundPlace:
     """The free points of a command with a spacing.
 
     Raises:
@@ -99,12 +99,12 @@ def stops_of(found: Found | None, part: Part, wanted: Wanted, site: Site) -> Fou
             part.terms, message("how many trees are that?"), message("say 'three trees 15 m apart', for example")
         )
     area = selector.any_of or selector
-    return Found(
+    return FoundPlace(
         selector=s.Apart(apart_m=apart, count=number, least=spacing.value.least, of=area), many=True, counted=number
     )
 
 
-def _in_rows(found: Found, part: Part, stops: s.Spaced, site: Site) -> Found:
+def _in_rows(found: FoundPlace, part: ClausePart, stops: s.Spaced, site: Site) -> FoundPlace:
     """Stops along one row, or along each of several."""
     area = found.selector
     relative = area.relative
@@ -125,11 +125,11 @@ def _in_rows(found: Found, part: Part, stops: s.Spaced, site: Site) -> Found:
     return _found(spread_over(stops, area, rows), stops.count)
 
 
-def _found(selector: s.Selector, count: int) -> Found:
-    return Found(selector=selector, many=True, counted=count or None)
+def _found(selector: s.Selector, count: int) -> FoundPlace:
+    return FoundPlace(selector=selector, many=True, counted=count or None)
 
 
-def points_over(found: Found, part: Part, wanted: Wanted) -> Found:
+def points_over(found: FoundPlace, part: ClausePart, wanted: Wanted) -> FoundPlace:
     """ "5 soil samples spread over the wet corner": free points of a zone, as many as there are captures."""
     if isinstance(found.selector, s.PointsIn):
         return found
@@ -146,4 +146,4 @@ def points_over(found: Found, part: Part, wanted: Wanted) -> Found:
         raise Question(
             message("'{said}': at how many points?", context="question", said=text_of(part.terms)), ("3", "5")
         )
-    return Found(selector=s.PointsIn(zone=zone, count=count), many=count > 1, counted=count)
+    return FoundPlace(selector=s.PointsIn(zone=zone, count=count), many=count > 1, counted=count)

@@ -11,9 +11,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import count
 
-from fieldhand.planning.english.arrange import Sentence
+from fieldhand.planning.english.arrange import ArrangedSentence
 from fieldhand.planning.english.separators import Break
-from fieldhand.planning.english.syntax import NotParsed, Part, parse
+from fieldhand.planning.english.syntax import ClausePart, NotParsed, parse
 from fieldhand.planning.english.tokens import Term
 
 #: What it costs to leave a word out, by its kind. Words of other kinds are never left out.
@@ -49,11 +49,11 @@ _BREAK = Break()
 class Mended:
     """A sentence as it was mended: its parts, and the words that were left out of it."""
 
-    parts: tuple[Part, ...]
+    parts: tuple[ClausePart, ...]
     left_out: tuple[Term, ...]
 
 
-def mended(sentence: Sentence) -> Mended | None:
+def mended(sentence: ArrangedSentence) -> Mended | None:
     """The sentence with the fewest changes that the grammar takes; None if it takes many."""
     if sum(t.kind in ("CMP", "LEVEL", "BETWEEN") for t in sentence.terms) > 1:
         return None  # which reading each of its tests is about would be a guess

@@ -9,9 +9,9 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english import repeating
 from fieldhand.planning.english.faults import text_of, unclear
-from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.found import FoundPlace
 from fieldhand.planning.english.places import find
-from fieldhand.planning.english.syntax import Part
+from fieldhand.planning.english.syntax import ClausePart
 from fieldhand.planning.english.told import Homeward
 from fieldhand.planning.english.until import Until
 from fieldhand.task.frames import Then
@@ -20,7 +20,7 @@ from fieldhand.task.frames import Then
 class Motion(Until):
     """Reads commands that move the robot."""
 
-    def _go(self, part: Part) -> None:
+    def _go(self, part: ClausePart) -> None:
         if part.places is None:
             self.told.no_part += part.said
             return
@@ -39,10 +39,12 @@ class Motion(Until):
             self._go_to_rows(found, part)
             return
         if found.object_only:
-            found = Found(selector=s.Take(count=found.counted or 1, of=s.NotVisited()), many=(found.counted or 1) > 1)
+            found = FoundPlace(
+                selector=s.Take(count=found.counted or 1, of=s.NotVisited()), many=(found.counted or 1) > 1
+            )
         if found.region and part.kind != "visit":
             self._area_gone_to = text_of(part.places.terms)
-            found = Found(selector=found.selector if found.selector.named_marker else self._one_of(found.selector))
+            found = FoundPlace(selector=found.selector if found.selector.named_marker else self._one_of(found.selector))
         if (
             found.selector == s.Marker(name="start")
             and not self.told.root.steps
@@ -57,7 +59,7 @@ class Motion(Until):
         self._loop = None
         self._scope.add(d.Go(place=found.selector, said=part.said))
 
-    def _go_to_rows(self, found: Found, part: Part) -> None:
+    def _go_to_rows(self, found: FoundPlace, part: ClausePart) -> None:
         """ "Go to row 3": to the tree of it that is nearest."""
         if part.relation is not None and part.relation.kind == "ALONG":
             advice = message("say it in one sentence: 'drive down row 3 and take a picture of every tree'")
@@ -74,7 +76,7 @@ class Motion(Until):
         """A tree to drive to when an area is named: the one in its middle."""
         return s.Middle(of=area)
 
-    def _lead(self, part: Part) -> None:
+    def _lead(self, part: ClausePart) -> None:
         """ "At each corner, ...": the place of what follows."""
         if part.relation is not None and part.relation.kind == "FROM" and not self.told.root.steps:
             found = self._related(part)
@@ -88,7 +90,7 @@ class Motion(Until):
             raise unclear(part.terms, message("a place was expected"))
         self._go(replace(part, kind="visit"))
 
-    def _come_back(self, part: Part) -> None:
+    def _come_back(self, part: ClausePart) -> None:
         self._rows_gone_to = self._area_gone_to = ""
         then, place = self._home(part)
         if self._scope is self.told.root and not self.told.root.steps and place is None:
@@ -121,7 +123,7 @@ class Motion(Until):
         names = [part.named_marker for at in places for part in at.walk() if part.named_marker]
         return names[-1] if names else ""
 
-    def _home(self, part: Part) -> tuple[Then, s.Selector | None]:
+    def _home(self, part: ClausePart) -> tuple[Then, s.Selector | None]:
         if part.places is not None:
             selector = find(part.places, self._site).selector
             if selector == s.Marker(name="start"):

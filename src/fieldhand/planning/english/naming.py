@@ -22,7 +22,7 @@ _LONGEST_TEXT, _LONGEST_ZONE = 40, 60
 
 
 @dataclass(frozen=True, kw_only=True)
-class Entry:
+class NameEntry:
     """What a phrase is: a terminal of the grammar, its value, and whether it is a noun in the plural."""
 
     kind: str
@@ -45,7 +45,7 @@ def split(phrase: str) -> Phrase:
     )
 
 
-def robot_entries(robot: RobotProfile) -> Iterator[tuple[Phrase, Entry]]:
+def robot_entries(robot: RobotProfile) -> Iterator[tuple[Phrase, NameEntry]]:
     """Nouns and verbs of the robot's own. A word of several actions keeps them all, the usual one first."""
     actions: dict[Phrase, list[str]] = {}
     quantities: dict[Phrase, list[str]] = {}
@@ -62,15 +62,15 @@ def robot_entries(robot: RobotProfile) -> Iterator[tuple[Phrase, Entry]]:
         named, measured = actions.get(phrase, []), quantities.get(phrase, [])
         measuring = [a.name for a in robot.actions if a.name not in named and set(a.measures) & set(measured)]
         naming = Naming(actions=(*named, *measuring), quantities=tuple(measured))
-        yield phrase, Entry(kind="NOUN", value=naming)
-        yield _plural(phrase), Entry(kind="NOUN", value=naming, plural=True)
+        yield phrase, NameEntry(kind="NOUN", value=naming)
+        yield _plural(phrase), NameEntry(kind="NOUN", value=naming, plural=True)
     for action in robot.actions:
         for verb in action.verbs:
             for form in forms_of(verb):
-                yield split(form), Entry(kind="ACTV", value=Naming(actions=(action.name,)))
+                yield split(form), NameEntry(kind="ACTV", value=Naming(actions=(action.name,)))
 
 
-def site_entries(site: Site) -> Iterator[tuple[Phrase, Entry]]:
+def site_entries(site: Site) -> Iterator[tuple[Phrase, NameEntry]]:
     """Attributes, their texts and zones of the site."""
     values: dict[Phrase, list[tuple[str, str]]] = {}
     names: dict[Phrase, list[str]] = {}
@@ -82,16 +82,16 @@ def site_entries(site: Site) -> Iterator[tuple[Phrase, Entry]]:
             if attribute not in names.setdefault(phrase, []):
                 names[phrase].append(attribute)
     for phrase, meant in values.items():
-        yield phrase, Entry(kind="ATTRVAL", value=tuple(meant))
-        yield _plural(phrase), Entry(kind="ATTRVAL", value=tuple(meant), plural=True)
+        yield phrase, NameEntry(kind="ATTRVAL", value=tuple(meant))
+        yield _plural(phrase), NameEntry(kind="ATTRVAL", value=tuple(meant), plural=True)
     for phrase, attributes in names.items():
-        yield phrase, Entry(kind="ATTR", value=tuple(attributes))
-        yield _plural(phrase), Entry(kind="ATTR", value=tuple(attributes), plural=True)
+        yield phrase, NameEntry(kind="ATTR", value=tuple(attributes))
+        yield _plural(phrase), NameEntry(kind="ATTR", value=tuple(attributes), plural=True)
     for zone in site.zones:
         name = split(zone.name)
         if zone.kind != "boundary" and name and len(zone.name) <= _LONGEST_ZONE:
             for phrase in (name, (*name, "zone"), ("zone", *name), (*name, "area"), ("area", *name)):
-                yield phrase, Entry(kind="ZONE", value=zone.name)
+                yield phrase, NameEntry(kind="ZONE", value=zone.name)
 
 
 def _texts(found: tuple[Any, ...]) -> list[str]:

@@ -13,7 +13,7 @@ from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve
 from fieldhand.planning.english.bag import Bag
 from fieldhand.planning.english.faults import Question, text_of
-from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.found import FoundPlace
 from fieldhand.planning.english.selections import names_several_rows
 from fieldhand.planning.english.sets import Group
 from fieldhand.site.model import Site
@@ -52,7 +52,7 @@ def one_by_one(selector: s.Selector, site: Site) -> tuple[s.Selector, ...]:
     return tuple(made)
 
 
-def distributed(found: Found, group: Group, bag: Bag) -> Found:
+def distributed(found: FoundPlace, group: Group, bag: Bag) -> FoundPlace:
     """ "The oldest tree of each row": a pick that is said of each row, said once for each of them."""
     if group.one_by_one and found.at_most is not None:
         raise bag.fault(
@@ -77,7 +77,7 @@ def distributed(found: Found, group: Group, bag: Bag) -> Found:
             message("name some rows"),
         )
     parts = tuple(swapped(found.selector, group.rows, one) for one in group.one_by_one)
-    return Found(selector=s.UnionOf(parts=parts), many=True, each=True, assumed=found.assumed)
+    return FoundPlace(selector=s.UnionOf(parts=parts), many=True, each=True, assumed=found.assumed)
 
 
 def spread_over(selector: s.Selector, area: s.Selector, ones: Iterable[s.Selector]) -> s.Selector:

@@ -14,7 +14,7 @@ from fieldhand.planning.english.asking import how_many, which_of
 from fieldhand.planning.english.attributes import attribute_of, filtered
 from fieldhand.planning.english.bag import Bag
 from fieldhand.planning.english.faults import text_of
-from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.found import FoundPlace
 from fieldhand.planning.english.inrow import ends_of_rows, every_nth, next_in_row, opposite, ranked_in_rows, stepped
 from fieldhand.planning.english.onebyone import distributed
 from fieldhand.planning.english.regions import corners, extremes, middle, region
@@ -25,14 +25,14 @@ from fieldhand.site.model import Site
 from fieldhand.terms import CornerName, MarkerName
 
 
-def picked(bag: Bag, group: Group, site: Site) -> Found:
+def picked(bag: Bag, group: Group, site: Site) -> FoundPlace:
     """The trees of a phrase.
 
     Raises:
         Unclear, Question: A word of it could not be placed, or it leaves open how many.
     """
     of = group.area
-    found: Found
+    found: FoundPlace
     if bag.has("STEP"):
         found = stepped(bag, group, site)
     elif bag.has("OPPOSITE"):
@@ -68,7 +68,7 @@ def _whole_rows(bag: Bag, group: Group) -> None:
         raise bag.fault(message("a row has no halves or edges"), advice)
 
 
-def _corner_trees(bag: Bag, group: Group, site: Site) -> Found:
+def _corner_trees(bag: Bag, group: Group, site: Site) -> FoundPlace:
     described = bag.has("ATTRVAL") or bool(bag.compared)
     found = corners(bag, group.area)
     if described:
@@ -76,7 +76,7 @@ def _corner_trees(bag: Bag, group: Group, site: Site) -> Found:
     return replace(found, selector=group.kept(found.selector))
 
 
-def _area(bag: Bag, group: Group, site: Site) -> Found:
+def _area(bag: Bag, group: Group, site: Site) -> FoundPlace:
     """Halves, quarters, sides and edges: areas, or with "tree" in the phrase the trees in them."""
     quarters = _each_quarter(bag, group)
     if quarters is not None:
@@ -86,12 +86,12 @@ def _area(bag: Bag, group: Group, site: Site) -> Found:
     if bag.another or bag.take("OTHER") is not None:
         area = s.NotVisited(of=area)
     if tree is None and not (count or bag.any or bag.each or bag.as_many or bag.up_to):
-        return Found(selector=area, region=True, many=True)
+        return FoundPlace(selector=area, region=True, many=True)
     del one
     return _some_of(bag, area, plural=bool(tree and tree.plural), site=site, single=False)
 
 
-def _each_quarter(bag: Bag, group: Group) -> Found | None:
+def _each_quarter(bag: Bag, group: Group) -> FoundPlace | None:
     """ "Each of the four quarters", each of which is meant by itself; None if one of them is named."""
     word = next(iter(bag.words("QUARTER")), None)
     several = bag.each or bag.count == 4
@@ -101,10 +101,10 @@ def _each_quarter(bag: Bag, group: Group) -> Found | None:
     bag.take("PLOT")
     corners: tuple[CornerName, ...] = ("nw", "ne", "se", "sw")
     ones = tuple(group.kept(s.Quarter(quarter=corner, of=group.area)) for corner in corners)
-    return Found(selector=s.Trees(), many=True, each=True, region=True, rows=True, one_by_one=ones)
+    return FoundPlace(selector=s.Trees(), many=True, each=True, region=True, rows=True, one_by_one=ones)
 
 
-def _trees(bag: Bag, group: Group, site: Site) -> Found:
+def _trees(bag: Bag, group: Group, site: Site) -> FoundPlace:
     """Trees by where they stand to another place, by an attribute, or by being any."""
     of = group.area
     if (direction := bag.take("DIR")) is not None:  # "the northern trees"
@@ -136,15 +136,15 @@ def _trees(bag: Bag, group: Group, site: Site) -> Found:
         return _first_or_last(bag, of, site)
     plot = bag.take("PLOT")
     if bag.take("EVERYWHERE") is not None:
-        return Found(selector=of, many=True, each=True)
+        return FoundPlace(selector=of, many=True, each=True)
     if tree is None and (plot is not None or zoned) and not (bag.as_many or bag.count):
-        return Found(selector=of, region=True, many=True)
+        return FoundPlace(selector=of, region=True, many=True)
     if tree is None:
         raise bag.fault(message("which place or which trees are meant does not stand there"))
     return _some_of(bag, of, plural=tree.plural, site=site, single=group.single)
 
 
-def _by_rows(bag: Bag, of: s.Selector, group: Group, superlative: Term | None, site: Site) -> Found | None:
+def _by_rows(bag: Bag, of: s.Selector, group: Group, superlative: Term | None, site: Site) -> FoundPlace | None:
     """A rank along rows, points of a zone, or the next tree in the row; None if none of these is meant."""
     if bag.has("BACKORD", "COUNTEDFROM") or _is_ranked(bag, group, superlative):
         return ranked_in_rows(bag, of, group, site)
@@ -152,14 +152,14 @@ def _by_rows(bag: Bag, of: s.Selector, group: Group, superlative: Term | None, s
     return points or (_following(bag, group) if bag.has("NEARBY") else None)
 
 
-def _by_nearness(bag: Bag, of: s.Selector, group: Group, plural: bool) -> Found | None:
+def _by_nearness(bag: Bag, of: s.Selector, group: Group, plural: bool) -> FoundPlace | None:
     """The nearest, the farthest, neighbours; None if nothing is said of nearness."""
     near = group.anchor or s.Here()
     if bag.take("ADJACENT") is not None:
         size = bag.count or 2
         if group.plain_rows:
-            return Found(selector=s.Successive(count=size, near=near, of=of), many=size > 1, counted=size)
-        return Found(selector=s.Adjacent(near=near, count=size, of=of), many=size > 1, counted=size)
+            return FoundPlace(selector=s.Successive(count=size, near=near, of=of), many=size > 1, counted=size)
+        return FoundPlace(selector=s.Adjacent(near=near, count=size, of=of), many=size > 1, counted=size)
     if bag.take("FARTHEST", "FAR") is not None:
         return _ranked(bag, of, plural, lambda n, base: s.Farthest(origin=near, count=n, of=base))
     if bag.more and (group.anchor is not None or bag.has("NEARBY", "NEAREST")):
@@ -182,11 +182,11 @@ def _by_nearness(bag: Bag, of: s.Selector, group: Group, plural: bool) -> Found 
     if bag.has("NEARBY") and bag.words("NEARBY")[0].text.lower().startswith("neighb") and (bag.count or 0) > 1:
         bag.take("NEARBY")  # "two neighbouring trees" are neighbours of each other
         size = bag.count or 2
-        return Found(selector=s.Adjacent(near=near, count=size, of=of), many=True, counted=size)
+        return FoundPlace(selector=s.Adjacent(near=near, count=size, of=of), many=True, counted=size)
     if bag.take("NEARBY") is not None:
         one = bag.count or 1
         near_here = s.Nearest(to=s.Here(), count=one, fresh=True, of=of)
-        return Found(selector=near_here, many=plural or one > 1, counted=bag.count)
+        return FoundPlace(selector=near_here, many=plural or one > 1, counted=bag.count)
     return None
 
 
@@ -196,7 +196,7 @@ def _is_ranked(bag: Bag, group: Group, superlative: Term | None) -> bool:
     return group.rows is not None and bag.has("ORD", "LAST") and not other
 
 
-def _points(bag: Bag, group: Group) -> Found | None:
+def _points(bag: Bag, group: Group) -> FoundPlace | None:
     """ "Four spots in the wet corner": free points of a zone, not trees."""
     zone = zone_of_points(group.area)
     points = all(t.text.lower() not in ("one", "ones") for t in bag.words("PLACE"))
@@ -221,29 +221,29 @@ def _points(bag: Bag, group: Group) -> Found | None:
         )
     bag.any = False
     count = bag.count or 1
-    return Found(selector=s.PointsIn(zone=zone, count=count), many=count > 1, counted=count)
+    return FoundPlace(selector=s.PointsIn(zone=zone, count=count), many=count > 1, counted=count)
 
 
-def _following(bag: Bag, group: Group) -> Found | None:
+def _following(bag: Bag, group: Group) -> FoundPlace | None:
     """ "The next tree in the row" is the next along it; "a nearby tree in the row" is not."""
     said = bag.words("NEARBY")
     return next_in_row(bag, group) if said and said[0].text.lower() == "next" else None
 
 
-def _ranked(bag: Bag, of: s.Selector, plural: bool, pick: Callable[[int, s.Selector], s.Selector]) -> Found:
+def _ranked(bag: Bag, of: s.Selector, plural: bool, pick: Callable[[int, s.Selector], s.Selector]) -> FoundPlace:
     """The first ones of an order, or the second, the third of it."""
     rank = bag.take("ORD")
     if rank is not None and rank.value > 1:
         if bag.count is not None or plural:
             raise bag.fault(message("a rank and several trees at once"), message("say which one, or how many"))
-        return Found(selector=pick(1, s.Excluding(places=pick(rank.value - 1, of), of=of)), counted=1)
+        return FoundPlace(selector=pick(1, s.Excluding(places=pick(rank.value - 1, of), of=of)), counted=1)
     if plural:
         raise how_many(bag.phrase)
     number = bag.count or 1
-    return Found(selector=pick(number, of), many=number > 1, counted=number, each=bag.each)
+    return FoundPlace(selector=pick(number, of), many=number > 1, counted=number, each=bag.each)
 
 
-def _first_or_last(bag: Bag, of: s.Selector, site: Site) -> Found:
+def _first_or_last(bag: Bag, of: s.Selector, site: Site) -> FoundPlace:
     rank, last = bag.take("ORD"), bag.take("LAST")
     if any(g[0].kind == "PLACE" for g in bag.phrase.nominals):
         raise bag.fault(
@@ -256,35 +256,35 @@ def _first_or_last(bag: Bag, of: s.Selector, site: Site) -> Found:
     if bag.plural and bag.count is None:
         raise how_many(bag.phrase)
     if number == 1:
-        return Found(selector=s.First(of=of) if last is None else s.Last(of=of), counted=1)
+        return FoundPlace(selector=s.First(of=of) if last is None else s.Last(of=of), counted=1)
     marker: MarkerName = "start" if last is None else "end"
     if marker not in site.markers:
         raise bag.fault(
             message("the site has no {marker} marker to count from", marker=marker),
             message("name the trees by their ids"),
         )
-    return Found(selector=s.Nearest(to=s.Marker(name=marker), count=number, of=of), many=True, counted=number)
+    return FoundPlace(selector=s.Nearest(to=s.Marker(name=marker), count=number, of=of), many=True, counted=number)
 
 
-def _some_of(bag: Bag, of: s.Selector, *, plural: bool, site: Site, single: bool) -> Found:
+def _some_of(bag: Bag, of: s.Selector, *, plural: bool, site: Site, single: bool) -> FoundPlace:
     """All of a group, a number of it, or any one."""
     count, text = bag.count, text_of(bag.phrase.terms)
     if bag.as_many:
         bag.as_many = False
-        return Found(selector=of, many=True, optional=True, at_most=None if count is None else count)
+        return FoundPlace(selector=of, many=True, optional=True, at_most=None if count is None else count)
     if bag.up_to:
         if count is None:
             raise bag.fault(message("up to how many?"), message("say 'up to 6 trees', for example"))
         bag.up_to = False
-        return Found(selector=of, many=True, at_most=count)
+        return FoundPlace(selector=of, many=True, at_most=count)
     if bag.more:
         bag.more = False
         of = s.NotVisited(of=of)
     if isinstance(of, s.Middle | s.EdgeMiddle) and not bag.each:
         number = count or 1
-        return Found(selector=replace(of, count=number), many=number > 1, counted=number)
+        return FoundPlace(selector=replace(of, count=number), many=number > 1, counted=number)
     if single and count in (None, 1):
-        return Found(selector=of)
+        return FoundPlace(selector=of)
     if bag.any and plural and count is None:
         raise how_many(
             bag.phrase,
@@ -297,35 +297,35 @@ def _some_of(bag: Bag, of: s.Selector, *, plural: bool, site: Site, single: bool
     if bag.spread:
         return _spread(bag, of, plural=plural)
     if bag.count is not None and (share := bag.take("SHARE")) is not None:
-        return Found(selector=s.Evenly(count=bag.count, out_of=int(share.value), of=of), many=True)
+        return FoundPlace(selector=s.Evenly(count=bag.count, out_of=int(share.value), of=of), many=True)
     if (drawn := bag.take("RANDOM")) is not None:
         return _drawn(bag, of, int(drawn.value or 0), plural=plural)
     bare = of == s.Trees()
     if bare and bag.definite and count is None and not bag.each:
         if not plural:
-            return Found(selector=s.Here(), here=True)
-        return Found(selector=of, many=True, here=bag.pointing, all_or_these=not bag.pointing)
+            return FoundPlace(selector=s.Here(), here=True)
+        return FoundPlace(selector=of, many=True, here=bag.pointing, all_or_these=not bag.pointing)
     if count is not None and count > 1 and bare and bag.pointing:
-        return Found(selector=s.Here(), many=True, here=True, counted=count)
+        return FoundPlace(selector=s.Here(), many=True, here=True, counted=count)
     if bag.each or (bag.definite and not bag.any):
         return _every(bag, of, plural, site)
     if plural and count is None:
-        return Found(selector=of, many=True)
+        return FoundPlace(selector=of, many=True)
     number = count or 1
-    return Found(selector=some_of(of, number), many=number > 1, counted=number)
+    return FoundPlace(selector=some_of(of, number), many=number > 1, counted=number)
 
 
-def _drawn(bag: Bag, of: s.Selector, seed: int, *, plural: bool) -> Found:
+def _drawn(bag: Bag, of: s.Selector, seed: int, *, plural: bool) -> FoundPlace:
     """Return some of a group, drawn at random."""
     if bag.each:
         raise bag.fault(message("all of them, or some at random?"), message("say how many: '10 trees at random'"))
     if plural and bag.count is None:
         raise how_many(bag.phrase, ("5", "10"), of_all=True)
     number = bag.count or 1
-    return Found(selector=s.RandomSample(count=number, seed=seed, of=of), many=number > 1, counted=number)
+    return FoundPlace(selector=s.RandomSample(count=number, seed=seed, of=of), many=number > 1, counted=number)
 
 
-def _spread(bag: Bag, of: s.Selector, *, plural: bool) -> Found:
+def _spread(bag: Bag, of: s.Selector, *, plural: bool) -> FoundPlace:
     """Return some of a group, far from each other."""
     if bag.each:
         raise bag.fault(
@@ -334,10 +334,10 @@ def _spread(bag: Bag, of: s.Selector, *, plural: bool) -> Found:
     if plural and bag.count is None:
         raise how_many(bag.phrase, ("5", "10"), of_all=True)
     bag.spread, number = (), bag.count or 1
-    return Found(selector=s.Spread(count=number, of=of), many=number > 1, counted=number)
+    return FoundPlace(selector=s.Spread(count=number, of=of), many=number > 1, counted=number)
 
 
-def _every(bag: Bag, of: s.Selector, plural: bool, site: Site) -> Found:
+def _every(bag: Bag, of: s.Selector, plural: bool, site: Site) -> FoundPlace:
     """All of a group; how many there are has to agree with what is said, where that can be told."""
     count = bag.count
     claimed = count if count is not None else None if (bag.each or plural) else 1
@@ -355,10 +355,10 @@ def _every(bag: Bag, of: s.Selector, plural: bool, site: Site) -> Found:
             bag.phrase, message("{what}; which are meant?", context="question", what=what), there=there, claimed=claimed
         )
     if claimed == 1:
-        return Found(selector=s.Take(count=1, of=of))
+        return FoundPlace(selector=s.Take(count=1, of=of))
     if claimed is not None and there is None and not bag.each:
-        return Found(selector=some_of(of, claimed), many=True, counted=claimed)
-    return Found(selector=of, many=True, each=bag.each, counted=claimed)
+        return FoundPlace(selector=some_of(of, claimed), many=True, counted=claimed)
+    return FoundPlace(selector=of, many=True, each=bag.each, counted=claimed)
 
 
 def _size(of: s.Selector, site: Site) -> int | None:

@@ -15,7 +15,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.english.bag import Bag, bag_of
 from fieldhand.planning.english.bare import named_trees, quantity_alone
 from fieldhand.planning.english.faults import Question, Unclear, text_of, unclear
-from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.found import FoundPlace
 from fieldhand.planning.english.inrow import excepted_in_rows, named_in_rows, successive_trees
 from fieldhand.planning.english.joining import (
     check_comma,
@@ -34,7 +34,7 @@ from fieldhand.planning.english.pick import picked
 from fieldhand.planning.english.rows import rows_meant, some_block, speaks_of_rows, unnamed_block
 from fieldhand.planning.english.selections import are_meant_each, measures_from_here
 from fieldhand.planning.english.sets import Group
-from fieldhand.planning.english.syntax import Chain, NounPhrase, Places
+from fieldhand.planning.english.syntax import Chain, PlacePhrase, Places
 from fieldhand.planning.english.tokens import Term
 from fieldhand.site.model import Site
 from fieldhand.terms import AnySide
@@ -67,12 +67,12 @@ _AREAS = ("HALF", "QUARTER", "SIDE", "EDGE", "ZONE", "DIR")
 
 
 @dataclass
-class _Part:
+class _PlacePart:
     """A phrase with what describes it."""
 
     bag: Bag
-    phrase: NounPhrase
-    described: list[tuple[Term, _Part]] = field(default_factory=list)
+    phrase: PlacePhrase
+    described: list[tuple[Term, _PlacePart]] = field(default_factory=list)
     in_rows: bool = False  # what follows says of which row it is an end or a tree
 
     @property
@@ -88,7 +88,7 @@ class _Part:
         return ends and not self.bag.has("DIR", "MOST", "TREE", "MIDDLE", "COUNTEDFROM")
 
 
-def find(places: Places, site: Site) -> Found:
+def find(places: Places, site: Site) -> FoundPlace:
     """What joined chains select: one after the other, each place once.
 
     Raises:
@@ -101,7 +101,7 @@ def find(places: Places, site: Site) -> Found:
             choices,
             terms=places.terms,
         )
-    found: list[Found] = []
+    found: list[FoundPlace] = []
     places = one_each(without_appositions(places))
     for chain, excepted in _chains(places):
         if found and is_apposition(chain):
@@ -127,7 +127,7 @@ def find(places: Places, site: Site) -> Found:
         raise unclear(
             places.terms, message("these rows cannot be said together"), message("say each in a sentence of its own")
         )
-    return Found(
+    return FoundPlace(
         selector=s.UnionOf(parts=tuple(f.selector for f in found)),
         many=True,
         each=any(f.each for f in found),
@@ -138,7 +138,7 @@ def find(places: Places, site: Site) -> Found:
     )
 
 
-def _after(found: Found, before: Found | None, places: Places) -> Found:
+def _after(found: FoundPlace, before: FoundPlace | None, places: Places) -> FoundPlace:
     """Return what was found with "it" as the place named right before, which the robot need not have reached by then.
 
     Raises:
@@ -180,16 +180,16 @@ def _chains(places: Places) -> list[tuple[Chain, tuple[Chain, ...]]]:
     return found
 
 
-def _kind(phrase: NounPhrase) -> str:
+def _kind(phrase: PlacePhrase) -> str:
     """Whether a phrase is an area or a closed place; neither if it speaks of trees."""
-    part = _Part(bag=bag_of(phrase), phrase=phrase)
+    part = _PlacePart(bag=bag_of(phrase), phrase=phrase)
     if part.closed:
         return "closed"
     return "" if part.bag.has("TREE", "CORNER", "PLACE") or not phrase.nominals else "area"
 
 
-def _chain(chain: Chain, excepted: tuple[Chain, ...], site: Site) -> Found:
-    parts = [_Part(bag=bag_of(phrase), phrase=phrase) for phrase in chain.phrases]
+def _chain(chain: Chain, excepted: tuple[Chain, ...], site: Site) -> FoundPlace:
+    parts = [_PlacePart(bag=bag_of(phrase), phrase=phrase) for phrase in chain.phrases]
     line = [parts[0]]  # the way from the first phrase to the last, by what each describes
     for relation, part in zip(chain.relations, parts[1:], strict=True):
         plot = part.is_marker is False and part.bag.only("PLOT", "PLACE") and relation.kind in ("OF", "AT")
@@ -221,16 +221,16 @@ def _chain(chain: Chain, excepted: tuple[Chain, ...], site: Site) -> Found:
     return _read(parts[0], others, site)
 
 
-def _read(part: _Part, excepted: tuple[s.Selector, ...], site: Site) -> Found:
+def _read(part: _PlacePart, excepted: tuple[s.Selector, ...], site: Site) -> FoundPlace:
     """A phrase with all that describes it."""
     bag, phrase = part.bag, part.phrase
     if phrase.there is not None:
-        return Found(selector=s.Here(), here=True, these=are_several(phrase.there))
+        return FoundPlace(selector=s.Here(), here=True, these=are_several(phrase.there))
     if bag.has("IT") or (bag.has("PLACE") and bag.only("PLACE") and not part.described and _points_back(bag)):
         word = bag.take("IT", "PLACE")
         bag.finish()
         these = bag.each or (word is not None and are_several(word))
-        return Found(selector=s.Here(), here=True, these=these)
+        return FoundPlace(selector=s.Here(), here=True, these=these)
     group = Group(side=_side_of_anchor(part))
     size: int | None = None
     successive = False
@@ -257,13 +257,13 @@ def _read(part: _Part, excepted: tuple[s.Selector, ...], site: Site) -> Found:
     marker = _marker(part)
     if marker is not None:
         bag.finish()
-        return Found(selector=marker)
+        return FoundPlace(selector=marker)
     if not phrase.nominals:
         return quantity_alone(bag, group, phrase, [relation for relation, _ in part.described])
     return picked(bag, group, site)
 
 
-def _is_side_of_anchor(part: _Part, relation: Term, inner: _Part) -> bool:
+def _is_side_of_anchor(part: _PlacePart, relation: Term, inner: _PlacePart) -> bool:
     """Return True for "on the east" behind "next to it": a side of that place rather than of the site.
 
     Raises:
@@ -296,12 +296,12 @@ def _is_side_of_anchor(part: _Part, relation: Term, inner: _Part) -> bool:
     return True
 
 
-def _named_anchors(part: _Part) -> tuple[tuple[Term, bool], ...]:
+def _named_anchors(part: _PlacePart) -> tuple[tuple[Term, bool], ...]:
     """Return each relation of a phrase, and if it is to a tree that is named, or to "it"."""
     return tuple((r, bool(inner.bag.ids) or inner.bag.has("IT")) for r, inner in part.described)
 
 
-def _side_of_anchor(part: _Part) -> AnySide:
+def _side_of_anchor(part: _PlacePart) -> AnySide:
     """Return the side of its anchor that a phrase speaks of."""
     found = [inner for relation, inner in part.described if _is_side_of_anchor(part, relation, inner)]
     if len(found) > 1:
@@ -310,14 +310,14 @@ def _side_of_anchor(part: _Part) -> AnySide:
     return side
 
 
-def _in_a_row(bag: Bag, inner: _Part) -> bool:
+def _in_a_row(bag: Bag, inner: _PlacePart) -> bool:
     """Whether "4 trees | in a row" is said."""
     row = inner.bag
     one = row.article in ("a", "one") and row.only("ROW") and row.has("ROW") and row.count is None and not row.plural
     return one and not inner.described and bag.has("TREE") and bag.count is not None
 
 
-def _is_size(part: _Part) -> bool:
+def _is_size(part: _PlacePart) -> bool:
     """Whether a phrase behind "row" says what it is made of: "of 5 trees", "of trees"."""
     bag = part.bag
     return (
@@ -338,7 +338,7 @@ def _points_back(bag: Bag) -> bool:
 
 
 def _describe(
-    part: _Part, group: Group, relation: Term, inner: _Part, excepted: tuple[s.Selector, ...], site: Site
+    part: _PlacePart, group: Group, relation: Term, inner: _PlacePart, excepted: tuple[s.Selector, ...], site: Site
 ) -> None:
     """What one phrase says of the phrase that it describes."""
     bag = part.bag
@@ -396,7 +396,7 @@ def _describe(
             raise unclear(part.phrase.terms, message("'{said}' does not fit here", said=relation.text))
 
 
-def _row_of(bag: Bag, group: Group, relation: Term, behind: Found, inner: _Part) -> None:
+def _row_of(bag: Bag, group: Group, relation: Term, behind: FoundPlace, inner: _PlacePart) -> None:
     """ "The row of tree 12"."""
     ranks = bag.has("ORD", "LAST", "MOST", "BACKORD", "EVERYNTH", "COUNTEDFROM")
     if relation.kind != "OF" or behind.many or bag.plural or ranks or not bag.has("ROW", "OVER"):
@@ -405,7 +405,7 @@ def _row_of(bag: Bag, group: Group, relation: Term, behind: Found, inner: _Part)
     group.row_of = behind.selector
 
 
-def _among(bag: Bag, group: Group, relation: Term, behind: Found, inner: _Part) -> None:
+def _among(bag: Bag, group: Group, relation: Term, behind: FoundPlace, inner: _PlacePart) -> None:
     """ "... in the northern half", "... of row 3", "... along row 3", "... spread over the wet corner"."""
     kind, terms = relation.kind, [relation, *inner.phrase.terms]
     if kind == "SPREAD" and bag.has("PLACE") and not isinstance(behind.selector, s.InZone):
@@ -438,20 +438,20 @@ def beyond(metres: float, of: s.Selector) -> s.Selector:
     return s.UnionOf(parts=(of, s.Within(distance_m=metres, to=of)))
 
 
-def _near_zone(zone: str, relation: Term) -> Found:
+def _near_zone(zone: str, relation: Term) -> FoundPlace:
     """Return the trees at most so far from a zone, or those farther away."""
     near = s.InZone(zone=zone, margin_m=relation.value, outside=relation.kind == "BEYOND")
-    return Found(selector=near, many=True, region=True)
+    return FoundPlace(selector=near, many=True, region=True)
 
 
-def _single(found: Found, inner: _Part) -> s.Selector:
+def _single(found: FoundPlace, inner: _PlacePart) -> s.Selector:
     if found.many and not found.selector.whole_zone:
         advice = message("name one tree, corner, marker or zone")
         raise unclear(inner.phrase.terms, message("one place is needed to measure from"), advice)
     return found.selector
 
 
-def _marker(part: _Part) -> s.Selector | None:
+def _marker(part: _PlacePart) -> s.Selector | None:
     bag = part.bag
     if bag.has("CHARGER"):
         bag.take("CHARGER")

@@ -14,7 +14,7 @@ from fieldhand.places.resolution import resolve
 from fieldhand.planning.english.averages import check_averages
 from fieldhand.planning.english.draft import Halt, node_of
 from fieldhand.planning.english.faults import Unclear
-from fieldhand.planning.english.limits import Limit
+from fieldhand.planning.english.limits import LimitPhrase
 from fieldhand.planning.english.told import Told
 from fieldhand.planning.foreseen import foreseeable
 from fieldhand.planning.homeward import faulted_exits, usual_exit, with_assumed_exit
@@ -80,7 +80,7 @@ def planned(
     return Planned(task=task, planner=NAME)
 
 
-def _constraints(limits: Iterable[Limit]) -> Constraints:
+def _constraints(limits: Iterable[LimitPhrase]) -> Constraints:
     budgets: dict[BudgetKind, Budget] = {}
     reserve: float | None = None
     reserve_said: tuple[p.Span, ...] = ()
@@ -96,7 +96,7 @@ def _constraints(limits: Iterable[Limit]) -> Constraints:
     return Constraints(budgets=tuple(budgets.values()), reserve_percent=reserve, reserve_said=reserve_said)
 
 
-def _check(limit: Limit) -> None:
+def _check(limit: LimitPhrase) -> None:
     most = 100.0 if limit.unit == "percent" else math.inf
     if not 0.0 < limit.amount <= most:
         what = message(

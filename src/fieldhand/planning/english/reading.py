@@ -10,7 +10,7 @@ from fieldhand.facts import mismatches
 from fieldhand.language import message
 from fieldhand.planning.english.arrange import Arranged, Asked, arrange, without_filler
 from fieldhand.planning.english.discourse import Discourse
-from fieldhand.planning.english.draft import Capture, Loop, shape, walk
+from fieldhand.planning.english.draft import DraftCapture, Loop, shape, walk
 from fieldhand.planning.english.faults import Question, Unclear
 from fieldhand.planning.english.gist import gist, said_in_order
 from fieldhand.planning.english.leaving import place_unsure
@@ -132,7 +132,7 @@ class Reading:
         except (Unclear, Question):
             return None
         idle = any(isinstance(step, Loop) and not step.body.steps for step, _ in walk(told.root))
-        idle = idle or not any(isinstance(step, Capture) for step, _ in walk(told.root))
+        idle = idle or not any(isinstance(step, DraftCapture) for step, _ in walk(told.root))
         if idle or told.misfit is not None or not isinstance(outcome, Planned):
             return None
         return None if self._is_doubted(outcome) else (outcome, told)

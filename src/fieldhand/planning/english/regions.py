@@ -9,7 +9,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.english.asking import how_many
 from fieldhand.planning.english.bag import Bag
 from fieldhand.planning.english.faults import Question
-from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.found import FoundPlace
 from fieldhand.planning.english.selections import zone_of_points
 from fieldhand.planning.english.sets import check_sides
 from fieldhand.terms import CornerName, Side
@@ -20,7 +20,7 @@ _CORNER_CHOICES = tuple(named(word, "answer", named(word, "compass")) for word i
 SIDE_ADVICE = message("say north, east, south or west")
 
 
-def corners(bag: Bag, of: s.Selector) -> Found:
+def corners(bag: Bag, of: s.Selector) -> FoundPlace:
     """The trees at corners, one or several."""
     corner = bag.take("CORNER")
     bag.take("TREE")
@@ -36,18 +36,20 @@ def corners(bag: Bag, of: s.Selector) -> Found:
         )
     everything = s.Corners(which=names, of=of)
     if len(names) == 1:
-        return Found(selector=everything)
+        return FoundPlace(selector=everything)
     if bag.another or bag.take("OTHER") is not None:
         number = bag.count or (1 if not plural else None)
         if number is None:
-            return Found(selector=s.NotVisited(of=everything), many=True)
-        return Found(selector=s.Take(count=number, of=s.NotVisited(of=everything)), many=number > 1, counted=number)
+            return FoundPlace(selector=s.NotVisited(of=everything), many=True)
+        return FoundPlace(
+            selector=s.Take(count=number, of=s.NotVisited(of=everything)), many=number > 1, counted=number
+        )
     if bag.count is not None and bag.count < len(names):
         if bag.definite or bag.each:
             raise Question(
                 message("which {count} of the corners?", context="question", count=bag.count), _CORNER_CHOICES
             )
-        return Found(selector=s.Take(count=bag.count, of=everything), many=bag.count > 1, counted=bag.count)
+        return FoundPlace(selector=s.Take(count=bag.count, of=everything), many=bag.count > 1, counted=bag.count)
     if plural or bag.count == len(names):
         if bag.any:
             corners = ("a corner", "2 corners", "all 4 corners")
@@ -57,11 +59,11 @@ def corners(bag: Bag, of: s.Selector) -> Found:
                 terms=bag.phrase.terms,
                 words=corners,
             )
-        return Found(selector=everything, many=True, each=bag.each, counted=bag.count)
+        return FoundPlace(selector=everything, many=True, each=bag.each, counted=bag.count)
     if bag.take("NEAREST") is not None:
-        return Found(selector=s.Nearest(to=s.Here(), of=everything))
+        return FoundPlace(selector=s.Nearest(to=s.Here(), of=everything))
     if bag.any or bag.article in ("a", "an", "some"):
-        return Found(selector=s.Take(count=1, of=everything))
+        return FoundPlace(selector=s.Take(count=1, of=everything))
     words = tuple(f"{word} corner" for word in _CORNER_WORDS)
     raise Question(
         message("which corner?", context="question"),
@@ -81,14 +83,14 @@ def _which(bag: Bag) -> tuple[CornerName, ...]:
     return tuple(c for c in _CORNERS if c in named)
 
 
-def middle(bag: Bag, of: s.Selector) -> Found:
+def middle(bag: Bag, of: s.Selector) -> FoundPlace:
     """The trees nearest to the middle of an area or of an edge."""
     bag.take("MIDDLE")
     treeless = bag.only("PLACE", "PLOT") and bag.count in (None, 1) and not (bag.another or bag.plural or bag.each)
     if treeless and (zone := zone_of_points(of)):
         bag.take("PLACE")
         bag.any = False
-        return Found(selector=s.PointsIn(zone=zone))
+        return FoundPlace(selector=s.PointsIn(zone=zone))
     tree = bag.take("TREE", "PLACE")
     bag.take("PLOT")
     bag.take("SIDE")
@@ -103,17 +105,17 @@ def middle(bag: Bag, of: s.Selector) -> Found:
     if direction is not None and edge is not None:
         if len(direction.value) == 2:
             raise bag.fault(message("an edge lies on one side"), SIDE_ADVICE)
-        return Found(selector=s.EdgeMiddle(side=direction.value, count=count, of=of), many=many, counted=counted)
+        return FoundPlace(selector=s.EdgeMiddle(side=direction.value, count=count, of=of), many=many, counted=counted)
     if direction is not None or edge is not None:
         raise bag.fault(
             message("the middle of which side?"), message("say 'the middle of the northern edge', for example")
         )
     if isinstance(of, s.Edge):
-        return Found(selector=s.EdgeMiddle(side=of.side, count=count, of=of.of), many=many, counted=counted)
-    return Found(selector=s.Middle(count=count, of=of), many=many, counted=counted)
+        return FoundPlace(selector=s.EdgeMiddle(side=of.side, count=count, of=of.of), many=many, counted=counted)
+    return FoundPlace(selector=s.Middle(count=count, of=of), many=many, counted=counted)
 
 
-def extremes(bag: Bag, kept: Callable[[s.Selector], s.Selector], of: s.Selector) -> Found:
+def extremes(bag: Bag, kept: Callable[[s.Selector], s.Selector], of: s.Selector) -> FoundPlace:
     """The northernmost tree and its kin; the northernmost edge, part or half.
 
     Args:
@@ -126,9 +128,9 @@ def extremes(bag: Bag, kept: Callable[[s.Selector], s.Selector], of: s.Selector)
     if bag.take("EDGE", "FINISH") is not None:
         area: s.Selector = s.Edge(side=_one_side(bag, side), of=of)
         check_sides(area, bag.phrase)
-        return Found(selector=kept(area), region=True, many=True)
+        return FoundPlace(selector=kept(area), region=True, many=True)
     if bag.take("SIDE", "HALF", "QUARTER") is not None:
-        return Found(selector=kept(half_or_quarter(side, of)), region=True, many=True)
+        return FoundPlace(selector=kept(half_or_quarter(side, of)), region=True, many=True)
     of = kept(of)
     rank = bag.take("ORD")
     if bag.another or bag.take("OTHER") is not None:
@@ -139,20 +141,22 @@ def extremes(bag: Bag, kept: Callable[[s.Selector], s.Selector], of: s.Selector)
             raise bag.fault(
                 message("there is one such tree"), message("say 'the trees in the north-east', for example")
             )
-        return Found(selector=s.Corners(which=(_corner(side),), of=of))
+        return FoundPlace(selector=s.Corners(which=(_corner(side),), of=of))
     compass = _one_side(bag, side)
     if rank is not None and rank.value > 1:
         if bag.count is not None or (tree is not None and tree.plural):
             raise bag.fault(message("a rank and several trees at once"), message("say which one, or how many"))
         nearer = s.Extreme(side=compass, count=rank.value - 1, of=of)
-        return Found(selector=s.Extreme(side=compass, of=s.Excluding(places=nearer, of=of)))
+        return FoundPlace(selector=s.Extreme(side=compass, of=s.Excluding(places=nearer, of=of)))
     if bag.any or (bag.article in ("a", "an") and bag.count is None):
-        return Found(
+        return FoundPlace(
             selector=s.Take(count=count, of=s.AmongExtreme(side=compass, of=of)), many=count > 1, counted=count
         )
     if tree is not None and tree.plural and bag.count is None:
-        return Found(selector=s.AmongExtreme(side=compass, of=of), many=True, each=bag.each)
-    return Found(selector=s.Extreme(side=compass, count=count, of=of), many=count > 1, counted=count, each=bag.each)
+        return FoundPlace(selector=s.AmongExtreme(side=compass, of=of), many=True, each=bag.each)
+    return FoundPlace(
+        selector=s.Extreme(side=compass, count=count, of=of), many=count > 1, counted=count, each=bag.each
+    )
 
 
 def region(bag: Bag, of: s.Selector) -> s.Selector:

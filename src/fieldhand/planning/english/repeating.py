@@ -9,19 +9,19 @@ from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.faults import unclear
-from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.found import FoundPlace
 from fieldhand.planning.english.onebyone import swapped
 from fieldhand.planning.english.selections import names_here
-from fieldhand.planning.english.syntax import Part
+from fieldhand.planning.english.syntax import ClausePart
 
 
-def last_passage(steps: list[d.Step]) -> d.Block:
+def last_passage(steps: list[d.Step]) -> d.DraftBlock:
     """What was done at the last place: from the last step that goes somewhere."""
     start = next((k for k in range(len(steps) - 1, -1, -1) if has_place(steps[k])), 0)
-    return d.Block(steps=steps[start:])
+    return d.DraftBlock(steps=steps[start:])
 
 
-def as_many_as(steps: list[d.Step], found: Found) -> Found:
+def as_many_as(steps: list[d.Step], found: FoundPlace) -> FoundPlace:
     """An area in which something is done again: at as many trees of it as there were of the area before."""
     if not (found.many and found.region) or found.each or found.counted:
         return found
@@ -43,7 +43,7 @@ def selects(step: d.Step) -> s.Selector | None:
             return place
         case d.Loop(select=select):
             return select
-        case d.Capture(at=at):
+        case d.DraftCapture(at=at):
             return at
         case _:
             return None
@@ -54,7 +54,7 @@ _OF_ROWS = (s.Rows, s.RowOf, s.InBlock)
 _OF_GROUND = (s.Half, s.Quarter, s.Edge, s.InZone)
 
 
-def passage_in_area(steps: list[d.Step], area: s.Selector) -> d.Block:
+def passage_in_area(steps: list[d.Step], area: s.Selector) -> d.DraftBlock:
     """What was done last in one area of the same kind: from its first place on."""
     kind = next((kinds for kinds in (_OF_ROWS, _OF_GROUND) if isinstance(area, kinds)), ())
     begin, known = len(steps), None
@@ -66,10 +66,10 @@ def passage_in_area(steps: list[d.Step], area: s.Selector) -> d.Block:
         if len(inside) != 1 or (known is not None and inside != known):
             break
         begin, known = k, inside
-    return d.Block(steps=steps[begin:])
+    return d.DraftBlock(steps=steps[begin:])
 
 
-def in_area(passage: d.Block, area: s.Selector) -> bool:
+def in_area(passage: d.DraftBlock, area: s.Selector) -> bool:
     """Say a passage of another area ("at the first and the last tree of row 6 ... the same in row 8"). Whether it was.
 
     The one area of the kind that its places are in gives way to the new one; ``passage`` is changed.
@@ -77,7 +77,7 @@ def in_area(passage: d.Block, area: s.Selector) -> bool:
     kind = next((kinds for kinds in (_OF_ROWS, _OF_GROUND) if isinstance(area, kinds)), None)
     if kind is None or getattr(area, "of", None) != s.Trees():
         return False
-    held = [step for step, _ in d.walk(passage) if isinstance(step, d.Go | d.Capture | d.Loop)]
+    held = [step for step, _ in d.walk(passage) if isinstance(step, d.Go | d.DraftCapture | d.Loop)]
     inside = {
         part for step in held if (at := selects(step)) is not None for part in at.walk() if isinstance(part, kind)
     }
@@ -89,12 +89,12 @@ def in_area(passage: d.Block, area: s.Selector) -> bool:
                 step.place = swapped(place, old, area)
             case d.Loop(select=select):
                 step.select = swapped(select, old, area)
-            case d.Capture(at=at) if at is not None:
+            case d.DraftCapture(at=at) if at is not None:
                 step.at = swapped(at, old, area)
     return True
 
 
-def without_place(passage: d.Block, part: Part) -> None:
+def without_place(passage: d.DraftBlock, part: ClausePart) -> None:
     """Make a copied passage begin at the new place instead of its own."""
     first = passage.steps[0]
     match first:
@@ -102,7 +102,7 @@ def without_place(passage: d.Block, part: Part) -> None:
             passage.steps = passage.steps[1:]
             if not passage.steps:
                 raise unclear(part.terms, message("there is nothing before it to repeat"))
-        case d.Capture():
+        case d.DraftCapture():
             first.at = None
         case d.Loop(select=s.Adjacent() as select):
             first.select = replace(select, near=s.Here())
@@ -116,11 +116,11 @@ def without_place(passage: d.Block, part: Part) -> None:
             pass
 
 
-def continue_with(passage: d.Block, scope: d.Block) -> None:
+def continue_with(passage: d.DraftBlock, scope: d.DraftBlock) -> None:
     """Append a copied passage; its first capture may have been asked for again at the new place."""
     first = passage.steps[0]
     last = scope.steps[-1] if scope.steps else None
-    if isinstance(first, d.Capture) and isinstance(last, d.Capture) and last.action == first.action:
+    if isinstance(first, d.DraftCapture) and isinstance(last, d.DraftCapture) and last.action == first.action:
         if first.reading:
             last.reading = last.reading or first.reading
             for step, _ in d.walk(passage):
@@ -130,13 +130,13 @@ def continue_with(passage: d.Block, scope: d.Block) -> None:
     append(passage, scope)
 
 
-def append(passage: d.Block, scope: d.Block) -> None:
+def append(passage: d.DraftBlock, scope: d.DraftBlock) -> None:
     """Put the steps of a passage behind those of a block."""
     for step in passage.steps:
         scope.add(step)
 
 
-def copied(passage: d.Block, keep: Callable[[d.Step], bool], fresh: Callable[[], str]) -> d.Block:
+def copied(passage: d.DraftBlock, keep: Callable[[d.Step], bool], fresh: Callable[[], str]) -> d.DraftBlock:
     """A copy of a passage with readings of its own."""
     return d.copy_block(passage, keep, {}, fresh)
 
@@ -146,7 +146,7 @@ def has_place(step: d.Step) -> bool:
     match step:
         case d.Go() | d.Loop():
             return True
-        case d.Capture(at=at):
+        case d.DraftCapture(at=at):
             return at is not None
         case d.Attempt(body=body):
             return bool(body.steps) and has_place(body.steps[0])

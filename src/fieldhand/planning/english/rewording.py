@@ -52,7 +52,7 @@ def as_typed(told: Told, worded: Worded) -> None:
     """Make every range of what was told one of the request as it was typed. ``told`` is changed."""
     for step, _ in d.walk(told.root):
         step.said = worded.spans(step.said)
-        if isinstance(step, d.Capture):
+        if isinstance(step, d.DraftCapture):
             step.at_said = worded.spans(step.at_said)
     told.limits = [limit.as_said(worded.span(limit.said)) for limit in told.limits]
     told.nominal_said = list(worded.spans(told.nominal_said))

@@ -11,7 +11,7 @@ from fieldhand.planning.english.asking import how_many
 from fieldhand.planning.english.attributes import filtered
 from fieldhand.planning.english.bag import Bag
 from fieldhand.planning.english.faults import Question, text_of
-from fieldhand.planning.english.found import Found
+from fieldhand.planning.english.found import FoundPlace
 from fieldhand.planning.english.onebyone import one_by_one
 from fieldhand.planning.english.rowwords import From, Over
 from fieldhand.planning.english.sets import Group
@@ -28,7 +28,7 @@ def speaks_of_rows(bag: Bag) -> bool:
     return bag.has("ROW", "ROWIDS", "BLOCKIDS", "OVER")
 
 
-def rows_meant(bag: Bag, group: Group, size: int | None, site: Site) -> Found:
+def rows_meant(bag: Bag, group: Group, size: int | None, site: Site) -> FoundPlace:
     """The rows or blocks of a phrase, as an area.
 
     Args:
@@ -85,7 +85,7 @@ def check_rows(bag: Bag, site: Site) -> None:
         raise bag.fault(why, advice)
 
 
-def _blocks(bag: Bag, of: s.Selector, site: Site) -> Found:
+def _blocks(bag: Bag, of: s.Selector, site: Site) -> FoundPlace:
     named = bag.take("BLOCKIDS")
     bag.any = False
     known = {block.name.lower(): block.name for block in site.planting.blocks}
@@ -102,7 +102,9 @@ def _blocks(bag: Bag, of: s.Selector, site: Site) -> Found:
             )
     blocks = tuple(s.InBlock(block=known[name.lower()], of=of) for name in dict.fromkeys(names))
     one = blocks[0] if len(blocks) == 1 else s.UnionOf(parts=blocks)
-    return Found(selector=one, many=True, region=True, rows=True, each=bag.each, one_by_one=blocks if bag.each else ())
+    return FoundPlace(
+        selector=one, many=True, region=True, rows=True, each=bag.each, one_by_one=blocks if bag.each else ()
+    )
 
 
 def unnamed_block(bag: Bag, site: Site) -> bool:
@@ -111,7 +113,7 @@ def unnamed_block(bag: Bag, site: Site) -> bool:
     return any(t.text.lower() in ("block", "blocks") for t in words) and len(site.planting.blocks) > 1
 
 
-def some_block(bag: Bag, group: Group, site: Site) -> Found:
+def some_block(bag: Bag, group: Group, site: Site) -> FoundPlace:
     """ "Each block", "the block": all of them, one by one, or a question which."""
     names = tuple(block.name for block in site.planting.blocks)
     plural = any(t.plural for t in bag.words("PLOT"))
@@ -127,7 +129,7 @@ def some_block(bag: Bag, group: Group, site: Site) -> Found:
     bag.finish()
     of = group.kept(group.area)
     blocks = tuple(s.InBlock(block=name, of=of) for name in names)
-    return Found(
+    return FoundPlace(
         selector=s.UnionOf(parts=blocks), many=True, region=True, rows=True, each=True, one_by_one=blocks,
         assumed=group.assumed,
     )  # fmt: skip
@@ -142,7 +144,7 @@ def _between(bag: Bag, first: str, last: str, names: list[str]) -> list[str]:
     return names[names.index(first) : names.index(last) + 1]
 
 
-def _over(bag: Bag, group: Group, site: Site) -> Found:
+def _over(bag: Bag, group: Group, site: Site) -> FoundPlace:
     """ "Two rows over", "the next row": from the row of the tree in hand."""
     said = bag.take("OVER")
     over: Over = said.value if said is not None else Over(rows=1)
@@ -173,7 +175,7 @@ def _over(bag: Bag, group: Group, site: Site) -> Found:
         )
         assumed = higher if rows > 0 else lower
     selector = s.RowOf(origin=origin, over=rows, of=group.area)
-    return Found(selector=selector, many=True, region=True, rows=True, assumed=(assumed,) if assumed else ())
+    return FoundPlace(selector=selector, many=True, region=True, rows=True, assumed=(assumed,) if assumed else ())
 
 
 def _way(rows: int, ways: set[bool]) -> str:
@@ -181,7 +183,7 @@ def _way(rows: int, ways: set[bool]) -> str:
     return " or ".join(sorted(sides))
 
 
-def _numbered(bag: Bag, of: s.Selector, site: Site) -> Found:
+def _numbered(bag: Bag, of: s.Selector, site: Site) -> FoundPlace:
     """Rows by their numbers or names."""
     named = bag.take("ROWIDS")
     every = bag.take("EVERYNTH")
@@ -206,7 +208,7 @@ def _numbered(bag: Bag, of: s.Selector, site: Site) -> Found:
     return _area(selector, bag, site, several=(named is not None and named.plural) or len(areas) > 1)
 
 
-def _described(bag: Bag, group: Group, size: int | None, site: Site) -> Found:
+def _described(bag: Bag, group: Group, size: int | None, site: Site) -> FoundPlace:
     """Rows by rank, by side, by "every", or as a row spoken of."""
     of = group.area
     row = bag.take("ROW")
@@ -257,7 +259,7 @@ def _described(bag: Bag, group: Group, size: int | None, site: Site) -> Found:
     same = bag.take("SAME") is not None
     if (bag.definite or same or bag.article in ("its", "their")) and not plural and bag.count in (None, 1):
         origin = group.row_of or s.Here()
-        return Found(selector=s.RowOf(origin=origin, of=of), many=True, region=True, rows=True)
+        return FoundPlace(selector=s.RowOf(origin=origin, of=of), many=True, region=True, rows=True)
     some = tuple(_row(row.name) for row in site.planting.rows[:3])
     which = message("'{said}': which row?", context="question", said=text_of(bag.phrase.terms))
     if plural:
@@ -279,17 +281,17 @@ def _check_numbers(bag: Bag, of: s.Selector, site: Site) -> None:
             )
 
 
-def _of_size(bag: Bag, of: s.Selector, size: int) -> Found:
+def _of_size(bag: Bag, of: s.Selector, size: int) -> FoundPlace:
     """ "A row of 5 trees": 5 trees of one row, one after the other."""
     if bag.definite or bag.each or bag.count not in (None, 1) or not bag.only():
         raise bag.fault(
             message("which rows are meant does not stand there"), message("say 'a row of 5 trees', or name the row")
         )
     bag.any = False
-    return Found(selector=s.Successive(count=size, of=of), many=size > 1, region=True, rows=True, counted=size)
+    return FoundPlace(selector=s.Successive(count=size, of=of), many=size > 1, region=True, rows=True, counted=size)
 
 
-def _ranked(bag: Bag, start: From, of: s.Selector, site: Site) -> Found | None:
+def _ranked(bag: Bag, start: From, of: s.Selector, site: Site) -> FoundPlace | None:
     """ "The third row", "the last two rows", "the westernmost row", "the second row from the east"."""
     most, rank, behind = bag.take("MOST"), bag.take("ORD"), bag.take("BACKORD")
     last = bag.take("LAST")
@@ -321,7 +323,7 @@ def _ranked(bag: Bag, start: From, of: s.Selector, site: Site) -> Found | None:
     return _area(rows, bag, site, several=count > 1)
 
 
-def _middle(bag: Bag, of: s.Selector, site: Site) -> Found:
+def _middle(bag: Bag, of: s.Selector, site: Site) -> FoundPlace:
     bag.take("MIDDLE")
     _in_one_block(bag, "the middle row", "", of, site)
     blocks = blocks_named(of, site)
@@ -369,14 +371,14 @@ def _in_one_block(bag: Bag, called: str, name: str, of: s.Selector, site: Site) 
         )
 
 
-def _area(selector: s.Selector, bag: Bag, site: Site, *, several: bool) -> Found:
+def _area(selector: s.Selector, bag: Bag, site: Site, *, several: bool) -> FoundPlace:
     """Rows as an area; each by itself where the words say so, or there are several."""
     each = bag.each
     ones = one_by_one(selector, site) if each else ()
-    return Found(selector=selector, many=True, region=True, rows=True, each=each and several, one_by_one=ones)
+    return FoundPlace(selector=selector, many=True, region=True, rows=True, each=each and several, one_by_one=ones)
 
 
-def _each(found: Found, kept: s.Selector, site: Site) -> tuple[s.Selector, ...]:
+def _each(found: FoundPlace, kept: s.Selector, site: Site) -> tuple[s.Selector, ...]:
     return one_by_one(kept, site) if found.one_by_one else ()
 
 

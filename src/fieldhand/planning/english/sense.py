@@ -28,7 +28,7 @@ _OF = re.compile(r"(?:of|in|from|at|on|along)?")
 _BEGINS = re.compile(r"\b(from|start\w*|begin\w*|set\w* (?:off|out)|leav\w*|via)\b")
 
 
-def check_sense(root: d.Block, request: str) -> None:
+def check_sense(root: d.DraftBlock, request: str) -> None:
     """Refuse what nobody means.
 
     Raises:
@@ -39,7 +39,7 @@ def check_sense(root: d.Block, request: str) -> None:
     if _is_announced(root):
         what = message("is it what follows, or is it to be done beside that?")
         raise _unclear(_said(root.steps[0]), request, what, message("leave it out, or say at which trees"))
-    captures = any(isinstance(step, d.Capture) for step, _ in d.walk(root))
+    captures = any(isinstance(step, d.DraftCapture) for step, _ in d.walk(root))
     for block in _blocks(root):
         for step, after in zip(block.steps, [*block.steps[1:], None], strict=False):
             if isinstance(step, d.Halt) and after is not None:
@@ -79,7 +79,7 @@ def check_sense(root: d.Block, request: str) -> None:
                 )
 
 
-def _blocks(root: d.Block) -> Iterator[d.Block]:
+def _blocks(root: d.DraftBlock) -> Iterator[d.DraftBlock]:
     yield root
     for step, _ in d.walk(root):
         yield from d.blocks_of(step)
@@ -97,7 +97,7 @@ def _is_elsewhere(step: d.Step | None) -> bool:
     if isinstance(step, d.Loop) and step.optional:
         return False
     place = step.place if isinstance(step, d.Go) else step.select if isinstance(step, d.Loop) else None
-    place = step.at if isinstance(step, d.Capture) else place
+    place = step.at if isinstance(step, d.DraftCapture) else place
     return place is not None and not place.named_marker and not may_be_near(place)
 
 
@@ -105,10 +105,10 @@ def _is_of_all(step: d.Step, after: d.Step | None) -> bool:
     """Return True for as many as fit of all trees, followed by the same at a place ("... as you can | of row 3")."""
     if not isinstance(step, d.Loop) or not step.optional or step.select != s.Trees():
         return False
-    taken = {inner.action for inner in step.body.steps if isinstance(inner, d.Capture)}
+    taken = {inner.action for inner in step.body.steps if isinstance(inner, d.DraftCapture)}
     if isinstance(after, d.Loop):
-        return any(isinstance(inner, d.Capture) and inner.action in taken for inner in after.body.steps)
-    return isinstance(after, d.Capture) and after.action in taken
+        return any(isinstance(inner, d.DraftCapture) and inner.action in taken for inner in after.body.steps)
+    return isinstance(after, d.DraftCapture) and after.action in taken
 
 
 def _between(step: d.Step, after: d.Step | None, request: str) -> str:
@@ -124,7 +124,7 @@ def _is_mixed(step: d.Step) -> bool:
 def _is_far_for_nothing(step: d.Step, after: d.Step | None) -> bool:
     """ "Move as far away as possible for a picture of another tree": that tree is meant to be far away."""
     far = isinstance(step, d.Go) and isinstance(step.place, s.Farthest)
-    at = after.at if isinstance(after, d.Capture) else None
+    at = after.at if isinstance(after, d.DraftCapture) else None
     return far and at is not None and isinstance(at.any_of, s.NotVisited)
 
 
@@ -134,18 +134,18 @@ def _is_tested_twice(step: d.Step, after: d.Step | None) -> bool:
     return step.condition == after.condition and bool(readings(step.condition))
 
 
-def _is_announced(root: d.Block) -> bool:
+def _is_announced(root: d.DraftBlock) -> bool:
     """ "Two trees get a picture": nothing says which trees, and what is said behind it takes pictures too."""
     first = root.steps[0] if root.steps else None
     if not isinstance(first, d.Loop) or first.select.any_of != s.Trees():
         return False
-    taken = {step.action for step in first.body.steps if isinstance(step, d.Capture)}
-    later = [step for step, _ in d.walk(root) if isinstance(step, d.Capture) and step not in first.body.steps]
+    taken = {step.action for step in first.body.steps if isinstance(step, d.DraftCapture)}
+    later = [step for step, _ in d.walk(root) if isinstance(step, d.DraftCapture) and step not in first.body.steps]
     return bool(later) and any(step.action in taken for step in later)
 
 
 def _is_twice(step: d.Step, after: d.Step | None) -> bool:
-    if not isinstance(step, d.Capture) or not isinstance(after, d.Capture):
+    if not isinstance(step, d.DraftCapture) or not isinstance(after, d.DraftCapture):
         return False
     return step.action == after.action and after.at is None and step.command != after.command
 

@@ -10,8 +10,8 @@ from fieldhand.language.words import SIDES
 from fieldhand.places import selectors as s
 from fieldhand.places.selector import FromGroup
 from fieldhand.planning.english.faults import unclear
-from fieldhand.planning.english.found import Found
-from fieldhand.planning.english.syntax import NounPhrase
+from fieldhand.planning.english.found import FoundPlace
+from fieldhand.planning.english.syntax import PlacePhrase
 from fieldhand.terms import AnySide
 
 #: Selectors that keep a tree or not by itself, whatever the others are: their order does not matter.
@@ -70,7 +70,7 @@ class Group:
         """Whether nothing is said."""
         return self.area == s.Trees() and not self._outer and self.anchor is None and not self.region
 
-    def add(self, found: Found, phrase: NounPhrase) -> None:
+    def add(self, found: FoundPlace, phrase: PlacePhrase) -> None:
         """Only trees of an area, or of those that another phrase selects."""
         if found.here or found.selector.named_marker or found.selector.named_tree:
             raise unclear(
@@ -142,7 +142,7 @@ def some_of(of: s.Selector, count: int) -> s.Selector:
     return s.Take(count=count, of=of)
 
 
-def both(first: s.Selector, second: s.Selector, phrase: NounPhrase) -> s.Selector:
+def both(first: s.Selector, second: s.Selector, phrase: PlacePhrase) -> s.Selector:
     """Trees of both. Which of two areas is taken of the other matters to their middles; a filter's order does not."""
     if first == s.Trees() or second == s.Trees():
         return second if first == s.Trees() else first
@@ -159,7 +159,7 @@ def _by_rows(selector: s.Selector) -> bool:
     return all(isinstance(part, BY_ROWS) for part in selector.members)
 
 
-def _checked(selector: s.Selector, outer: s.Selector, phrase: NounPhrase) -> s.Selector:
+def _checked(selector: s.Selector, outer: s.Selector, phrase: PlacePhrase) -> s.Selector:
     """Nothing that was said may be lost where two selections are made one."""
     if selector == outer:
         raise unclear(
@@ -168,7 +168,7 @@ def _checked(selector: s.Selector, outer: s.Selector, phrase: NounPhrase) -> s.S
     return selector
 
 
-def check_sides(selector: s.Selector, phrase: NounPhrase) -> None:
+def check_sides(selector: s.Selector, phrase: PlacePhrase) -> None:
     """An edge is one line of trees: it has no half along its own direction, and no opposite side.
 
     Raises:

@@ -99,7 +99,7 @@ def _is_amount(terms: Sequence[Term]) -> bool:
     return not terms or terms[0].kind not in ("OF", "THERE", "IS", "IT", "READING", "TREE", "PLACE", "NOUN")
 
 
-def one_after_another(loop: d.Loop, holder: d.Block, site: Site, said: Sequence[Term]) -> list[d.Block]:
+def one_after_another(loop: d.Loop, holder: d.DraftBlock, site: Site, said: Sequence[Term]) -> list[d.DraftBlock]:
     """Put what a loop does at each place one after the other in its place, so that each reading has a name.
 
     Returns:
@@ -123,15 +123,15 @@ def one_after_another(loop: d.Loop, holder: d.Block, site: Site, said: Sequence[
         )
     at = holder.steps.index(loop)
     del holder.steps[at]
-    made: list[d.Block] = []
+    made: list[d.DraftBlock] = []
     for place in places:
         body = d.copy_block(loop.body, lambda _: True, {}, lambda: "")
         first = body.steps[0]
-        if isinstance(first, d.Capture) and first.at is None:
+        if isinstance(first, d.DraftCapture) and first.at is None:
             first.at, first.at_said = place, loop.said
         else:
             body.steps.insert(0, d.Go(place=place, said=loop.said))
-        made.append(d.Block(steps=list(body.steps)))
+        made.append(d.DraftBlock(steps=list(body.steps)))
         for step in body.steps:
             holder.add(step)
             holder.steps.insert(at, holder.steps.pop())

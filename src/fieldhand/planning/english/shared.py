@@ -7,7 +7,7 @@ from functools import cache
 from typing import Any
 
 from fieldhand.planning.english.inflection import forms_of, plural_of
-from fieldhand.planning.english.naming import Entry, Phrase, split
+from fieldhand.planning.english.naming import NameEntry, Phrase, split
 from fieldhand.planning.english.vocabulary import vocabulary
 
 #: Orders by the compass, as the lexicon of orders calls them.
@@ -17,14 +17,14 @@ _UNITS = ("one", "two", "three", "four", "five", "six", "seven", "eight", "nine"
 
 
 @cache
-def shared_vocabulary() -> Mapping[Phrase, Entry]:
+def shared_vocabulary() -> Mapping[Phrase, NameEntry]:
     """The shared vocabulary, inflected. What stands later here replaces what stands before it."""
     v = vocabulary()
-    entries: dict[Phrase, Entry] = {}
+    entries: dict[Phrase, NameEntry] = {}
 
     def add(phrases: Iterable[str], kind: str, value: Any = None, plural: bool = False) -> None:
         for phrase in phrases:
-            entries[split(phrase)] = Entry(kind=kind, value=value, plural=plural)
+            entries[split(phrase)] = NameEntry(kind=kind, value=value, plural=plural)
 
     add(v["silent"]["filler"], "FILLER")
     for kind, phrases in v["nouns"].items():
@@ -33,7 +33,7 @@ def shared_vocabulary() -> Mapping[Phrase, Entry]:
     for kind, phrases in v["verbs"].items():
         for phrase in phrases:
             for form in forms_of(phrase):
-                entries.setdefault(split(form), Entry(kind=kind))
+                entries.setdefault(split(form), NameEntry(kind=kind))
             if phrase not in ("end", "finish"):  # these are nouns first; what stands around them tells
                 add([phrase], kind)
     for kind, phrases in v["words"].items():
@@ -54,7 +54,7 @@ def shared_vocabulary() -> Mapping[Phrase, Entry]:
     for known in v["units"]:
         for phrase in known["words"]:
             entries.setdefault(
-                split(phrase), Entry(kind="UNIT", value=(known["unit"], known["factor"], known["offset"]))
+                split(phrase), NameEntry(kind="UNIT", value=(known["unit"], known["factor"], known["offset"]))
             )
     add(["up to"], "UPTO")
     for by, phrases in v["orders"].items():

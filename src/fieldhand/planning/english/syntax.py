@@ -10,7 +10,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-from fieldhand.planning.english.arrange import Sentence
+from fieldhand.planning.english.arrange import ArrangedSentence
 from fieldhand.planning.english.faults import spans_of
 from fieldhand.planning.english.separators import Break
 from fieldhand.planning.english.tokens import Term
@@ -20,7 +20,7 @@ Quantity = tuple[Term, ...]
 
 
 @dataclass(frozen=True, kw_only=True)
-class NounPhrase:
+class PlacePhrase:
     """A place, or a group of them: how many, and every word that says which."""
 
     quantity: Quantity = ()
@@ -38,7 +38,7 @@ class NounPhrase:
 class Chain:
     """Noun phrases, each tied to the one before it by a relation ("a tree in the middle of the orchard")."""
 
-    phrases: tuple[NounPhrase, ...]
+    phrases: tuple[PlacePhrase, ...]
     relations: tuple[Term, ...] = ()
 
     @property
@@ -74,7 +74,7 @@ class Object:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Part:
+class ClausePart:
     """One part of a sentence.
 
     Attributes:
@@ -120,7 +120,7 @@ class NotParsed:
     after: tuple[Term, ...] = field(default=())
 
 
-def parse(sentence: Sentence) -> tuple[Part, ...] | NotParsed:
+def parse(sentence: ArrangedSentence) -> tuple[ClausePart, ...] | NotParsed:
     """The parts of a sentence."""
     from lark import Token
     from lark.exceptions import UnexpectedInput
@@ -134,7 +134,7 @@ def parse(sentence: Sentence) -> tuple[Part, ...] | NotParsed:
         token = getattr(error, "token", None)
         term = token.value if token is not None and isinstance(token.value, Term) else terms[-1]
         return NotParsed(term=term, said=whole)
-    parts: list[Part] = []
+    parts: list[ClausePart] = []
     then, bare, joined, listed = sentence.then, False, False, False
     for child in tree.children:
         if isinstance(child, Token):
@@ -191,7 +191,7 @@ def _terms(tree: Any) -> tuple[Term, ...]:
     return tuple(found)
 
 
-def _part(tree: Any, then: bool) -> Part:
+def _part(tree: Any, then: bool) -> ClausePart:
     from lark import Token
 
     fields: dict[str, Any] = {"tails": ()}
@@ -218,7 +218,7 @@ def _part(tree: Any, then: bool) -> Part:
                 fields["tails"] = (*fields["tails"], *_terms(child))
             case _:
                 pass
-    return Part(kind=str(tree.data), terms=_terms(tree), then=then, **fields)
+    return ClausePart(kind=str(tree.data), terms=_terms(tree), then=then, **fields)
 
 
 def _flat(tree: Any) -> Iterator[Any]:
@@ -250,7 +250,7 @@ def _places(tree: Any) -> Places:
 
 
 def _chain(tree: Any) -> Chain:
-    phrases: list[NounPhrase] = []
+    phrases: list[PlacePhrase] = []
     relations: list[Term] = []
     for child in tree.children:
         if child.data == "relation":
@@ -267,5 +267,5 @@ def _chain(tree: Any) -> Chain:
                 nominals.append(_terms(inner))
             else:
                 there = inner.value
-        phrases.append(NounPhrase(quantity=quantity, nominals=tuple(nominals), there=there))
+        phrases.append(PlacePhrase(quantity=quantity, nominals=tuple(nominals), there=there))
     return Chain(phrases=tuple(phrases), relations=tuple(relations))

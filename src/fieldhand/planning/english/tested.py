@@ -9,7 +9,7 @@ from fieldhand.language import Number, joined, message, named
 from fieldhand.language.words import listed, say_name, say_unit
 from fieldhand.planning.english.asking import choices_of_actions
 from fieldhand.planning.english.attributes import OPPOSITE, hinted, number_of
-from fieldhand.planning.english.draft import Capture
+from fieldhand.planning.english.draft import DraftCapture
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.kinds import RELATIONS
 from fieldhand.planning.english.naming import Naming
@@ -41,7 +41,7 @@ class Predicate:
 
     made: c.Condition
     negated: bool = False
-    capture: Capture | None = None
+    capture: DraftCapture | None = None
     missing: str = ""
     quantity: str = ""
 
@@ -84,7 +84,7 @@ def place_in(terms: Sequence[Term]) -> tuple[tuple[Term, ...], tuple[Term, ...]]
     return tuple(terms), ()
 
 
-def read_condition(terms: Sequence[Term], captures: Sequence[Capture], robot: RobotProfile, site: Site) -> Tested:
+def read_condition(terms: Sequence[Term], captures: Sequence[DraftCapture], robot: RobotProfile, site: Site) -> Tested:
     """What a condition tests.
 
     Args:
@@ -177,7 +177,7 @@ def _tree_predicate(group: Sequence[Term], attribute: str) -> Predicate:
 
 
 def _reading_predicate(
-    group: Sequence[Term], subject: Sequence[Term], captures: Sequence[Capture], robot: RobotProfile
+    group: Sequence[Term], subject: Sequence[Term], captures: Sequence[DraftCapture], robot: RobotProfile
 ) -> Predicate:
     wanted = quantities_of(group, subject, robot)
     capture = _latest(group, subject, captures, wanted, robot)
@@ -231,8 +231,12 @@ def _reports(robot: RobotProfile, wanted: Sequence[str] = ()) -> str:
 
 
 def _latest(
-    group: Sequence[Term], subject: Sequence[Term], captures: Sequence[Capture], wanted: list[str], robot: RobotProfile
-) -> Capture | None:
+    group: Sequence[Term],
+    subject: Sequence[Term],
+    captures: Sequence[DraftCapture],
+    wanted: list[str],
+    robot: RobotProfile,
+) -> DraftCapture | None:
     fitting = [cap for cap in captures if set(robot.action[cap.action].measures) & set(wanted)]
     rank = next((t.value for t in subject if t.kind == "ORD"), None)
     if rank is not None:

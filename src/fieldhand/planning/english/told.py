@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.english import draft as d
-from fieldhand.planning.english.limits import Limit
+from fieldhand.planning.english.limits import LimitPhrase
 from fieldhand.planning.planner import Reason
 from fieldhand.task.frames import Then
 from fieldhand.task.plan import Span
@@ -31,8 +31,8 @@ class Told:
         misfit: The first sentence that was not read as it stands, and why; None if all were.
     """
 
-    root: d.Block = field(default_factory=d.Block)
-    limits: list[Limit] = field(default_factory=list)
+    root: d.DraftBlock = field(default_factory=d.DraftBlock)
+    limits: list[LimitPhrase] = field(default_factory=list)
     nominal: Then | None = None
     nominal_said: list[Span] = field(default_factory=list)
     first: bool = False
@@ -86,7 +86,7 @@ def settle(told: Told) -> None:
     _without_questions(told, told.root)
 
 
-def _without_questions(told: Told, block: d.Block) -> None:
+def _without_questions(told: Told, block: d.DraftBlock) -> None:
     for step in list(block.steps):
         for inner in d.blocks_of(step):
             _without_questions(told, inner)

@@ -9,14 +9,14 @@ from fieldhand.planning.english.cases import Cases
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.hand import ACTS
 from fieldhand.planning.english.places import find
-from fieldhand.planning.english.syntax import Part
+from fieldhand.planning.english.syntax import ClausePart
 from fieldhand.planning.english.tested import place_in, read_condition
 
 
 class Until(Cases):
     """Reads what ends a round early."""
 
-    def _until(self, part: Part) -> None:
+    def _until(self, part: ClausePart) -> None:
         """ "Until one is above 38 °C": said of the round whose reading it tests.
 
         What follows without a place of its own is done where that reading was taken, and nowhere if none was.
@@ -26,7 +26,7 @@ class Until(Cases):
             raise unclear(
                 part.terms, message("a round ends by a reading of its own"), message("say 'until one is below 33 °C'")
             )
-        known = [step for step, _ in d.walk(self.told.root) if isinstance(step, d.Capture)]
+        known = [step for step, _ in d.walk(self.told.root) if isinstance(step, d.DraftCapture)]
         tested = read_condition(terms, known, self._robot, self._site)
         captures = [self._tested_capture(predicate, None, part, True) for predicate in tested.predicates]
         if any(capture is None for capture in captures):
@@ -45,15 +45,15 @@ class Until(Cases):
         condition = tested.condition([self._bound(capture) for capture in captures])
         round_.until = condition
         round_.said += part.said
-        self._ended = d.Choice(condition=condition, then=d.Block(), said=part.said)
+        self._ended = d.Choice(condition=condition, then=d.DraftBlock(), said=part.said)
         self._ended_round, self._found_one = round_, None
 
-    def _has_no_place(self, part: Part) -> bool:
+    def _has_no_place(self, part: ClausePart) -> bool:
         if part.kind == "stop":
             return False
         return part.places is None or self._related(part).here
 
-    def _after_until(self, part: Part) -> None:
+    def _after_until(self, part: ClausePart) -> None:
         """Do what has no place of its own where a round ended, and nowhere if it ended without a reading as asked."""
         how_many = part.kind == "more_places" and any(t.kind == "UPTO" for t in part.terms)
         if self._ended is None or self._ended_round is None or how_many:
@@ -70,7 +70,7 @@ class Until(Cases):
             self._loop = None
         self._ended = self._ended_round = self._found_one = None
 
-    def _at_most_of_them(self, part: Part) -> bool:
+    def _at_most_of_them(self, part: ClausePart) -> bool:
         """ "..., but at most 8 trees": said of the round before it. Whether it is."""
         round_ = self._loop
         if round_ is None or part.places is None or part.relation is not None:
@@ -84,7 +84,7 @@ class Until(Cases):
         round_.said += part.said
         return True
 
-    def _round_of(self, captures: list[d.Capture]) -> d.Loop | d.Times | None:
+    def _round_of(self, captures: list[d.DraftCapture]) -> d.Loop | d.Times | None:
         """The innermost round that holds all of these captures."""
         for step, _ in reversed(list(d.walk(self.told.root))):
             if isinstance(step, d.Loop | d.Times):

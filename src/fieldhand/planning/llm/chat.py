@@ -10,7 +10,7 @@ Role = Literal["system", "user", "assistant"]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Message:
+class ChatMessage:
     """One message of the conversation with the model."""
 
     role: Role
@@ -34,7 +34,7 @@ class Reply:
 class Chat(Protocol):
     """A language model that answers conversations."""
 
-    def ask(self, messages: Sequence[Message]) -> Reply:
+    def ask(self, messages: Sequence[ChatMessage]) -> Reply:
         """Send a conversation to the model and return its reply.
 
         Raises:

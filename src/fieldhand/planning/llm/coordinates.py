@@ -13,7 +13,7 @@ from dataclasses import fields
 from typing import Any
 
 from fieldhand.places import selectors
-from fieldhand.planning.llm.review import Problem
+from fieldhand.planning.llm.review import AnswerProblem
 from fieldhand.site.feature_kinds import phrase
 from fieldhand.site.model import Site
 from fieldhand.task import conditions, plan
@@ -33,7 +33,7 @@ _DECIMAL = re.compile(r"\d+[.,]\d+|\d+\s*\N{DEGREE SIGN}")
 _PAIR = re.compile(r"[-+]?\d{1,3}\.\d{2,}\s*\N{DEGREE SIGN}?\s*[NSEW]?[\s,;/]+[-+]?\d{1,3}\.\d{2,}")
 
 
-def coordinates(draft: TaskDraft, request: str, site: Site) -> tuple[Problem, ...]:
+def coordinates(draft: TaskDraft, request: str, site: Site) -> tuple[AnswerProblem, ...]:
     """Return a problem for each literal coordinate of a draft that the request does not contain."""
     found = [problem for node in plan.walk(draft.plan) for problem in _of_node(node, request, site)]
     for sentence in draft.assumptions:
@@ -42,7 +42,7 @@ def coordinates(draft: TaskDraft, request: str, site: Site) -> tuple[Problem, ..
     return tuple(dict.fromkeys(found))
 
 
-def _of_node(node: Node, request: str, site: Site) -> Iterator[Problem]:
+def _of_node(node: Node, request: str, site: Site) -> Iterator[AnswerProblem]:
     for owner in _parts(node):
         for field in fields(owner):
             value = getattr(owner, field.name)
@@ -63,7 +63,7 @@ def _parts(node: Node) -> Iterator[Any]:
     yield from conditions.walk(condition) if condition is not None else ()
 
 
-def _of_column(attribute: str, value: Value, request: str, where: str) -> Iterator[Problem]:
+def _of_column(attribute: str, value: Value, request: str, where: str) -> Iterator[AnswerProblem]:
     said = {float(text) for text in re.findall(r"[-+]?\d+(?:\.\d+)?", request)}
     if isinstance(value, bool) or (isinstance(value, float | int) and value in said):
         return
@@ -83,6 +83,6 @@ def _is_of_site(value: str, site: Site) -> bool:
     )
 
 
-def _problem(number: str, place: str, where: str) -> Problem:
+def _problem(number: str, place: str, where: str) -> AnswerProblem:
     message = f"{place} holds {number!r}, which reads as a coordinate and is not in the request: name the place instead"
-    return Problem(kind="coordinate", message=message, where=where)
+    return AnswerProblem(kind="coordinate", message=message, where=where)

@@ -6,7 +6,7 @@ Contradictions that the model does not correct are found again in approval, wher
 from __future__ import annotations
 
 from fieldhand.facts import mismatches
-from fieldhand.planning.llm.review import Problem
+from fieldhand.planning.llm.review import AnswerProblem
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.codec import TaskDraft
@@ -14,7 +14,7 @@ from fieldhand.task.frames import Task
 from fieldhand.task.plan import walk
 
 
-def doubts(task: Task, draft: TaskDraft, site: Site, robot: RobotProfile) -> tuple[Problem, ...]:
+def doubts(task: Task, draft: TaskDraft, site: Site, robot: RobotProfile) -> tuple[AnswerProblem, ...]:
     """Return every certain contradiction between a Task and its request.
 
     Args:
@@ -23,6 +23,6 @@ def doubts(task: Task, draft: TaskDraft, site: Site, robot: RobotProfile) -> tup
     """
     places = dict(zip((n.id for n in walk(task.composition.plan)), (n.id for n in walk(draft.plan)), strict=True))
     return tuple(
-        Problem(kind="request", message=found.message, where=places.get(found.node, ""))
+        AnswerProblem(kind="request", message=found.message, where=places.get(found.node, ""))
         for found in mismatches(task, site, robot)
     )

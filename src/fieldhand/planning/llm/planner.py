@@ -15,12 +15,12 @@ from fieldhand.errors import ModelError, RequestError
 from fieldhand.language import joined, message
 from fieldhand.planning.homeward import faulted_exits, usual_exit, with_assumed_exit
 from fieldhand.planning.llm.answer import QuestionAnswer, RefusalAnswer, TaskAnswer, Unusable, read_answer
-from fieldhand.planning.llm.chat import Chat, Message, Reply
+from fieldhand.planning.llm.chat import Chat, ChatMessage, Reply
 from fieldhand.planning.llm.coordinates import coordinates
 from fieldhand.planning.llm.doubts import doubts
 from fieldhand.planning.llm.plain import visible_line
 from fieldhand.planning.llm.prompt import answered, opening, repair
-from fieldhand.planning.llm.review import Problem, read_draft, review
+from fieldhand.planning.llm.review import AnswerProblem, read_draft, review
 from fieldhand.planning.llm.settings import LlmSettings
 from fieldhand.planning.llm.transcript import TranscriptWriter, wall_clock
 from fieldhand.planning.llm.transport import ModelChat
@@ -46,7 +46,7 @@ class _Understood:
     """Result of parsing a reply: an outcome, a list of problems, or both for a plan with doubts."""
 
     outcome: Outcome | None = None
-    problems: tuple[Problem, ...] = ()
+    problems: tuple[AnswerProblem, ...] = ()
 
 
 class LlmPlanner:
@@ -108,10 +108,10 @@ class LlmPlanner:
 
     def _converse(self, request: str, site: Site, robot: RobotProfile, answers: tuple[Answer, ...]) -> Outcome:
         """Ask until an answer is usable, with at most ``repairs`` further attempts."""
-        talk: list[Message] = [*opening(request, site, robot), *answered(answers)]
-        new: Sequence[Message] = talk
+        talk: list[ChatMessage] = [*opening(request, site, robot), *answered(answers)]
+        new: Sequence[ChatMessage] = talk
         doubted: Outcome | None = None
-        problems: tuple[Problem, ...] = ()
+        problems: tuple[AnswerProblem, ...] = ()
         for tries_left in range(self._settings.repairs, -1, -1):
             reply = self._chat.ask(talk)
             understood = self._understand(reply, request, site, robot, answers)
@@ -124,7 +124,7 @@ class LlmPlanner:
             if tries_left:
                 new = (repair(said, tries_left),)
                 # Endpoints reject an assistant message without text.
-                talk += [Message(role="assistant", text=reply.text.strip() or "(nothing)"), *new]
+                talk += [ChatMessage(role="assistant", text=reply.text.strip() or "(nothing)"), *new]
         if doubted is not None:
             return doubted
         raise self._unusable(problems)
@@ -137,7 +137,7 @@ class LlmPlanner:
         answer = read_answer(reply)
         match answer:
             case Unusable():
-                return _Understood(problems=(Problem(kind="answer", message=answer.reason),))
+                return _Understood(problems=(AnswerProblem(kind="answer", message=answer.reason),))
             case QuestionAnswer():
                 question = Clarify(question=answer.question, choices=answer.choices, planner=name, free=True)
                 return _Understood(outcome=question)
@@ -154,7 +154,7 @@ class LlmPlanner:
                 planned = _planned(draft, request, site, robot, name, answers)
                 return _Understood(outcome=planned, problems=doubts(planned.task, draft, site, robot))
 
-    def _unusable(self, problems: Sequence[Problem]) -> ModelError:
+    def _unusable(self, problems: Sequence[AnswerProblem]) -> ModelError:
         """Return the error for the last failed attempt, with its problems."""
         shown = "; ".join(str(problem) for problem in problems[:MOST_PROBLEMS])
         advice: str = message("say the request in other words, or use a larger model")

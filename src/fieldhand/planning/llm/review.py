@@ -41,7 +41,7 @@ Kind = Literal["answer", "schema", "words", "reference", "site", "coordinate", "
 
 
 @dataclass(frozen=True, kw_only=True)
-class Problem:
+class AnswerProblem:
     """A reason why an answer is unusable.
 
     Attributes:
@@ -59,7 +59,7 @@ class Problem:
         return f"[{self.kind}] " + (f"{self.where}: " if self.where else "") + self.message
 
 
-def read_draft(document: str, capabilities: Capabilities, request: str = "") -> TaskDraft | tuple[Problem, ...]:
+def read_draft(document: str, capabilities: Capabilities, request: str = "") -> TaskDraft | tuple[AnswerProblem, ...]:
     """Return the draft that a document contains, or the problems of its form.
 
     Node ids give the position in the document (``line 12 <act>``), for later messages;
@@ -70,23 +70,25 @@ def read_draft(document: str, capabilities: Capabilities, request: str = "") -> 
     invalid = validate(data, capabilities, draft=True)
     if invalid:
         return tuple(
-            Problem(kind="schema", message=p.message, where=f"line {p.line}" + (f" <{p.element}>" if p.element else ""))
+            AnswerProblem(
+                kind="schema", message=p.message, where=f"line {p.line}" + (f" <{p.element}>" if p.element else "")
+            )
             for p in invalid
         )
     root = parse_xml(data)
     unsaid = place_quotes(root, request)
     if unsaid:
-        return tuple(Problem(kind="words", message=message, where=where) for where, message in unsaid)
+        return tuple(AnswerProblem(kind="words", message=message, where=where) for where, message in unsaid)
     try:
         return decode_draft(_with_lines(root))
     except TaskError as error:
-        return (Problem(kind="schema", message=_said(error), where=error.where),)
+        return (AnswerProblem(kind="schema", message=_said(error), where=error.where),)
 
 
-def review(draft: TaskDraft, site: Site, capabilities: Capabilities) -> tuple[Problem, ...]:
+def review(draft: TaskDraft, site: Site, capabilities: Capabilities) -> tuple[AnswerProblem, ...]:
     """Return the problems of a draft with references and with the site, without duplicates."""
     bare = Task(id="draft", command=Command(request=""), composition=Composition(plan=draft.plan))
-    unbound = [Problem(kind="reference", message=message) for message in references(bare, capabilities)]
+    unbound = [AnswerProblem(kind="reference", message=message) for message in references(bare, capabilities)]
     return tuple(dict.fromkeys([*unbound, *_places(draft.plan, site)]))
 
 
@@ -112,7 +114,7 @@ def _with_lines(root: _Element) -> bytes:
     return encoded
 
 
-def _places(root: Node, site: Site) -> Iterator[Problem]:
+def _places(root: Node, site: Site) -> Iterator[AnswerProblem]:
     """Yield the problems of selectors and conditions with the site."""
     known = {phrase(name) for name in site.attributes}
     for node in plan.walk(root):
@@ -129,16 +131,16 @@ def _places(root: Node, site: Site) -> Iterator[Problem]:
                 yield _no_attribute(part.attribute, site, node.id)
 
 
-def _unresolved(selector: Selector, site: Site, where: str) -> Iterator[Problem]:
+def _unresolved(selector: Selector, site: Site, where: str) -> Iterator[AnswerProblem]:
     """Yield the problems of the largest parts that can be resolved before the mission starts."""
     for part in foreseeable(selector):
         try:
             _resolve(part, site)
         except PlaceError as error:
-            yield Problem(kind="site", message=_said(error), where=where)
+            yield AnswerProblem(kind="site", message=_said(error), where=where)
 
 
-def _more_than_one(selector: Selector, site: Site, where: str) -> Iterator[Problem]:
+def _more_than_one(selector: Selector, site: Site, where: str) -> Iterator[AnswerProblem]:
     """Yield a problem if an action or drive has several places, which require a for-each or a choice of one."""
     if selector.single or isinstance(selector, Bound) or _one_of_a_row(selector):
         return
@@ -150,7 +152,7 @@ def _more_than_one(selector: Selector, site: Site, where: str) -> Iterator[Probl
             return  # already reported
     name = element_name(type(selector))
     message = f'<{name}> gives several places where one is needed: use a <for-each>, or <take count="1">'
-    yield Problem(kind="site", message=message, where=where)
+    yield AnswerProblem(kind="site", message=message, where=where)
 
 
 def _one_of_a_row(selector: Selector) -> bool:
@@ -165,9 +167,9 @@ def _resolve(selector: Selector, site: Site) -> tuple[Place, ...]:
     return resolve(selector, site, Context(here=site.start))
 
 
-def _no_attribute(name: str, site: Site, where: str) -> Problem:
+def _no_attribute(name: str, site: Site, where: str) -> AnswerProblem:
     known = ", ".join(list(site.attributes)[:20]) or "none"
-    return Problem(kind="site", message=f"the trees have no attribute {name!r}; they have: {known}", where=where)
+    return AnswerProblem(kind="site", message=f"the trees have no attribute {name!r}; they have: {known}", where=where)
 
 
 def _said(error: TaskError | PlaceError) -> str:

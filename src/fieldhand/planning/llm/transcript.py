@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from fieldhand.errors import InputError, OutputError
-from fieldhand.planning.llm.chat import Message, Reply
+from fieldhand.planning.llm.chat import ChatMessage, Reply
 from fieldhand.visible import json_text
 
 FORMAT = "fieldhand-transcript/1"
@@ -46,7 +46,7 @@ class TranscriptWriter:
         """Start a session with the request verbatim and the planner, site and robot."""
         self._write({"kind": "session", "format": FORMAT, "at": self._time(), "request": request, **about})
 
-    def exchange(self, new: Sequence[Message], reply: Reply, problems: Sequence[str]) -> None:
+    def exchange(self, new: Sequence[ChatMessage], reply: Reply, problems: Sequence[str]) -> None:
         """Append one exchange: the new messages, the answer, and its problems."""
         self._write(
             {
@@ -87,7 +87,7 @@ class TranscriptWriter:
 class Exchange:
     """One exchange of a transcript."""
 
-    messages: tuple[Message, ...]
+    messages: tuple[ChatMessage, ...]
     answer: str
     finish: str
     problems: tuple[str, ...]
@@ -142,7 +142,7 @@ def _take(line: dict[str, Any], sessions: list[Session]) -> None:
             sessions.append(Session(request=line["request"], about={k: v for k, v in line.items() if k not in known}))
         case "exchange":
             exchange = Exchange(
-                messages=tuple(Message(role=m["role"], text=m["text"]) for m in line["messages"]),
+                messages=tuple(ChatMessage(role=m["role"], text=m["text"]) for m in line["messages"]),
                 answer=line["answer"],
                 finish=line["finish"],
                 problems=tuple(line["problems"]),

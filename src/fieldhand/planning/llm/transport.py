@@ -13,7 +13,7 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from fieldhand.errors import ModelError
-from fieldhand.planning.llm.chat import Message, Reply
+from fieldhand.planning.llm.chat import ChatMessage, Reply
 from fieldhand.planning.llm.settings import KEY_VARIABLES, LlmSettings
 
 if TYPE_CHECKING:
@@ -40,7 +40,7 @@ class ModelChat:
         self._settings = settings
         self._sleep = sleep
 
-    def ask(self, messages: Sequence[Message]) -> Reply:
+    def ask(self, messages: Sequence[ChatMessage]) -> Reply:
         require_extra()
         require_key(self._settings)
         for attempt in range(self._settings.resends + 1):
@@ -104,7 +104,7 @@ def build_model(settings: LlmSettings) -> Model[Any]:
             return OpenAIChatModel(settings.model, provider=provider)
 
 
-async def _request(settings: LlmSettings, messages: Sequence[Message]) -> ModelResponse:
+async def _request(settings: LlmSettings, messages: Sequence[ChatMessage]) -> ModelResponse:
     from pydantic_ai.direct import model_request
     from pydantic_ai.settings import ModelSettings
 
@@ -116,7 +116,7 @@ async def _request(settings: LlmSettings, messages: Sequence[Message]) -> ModelR
         return await model_request(model, _as_messages(messages), model_settings=wanted)
 
 
-def _as_messages(messages: Sequence[Message]) -> list[ModelMessage]:
+def _as_messages(messages: Sequence[ChatMessage]) -> list[ModelMessage]:
     from pydantic_ai.messages import ModelRequest, ModelResponse, SystemPromptPart, TextPart, UserPromptPart
 
     converted: list[ModelMessage] = []

@@ -13,7 +13,7 @@ from fieldhand.errors import SiteError
 from fieldhand.files import FileFault, read_file
 from fieldhand.language import message, recalled
 from fieldhand.plugins import active
-from fieldhand.site.formats.records import MAX_BYTES, SHAPEFILE_PARTS, Format, Records, too_big
+from fieldhand.site.formats.records import MAX_BYTES, SHAPEFILE_PARTS, Format, SiteRecords, too_big
 from fieldhand.visible import visible
 
 _ENDINGS: dict[str, Format] = {
@@ -79,7 +79,7 @@ def read_files(path: Path) -> SiteFiles:
     return SiteFiles(parts=held, source=at)
 
 
-def records_of(files: SiteFiles, *, lenient: bool = False) -> Records:
+def records_of(files: SiteFiles, *, lenient: bool = False) -> SiteRecords:
     """The records that these files hold.
 
     Raises:
@@ -99,7 +99,7 @@ def records_of(files: SiteFiles, *, lenient: bool = False) -> Records:
     if not callable(reader):
         raise plugin.error("is not callable")
     records = reader(files, lenient=lenient)
-    if not isinstance(records, Records):
+    if not isinstance(records, SiteRecords):
         raise plugin.error("does not return Records")
     return records
 

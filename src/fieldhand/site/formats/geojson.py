@@ -7,13 +7,13 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from fieldhand.errors import SiteError
-from fieldhand.site.formats.records import Records
+from fieldhand.site.formats.records import SiteRecords
 
 _DEGREES_CRS = ("crs84", "4326")
 _AGAIN = "export it again as GeoJSON"
 
 
-def geojson_records(data: bytes, at: str, *, lenient: bool = False) -> Records:
+def geojson_records(data: bytes, at: str, *, lenient: bool = False) -> SiteRecords:
     """The features of a GeoJSON FeatureCollection in UTF-8.
 
     Args:
@@ -28,7 +28,7 @@ def geojson_records(data: bytes, at: str, *, lenient: bool = False) -> Records:
     features = _features(document, at)
     notes = _crs(document, at, lenient=lenient)
     own_name = document.get("name")
-    return Records(features=features, name=own_name if isinstance(own_name, str) else "", notes=notes)
+    return SiteRecords(features=features, name=own_name if isinstance(own_name, str) else "", notes=notes)
 
 
 def _document(data: bytes, at: str) -> Mapping[str, Any]:

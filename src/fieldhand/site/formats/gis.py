@@ -22,7 +22,7 @@ from fieldhand.site.feature_kinds import KIND_KEYS, area_kind, barrier_name, poi
 from fieldhand.site.formats.archive import unpack
 from fieldhand.site.formats.file_checks import check_geopackage, check_kml
 from fieldhand.site.formats.geojson import geojson_records
-from fieldhand.site.formats.records import SHAPEFILE_PARTS, Format, Records, UnusablePart
+from fieldhand.site.formats.records import SHAPEFILE_PARTS, Format, SiteRecords, UnusablePart
 from fieldhand.site.formats.sandbox import read_sandboxed
 from fieldhand.site.formats.table import table_records, value_of
 from fieldhand.visible import visible
@@ -46,7 +46,7 @@ _KML_OWN = (
 )
 
 
-def gis_records(form: str, held: Mapping[str, bytes], at: str, *, lenient: bool = False) -> Records:
+def gis_records(form: str, held: Mapping[str, bytes], at: str, *, lenient: bool = False) -> SiteRecords:
     """The features of all layers, one layer after the other, in degrees WGS 84.
 
     Args:
@@ -63,7 +63,7 @@ def gis_records(form: str, held: Mapping[str, bytes], at: str, *, lenient: bool 
     return read_sandboxed(form, held, at, lenient=lenient)
 
 
-def read_here(form: Format, held: Mapping[str, bytes], at: str, *, lenient: bool = False) -> Records:
+def read_here(form: Format, held: Mapping[str, bytes], at: str, *, lenient: bool = False) -> SiteRecords:
     """Return what :func:`gis_records` does, read in this very process: for files of one's own, and for its process."""
     with tempfile.TemporaryDirectory(prefix="fieldhand-") as made:
         folder = Path(made)
@@ -77,7 +77,7 @@ def read_here(form: Format, held: Mapping[str, bytes], at: str, *, lenient: bool
         return _joined([(folder / f"site{ending or '.shp'}", "")], at)
 
 
-def _packed(paths: Sequence[Path], at: str, *, lenient: bool) -> Records:
+def _packed(paths: Sequence[Path], at: str, *, lenient: bool) -> SiteRecords:
     """What an archive holds: Shapefiles, which belong together, or one file of another format."""
     for ending in _MAIN:
         found = [p for p in paths if p.suffix.lower() == ending]
@@ -112,7 +112,7 @@ class _Gathering:
     layers: list[str] = field(default_factory=list)
 
 
-def _joined(sources: Sequence[tuple[Path, str]], at: str) -> Records:
+def _joined(sources: Sequence[tuple[Path, str]], at: str) -> SiteRecords:
     gathering = _Gathering()
     with _gdal(at) as gdal:
         layers: list[tuple[Path, str, str]] = []
@@ -126,7 +126,7 @@ def _joined(sources: Sequence[tuple[Path, str]], at: str) -> Records:
             _read_layer(gdal, path, layer, title if len(layers) > 1 else "", gathering, at)
     if len(gathering.layers) > 1:
         gathering.notes.append(f"layers were joined: {', '.join(gathering.layers)[:120]}")
-    return Records(features=gathering.features, notes=tuple(gathering.notes))
+    return SiteRecords(features=gathering.features, notes=tuple(gathering.notes))
 
 
 def _layers_of(gdal: Any, path: Path, gathering: _Gathering, at: str) -> list[str]:

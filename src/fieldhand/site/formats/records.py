@@ -18,7 +18,7 @@ MAX_BYTES = 100_000_000
 
 
 @dataclass(kw_only=True)
-class Records:
+class SiteRecords:
     """The features of a file, not yet checked, in degrees WGS 84.
 
     Attributes:

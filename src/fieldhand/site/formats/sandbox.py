@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from fieldhand.errors import SiteError
-from fieldhand.site.formats.records import Records, UnusablePart
+from fieldhand.site.formats.records import SiteRecords, UnusablePart
 
 RESULT, ASKED = "result.json", "asked.json"
 #: What the process needs of the environment; of GDAL, of proxies and of tokens it sees nothing.
@@ -54,7 +54,7 @@ def read_limits(size: int) -> ReadLimits:
 
 def read_sandboxed(
     form: str, held: Mapping[str, bytes], at: str, *, lenient: bool, allowed: ReadLimits | None = None
-) -> Records:
+) -> SiteRecords:
     """Read files in a process with limited resources and return their records.
 
     Args:
@@ -103,7 +103,7 @@ def read_sandboxed(
         return _records(folder / RESULT, done, allowed, at)
 
 
-def as_json(records: Records) -> str:
+def as_json(records: SiteRecords) -> str:
     """Return records as one text."""
     features = [
         {"unusable": [f.what, f.advice, dict(f.properties)]} if isinstance(f, UnusablePart) else {"feature": f}
@@ -128,7 +128,7 @@ def _plain(value: Any) -> Any:
     return value.tolist() if hasattr(value, "tolist") else str(value)
 
 
-def _records(result: Path, status: int, allowed: ReadLimits, at: str) -> Records:
+def _records(result: Path, status: int, allowed: ReadLimits, at: str) -> SiteRecords:
     try:
         size = result.stat().st_size if status == 0 else -1
         if not 0 <= size <= allowed.result:
@@ -137,7 +137,7 @@ def _records(result: Path, status: int, allowed: ReadLimits, at: str) -> Records
         if "error" in found:
             what, where, advice = found["error"]
             raise SiteError(what, where=where, advice=advice)
-        return Records(
+        return SiteRecords(
             features=[UnusablePart(*f["unusable"]) if "unusable" in f else f["feature"] for f in found["features"]],
             numbers=found["numbers"],
             unit=found["unit"],

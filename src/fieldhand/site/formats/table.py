@@ -14,7 +14,7 @@ from fieldhand.errors import SiteError
 from fieldhand.site.feature_kinds import phrase
 from fieldhand.site.features import readable
 from fieldhand.site.formats.faults import UnusableFeature
-from fieldhand.site.formats.records import Records, UnusablePart
+from fieldhand.site.formats.records import SiteRecords, UnusablePart
 from fieldhand.visible import visible
 
 # fmt: off
@@ -33,7 +33,7 @@ _BRACKETS = re.compile(r"[(\[].*?[)\]]")
 _SEXAGESIMAL = re.compile(r"[\d\s.,:dms\u00b0\u00ba'\"\u2019\u2032\u201d\u2033NSEWnsew-]+")
 
 
-def table_records(data: bytes, at: str) -> Records:
+def table_records(data: bytes, at: str) -> SiteRecords:
     """The lines of a table with a header; each line is a point, its other columns are properties.
 
     Args:
@@ -55,7 +55,7 @@ def table_records(data: bytes, at: str) -> Records:
         raise SiteError("the file is empty", where=at, advice="give a table with a header and a line for each tree")
     columns = _columns(lines[0][1], at, lines[0][0])
     features = [_feature(row, columns, comma=delimiter != ",") for _, row in lines[1:]]
-    return Records(features=features, numbers=[number for number, _ in lines[1:]], unit="line", notes=notes)
+    return SiteRecords(features=features, numbers=[number for number, _ in lines[1:]], unit="line", notes=notes)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -12,7 +12,7 @@ from fieldhand.task.nodes.base import PlanNode, Program, Role, SayPlace, Span
 if TYPE_CHECKING:
     from fieldhand.places.selector import Selector
     from fieldhand.task.instructions import OpaquePlace, Reading
-    from fieldhand.task.run import Run
+    from fieldhand.task.run import PlanRun
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,7 +42,7 @@ class Act(PlanNode):
     reading: str = ""
     said: tuple[Span, ...] = ()
 
-    def execute(self, run: Run) -> Program:  # noqa: ARG002
+    def execute(self, run: PlanRun) -> Program:  # noqa: ARG002
         if self.reading:
             yield ForgetReading(node=self, reading=self.reading)
         place: OpaquePlace = yield Locate(node=self, selector=self.at)

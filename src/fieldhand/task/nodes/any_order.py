@@ -13,7 +13,7 @@ from fieldhand.task.nodes.base import ChildNode, K, PlanNode, Program, Role, Say
 
 if TYPE_CHECKING:
     from fieldhand.task.plan import Node
-    from fieldhand.task.run import Run
+    from fieldhand.task.run import PlanRun
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,7 +27,7 @@ class AnyOrder(PlanNode):
     steps: tuple[Node, ...]
     said: tuple[Span, ...] = ()
 
-    def execute(self, run: Run) -> Program:
+    def execute(self, run: PlanRun) -> Program:
         order: tuple[int, ...] = yield ArrangeSteps(node=self)
         for at, index in enumerate(order):
             run.frame.left = tuple(self.steps[k] for k in order[at + 1 :])

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from fieldhand.task.nodes.act import Act
     from fieldhand.task.nodes.stop_mission import StopMission
     from fieldhand.task.plan import Node
-    from fieldhand.task.run import Run
+    from fieldhand.task.run import PlanRun
 
 #: A range of characters of the request: start, and end (exclusive).
 Span: TypeAlias = tuple[int, int]
@@ -114,7 +114,7 @@ class PlanNode(ABC):
     said: tuple[Span, ...]
 
     @abstractmethod
-    def execute(self, run: Run) -> Program:
+    def execute(self, run: PlanRun) -> Program:
         """Execute the node: yield instructions and receive their results.
 
         Args:

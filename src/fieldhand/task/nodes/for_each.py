@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from fieldhand.task.conditions import Condition
     from fieldhand.task.instructions import OpaquePlace
     from fieldhand.task.plan import Node
-    from fieldhand.task.run import Run
+    from fieldhand.task.run import PlanRun
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,7 +45,7 @@ class ForEach(PlanNode):
     until: Condition | None = None
     said: tuple[Span, ...] = ()
 
-    def execute(self, run: Run) -> Program:
+    def execute(self, run: PlanRun) -> Program:
         frame = run.frame
         frame.tour = tour = yield BeginVisits(node=self)
         visited: list[OpaquePlace] = []

@@ -11,7 +11,7 @@ from fieldhand.task.nodes.base import PlanNode, Program, Role, SayPlace, Span
 if TYPE_CHECKING:
     from fieldhand.places.selector import Selector
     from fieldhand.task.instructions import OpaquePlace
-    from fieldhand.task.run import Run
+    from fieldhand.task.run import PlanRun
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -23,7 +23,7 @@ class GoTo(PlanNode):
     label: str = ""
     said: tuple[Span, ...] = ()
 
-    def execute(self, run: Run) -> Program:  # noqa: ARG002
+    def execute(self, run: PlanRun) -> Program:  # noqa: ARG002
         place: OpaquePlace = yield Locate(node=self, selector=self.place)
         yield Permit(node=self, place=place)
         place = yield DriveTo(node=self, place=place)

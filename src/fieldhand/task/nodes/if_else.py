@@ -12,7 +12,7 @@ from fieldhand.task.nodes.base import ChildNode, K, PlanNode, Program, Role, Say
 if TYPE_CHECKING:
     from fieldhand.task.conditions import Condition
     from fieldhand.task.plan import Node
-    from fieldhand.task.run import Run
+    from fieldhand.task.run import PlanRun
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -28,7 +28,7 @@ class If(PlanNode):
     otherwise: Node | None = None
     said: tuple[Span, ...] = ()
 
-    def execute(self, run: Run) -> Program:
+    def execute(self, run: PlanRun) -> Program:
         if (yield Decide(node=self, condition=self.condition)):
             yield from run.do(self.then)
         elif self.otherwise is not None:

@@ -10,7 +10,7 @@ from fieldhand.task.nodes.base import ChildNode, K, PlanNode, Program, Role, Say
 
 if TYPE_CHECKING:
     from fieldhand.task.plan import Node
-    from fieldhand.task.run import Run
+    from fieldhand.task.run import PlanRun
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -21,7 +21,7 @@ class InOrder(PlanNode):
     steps: tuple[Node, ...]
     said: tuple[Span, ...] = ()
 
-    def execute(self, run: Run) -> Program:
+    def execute(self, run: PlanRun) -> Program:
         for at, step in enumerate(self.steps):
             run.frame.left = self.steps[at + 1 :]
             yield from run.do(step)

@@ -11,7 +11,7 @@ from fieldhand.task.nodes.base import ChildNode, GivenUp, K, PlanNode, Program, 
 
 if TYPE_CHECKING:
     from fieldhand.task.plan import Node
-    from fieldhand.task.run import Run
+    from fieldhand.task.run import PlanRun
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,7 +29,7 @@ class OptionalStep(PlanNode):
     reward: float = 1.0
     said: tuple[Span, ...] = ()
 
-    def execute(self, run: Run) -> Program:
+    def execute(self, run: PlanRun) -> Program:
         if not (yield OfferStep(node=self)):
             return
         try:

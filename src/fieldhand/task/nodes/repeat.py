@@ -13,7 +13,7 @@ from fieldhand.task.nodes.base import ChildNode, K, PlanNode, Program, Role, Say
 if TYPE_CHECKING:
     from fieldhand.task.conditions import Condition
     from fieldhand.task.plan import Node
-    from fieldhand.task.run import Run
+    from fieldhand.task.run import PlanRun
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,7 +26,7 @@ class Repeat(PlanNode):
     until: Condition | None = None
     said: tuple[Span, ...] = ()
 
-    def execute(self, run: Run) -> Program:
+    def execute(self, run: PlanRun) -> Program:
         for left in reversed(range(self.times)):
             run.frame.left = (replace(self, times=left),) if left else ()
             yield BeginRound(node=self, left=left)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 from fieldhand.task.nodes.base import PlanNode, Program, Role, SayPlace, Span, Stopped
 
 if TYPE_CHECKING:
-    from fieldhand.task.run import Run
+    from fieldhand.task.run import PlanRun
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -19,7 +19,7 @@ class StopMission(PlanNode):
     exit: Literal["nominal", "faulted"] = "nominal"
     said: tuple[Span, ...] = ()
 
-    def execute(self, run: Run) -> Program:  # noqa: ARG002
+    def execute(self, run: PlanRun) -> Program:  # noqa: ARG002
         yield from ()
         raise Stopped(self)
 

@@ -10,7 +10,7 @@ from fieldhand.task.nodes.base import ChildNode, Failed, K, PlanNode, Program, R
 
 if TYPE_CHECKING:
     from fieldhand.task.plan import Node
-    from fieldhand.task.run import Run
+    from fieldhand.task.run import PlanRun
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -22,7 +22,7 @@ class Try(PlanNode):
     otherwise: Node
     said: tuple[Span, ...] = ()
 
-    def execute(self, run: Run) -> Program:
+    def execute(self, run: PlanRun) -> Program:
         frame = run.frame
         frame.instead = (self.otherwise,)
         try:
