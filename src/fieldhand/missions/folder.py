@@ -207,7 +207,10 @@ def begin(under: Path, name: str, inputs: Inputs) -> StoredMission:
         "files": {file: _sha256(data) for file, data in files.items()},
     }
     if inputs.departure is not None:
-        about["departure"] = asdict(inputs.departure)
+        departure = asdict(inputs.departure)
+        if not inputs.departure.by.options:
+            del departure["by"]["options"]  # which versions without plugins do not know
+        about["departure"] = departure
     whole = json_text(about, indent=1).encode()
     if (folder / ABOUT).exists():
         raise JournalError(
