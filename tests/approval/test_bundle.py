@@ -121,7 +121,7 @@ def test_gdal_reads_nothing_of_a_stranger(make, tmp_path: Path, monkeypatch: pyt
     def read(*_: object, **__: object) -> None:
         raise AssertionError("a file of a stranger was read")
 
-    monkeypatch.setattr(gis, "read_confined", read)
+    monkeypatch.setattr(gis, "read_sandboxed", read)
     monkeypatch.setattr(gis, "read_here", read)
     with pytest.raises(NotTrustedError, match="read only if someone trusted has signed it"):
         content_of(sealed, now=NOW, stranger=True)

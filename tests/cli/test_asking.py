@@ -59,7 +59,9 @@ def test_one_question_after_the_other_is_answered_by_number_or_words(
 ) -> None:
     typed("2\n4\n")
     planner = Asks(TWO)
-    assert plan_and_ask("go", GROUND, planner, Replies()) == ("go", PLANNED)
+    words, outcome = plan_and_ask("go", GROUND, planner, Replies())
+    assert isinstance(outcome, Planned)
+    assert (words, outcome.task) == ("go", PLANNED.task)
     assert planner.answers == (
         Answer(question="Which end?", answer="south"),
         Answer(question="How many?", answer="4"),

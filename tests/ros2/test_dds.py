@@ -209,7 +209,7 @@ def test_unknown_types_and_names_are_refused_in_words(node: DdsTransport) -> Non
     for make in (node.client, node.serve):
         with pytest.raises(Ros2Error, match="the type no_msgs/srv/Such is not known here"):
             make("/x", "no_msgs/srv/Such")
-        with pytest.raises(Ros2Error, match="'x y' is no name"):
+        with pytest.raises(Ros2Error, match="'x y' is not a valid topic or service name"):
             make("x y", "std_srvs/srv/Empty")
 
 

@@ -314,7 +314,8 @@ def drives(robot: SimRobot, *, since: int) -> list[str]:
 
 
 def test_a_robot_that_does_not_answer_leaves_no_mission_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(robot_connection, "connected_robot", partial(connected_robot, within_s=0.2))
+    hasty = partial(connected_robot, within_s=0.2)
+    monkeypatch.setattr(robot_connection, "connected_robot", lambda *args: hasty(*args[:4]))
     words = ("run", "Measure CO2 at tree 5.", "--site", "demo", "--yes", "--confirm", "--on", "dds", "--namespace", "x")
     done = CliRunner().invoke(assemble(), (*words, "--missions", str(tmp_path)))
     assert isinstance(done.exception, Ros2Error)

@@ -10,7 +10,7 @@ PLANNED = [
     (
         "husky",
         "Could you send the rover out to image trees 4, 9 and 12?",
-        "for Union(TreeIs(4)+TreeIs(9)+TreeIs(12)): [picture]",
+        "for UnionOf(TreeIs(4)+TreeIs(9)+TreeIs(12)): [picture]",
     ),
     (
         "husky",
@@ -117,7 +117,7 @@ PLANNED = [
     ),
     ("husky", "Kick off at the start, photograph tree 8 and make your way back to the end.", "picture @ TreeIs(8)"),
     ("husky", "For the irrigation report, photograph tree 3.", "picture @ TreeIs(3)"),
-    ("amiga", "Get the nitrate content of the soil at trees 3 and 4.", "for Union(TreeIs(3)+TreeIs(4)): [nitrate]"),
+    ("amiga", "Get the nitrate content of the soil at trees 3 and 4.", "for UnionOf(TreeIs(3)+TreeIs(4)): [nitrate]"),
     ("amiga", "Test the ground for nitrate at tree 6.", "nitrate @ TreeIs(6)"),
     (
         "amiga",
@@ -137,7 +137,7 @@ PLANNED = [
     (
         "husky",
         "Photograph trees 60, 5 and 9, and please stick to that order.",
-        "for Union(TreeIs(60)+TreeIs(5)+TreeIs(9)) given: [picture]",
+        "for UnionOf(TreeIs(60)+TreeIs(5)+TreeIs(9)) given: [picture]",
     ),
     ("husky", "Take CO2 at the bottom 4 trees by yield.", "for Top(yield_kg, 4, True): [co2]"),
     ("husky", "a shot of the tree that lies farthest to the south", "picture @ Extreme(south)"),
@@ -231,7 +231,7 @@ PLANNED = [
     (
         "husky",
         "Measure the CO2 at a tree in the middle. In case of a low reading, drive to three different trees nearby and take a picture of each. At the end take a temperature reading at one of the easternmost trees.",
-        "co2 @ Middle = r1; if r1 low: [for Nearest(Here, 3, True, of Other): [picture]]; air @ Take(1, of AmongExtreme(east))",
+        "co2 @ Middle = r1; if r1 low: [for Nearest(Here, 3, True, of NotVisited): [picture]]; air @ Take(1, of AmongExtreme(east))",
     ),
     (
         "husky",
@@ -287,7 +287,7 @@ PLANNED = [
     (
         "husky",
         "Air temp at the northernmost tree, then at the southernmost. If both are under 30 come back to the start. Otherwise take a co2 at the southern one and finish at the end marker.",
-        "air @ Extreme(north) = r1; air @ Extreme(south) = r2; if r1 < 30 degC and r2 < 30 degC: [go Marker(start)] else [co2 @ Extreme(south, of Union(Extreme(north)+Extreme(south))); go Marker(end)] | stay",
+        "air @ Extreme(north) = r1; air @ Extreme(south) = r2; if r1 < 30 degC and r2 < 30 degC: [go Marker(start)] else [co2 @ Extreme(south, of UnionOf(Extreme(north)+Extreme(south))); go Marker(end)] | stay",
     ),
     (
         "husky",
@@ -314,7 +314,7 @@ PLANNED = [
     (
         "husky",
         "Keep taking co2 at different trees on the east side until you get one below 400, but give up after 8 trees.",
-        "for Other(of Half(east)) at most 8 until r1 < 400 ppm: [co2 = r1]",
+        "for NotVisited(of Half(east)) at most 8 until r1 < 400 ppm: [co2 = r1]",
     ),
     (
         "husky",
@@ -324,7 +324,7 @@ PLANNED = [
     (
         "husky",
         "Photograph trees 1 to 9 one after the other till it is too hot.",
-        "for Union(TreeIs(1)+TreeIs(2)+TreeIs(3)+TreeIs(4)+TreeIs(5)+TreeIs(6)+TreeIs(7)+TreeIs(8)+TreeIs(9)) given until r1 high: [picture = r1]",
+        "for UnionOf(TreeIs(1)+TreeIs(2)+TreeIs(3)+TreeIs(4)+TreeIs(5)+TreeIs(6)+TreeIs(7)+TreeIs(8)+TreeIs(9)) given until r1 high: [picture = r1]",
     ),
     (
         "husky",
@@ -350,29 +350,29 @@ PLANNED = [
     (
         "husky",
         "go to a tree in the north, and photograph a tree at least 20 m away from it",
-        "go Take(1, of Half(north)); picture @ Take(1, of Excluding(Union(Here+Within(20, Here))))",
+        "go Take(1, of Half(north)); picture @ Take(1, of Excluding(UnionOf(Here+Within(20, Here))))",
     ),
     (
         "husky",
         "take a photo at the ne corner, then at the other three corners",
-        "picture @ Corners(ne); for Take(3, of Other(of Corners)): [picture]",
+        "picture @ Corners(ne); for Take(3, of NotVisited(of Corners)): [picture]",
     ),
     (
         "husky",
         "do a CO2 in the north west quarter, then photograph two different trees in the north east one",
-        "co2 @ Take(1, of Quarter(nw)); for Take(2, of Other(of Quarter(ne))): [picture]",
+        "co2 @ Take(1, of Quarter(nw)); for Take(2, of NotVisited(of Quarter(ne))): [picture]",
     ),
     (
         "husky",
         "take a co2 reading in each quarter",
-        "for Union(Take(1, of Quarter(nw))+Take(1, of Quarter(ne))+Take(1, of Quarter(se))+Take(1, of Quarter(sw))): [co2]",
+        "for UnionOf(Take(1, of Quarter(nw))+Take(1, of Quarter(ne))+Take(1, of Quarter(se))+Take(1, of Quarter(sw))): [co2]",
     ),
     ("husky", "co2 at four spots 20 m apart", "for Spaced(20, 4): [co2]"),
     ("husky", "photograph all four year old trees", "for Where(age_years, eq, 4): [picture]"),
     (
         "husky",
         "photograph each tree that is not on the edge of the orchard",
-        "for Excluding(Union(Edge(north)+Edge(east)+Edge(south)+Edge(west))): [picture]",
+        "for Excluding(UnionOf(Edge(north)+Edge(east)+Edge(south)+Edge(west))): [picture]",
     ),
     (
         "husky",
@@ -509,7 +509,7 @@ PLANNED = [
     (
         "husky",
         "Take a picture of tree 4, and, if there's still time, repeat this at trees 5 and 6.",
-        "picture @ TreeIs(4); maybe [for Union(TreeIs(5)+TreeIs(6)): [picture]]",
+        "picture @ TreeIs(4); maybe [for UnionOf(TreeIs(5)+TreeIs(6)): [picture]]",
     ),
     (
         "husky",
@@ -563,7 +563,7 @@ PLANNED = [
         "for Where(yield_kg, gt, 15): [air]",
     ),
     ("husky", "take a picture of tree 7", "picture @ TreeIs(7)"),
-    ("husky", "photograph trees 4, 9 and 12", "for Union(TreeIs(4)+TreeIs(9)+TreeIs(12)): [picture]"),
+    ("husky", "photograph trees 4, 9 and 12", "for UnionOf(TreeIs(4)+TreeIs(9)+TreeIs(12)): [picture]"),
     ("husky", "take a picture of tree #7", "picture @ TreeIs(7)"),
     (
         "husky",
@@ -640,7 +640,7 @@ PLANNED = [
     ("husky", "take two pictures at each corner", "for Corners: [picture x2]"),
     ("husky", "take a picture of any 6 trees in the northern half", "for Take(6, of Half(north)): [picture]"),
     ("husky", "take a picture of up to 6 trees in the northern half", "for Half(north) at most 6: [picture]"),
-    ("husky", "take a picture of both the first and the last tree", "for Union(First+Last): [picture]"),
+    ("husky", "take a picture of both the first and the last tree", "for UnionOf(First+Last): [picture]"),
     ("husky", "only take a picture of tree 4", "picture @ TreeIs(4)"),
     ("husky", "take a picture of all trees but not tree 5", "for Excluding(TreeIs(5)): [picture]"),
     (
@@ -658,7 +658,7 @@ PLANNED = [
         "measure CO2 at tree 4. If it is low, take a picture. Then go to tree 9 and measure CO2.",
         "co2 @ TreeIs(4) = r1; if r1 low: [picture]; go TreeIs(9); co2",
     ),
-    ("husky", "take a picture and a CO2 reading at trees 4 and 5", "for Union(TreeIs(4)+TreeIs(5)): [picture; co2]"),
+    ("husky", "take a picture and a CO2 reading at trees 4 and 5", "for UnionOf(TreeIs(4)+TreeIs(5)): [picture; co2]"),
     (
         "husky",
         "take pictures of as many trees as you can using at most 30 % of the battery",
@@ -695,17 +695,17 @@ PLANNED = [
         "Go to tree 4 and check if the CO2 is low. If so, take a picture. If not, take a temperature reading.",
         "go TreeIs(4); co2 = r1; if r1 low: [picture] else [air]",
     ),
-    ("husky", "Visit tree 3 and tree 9 and photograph both of them.", "for Union(TreeIs(3)+TreeIs(9)): [picture]"),
+    ("husky", "Visit tree 3 and tree 9 and photograph both of them.", "for UnionOf(TreeIs(3)+TreeIs(9)): [picture]"),
     (
         "husky",
         "Drive to the first tree, then the last tree, and photograph each of them.",
-        "for Union(First+Last) given: [picture]",
+        "for UnionOf(First+Last) given: [picture]",
     ),
-    ("husky", "Go to tree 3 and then tree 9 and read CO2 at both.", "for Union(TreeIs(3)+TreeIs(9)) given: [co2]"),
+    ("husky", "Go to tree 3 and then tree 9 and read CO2 at both.", "for UnionOf(TreeIs(3)+TreeIs(9)) given: [co2]"),
     (
         "husky",
         "Visit the northernmost tree and the southernmost tree and photograph both.",
-        "for Union(Extreme(north)+Extreme(south)): [picture]",
+        "for UnionOf(Extreme(north)+Extreme(south)): [picture]",
     ),
     (
         "husky",
@@ -722,11 +722,11 @@ PLANNED = [
         "Take CO2 at four trees in the south-east quarter, and two in the northern half.",
         "for Take(4, of Quarter(se)): [co2]; for Take(2, of Half(north)): [co2]",
     ),
-    ("husky", "take a picture of all trees except 4 and 5", "for Excluding(Union(TreeIs(4)+TreeIs(5))): [picture]"),
+    ("husky", "take a picture of all trees except 4 and 5", "for Excluding(UnionOf(TreeIs(4)+TreeIs(5))): [picture]"),
     (
         "husky",
         "take a picture of all trees except trees 4 and 5",
-        "for Excluding(Union(TreeIs(4)+TreeIs(5))): [picture]",
+        "for Excluding(UnionOf(TreeIs(4)+TreeIs(5))): [picture]",
     ),
     ("husky", "take a picture of every tree, except tree 5", "for Excluding(TreeIs(5)): [picture]"),
     ("husky", "take a picture of trees that are not yellow", "for Where(leaf_color, ne, yellow): [picture]"),
@@ -734,7 +734,7 @@ PLANNED = [
     (
         "husky",
         "take a picture of every tree in the northern half and the western half",
-        "for Union(Half(north)+Half(west)): [picture]",
+        "for UnionOf(Half(north)+Half(west)): [picture]",
     ),
     (
         "husky",
@@ -806,12 +806,12 @@ PLANNED = [
     (
         "husky",
         "visit trees 4, 5 and 6 in that order and take a picture of each",
-        "for Union(TreeIs(4)+TreeIs(5)+TreeIs(6)) given: [picture]",
+        "for UnionOf(TreeIs(4)+TreeIs(5)+TreeIs(6)) given: [picture]",
     ),
     (
         "husky",
         "take a picture of tree 4. Repeat this at trees 5 and 6.",
-        "picture @ TreeIs(4); for Union(TreeIs(5)+TreeIs(6)): [picture]",
+        "picture @ TreeIs(4); for UnionOf(TreeIs(5)+TreeIs(6)): [picture]",
     ),
     ("husky", "take a picture of tree 4. Do the same at the last tree.", "picture @ TreeIs(4); go Last; picture"),
     (
@@ -920,8 +920,16 @@ PLANNED = [
     ("husky", "Take a picture in the wet corner.", "picture @ Take(1, of InZone(wet corner))"),
     ("husky", "Take 3 pictures in the wet corner.", "for Take(3, of InZone(wet corner)): [picture]"),
     ("husky", "Take a picture of tree 4 and 2 CO2 readings at tree 9", "picture @ TreeIs(4); co2 x2 @ TreeIs(9)"),
-    ("husky", "Take a picture of tree 4, tree 9, and tree 12.", "for Union(TreeIs(4)+TreeIs(9)+TreeIs(12)): [picture]"),
-    ("husky", "take a picture of trees 4 to 6 and 9", "for Union(TreeIs(4)+TreeIs(5)+TreeIs(6)+TreeIs(9)): [picture]"),
+    (
+        "husky",
+        "Take a picture of tree 4, tree 9, and tree 12.",
+        "for UnionOf(TreeIs(4)+TreeIs(9)+TreeIs(12)): [picture]",
+    ),
+    (
+        "husky",
+        "take a picture of trees 4 to 6 and 9",
+        "for UnionOf(TreeIs(4)+TreeIs(5)+TreeIs(6)+TreeIs(9)): [picture]",
+    ),
     (
         "husky",
         "Take a picture of every Carmel tree if it is older than 8 years.",
@@ -938,7 +946,7 @@ PLANNED = [
     (
         "husky",
         "Take a CO2 sample at tree 12, then take one at some other tree, then at yet another one.",
-        "co2 @ TreeIs(12); co2 @ Take(1, of Other); co2 @ Take(1, of Other)",
+        "co2 @ TreeIs(12); co2 @ Take(1, of NotVisited); co2 @ Take(1, of NotVisited)",
     ),
     ("husky", "Read co2 at tree 5, at tree 6 and at tree 7.", "co2 @ TreeIs(5); co2 @ TreeIs(6); co2 @ TreeIs(7)"),
     (
@@ -950,7 +958,7 @@ PLANNED = [
     (
         "husky",
         "Take a picture of the northernmost and southernmost trees.",
-        "for Union(Extreme(north)+Extreme(south)): [picture]",
+        "for UnionOf(Extreme(north)+Extreme(south)): [picture]",
     ),
     (
         "husky",
@@ -983,7 +991,7 @@ PLANNED = [
     (
         "husky",
         "Read co2 at any 3 of trees 5, 6, 7, 8 and 9.",
-        "for Take(3, of Union(TreeIs(5)+TreeIs(6)+TreeIs(7)+TreeIs(8)+TreeIs(9))): [co2]",
+        "for Take(3, of UnionOf(TreeIs(5)+TreeIs(6)+TreeIs(7)+TreeIs(8)+TreeIs(9))): [co2]",
     ),
     ("husky", "Photograph tree 4, but only if it is yellow.", "go TreeIs(4); if leaf_color = yellow: [picture]"),
     (

@@ -25,7 +25,7 @@ PLANNED = [
     (
         "husky",
         "In rows 2, 5 and 8, photograph the northernmost tree of the row.",
-        "for Union(Extreme(north, of Rows(2, 2))+Extreme(north, of Rows(5, 5))+Extreme(north, of Rows(8, 8))): [picture]",
+        "for UnionOf(Extreme(north, of Rows(2, 2))+Extreme(north, of Rows(5, 5))+Extreme(north, of Rows(8, 8))): [picture]",
     ),
     (
         "husky",
@@ -58,7 +58,7 @@ PLANNED = [
     (
         "husky",
         "Take one picture per row.",
-        "for Union(Take(1, of Rows(1, 1))+Take(1, of Rows(2, 2))+Take(1, of Rows(3, 3))+Take(1, of Rows(4, 4))+Take(1, of Rows(5, 5))+Take(1, of Rows(6, 6))+Take(1, of Rows(7, 7))+Take(1, of Rows(8, 8))+Take(1, of Rows(9, 9))+Take(1, of Rows(10, 10))): [picture]",
+        "for UnionOf(Take(1, of Rows(1, 1))+Take(1, of Rows(2, 2))+Take(1, of Rows(3, 3))+Take(1, of Rows(4, 4))+Take(1, of Rows(5, 5))+Take(1, of Rows(6, 6))+Take(1, of Rows(7, 7))+Take(1, of Rows(8, 8))+Take(1, of Rows(9, 9))+Take(1, of Rows(10, 10))): [picture]",
     ),
     (
         "husky",
@@ -71,7 +71,7 @@ PLANNED = [
     (
         "husky",
         "take a picture of every tree in rows 2, 4 and 7",
-        "for Union(Rows(2, 2)+Rows(4, 4)+Rows(7, 7)): [picture]",
+        "for UnionOf(Rows(2, 2)+Rows(4, 4)+Rows(7, 7)): [picture]",
     ),
     ("husky", "take pictures of rows 2 through 5", "for Rows(2, 5): [picture]"),
     ("husky", "take pictures of all trees in the last row", "for Rows(-1, -1): [picture]"),
@@ -82,18 +82,18 @@ PLANNED = [
     (
         "husky",
         "take a picture of a tree in each row",
-        "for Union(Take(1, of Rows(1, 1))+Take(1, of Rows(2, 2))+Take(1, of Rows(3, 3))+Take(1, of Rows(4, 4))+Take(1, of Rows(5, 5))+Take(1, of Rows(6, 6))+Take(1, of Rows(7, 7))+Take(1, of Rows(8, 8))+Take(1, of Rows(9, 9))+Take(1, of Rows(10, 10))): [picture]",
+        "for UnionOf(Take(1, of Rows(1, 1))+Take(1, of Rows(2, 2))+Take(1, of Rows(3, 3))+Take(1, of Rows(4, 4))+Take(1, of Rows(5, 5))+Take(1, of Rows(6, 6))+Take(1, of Rows(7, 7))+Take(1, of Rows(8, 8))+Take(1, of Rows(9, 9))+Take(1, of Rows(10, 10))): [picture]",
     ),
     ("husky", "take a picture of trees 4-9 of row 2", "for InRow(4, 9, of Rows(2, 2)): [picture]"),
     ("husky", "take a picture of tree 7 in row 3", "picture @ InRow(7, 7, of Rows(3, 3))"),
     ("husky", "take a picture of the first tree of row 3", "picture @ InRow(1, 1, of Rows(3, 3))"),
     ("husky", "photograph the last tree of row 3", "picture @ InRow(-1, -1, of Rows(3, 3))"),
     ("husky", "take a picture of the first three trees of every row", "for InRow(1, 3, of Rows): [picture]"),
-    ("husky", "read co2 at both ends of each row", "for Union(InRow(1, 1, of Rows)+InRow(-1, -1, of Rows)): [co2]"),
+    ("husky", "read co2 at both ends of each row", "for UnionOf(InRow(1, 1, of Rows)+InRow(-1, -1, of Rows)): [co2]"),
     (
         "husky",
         "read co2 at the ends of row 4",
-        "for Union(InRow(1, 1, of Rows(4, 4))+InRow(-1, -1, of Rows(4, 4))): [co2]",
+        "for UnionOf(InRow(1, 1, of Rows(4, 4))+InRow(-1, -1, of Rows(4, 4))): [co2]",
     ),
     ("husky", "read co2 at the middle of row 4", "co2 @ Middle(of Rows(4, 4))"),
     ("husky", "take a picture of every third tree", "for EveryNth(3): [picture]"),
@@ -224,7 +224,7 @@ PLANNED = [
     (
         "husky",
         "take a picture of the oldest tree of each row",
-        "for Union(Top(age_years, 1, of Rows(1, 1))+Top(age_years, 1, of Rows(2, 2))+Top(age_years, 1, of Rows(3, 3))+Top(age_years, 1, of Rows(4, 4))+Top(age_years, 1, of Rows(5, 5))+Top(age_years, 1, of Rows(6, 6))+Top(age_years, 1, of Rows(7, 7))+Top(age_years, 1, of Rows(8, 8))+Top(age_years, 1, of Rows(9, 9))+Top(age_years, 1, of Rows(10, 10))): [picture]",
+        "for UnionOf(Top(age_years, 1, of Rows(1, 1))+Top(age_years, 1, of Rows(2, 2))+Top(age_years, 1, of Rows(3, 3))+Top(age_years, 1, of Rows(4, 4))+Top(age_years, 1, of Rows(5, 5))+Top(age_years, 1, of Rows(6, 6))+Top(age_years, 1, of Rows(7, 7))+Top(age_years, 1, of Rows(8, 8))+Top(age_years, 1, of Rows(9, 9))+Top(age_years, 1, of Rows(10, 10))): [picture]",
     ),
     (
         "husky",
@@ -235,29 +235,29 @@ PLANNED = [
     (
         "husky",
         "Photograph all of the trees in rows 1, 3 and 5.",
-        "for Union(Rows(1, 1)+Rows(3, 3)+Rows(5, 5)): [picture]",
+        "for UnionOf(Rows(1, 1)+Rows(3, 3)+Rows(5, 5)): [picture]",
     ),
     (
         "husky",
         "Check CO2 at the first and last tree of row 6.",
-        "for Union(InRow(1, 1, of Rows(6, 6))+InRow(-1, -1, of Rows(6, 6))): [co2]",
+        "for UnionOf(InRow(1, 1, of Rows(6, 6))+InRow(-1, -1, of Rows(6, 6))): [co2]",
     ),
     (
         "husky",
         "take a picture of the second tree and the fourth tree of row 3",
-        "for Union(InRow(2, 2, of Rows(3, 3))+InRow(4, 4, of Rows(3, 3))): [picture]",
+        "for UnionOf(InRow(2, 2, of Rows(3, 3))+InRow(4, 4, of Rows(3, 3))): [picture]",
     ),
     (
         "husky",
         "In every other row, starting with row 1, photograph the first tree and the last tree of the row.",
-        "for Union(InRow(1, 1, of Rows(1, 2))+InRow(-1, -1, of Rows(1, 2))): [picture]",
+        "for UnionOf(InRow(1, 1, of Rows(1, 2))+InRow(-1, -1, of Rows(1, 2))): [picture]",
     ),
     ("husky", "In row 2, take a picture of every fourth tree.", "for EveryNth(4, of Rows(2, 2)): [picture]"),
     ("husky", "Head down row 7 and read CO2 at every other tree.", "for EveryNth(2, of Rows(7, 7)): [co2]"),
     (
         "husky",
         "For every row, take a picture of the northernmost tree.",
-        "for Union(Extreme(north, of Rows(1, 1))+Extreme(north, of Rows(2, 2))+Extreme(north, of Rows(3, 3))+Extreme(north, of Rows(4, 4))+Extreme(north, of Rows(5, 5))+Extreme(north, of Rows(6, 6))+Extreme(north, of Rows(7, 7))+Extreme(north, of Rows(8, 8))+Extreme(north, of Rows(9, 9))+Extreme(north, of Rows(10, 10))): [picture]",
+        "for UnionOf(Extreme(north, of Rows(1, 1))+Extreme(north, of Rows(2, 2))+Extreme(north, of Rows(3, 3))+Extreme(north, of Rows(4, 4))+Extreme(north, of Rows(5, 5))+Extreme(north, of Rows(6, 6))+Extreme(north, of Rows(7, 7))+Extreme(north, of Rows(8, 8))+Extreme(north, of Rows(9, 9))+Extreme(north, of Rows(10, 10))): [picture]",
     ),
     (
         "husky",
@@ -310,7 +310,7 @@ PLANNED = [
     (
         "husky",
         "Take a picture of tree 80 and the tree directly opposite it.",
-        "for Union(TreeIs(80)+Across(TreeIs(80))): [picture]",
+        "for UnionOf(TreeIs(80)+Across(TreeIs(80))): [picture]",
     ),
     ("husky", "Take a picture of the tree opposite tree 80.", "picture @ Across(TreeIs(80))"),
     (
@@ -330,12 +330,12 @@ PLANNED = [
     (
         "husky",
         "Take a picture at each end of rows 2 to 4.",
-        "for Union(InRow(1, 1, of Rows(2, 4))+InRow(-1, -1, of Rows(2, 4))): [picture]",
+        "for UnionOf(InRow(1, 1, of Rows(2, 4))+InRow(-1, -1, of Rows(2, 4))): [picture]",
     ),
     (
         "husky",
         "Take two pictures in each row.",
-        "for Union(Take(2, of Rows(1, 1))+Take(2, of Rows(2, 2))+Take(2, of Rows(3, 3))+Take(2, of Rows(4, 4))+Take(2, of Rows(5, 5))+Take(2, of Rows(6, 6))+Take(2, of Rows(7, 7))+Take(2, of Rows(8, 8))+Take(2, of Rows(9, 9))+Take(2, of Rows(10, 10))): [picture]",
+        "for UnionOf(Take(2, of Rows(1, 1))+Take(2, of Rows(2, 2))+Take(2, of Rows(3, 3))+Take(2, of Rows(4, 4))+Take(2, of Rows(5, 5))+Take(2, of Rows(6, 6))+Take(2, of Rows(7, 7))+Take(2, of Rows(8, 8))+Take(2, of Rows(9, 9))+Take(2, of Rows(10, 10))): [picture]",
     ),
     (
         "husky",
@@ -368,7 +368,7 @@ PLANNED = [
     (
         "husky",
         "Take a picture of the middle tree of each row.",
-        "for Union(Middle(of Rows(1, 1))+Middle(of Rows(2, 2))+Middle(of Rows(3, 3))+Middle(of Rows(4, 4))+Middle(of Rows(5, 5))+Middle(of Rows(6, 6))+Middle(of Rows(7, 7))+Middle(of Rows(8, 8))+Middle(of Rows(9, 9))+Middle(of Rows(10, 10))): [picture]",
+        "for UnionOf(Middle(of Rows(1, 1))+Middle(of Rows(2, 2))+Middle(of Rows(3, 3))+Middle(of Rows(4, 4))+Middle(of Rows(5, 5))+Middle(of Rows(6, 6))+Middle(of Rows(7, 7))+Middle(of Rows(8, 8))+Middle(of Rows(9, 9))+Middle(of Rows(10, 10))): [picture]",
     ),
     ("husky", "Take a picture of tree 25 of row 2.", "picture @ TreeIs(25)"),
     (
@@ -389,17 +389,17 @@ PLANNED = [
     (
         "husky",
         "take a picture of the first and last yellow tree of row 4",
-        "for Union(InRow(1, 1, of Where(leaf_color, eq, yellow, of Rows(4, 4)))+InRow(-1, -1, of Where(leaf_color, eq, yellow, of Rows(4, 4)))): [picture]",
+        "for UnionOf(InRow(1, 1, of Where(leaf_color, eq, yellow, of Rows(4, 4)))+InRow(-1, -1, of Where(leaf_color, eq, yellow, of Rows(4, 4)))): [picture]",
     ),
     (
         "husky",
         "take a picture of the northernmost and southernmost trees in the northern half",
-        "for Union(Extreme(north, of Half(north))+Extreme(south, of Half(north))): [picture]",
+        "for UnionOf(Extreme(north, of Half(north))+Extreme(south, of Half(north))): [picture]",
     ),
     (
         "husky",
         "take a picture of all trees in row 3 and row 5 that are older than 8 years",
-        "for Where(age_years, gt, 8, of Union(Rows(3, 3)+Rows(5, 5))): [picture]",
+        "for Where(age_years, gt, 8, of UnionOf(Rows(3, 3)+Rows(5, 5))): [picture]",
     ),
     ("husky", "take pictures of every row", "for Rows: [picture]"),
     ("husky", "take pictures in row 3", "for Rows(3, 3): [picture]"),
@@ -413,16 +413,16 @@ PLANNED = [
     (
         "husky",
         "take a picture of trees 20 to 25 of row 2",
-        "for Union(TreeIs(20)+TreeIs(21)+TreeIs(22)+TreeIs(23)+TreeIs(24)+TreeIs(25)): [picture]",
+        "for UnionOf(TreeIs(20)+TreeIs(21)+TreeIs(22)+TreeIs(23)+TreeIs(24)+TreeIs(25)): [picture]",
     ),
     ("husky", "walk row 3 and take a picture of every tree", "for Rows(3, 3): [picture]"),
     ("husky", "follow row 3 and take a picture at every third tree", "for EveryNth(3, of Rows(3, 3)): [picture]"),
     (
         "husky",
         "in each row, take a picture of the oldest tree",
-        "for Union(Top(age_years, 1, of Rows(1, 1))+Top(age_years, 1, of Rows(2, 2))+Top(age_years, 1, of Rows(3, 3))+Top(age_years, 1, of Rows(4, 4))+Top(age_years, 1, of Rows(5, 5))+Top(age_years, 1, of Rows(6, 6))+Top(age_years, 1, of Rows(7, 7))+Top(age_years, 1, of Rows(8, 8))+Top(age_years, 1, of Rows(9, 9))+Top(age_years, 1, of Rows(10, 10))): [picture]",
+        "for UnionOf(Top(age_years, 1, of Rows(1, 1))+Top(age_years, 1, of Rows(2, 2))+Top(age_years, 1, of Rows(3, 3))+Top(age_years, 1, of Rows(4, 4))+Top(age_years, 1, of Rows(5, 5))+Top(age_years, 1, of Rows(6, 6))+Top(age_years, 1, of Rows(7, 7))+Top(age_years, 1, of Rows(8, 8))+Top(age_years, 1, of Rows(9, 9))+Top(age_years, 1, of Rows(10, 10))): [picture]",
     ),
-    ("husky", "in rows 2 and 3, take 4 pictures", "for Take(4, of Union(Rows(2, 2)+Rows(3, 3))): [picture]"),
+    ("husky", "in rows 2 and 3, take 4 pictures", "for Take(4, of UnionOf(Rows(2, 2)+Rows(3, 3))): [picture]"),
     ("husky", "in row 3, take a CO2 reading every 10 m", "for Spaced(10, of Rows(3, 3)): [co2]"),
     ("husky", "every 10 m along row 3, take a CO2 reading", "for Spaced(10, of Rows(3, 3)): [co2]"),
     ("husky", "at 10 m intervals along row 3 take a CO2 reading", "for Spaced(10, of Rows(3, 3)): [co2]"),
@@ -430,12 +430,12 @@ PLANNED = [
     (
         "husky",
         "take a CO2 reading every 20 m along rows 2 and 3",
-        "for Union(Spaced(20, of Rows(2, 2))+Spaced(20, of Rows(3, 3))): [co2]",
+        "for UnionOf(Spaced(20, of Rows(2, 2))+Spaced(20, of Rows(3, 3))): [co2]",
     ),
     (
         "husky",
         "take a CO2 reading every 20 m along each row",
-        "for Union(Spaced(20, of Rows(1, 1))+Spaced(20, of Rows(2, 2))+Spaced(20, of Rows(3, 3))+Spaced(20, of Rows(4, 4))+Spaced(20, of Rows(5, 5))+Spaced(20, of Rows(6, 6))+Spaced(20, of Rows(7, 7))+Spaced(20, of Rows(8, 8))+Spaced(20, of Rows(9, 9))+Spaced(20, of Rows(10, 10))): [co2]",
+        "for UnionOf(Spaced(20, of Rows(1, 1))+Spaced(20, of Rows(2, 2))+Spaced(20, of Rows(3, 3))+Spaced(20, of Rows(4, 4))+Spaced(20, of Rows(5, 5))+Spaced(20, of Rows(6, 6))+Spaced(20, of Rows(7, 7))+Spaced(20, of Rows(8, 8))+Spaced(20, of Rows(9, 9))+Spaced(20, of Rows(10, 10))): [co2]",
     ),
     ("husky", "at each corner take three CO2 readings 5 m apart", "for Corners: [for Spaced(5, 3): [co2]]"),
     (
@@ -452,14 +452,14 @@ PLANNED = [
     (
         "husky",
         "take a picture of the trees at both ends of row 3",
-        "for Union(InRow(1, 1, of Rows(3, 3))+InRow(-1, -1, of Rows(3, 3))): [picture]",
+        "for UnionOf(InRow(1, 1, of Rows(3, 3))+InRow(-1, -1, of Rows(3, 3))): [picture]",
     ),
     ("husky", "take pictures at the northern ends of rows 2 to 5", "for InRow(1, 1, north, of Rows(2, 5)): [picture]"),
     ("husky", "take a picture of every tree in the rows", "for Rows: [picture]"),
     (
         "husky",
         "take a picture of a tree of row 3 and a tree of row 4",
-        "for Union(Take(1, of Rows(3, 3))+Take(1, of Rows(4, 4))): [picture]",
+        "for UnionOf(Take(1, of Rows(3, 3))+Take(1, of Rows(4, 4))): [picture]",
     ),
     (
         "husky",
@@ -512,7 +512,7 @@ PLANNED = [
     (
         "husky",
         "photograph trees 5, 9 and 3 from west to east",
-        "for Ordered(west_to_east, of Union(TreeIs(5)+TreeIs(9)+TreeIs(3))) given: [picture]",
+        "for Ordered(west_to_east, of UnionOf(TreeIs(5)+TreeIs(9)+TreeIs(3))) given: [picture]",
     ),
     (
         "husky",
@@ -547,12 +547,12 @@ PLANNED = [
     (
         "husky",
         "take a picture of every tree of rows 3 and 4 except trees 40 and 60",
-        "for Excluding(Union(TreeIs(40)+TreeIs(60)), of Union(Rows(3, 3)+Rows(4, 4))): [picture]",
+        "for Excluding(UnionOf(TreeIs(40)+TreeIs(60)), of UnionOf(Rows(3, 3)+Rows(4, 4))): [picture]",
     ),
     (
         "husky",
         "take a picture of every tree in row 3 except tree 4 and tree 7",
-        "for Excluding(Union(InRow(4, 4, of Rows(3, 3))+InRow(7, 7, of Rows(3, 3))), of Rows(3, 3)): [picture]",
+        "for Excluding(UnionOf(InRow(4, 4, of Rows(3, 3))+InRow(7, 7, of Rows(3, 3))), of Rows(3, 3)): [picture]",
     ),
     (
         "husky",
@@ -588,7 +588,7 @@ PLANNED = [
     (
         "husky",
         "take a picture of all trees in row 3 except trees 40 and 41",
-        "for Excluding(Union(TreeIs(40)+TreeIs(41)), of Rows(3, 3)): [picture]",
+        "for Excluding(UnionOf(TreeIs(40)+TreeIs(41)), of Rows(3, 3)): [picture]",
     ),
     ("husky", "take a picture of tree 40 of row 3", "picture @ TreeIs(40)"),
     (
@@ -604,12 +604,12 @@ PLANNED = [
     (
         "husky",
         "Take a picture of every tree in row 2 and row 4 in the northern half.",
-        "for Union(Rows(2, 2, of Half(north))+Rows(4, 4, of Half(north))): [picture]",
+        "for UnionOf(Rows(2, 2, of Half(north))+Rows(4, 4, of Half(north))): [picture]",
     ),
     (
         "husky",
         "Take a picture of every tree in the northern half in rows 2 and 4.",
-        "for Union(Rows(2, 2, of Half(north))+Rows(4, 4, of Half(north))): [picture]",
+        "for UnionOf(Rows(2, 2, of Half(north))+Rows(4, 4, of Half(north))): [picture]",
     ),
     (
         "husky",
@@ -619,17 +619,17 @@ PLANNED = [
     (
         "husky",
         "photograph the oldest three trees in each of rows 2 to 4",
-        "for Union(Top(age_years, 3, of Rows(2, 2))+Top(age_years, 3, of Rows(3, 3))+Top(age_years, 3, of Rows(4, 4))): [picture]",
+        "for UnionOf(Top(age_years, 3, of Rows(2, 2))+Top(age_years, 3, of Rows(3, 3))+Top(age_years, 3, of Rows(4, 4))): [picture]",
     ),
     (
         "husky",
         "photograph the oldest tree in each of the last three rows",
-        "for Union(Top(age_years, 1, of Rows(8, 8))+Top(age_years, 1, of Rows(9, 9))+Top(age_years, 1, of Rows(10, 10))): [picture]",
+        "for UnionOf(Top(age_years, 1, of Rows(8, 8))+Top(age_years, 1, of Rows(9, 9))+Top(age_years, 1, of Rows(10, 10))): [picture]",
     ),
     (
         "husky",
         "photograph three trees in every second row",
-        "for Union(Take(3, of Rows(1, 1))+Take(3, of Rows(3, 3))+Take(3, of Rows(5, 5))+Take(3, of Rows(7, 7))+Take(3, of Rows(9, 9))): [picture]",
+        "for UnionOf(Take(3, of Rows(1, 1))+Take(3, of Rows(3, 3))+Take(3, of Rows(5, 5))+Take(3, of Rows(7, 7))+Take(3, of Rows(9, 9))): [picture]",
     ),
     (
         "husky",
@@ -642,7 +642,7 @@ PLANNED = [
     (
         "husky",
         "take a picture and a CO2 reading at both ends of row 5",
-        "for Union(InRow(1, 1, of Rows(5, 5))+InRow(-1, -1, of Rows(5, 5))): [picture; co2]",
+        "for UnionOf(InRow(1, 1, of Rows(5, 5))+InRow(-1, -1, of Rows(5, 5))): [picture; co2]",
     ),
     (
         "husky",
@@ -663,18 +663,18 @@ PLANNED = [
     (
         "husky",
         "take a picture of the 2nd, 4th and 6th tree of row 3",
-        "for Union(InRow(2, 2, of Rows(3, 3))+InRow(4, 4, of Rows(3, 3))+InRow(6, 6, of Rows(3, 3))): [picture]",
+        "for UnionOf(InRow(2, 2, of Rows(3, 3))+InRow(4, 4, of Rows(3, 3))+InRow(6, 6, of Rows(3, 3))): [picture]",
     ),
     (
         "husky",
         "take a picture of the second and fourth tree of row 3",
-        "for Union(InRow(2, 2, of Rows(3, 3))+InRow(4, 4, of Rows(3, 3))): [picture]",
+        "for UnionOf(InRow(2, 2, of Rows(3, 3))+InRow(4, 4, of Rows(3, 3))): [picture]",
     ),
     ("husky", "take pictures of rows 2-4 except row 3", "for Excluding(Rows(3, 3), of Rows(2, 4)): [picture]"),
     (
         "husky",
         "take pictures of every row except rows 3 and 4",
-        "for Excluding(Union(Rows(3, 3)+Rows(4, 4)), of Rows): [picture]",
+        "for Excluding(UnionOf(Rows(3, 3)+Rows(4, 4)), of Rows): [picture]",
     ),
     ("husky", "take pictures of rows 5 to 2", "for Rows(5, 2): [picture]"),
     ("husky", "drive through row 4, taking a picture every 5 trees", "for EveryNth(5, of Rows(4, 4)): [picture]"),
@@ -690,16 +690,16 @@ PLANNED = [
     ),
     ("husky", "in the last row take a picture of the tree in the middle", "picture @ Middle(of Rows(-1, -1))"),
     ("husky", "Check the CO2 of every tree along the eastern edge.", "for Edge(east): [co2]"),
-    ("husky", "Take pictures of the first and last rows.", "for Union(Rows(1, 1)+Rows(-1, -1)): [picture]"),
-    ("husky", "Take pictures of the rows 2 and 3.", "for Union(Rows(2, 2)+Rows(3, 3)): [picture]"),
+    ("husky", "Take pictures of the first and last rows.", "for UnionOf(Rows(1, 1)+Rows(-1, -1)): [picture]"),
+    ("husky", "Take pictures of the rows 2 and 3.", "for UnionOf(Rows(2, 2)+Rows(3, 3)): [picture]"),
     ("husky", "Take pictures in row number 4.", "for Rows(4, 4): [picture]"),
-    ("husky", "Take pictures in row #4 and row #6.", "for Union(Rows(4, 4)+Rows(6, 6)): [picture]"),
+    ("husky", "Take pictures in row #4 and row #6.", "for UnionOf(Rows(4, 4)+Rows(6, 6)): [picture]"),
     ("husky", "Take a picture of every tree in row four.", "for Rows(4, 4): [picture]"),
     ("husky", "Take a picture of the 12th tree of the 2nd row.", "picture @ InRow(12, 12, of Rows(2, 2))"),
     (
         "husky",
         "Take a picture of every 4th tree in rows 1-3 and 7.",
-        "for EveryNth(4, of Union(Rows(1, 3)+Rows(7, 7))): [picture]",
+        "for EveryNth(4, of UnionOf(Rows(1, 3)+Rows(7, 7))): [picture]",
     ),
     (
         "husky",
@@ -727,11 +727,15 @@ PLANNED = [
         "Take a picture of the two trees next to tree 40 in row 3.",
         "for Nearest(TreeIs(40), 2, True): [picture]",
     ),
-    ("husky", "Read CO2 at the third tree of rows 2 and 4.", "for InRow(3, 3, of Union(Rows(2, 2)+Rows(4, 4))): [co2]"),
+    (
+        "husky",
+        "Read CO2 at the third tree of rows 2 and 4.",
+        "for InRow(3, 3, of UnionOf(Rows(2, 2)+Rows(4, 4))): [co2]",
+    ),
     (
         "husky",
         "Read CO2 at the third and fifth trees of rows 2 and 4.",
-        "for Union(InRow(3, 3, of Union(Rows(2, 2)+Rows(4, 4)))+InRow(5, 5, of Union(Rows(2, 2)+Rows(4, 4)))): [co2]",
+        "for UnionOf(InRow(3, 3, of UnionOf(Rows(2, 2)+Rows(4, 4)))+InRow(5, 5, of UnionOf(Rows(2, 2)+Rows(4, 4)))): [co2]",
     ),
     ("husky", "Take 6 CO2 readings along row 5.", "for Take(6, of Rows(5, 5)): [co2]"),
     ("husky", "Take a CO2 reading every 10 m along the row of tree 40.", "for Spaced(10, of RowOf(TreeIs(40))): [co2]"),
@@ -763,7 +767,7 @@ PLANNED = [
         "for Rows(3, 3) optional: [picture] | duration_s 600",
     ),
     ("husky", "Take a picture of a tree in the same row as tree 40.", "picture @ Take(1, of RowOf(TreeIs(40)))"),
-    ("husky", "Take a picture of another tree in row 3.", "picture @ Take(1, of Other(of Rows(3, 3)))"),
+    ("husky", "Take a picture of another tree in row 3.", "picture @ Take(1, of NotVisited(of Rows(3, 3)))"),
     (
         "husky",
         "Take pictures of rows 1 through 4, skipping row 3.",
@@ -772,12 +776,12 @@ PLANNED = [
     (
         "husky",
         "Take a picture of every tree in row 3 in the northern half and every tree in row 4 in the southern half.",
-        "for Union(Rows(3, 3, of Half(north))+Rows(4, 4, of Half(south))): [picture]",
+        "for UnionOf(Rows(3, 3, of Half(north))+Rows(4, 4, of Half(south))): [picture]",
     ),
     (
         "husky",
         "Take a picture of the northernmost tree of row 3 and the southernmost tree of row 4.",
-        "for Union(Extreme(north, of Rows(3, 3))+Extreme(south, of Rows(4, 4))): [picture]",
+        "for UnionOf(Extreme(north, of Rows(3, 3))+Extreme(south, of Rows(4, 4))): [picture]",
     ),
     ("husky", "Take a picture at the corners of rows 2 to 5.", "for Corners(of Rows(2, 5)): [picture]"),
     (
@@ -788,7 +792,7 @@ PLANNED = [
     (
         "husky",
         "go to tree 50, go down the row and take a picture of the next three trees",
-        "go TreeIs(50); for Union(AlongRow(1)+AlongRow(2)+AlongRow(3)): [picture]",
+        "go TreeIs(50); for UnionOf(AlongRow(1)+AlongRow(2)+AlongRow(3)): [picture]",
     ),
     (
         "husky",
@@ -798,7 +802,7 @@ PLANNED = [
     (
         "husky",
         "drive down row 3 and stop at the first tree and the last tree and take a picture",
-        "for Union(InRow(1, 1, of Rows(3, 3))+InRow(-1, -1, of Rows(3, 3))): [picture]",
+        "for UnionOf(InRow(1, 1, of Rows(3, 3))+InRow(-1, -1, of Rows(3, 3))): [picture]",
     ),
     ("husky", "drive down row 3, visit every tree, and take a picture", "for Rows(3, 3): [picture]"),
     (
@@ -809,7 +813,7 @@ PLANNED = [
     (
         "husky",
         "take a picture of the end of row 3 nearest to the charger",
-        "picture @ Nearest(Marker(charger), of Union(InRow(1, 1, of Rows(3, 3))+InRow(-1, -1, of Rows(3, 3))))",
+        "picture @ Nearest(Marker(charger), of UnionOf(InRow(1, 1, of Rows(3, 3))+InRow(-1, -1, of Rows(3, 3))))",
     ),
     ("husky", "take a picture of the third tree from the end of row 3", "picture @ InRow(-3, -3, of Rows(3, 3))"),
     (
@@ -820,7 +824,7 @@ PLANNED = [
     (
         "husky",
         "take a picture of a tree in each of rows 2 to 4",
-        "for Union(Take(1, of Rows(2, 2))+Take(1, of Rows(3, 3))+Take(1, of Rows(4, 4))): [picture]",
+        "for UnionOf(Take(1, of Rows(2, 2))+Take(1, of Rows(3, 3))+Take(1, of Rows(4, 4))): [picture]",
     ),
     ("husky", "take pictures of every third row of trees", "for Rows(3): [picture]"),
     ("husky", "take 5 CO2 readings spaced every 15 m along row 4", "for Spaced(15, 5, of Rows(4, 4)): [co2]"),
@@ -837,14 +841,18 @@ PLANNED = [
         "photograph all yellow trees, then go 5 trees down and read CO2",
         "for Where(leaf_color, eq, yellow): [picture]; go AlongRow(5); co2",
     ),
-    ("husky", "read CO2 at tree 40 and 5 trees down", "for Union(TreeIs(40)+AlongRow(5, TreeIs(40))): [co2]"),
+    ("husky", "read CO2 at tree 40 and 5 trees down", "for UnionOf(TreeIs(40)+AlongRow(5, TreeIs(40))): [co2]"),
     ("husky", "read co2 at tree 40 and at the tree 5 trees down", "co2 @ TreeIs(40); co2 @ AlongRow(5)"),
     (
         "husky",
         "take a picture of tree 40, then every tree in the previous row",
         "picture @ TreeIs(40); for RowOf(-1): [picture]",
     ),
-    ("husky", "read CO2 at the 3rd tree of row 2 and row 4", "for InRow(3, 3, of Union(Rows(2, 2)+Rows(4, 4))): [co2]"),
+    (
+        "husky",
+        "read CO2 at the 3rd tree of row 2 and row 4",
+        "for InRow(3, 3, of UnionOf(Rows(2, 2)+Rows(4, 4))): [co2]",
+    ),
     (
         "husky",
         "take a picture of every fifth tree in row 3 starting from the fifth",
@@ -854,36 +862,36 @@ PLANNED = [
     (
         "husky",
         "could you check the CO2 at both ends of rows 1 and 10?",
-        "for Union(InRow(1, 1, of Union(Rows(1, 1)+Rows(10, 10)))+InRow(-1, -1, of Union(Rows(1, 1)+Rows(10, 10)))): [co2]",
+        "for UnionOf(InRow(1, 1, of UnionOf(Rows(1, 1)+Rows(10, 10)))+InRow(-1, -1, of UnionOf(Rows(1, 1)+Rows(10, 10)))): [co2]",
     ),
     ("husky", "I want pictures of all trees in rows three to five", "for Rows(3, 5): [picture]"),
     ("husky", "go to the third row and read CO2 at its first tree", "co2 @ InRow(1, 1, of Rows(3, 3))"),
     (
         "husky",
         "visit row 2, row 4 and row 6 and take 2 pictures in each",
-        "for Union(Take(2, of Rows(2, 2))+Take(2, of Rows(4, 4))+Take(2, of Rows(6, 6))): [picture]",
+        "for UnionOf(Take(2, of Rows(2, 2))+Take(2, of Rows(4, 4))+Take(2, of Rows(6, 6))): [picture]",
     ),
     (
         "husky",
         "photograph the trees at the ends of every row",
-        "for Union(InRow(1, 1, of Rows)+InRow(-1, -1, of Rows)): [picture]",
+        "for UnionOf(InRow(1, 1, of Rows)+InRow(-1, -1, of Rows)): [picture]",
     ),
     (
         "husky",
         "take a picture of the last tree in each row, from west to east",
         "for Ordered(west_to_east, of InRow(-1, -1, of Rows)) given: [picture]",
     ),
-    ("husky", "for rows 2 and 3, photograph every tree", "for Union(Rows(2, 2)+Rows(3, 3)): [picture]"),
+    ("husky", "for rows 2 and 3, photograph every tree", "for UnionOf(Rows(2, 2)+Rows(3, 3)): [picture]"),
     ("husky", "for each of rows 2 to 4, read CO2 at the first tree", "for InRow(1, 1, of Rows(2, 4)): [co2]"),
     (
         "husky",
         "photograph the first tree of row 1, the second tree of row 2 and the third tree of row 3",
-        "for Union(InRow(1, 1, of Rows(1, 1))+InRow(2, 2, of Rows(2, 2))+InRow(3, 3, of Rows(3, 3))): [picture]",
+        "for UnionOf(InRow(1, 1, of Rows(1, 1))+InRow(2, 2, of Rows(2, 2))+InRow(3, 3, of Rows(3, 3))): [picture]",
     ),
     (
         "husky",
         "read CO2 at trees 2, 4 and 6 of row 5, then return to the start",
-        "for Union(InRow(2, 2, of Rows(5, 5))+InRow(4, 4, of Rows(5, 5))+InRow(6, 6, of Rows(5, 5))): [co2] | return_to_start",
+        "for UnionOf(InRow(2, 2, of Rows(5, 5))+InRow(4, 4, of Rows(5, 5))+InRow(6, 6, of Rows(5, 5))): [co2] | return_to_start",
     ),
     (
         "husky",
@@ -918,31 +926,31 @@ PLANNED = [
     (
         "amiga",
         "take soil moisture readings along rows 1 to 3 every 25 m",
-        "for Union(Spaced(25, of Rows(1, 1))+Spaced(25, of Rows(2, 2))+Spaced(25, of Rows(3, 3))): [moisture]",
+        "for UnionOf(Spaced(25, of Rows(1, 1))+Spaced(25, of Rows(2, 2))+Spaced(25, of Rows(3, 3))): [moisture]",
     ),
     (
         "amiga",
         "take 3 soil moisture readings 10 m apart in each of rows 1 and 2",
-        "for Union(Spaced(10, 3, of Rows(1, 1))+Spaced(10, 3, of Rows(2, 2))): [moisture]",
+        "for UnionOf(Spaced(10, 3, of Rows(1, 1))+Spaced(10, 3, of Rows(2, 2))): [moisture]",
     ),
     (
         "amiga",
         "take a nitrate reading in the middle of each row",
-        "for Union(Middle(of Rows(1, 1))+Middle(of Rows(2, 2))+Middle(of Rows(3, 3))+Middle(of Rows(4, 4))+Middle(of Rows(5, 5))+Middle(of Rows(6, 6))+Middle(of Rows(7, 7))+Middle(of Rows(8, 8))+Middle(of Rows(9, 9))+Middle(of Rows(10, 10))): [nitrate]",
+        "for UnionOf(Middle(of Rows(1, 1))+Middle(of Rows(2, 2))+Middle(of Rows(3, 3))+Middle(of Rows(4, 4))+Middle(of Rows(5, 5))+Middle(of Rows(6, 6))+Middle(of Rows(7, 7))+Middle(of Rows(8, 8))+Middle(of Rows(9, 9))+Middle(of Rows(10, 10))): [nitrate]",
     ),
     ("amiga", "clip a leaf from the third tree of every other row", "for InRow(3, 3, of Rows(2)): [sample_leaf]"),
     (
         "husky",
         "visit rows 2 to 4 and take a picture in each",
-        "for Union(Take(1, of Rows(2, 2))+Take(1, of Rows(3, 3))+Take(1, of Rows(4, 4))): [picture]",
+        "for UnionOf(Take(1, of Rows(2, 2))+Take(1, of Rows(3, 3))+Take(1, of Rows(4, 4))): [picture]",
     ),
     (
         "husky",
         "take 3 CO2 readings 10 m apart in each of rows 1 and 2",
-        "for Union(Spaced(10, 3, of Rows(1, 1))+Spaced(10, 3, of Rows(2, 2))): [co2]",
+        "for UnionOf(Spaced(10, 3, of Rows(1, 1))+Spaced(10, 3, of Rows(2, 2))): [co2]",
     ),
     ("husky", "go to row 3 and take a picture at each tree", "for Rows(3, 3): [picture]"),
-    ("husky", "visit trees 4 and 5 and take 2 pictures at each", "for Union(TreeIs(4)+TreeIs(5)): [picture x2]"),
+    ("husky", "visit trees 4 and 5 and take 2 pictures at each", "for UnionOf(TreeIs(4)+TreeIs(5)): [picture x2]"),
     ("husky", "visit the corners and take a picture at each", "for Corners: [picture]"),
 ]
 
@@ -1370,7 +1378,7 @@ ELSEWHERE = [
     (
         "blocks",
         "take a picture of a tree in each block",
-        "for Union(Take(1, of InBlock(A))+Take(1, of InBlock(B))): [picture]",
+        "for UnionOf(Take(1, of InBlock(A))+Take(1, of InBlock(B))): [picture]",
     ),
     ("blocks", "take pictures in the block", "asks 'the block': which block?"),
     ("blocks", "take pictures in block C", "refuses 'block C': this site has none of that name"),
@@ -1383,14 +1391,14 @@ ELSEWHERE = [
     (
         "blocks",
         "take pictures of row 2 of blocks A and B",
-        "for Union(Rows(2, 2, of InBlock(A))+Rows(2, 2, of InBlock(B))): [picture]",
+        "for UnionOf(Rows(2, 2, of InBlock(A))+Rows(2, 2, of InBlock(B))): [picture]",
     ),
     ("blocks", "take pictures at the corners of block B", "for Corners(of InBlock(B)): [picture]"),
     ("blocks", "take pictures in the northern half of block B", "for Half(north, of InBlock(B)): [picture]"),
     (
         "blocks",
         "take a picture of the oldest tree of each of rows 1 and 2 of block B",
-        "for Union(Top(age, 1, of Rows(1, 1, of InBlock(B)))+Top(age, 1, of Rows(2, 2, of InBlock(B)))): [picture]",
+        "for UnionOf(Top(age, 1, of Rows(1, 1, of InBlock(B)))+Top(age, 1, of Rows(2, 2, of InBlock(B)))): [picture]",
     ),
     (
         "blocks",
@@ -1462,7 +1470,7 @@ ELSEWHERE = [
     (
         "crossed",
         "take a picture of each tree in the river and home blocks",
-        "for Union(InBlock(river)+InBlock(home)): [picture]",
+        "for UnionOf(InBlock(river)+InBlock(home)): [picture]",
     ),
     ("crossed", "take pictures in a block", "asks 'a block': which block?"),
     ("blocks", "take pictures in the B block", "for InBlock(B): [picture]"),
@@ -1480,7 +1488,7 @@ ELSEWHERE = [
     (
         "crossed",
         "take pictures of the trees in row A1 except trees T5 and T7",
-        "for Excluding(Union(TreeIs(T5)+TreeIs(T7)), of Rows(A1, A1)): [picture]",
+        "for Excluding(UnionOf(TreeIs(T5)+TreeIs(T7)), of Rows(A1, A1)): [picture]",
     ),
     (
         "crossed",
@@ -1493,7 +1501,7 @@ ELSEWHERE = [
         "take a picture of tree T64 in row A1",
         "refuses 'tree T64': not all of these trees stand in those rows",
     ),
-    ("crossed", "take a picture of trees T5, T7 and T64", "for Union(TreeIs(T5)+TreeIs(T7)+TreeIs(T64)): [picture]"),
+    ("crossed", "take a picture of trees T5, T7 and T64", "for UnionOf(TreeIs(T5)+TreeIs(T7)+TreeIs(T64)): [picture]"),
     ("blocks", "take pictures of the even rows", "asks 'the even rows': of which block?"),
     ("blocks", "take pictures of the odd rows of block B", "for Rows(1, 2, of InBlock(B)): [picture]"),
     ("named", "take pictures of the even rows", "refuses 'the even rows': these rows are not numbered one after"),
@@ -1502,7 +1510,7 @@ ELSEWHERE = [
     (
         "named",
         "take a picture of every tree in rows A12, a14 and A16",
-        "for Union(Rows(A12, A12)+Rows(A14, A14)+Rows(A16, A16)): [picture]",
+        "for UnionOf(Rows(A12, A12)+Rows(A14, A14)+Rows(A16, A16)): [picture]",
     ),
     (
         "named",
