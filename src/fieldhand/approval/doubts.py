@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from fieldhand.approval.problem import PlanProblem
-from fieldhand.facts import mismatches
 from fieldhand.language import message
+from fieldhand.request_check import mismatches
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from fieldhand.facts import mismatches
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned
+from fieldhand.request_check import mismatches
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import open_site
 from fieldhand.task.codec import decode, encode

@@ -13,9 +13,9 @@ from shapely.geometry import box
 
 from fieldhand import mission
 from fieldhand.errors import ModelError, NotApprovedError
-from fieldhand.facts import mismatches
 from fieldhand.planning.llm.prompt import LONGEST_LINE, MOST_DATA, opening, repair
 from fieldhand.planning.planner import Clarify, Planned, Refused
+from fieldhand.request_check import mismatches
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site, Zone

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from fieldhand.facts import mismatches
 from fieldhand.planning.llm.replay import replay
 from fieldhand.planning.llm.transcript import Session, read_transcript
 from fieldhand.planning.planner import Planned
+from fieldhand.request_check import mismatches
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import load_site, open_site
 from fieldhand.site.model import Site

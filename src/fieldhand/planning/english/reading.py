@@ -6,7 +6,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import count
 
-from fieldhand.facts import mismatches
 from fieldhand.language import message
 from fieldhand.planning.english.arrange import Arranged, Asked, arrange, without_filler
 from fieldhand.planning.english.discourse import Discourse
@@ -29,6 +28,7 @@ from fieldhand.planning.english.unknown import unknown_words
 from fieldhand.planning.english.vocabulary import glue
 from fieldhand.planning.english.wording import reworded
 from fieldhand.planning.planner import Answer, Outcome, Planned, Reason, Refused
+from fieldhand.request_check import mismatches
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.plan import Span

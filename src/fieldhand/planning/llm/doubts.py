@@ -5,8 +5,8 @@ Contradictions that the model does not correct are found again in approval, wher
 
 from __future__ import annotations
 
-from fieldhand.facts import mismatches
 from fieldhand.planning.llm.review import AnswerProblem
+from fieldhand.request_check import mismatches
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.codec import TaskDraft

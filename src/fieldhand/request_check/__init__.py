@@ -8,7 +8,7 @@ silence here does not mean that a plan is right, but a mismatch means that someb
 None of it shares a word list or a rule with the English planner, so that it does not repeat that planner's mistakes.
 """
 
-from fieldhand.facts.compare import mismatches
-from fieldhand.facts.mismatch import PlanMismatch
+from fieldhand.request_check.compare import mismatches
+from fieldhand.request_check.mismatch import PlanMismatch
 
 __all__ = ["PlanMismatch", "mismatches"]

@@ -6,8 +6,8 @@ from functools import cache
 
 import pytest
 
-from fieldhand.facts import mismatches
 from fieldhand.places import selectors as s
+from fieldhand.request_check import mismatches
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.model import Site
 from fieldhand.task import plan as p

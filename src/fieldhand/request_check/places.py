@@ -5,12 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from fieldhand.facts import words as w
-from fieldhand.facts.amounts import StatedAmount
-from fieldhand.facts.mismatch import PlanMismatch
-from fieldhand.facts.plan_facts import PlanFacts
-from fieldhand.facts.request_facts import RequestFacts
 from fieldhand.places import selectors as s
+from fieldhand.request_check import words as w
+from fieldhand.request_check.amounts import StatedAmount
+from fieldhand.request_check.mismatch import PlanMismatch
+from fieldhand.request_check.plan_facts import PlanFacts
+from fieldhand.request_check.request_facts import RequestFacts
 from fieldhand.site.model import Site
 from fieldhand.task.build import FAULTED_EXITS
 from fieldhand.terms import Side

@@ -12,7 +12,6 @@ from typing import Any
 import pytest
 import yaml
 
-from fieldhand.facts import mismatches
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.llm.answer import TaskAnswer, read_answer
@@ -20,6 +19,7 @@ from fieldhand.planning.llm.chat import Reply
 from fieldhand.planning.llm.examples import EXAMPLES, ROBOT
 from fieldhand.planning.llm.review import read_draft
 from fieldhand.planning.planner import Planned
+from fieldhand.request_check import mismatches
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import load_site, open_site

@@ -8,17 +8,17 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from facts.plan_mutants import mutants
-from fieldhand.facts import mismatches
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
+from fieldhand.request_check import mismatches
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.geojson import open_site
 from fieldhand.task import plan as p
 from fieldhand.task.build import make_task
 from fieldhand.task.frames import Task
 from fieldhand.testing.generated.tasks import ROVER, Parts
+from request_check.plan_mutants import mutants
 from support.requests import english as english_requests
 from support.requests import rows as row_requests
 

@@ -6,8 +6,8 @@ from functools import cache
 
 import pytest
 
-from fieldhand.facts import PlanMismatch, mismatches
 from fieldhand.planning.llm.review import read_draft
+from fieldhand.request_check import PlanMismatch, mismatches
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.model import Site

@@ -7,9 +7,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from fieldhand.facts import words as w
-from fieldhand.facts.amounts import Noun, StatedAmount, amounts, numbers_of
-from fieldhand.facts.words import Token, tokens
+from fieldhand.request_check import words as w
+from fieldhand.request_check.amounts import Noun, StatedAmount, amounts, numbers_of
+from fieldhand.request_check.words import Token, tokens
 from fieldhand.robot.model import Action, RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.terms import Side

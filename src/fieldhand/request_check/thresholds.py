@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from fieldhand.facts import words as w
-from fieldhand.facts.amounts import StatedAmount
-from fieldhand.facts.limits import BATTERY
-from fieldhand.facts.mismatch import PlanMismatch
-from fieldhand.facts.plan_facts import PlanFacts, PlannedTest
-from fieldhand.facts.request_facts import RequestFacts
 from fieldhand.language.words import TESTS, say_quantity
+from fieldhand.request_check import words as w
+from fieldhand.request_check.amounts import StatedAmount
+from fieldhand.request_check.limits import BATTERY
+from fieldhand.request_check.mismatch import PlanMismatch
+from fieldhand.request_check.plan_facts import PlanFacts, PlannedTest
+from fieldhand.request_check.request_facts import RequestFacts
 from fieldhand.robot.model import RobotProfile
 
 #: A number of these kinds may be said in another unit of the same thing.

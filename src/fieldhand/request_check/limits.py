@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from fieldhand.facts.amounts import StatedAmount
-from fieldhand.facts.mismatch import PlanMismatch
-from fieldhand.facts.plan_facts import PlanFacts
-from fieldhand.facts.request_facts import RequestFacts
-from fieldhand.facts.words import words_in
+from fieldhand.request_check.amounts import StatedAmount
+from fieldhand.request_check.mismatch import PlanMismatch
+from fieldhand.request_check.plan_facts import PlanFacts
+from fieldhand.request_check.request_facts import RequestFacts
+from fieldhand.request_check.words import words_in
 from fieldhand.task.frames import BudgetKind
 
 _KINDS: dict[BudgetKind, tuple[str, str]] = {

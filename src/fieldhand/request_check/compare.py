@@ -9,17 +9,17 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import accumulate, takewhile
 
-from fieldhand.facts import words as w
-from fieldhand.facts.amounts import StatedAmount, numbers_of
-from fieldhand.facts.limits import limit_mismatches
-from fieldhand.facts.mismatch import PlanMismatch
-from fieldhand.facts.places import place_mismatches
-from fieldhand.facts.plan_facts import PlanFacts, PlannedCaptures, PlannedNumber, plan_facts
-from fieldhand.facts.request_facts import RequestFacts, hints, request_facts
-from fieldhand.facts.selector_sizes import SelectorSizes
-from fieldhand.facts.thresholds import threshold_mismatches
-from fieldhand.facts.unsupported import unsupported_words
 from fieldhand.language.words import listed, say_name
+from fieldhand.request_check import words as w
+from fieldhand.request_check.amounts import StatedAmount, numbers_of
+from fieldhand.request_check.limits import limit_mismatches
+from fieldhand.request_check.mismatch import PlanMismatch
+from fieldhand.request_check.places import place_mismatches
+from fieldhand.request_check.plan_facts import PlanFacts, PlannedCaptures, PlannedNumber, plan_facts
+from fieldhand.request_check.request_facts import RequestFacts, hints, request_facts
+from fieldhand.request_check.selector_sizes import SelectorSizes
+from fieldhand.request_check.thresholds import threshold_mismatches
+from fieldhand.request_check.unsupported import unsupported_words
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task

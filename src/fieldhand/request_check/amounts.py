@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from itertools import zip_longest
 from typing import Literal
 
-from fieldhand.facts import words as w
-from fieldhand.facts.words import Token
+from fieldhand.request_check import words as w
+from fieldhand.request_check.words import Token
 
 AmountKind = Literal[
     "id", "row", "name", "rows", "trees", "captures", "corners", "times", "length", "time", "attribute", "percent",

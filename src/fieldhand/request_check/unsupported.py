@@ -9,9 +9,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from fieldhand.facts import words as w
-from fieldhand.facts.mismatch import PlanMismatch
-from fieldhand.facts.request_facts import RequestFacts
+from fieldhand.request_check import words as w
+from fieldhand.request_check.mismatch import PlanMismatch
+from fieldhand.request_check.request_facts import RequestFacts
 
 _PARTS = "morning|afternoon|evening|night|midnight|noon|midday|lunch|lunchtime|dawn|dusk|sunrise|sunset|nightfall"
 _UNITS = "day|night|week|weekend|fortnight|month|year|season|hour|minute"
