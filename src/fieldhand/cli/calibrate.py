@@ -34,16 +34,18 @@ def calibrate(
     import os
     from datetime import UTC, datetime
 
-    from fieldhand import past
+    from fieldhand import finished_missions
     from fieldhand.cli import show
     from fieldhand.cli.inputs import write_file
     from fieldhand.robot.loader import load_robot
 
     robot = load_robot(name)
-    missions = past.missions_of(robot, events or (), past.history_folder(os.environ), simulated=simulated)
-    found = past.calibrate(robot, missions)
+    missions = finished_missions.measured_missions(
+        robot, events or (), finished_missions.history_folder(os.environ), simulated=simulated
+    )
+    found = finished_missions.calibrate(robot, missions)
     if output is not None:
-        write_file(output, past.calibrated_profile(robot, found, at=datetime.now(UTC)))
+        write_file(output, finished_missions.calibrated_profile(robot, found, at=datetime.now(UTC)))
     if json:
         show.print_json(_record(robot, found, output))
         return

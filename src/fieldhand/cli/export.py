@@ -142,7 +142,7 @@ def _of_log(source: _Source, to: str, output: Path) -> _Made:
     from fieldhand.cli.recorded import ground_of, log_of_folder, plan_of_folder
     from fieldhand.evaluation.event_text import EventText
     from fieldhand.exchange.routes.route import driven
-    from fieldhand.past import read_log
+    from fieldhand.finished_missions import read_log
     from fieldhand.robot.loader import load_robot
     from fieldhand.task.event_lines import to_json
 

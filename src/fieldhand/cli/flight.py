@@ -10,7 +10,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from fieldhand import mission, missions, past
+from fieldhand import finished_missions, mission, missions
 from fieldhand.cli import show
 from fieldhand.cli.approving import approve_plan, review_plan
 from fieldhand.cli.bundles import signer_record
@@ -250,7 +250,7 @@ def conclude(
     """
     from fieldhand.evaluation.event_text import goal_names
 
-    done = past.conclude(
+    done = finished_missions.conclude(
         approved.authorized,
         approved.site,
         approved.robot,
@@ -261,8 +261,8 @@ def conclude(
         at=datetime.now(UTC),
         bundle=orders.bundle,
     )
-    if done.not_kept:
-        note(done.not_kept, orders.language)
+    if done.history_error:
+        note(done.history_error, orders.language)
     assessment = done.assessment
     ended = next((e for e in reversed(events) if isinstance(e, Ended)), None)
     written: list[Path] = []

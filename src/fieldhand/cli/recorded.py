@@ -15,7 +15,7 @@ from fieldhand.language import ENGLISH, Language, message
 from fieldhand.mission.documents import SiteAndRobot
 
 if TYPE_CHECKING:
-    from fieldhand.past import Log
+    from fieldhand.finished_missions import MissionLog
     from fieldhand.task.authorization import Authorization
     from fieldhand.task.frames import Task
 
@@ -78,21 +78,21 @@ def plan_of_folder(folder: Path) -> RecordedPlan:
     )
 
 
-def log_of_folder(folder: Path) -> Log:
+def log_of_folder(folder: Path) -> MissionLog:
     """The log of a mission, as far as it is safe on the disk.
 
     Raises:
         InputError: It has not begun.
     """
     from fieldhand import missions
-    from fieldhand.past import Log
+    from fieldhand.finished_missions import MissionLog
 
     events = missions.events_of(folder)
     if not events:
         raise InputError(
             message("the mission has done nothing yet"), where=str(folder), advice=message("give one that has begun")
         )
-    return Log(events=events, where=str(folder))
+    return MissionLog(events=events, where=str(folder))
 
 
 def plan_of_files(

@@ -42,7 +42,7 @@ def replay(
     from fieldhand.errors import OutputError
     from fieldhand.evaluation.event_text import EventText
     from fieldhand.exchange.replay import film_of, page_of, save_animation
-    from fieldhand.past import read_log
+    from fieldhand.finished_missions import read_log
 
     if output.suffix.lower() not in _ENDINGS:
         what = f"{output.suffix or 'no ending'} is no kind of animation"

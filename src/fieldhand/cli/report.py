@@ -36,7 +36,7 @@ def report(
     """Judge a mission and report it; exit status 1 unless it completed with every goal met and no limit exceeded."""
     import os
 
-    from fieldhand import past
+    from fieldhand import finished_missions
     from fieldhand.cli import show
     from fieldhand.cli.recorded import folder_of, log_of_folder, plan_of_files, plan_of_folder, require_nothing_beside
     from fieldhand.errors import InputError
@@ -59,9 +59,9 @@ def report(
     else:
         plan, log = (
             plan_of_files(task, site, robot, lenient=lenient, language=language),
-            past.read_log(Path(given or "")),
+            finished_missions.read_log(Path(given or "")),
         )
-    files, assessment = past.report_log(
+    files, assessment = finished_missions.report_log(
         output,
         log,
         plan.task,

@@ -37,8 +37,8 @@ def resume(
     """Go on with a mission that a power cut has cut off, from where it was; or end the pause of one under way."""
     from dataclasses import replace
 
+    from fieldhand import finished_missions, missions
     from fieldhand import mission as steps
-    from fieldhand import missions, past
     from fieldhand.approval.production import require_unsigned_allowed
     from fieldhand.cli import show
     from fieldhand.cli.bundles import tell_signer, verify
@@ -82,7 +82,7 @@ def resume(
         log=events,
         mcap=mcap,
         folder=output,
-        history=past.history_folder(os.environ),
+        history=finished_missions.history_folder(os.environ),
         quiet=json,
         language=language,
         bundle=given.bundle,

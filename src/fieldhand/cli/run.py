@@ -69,7 +69,7 @@ def run(
     import os
     from dataclasses import replace
 
-    from fieldhand import mission, missions, past
+    from fieldhand import finished_missions, mission, missions
     from fieldhand.approval.production import require_unsigned_allowed
     from fieldhand.cli import show
     from fieldhand.cli.asking import Replies, plan_or_read, require_no_answer
@@ -125,7 +125,7 @@ def run(
         log=events,
         mcap=mcap,
         folder=output,
-        history=None if no_history else past.history_folder(os.environ),
+        history=None if no_history else finished_missions.history_folder(os.environ),
         quiet=json,
         language=language,
         kept=Kept(under=under, files=files),

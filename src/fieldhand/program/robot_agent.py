@@ -110,7 +110,7 @@ def compose_robot_agent(
     """
     from functools import partial
 
-    from fieldhand import missions, past
+    from fieldhand import finished_missions, missions
     from fieldhand.approval.memory import approval_memory, trust_store
     from fieldhand.delivery.bundle_checks import acceptance
     from fieldhand.execution.world import World
@@ -134,7 +134,7 @@ def compose_robot_agent(
         now=_now,
         admit=admit,
     )
-    conclude = partial(_conclude, past.history_folder(environ), tell)
+    conclude = partial(_conclude, finished_missions.history_folder(environ), tell)
     if connection is None:
         supervisor = MissionSupervisor(
             mission_store,
@@ -178,9 +178,9 @@ def _now() -> datetime:
 
 def _conclude(history: Path, tell: Callable[[str], None], stored: StoredMission) -> None:
     """Leave the report of a mission in its folder, and keep what it cost."""
-    from fieldhand import mission, missions, past
+    from fieldhand import finished_missions, mission, missions
 
-    done = past.conclude(
+    done = finished_missions.conclude(
         stored.authorized,
         stored.site,
         stored.robot,
@@ -191,8 +191,8 @@ def _conclude(history: Path, tell: Callable[[str], None], stored: StoredMission)
         at=_now(),
         bundle=stored.bundle,
     )
-    if done.not_kept:
-        tell(done.not_kept)
+    if done.history_error:
+        tell(done.history_error)
 
 
 def _require_sound(world: World, bundle: Bundle) -> None:

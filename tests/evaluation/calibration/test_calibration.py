@@ -9,7 +9,7 @@ from datetime import UTC, datetime, timedelta
 
 import pytest
 
-from fieldhand import past
+from fieldhand import finished_missions
 from fieldhand.errors import InputError, OutputError, ProfileError, TaskError
 from fieldhand.evaluation.calibration import history
 from fieldhand.evaluation.calibration.calibrate import calibrate
@@ -104,7 +104,7 @@ def test_logs_that_cannot_be_used_are_refused(tmp_path):
 
     def read(events, robot=PROFILE):
         log.write_text("".join(f"{to_json(e)}\n" for e in events))
-        return past.missions_of(robot, [log], tmp_path)
+        return finished_missions.measured_missions(robot, [log], tmp_path)
 
     assert len(read(mission(0))) == 1
     with pytest.raises(InputError, match="is of the robot 'husky', not 'amiga'"):
@@ -112,27 +112,32 @@ def test_logs_that_cannot_be_used_are_refused(tmp_path):
     with pytest.raises(InputError, match="which robot it is of"):
         read(mission(0)[1:])
     with pytest.raises(InputError, match="no driven missions of husky were kept"):
-        past.missions_of(PROFILE, [], tmp_path)
+        finished_missions.measured_missions(PROFILE, [], tmp_path)
     log.write_text('{"event": "arrive", "leg_m": {}}\n')
     with pytest.raises(TaskError, match="line 1: not an event"):
-        past.missions_of(PROFILE, [log], tmp_path)
+        finished_missions.measured_missions(PROFILE, [log], tmp_path)
 
 
 def test_the_same_log_twice_is_one_mission(tmp_path):
     log = tmp_path / "e.jsonl"
     log.write_text("".join(f"{to_json(e)}\n" for e in mission(0)))
-    assert len(past.missions_of(PROFILE, [log, log], tmp_path)) == 1
+    assert len(finished_missions.measured_missions(PROFILE, [log, log], tmp_path)) == 1
 
 
 def test_what_is_kept_comes_back_and_the_same_mission_once(tmp_path):
     events = [mission(seed, stops=4) for seed in range(3)]
-    assert [past.keep_history(tmp_path, PROFILE, e, NOW) for e in (*events, events[0])] == [True, True, True, False]
+    assert [finished_missions.save_history(tmp_path, PROFILE, e, NOW) for e in (*events, events[0])] == [
+        True,
+        True,
+        True,
+        False,
+    ]
     kept = history.load_missions(tmp_path, "husky")
     assert repr([m.steps for m in kept]) == repr([measure_mission(e).steps for e in events]), "nan is not itself"
     assert all(m.simulated for m in kept)
     with pytest.raises(InputError, match=r"3 simulated ones are: --simulated takes them"):
-        past.missions_of(PROFILE, [], tmp_path)
-    assert len(past.missions_of(PROFILE, [], tmp_path, simulated=True)) == 3
+        finished_missions.measured_missions(PROFILE, [], tmp_path)
+    assert len(finished_missions.measured_missions(PROFILE, [], tmp_path, simulated=True)) == 3
 
 
 def test_what_is_kept_is_bounded(tmp_path, monkeypatch):
@@ -156,12 +161,12 @@ def test_a_damaged_history_is_one_clear_line(tmp_path):
     with pytest.raises(InputError, match="is not a history of missions"):
         history.load_missions(tmp_path, "husky")
     with pytest.raises(OutputError, match="cannot be kept"):
-        past.keep_history(tmp_path, PROFILE, mission(0, stops=1), NOW)
+        finished_missions.save_history(tmp_path, PROFILE, mission(0, stops=1), NOW)
 
 
 def test_the_new_profile_differs_in_figures_alone_and_is_another_profile():
     found = calibrate(PROFILE, [measure_mission(mission(seed)) for seed in range(3)])
-    data = past.calibrated_profile(PROFILE, found, at=NOW)
+    data = finished_missions.calibrated_profile(PROFILE, found, at=NOW)
     new = parse_profile(data)
     assert new.sha256 != PROFILE.sha256
     assert new.speed_m_s == pytest.approx(0.8, rel=1e-3)

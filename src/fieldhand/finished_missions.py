@@ -1,4 +1,4 @@
-"""What is done with missions that are over: judge and report one from its log, keep what it cost, fit a robot to that.
+"""Process finished missions: assess and report them, record their costs, and calibrate a robot from those records.
 
 log ──report_log──▶ report  events ──conclude──▶ report, history ──calibrate──▶ Calibration ──calibrated_profile──▶ YAML
 """
@@ -29,22 +29,23 @@ if TYPE_CHECKING:
     from fieldhand.forecast.estimate import Estimate
     from fieldhand.task.authorization import Authorization, AuthorizedTask
 
-#: Fields of events that must be finite numbers. Positions may be unknown.
+#: Fields of events that must be finite numbers; a position may be unknown (NaN).
 _FIGURES = ("t", "leg_m", "travelled_m", "charge_percent")
 
 
 def history_folder(environ: Mapping[str, str]) -> Path:
-    """Where it is kept what missions cost each robot: in the user's state folder."""
+    """Return the folder of mission costs by robot, in the user's state folder."""
     return state_folder(environ) / "history"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Log:
-    """An event log, whole or cut off.
+class MissionLog:
+    """An event log of one mission, complete or truncated.
 
     Attributes:
-        where: What to call it in messages.
-        sha256: Of its file; empty where it is none.
+        events: Events in the order in which they were logged, at least one.
+        where: Name of the log in messages: the path of its file or folder.
+        sha256: SHA-256 of the log file in hexadecimal; empty if the log is not a single file.
     """
 
     events: tuple[Event, ...]
@@ -52,12 +53,12 @@ class Log:
     sha256: str = ""
 
 
-def read_log(path: Path) -> Log:
-    """A log from a file, JSON lines or MCAP; a last line that was cut off in mid-write is left out.
+def read_log(path: Path) -> MissionLog:
+    """Read an event log from a file of JSON lines or an MCAP file; a truncated last line is ignored.
 
     Raises:
-        InputError: The file cannot be read, is damaged, or holds no event.
-        TaskError: A line or a message is no event.
+        InputError: The file cannot be read, is damaged, or contains no event.
+        TaskError: A line or a message is not an event.
     """
     import hashlib
 
@@ -69,12 +70,12 @@ def read_log(path: Path) -> Log:
         raise InputError(
             message("holds no event"), where=str(path), advice=message("give a log that fieldhand run wrote")
         )
-    return Log(events=events, where=str(path), sha256=hashlib.sha256(path.read_bytes()).hexdigest())
+    return MissionLog(events=events, where=str(path), sha256=hashlib.sha256(path.read_bytes()).hexdigest())
 
 
 def report_log(
     folder: Path,
-    log: Log,
+    log: MissionLog,
     task: Task,
     document: bytes,
     site: Site,
@@ -84,19 +85,21 @@ def report_log(
     signed: str = "",
     hashes: Sequence[tuple[str, str]] = (),
 ) -> tuple[ReportFiles, mission.Assessment]:
-    """Judge and report a mission from its event log.
+    """Assess a mission from its event log and write its report.
 
     Args:
-        folder: Where to write the report.
-        log: What happened.
-        task, document: What was carried out.
-        site, robot: Where and with what.
-        authorization: Who approved it; None where that is not known.
-        signed: Whose signature it has, in words; empty where there is none.
-        hashes: SHA-256 of what else it rests on, each with its name.
+        folder: Folder for the report.
+        log: Event log of the mission.
+        task: Task that was executed.
+        document: XML document of the Task.
+        site: Site of the mission.
+        robot: Profile of the robot.
+        authorization: Approval of the Task; None if unknown.
+        signed: Description of the signature in words; empty for an unsigned mission.
+        hashes: Names and SHA-256 hashes of further inputs, listed in the report.
 
     Raises:
-        InputError: The log is of another Task, robot or site, or its figures are no numbers.
+        InputError: The log belongs to another Task, robot or site, or contains figures that are not finite.
         OutputError: The folder cannot be written.
     """
     import hashlib
@@ -124,11 +127,11 @@ def report_log(
     return files, assessment
 
 
-def _require_log_of(task: Task, site: Site, robot: RobotProfile, log: Log) -> None:
-    """Require that a log is one of this Task, on this site, by this robot.
+def _require_log_of(task: Task, site: Site, robot: RobotProfile, log: MissionLog) -> None:
+    """Check that a log belongs to this Task, site and robot and that its figures are in range.
 
     Raises:
-        InputError: The log has no beginning, is of another mission, or has figures out of range; says which.
+        InputError: The log has no start event, belongs to another mission, or has a figure out of range.
     """
     from fieldhand.evaluation.report.log_facts import start_of
 
@@ -163,14 +166,15 @@ def _require_log_of(task: Task, site: Site, robot: RobotProfile, log: Log) -> No
 
 @dataclass(frozen=True, kw_only=True)
 class Conclusion:
-    """What came of a mission.
+    """The assessment of a finished mission, and the error if its costs could not be recorded.
 
     Attributes:
-        not_kept: Why what it cost could not be kept; empty where it was, or was not to be.
+        assessment: Outcome of each goal and of the mission.
+        history_error: Reason why the costs could not be recorded; empty if they were, or were not to be.
     """
 
     assessment: mission.Assessment
-    not_kept: str
+    history_error: str
 
 
 def conclude(
@@ -185,29 +189,32 @@ def conclude(
     at: datetime,
     bundle: Bundle | None = None,
 ) -> Conclusion:
-    """Judge a mission that was carried out, report it, and keep what it cost.
+    """Assess an executed mission, write its report, and record its costs for calibration.
 
-    A mission is not lost because what it cost cannot be kept: that is said in what comes back.
+    If the costs cannot be recorded, the mission is assessed and reported all the same, and
+    :attr:`Conclusion.history_error` gives the reason.
 
     Args:
-        authorized, site, robot: What was carried out, where and with what.
-        events: What happened.
-        estimate: What it was expected to take.
-        folder: Where to write the report; None to write none.
-        history: Where to keep what it cost, for :func:`calibrate`; None to keep nothing.
-        at: When.
-        bundle: The signed mission, if it was one.
+        authorized: Approved Task that was executed.
+        site: Site of the mission.
+        robot: Profile of the robot.
+        events: Events of the mission.
+        estimate: Forecast of time and energy made before the mission; None if there is none.
+        folder: Folder for the report; None to write none.
+        history: Folder for the costs, read by :func:`measured_missions`; None to record none.
+        at: Time of the mission.
+        bundle: Signed mission that was executed; None for an unsigned one.
 
     Raises:
         OutputError: The report cannot be written.
     """
     assessment = mission.assess(authorized.task, events, robot)
-    not_kept = ""
+    history_error = ""
     if history is not None:
         try:
-            keep_history(history, robot, events, at)
+            save_history(history, robot, events, at)
         except OutputError as error:
-            not_kept = str(error)
+            history_error = str(error)
     if folder is not None:
         mission.report(
             folder,
@@ -220,14 +227,14 @@ def conclude(
             signed="" if bundle is None else bundle.signer.in_words,
             hashes=() if bundle is None else (("signed mission", bundle.hashes["bundle"]),),
         )
-    return Conclusion(assessment=assessment, not_kept=not_kept)
+    return Conclusion(assessment=assessment, history_error=history_error)
 
 
-def keep_history(folder: Path, robot: RobotProfile, events: Sequence[Event], at: datetime) -> bool:
-    """Keep what a mission cost the robot, for ``fieldhand robot calibrate``; returns whether it was not kept before.
+def save_history(folder: Path, robot: RobotProfile, events: Sequence[Event], at: datetime) -> bool:
+    """Record the costs of a mission for ``fieldhand robot calibrate``; return False if they were recorded before.
 
     Raises:
-        OutputError: It cannot be written.
+        OutputError: The folder cannot be written.
     """
     from fieldhand.evaluation.calibration.history import save_mission
     from fieldhand.evaluation.calibration.measured_steps import measure_mission
@@ -235,19 +242,19 @@ def keep_history(folder: Path, robot: RobotProfile, events: Sequence[Event], at:
     return save_mission(folder, robot, measure_mission(events), at)
 
 
-def missions_of(
+def measured_missions(
     robot: RobotProfile, logs: Sequence[Path], history: Path, *, simulated: bool = False
 ) -> tuple[MeasuredMission, ...]:
-    """The missions of a robot: those of some event logs, or where there are none those that were kept.
+    """Return the measured missions of a robot: those of the given event logs, or else those recorded in the history.
 
     Args:
-        robot: By its name.
-        logs: Event logs.
-        history: Folder of what was kept.
-        simulated: Take of the latter the simulated missions, not the driven ones.
+        robot: Robot whose name the logs must carry.
+        logs: Paths of event logs; empty to read the history.
+        history: Folder of recorded costs.
+        simulated: True to take the simulated missions of the history instead of the driven ones.
 
     Raises:
-        InputError: A log is of another robot or cannot be read; or nothing was kept.
+        InputError: A log cannot be read or belongs to another robot, or the history has no such mission.
     """
     from fieldhand.evaluation.calibration.history import load_missions
     from fieldhand.evaluation.calibration.measured_steps import measure_mission
@@ -277,26 +284,33 @@ def missions_of(
 
 
 def calibrate(robot: RobotProfile, missions: Sequence[MeasuredMission], *, seed: int = 0) -> Calibration:
-    """Fit the cost model of a robot to its missions.
+    """Fit the cost model of a robot (speed, energy, durations, spread of leg costs) to its missions.
 
     Raises:
-        InputError: They hold too few legs.
+        InputError: The missions contain too few legs.
     """
     from fieldhand.evaluation.calibration.calibrate import calibrate as fitted
 
     return fitted(robot, missions, seed=seed)
 
 
-def calibrated_profile(robot: RobotProfile, found: Calibration, *, at: datetime) -> bytes:
-    """The robot's profile as text with what was fitted; all else stands as before. Its hash is another.
+def calibrated_profile(robot: RobotProfile, calibration: Calibration, *, at: datetime) -> bytes:
+    """Return the robot's profile as YAML with the fitted figures; everything else in the text stays as it is.
+
+    The SHA-256 of the result differs from that of the profile.
+
+    Args:
+        robot: Profile that was calibrated.
+        calibration: Result of :func:`calibrate`.
+        at: Time for the comment in the first line.
 
     Raises:
-        ProfileError: The profile cannot be read any more, or what comes out is none.
+        ProfileError: The profile cannot be read again, or the changed text is not a valid profile.
     """
     from fieldhand.robot.loader import profile_bytes
     from fieldhand.robot.rewrite import with_figures
 
-    changed = found.fit.profile(robot)
+    changed = calibration.fit.profile(robot)
     figures: dict[tuple[str, ...], float] = {
         ("leg_cost", "alpha"): changed.leg_cost.alpha,
         ("speed_m_s",): changed.speed_m_s,
@@ -311,8 +325,8 @@ def calibrated_profile(robot: RobotProfile, found: Calibration, *, at: datetime)
     for action in robot.actions:
         before |= {("actions", action.name, key): getattr(action, key) for key in ("duration_s", "energy_j")}
     note = (
-        f"Calibrated {at.date().isoformat()} from {found.legs} legs and {found.captures} captures of {found.missions}"
-        f" missions; the profile before had SHA-256 {robot.sha256}."
+        f"Calibrated {at.date().isoformat()} from {calibration.legs} legs and {calibration.captures} captures of"
+        f" {calibration.missions} missions; the profile before had SHA-256 {robot.sha256}."
     )
     new = {keys: value for keys, value in figures.items() if value != before[keys]}
     return with_figures(profile_bytes(robot.source)[0], new, note=note, source=robot.source)

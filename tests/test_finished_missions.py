@@ -7,7 +7,7 @@ from datetime import UTC, datetime
 
 import pytest
 
-from fieldhand import mission, past
+from fieldhand import finished_missions, mission
 from fieldhand.errors import InputError
 from fieldhand.evaluation.report.log_facts import end_of
 from fieldhand.execution.world import World
@@ -33,8 +33,8 @@ def log():
 
 def reported(folder, text):
     (folder / "log").write_text(text)
-    log = past.read_log(folder / "log")
-    return *past.report_log(folder / "out", log, TASK, encode(TASK), SITE, ROBOT), log.events
+    log = finished_missions.read_log(folder / "log")
+    return *finished_missions.report_log(folder / "out", log, TASK, encode(TASK), SITE, ROBOT), log.events
 
 
 def test_a_log_is_judged_and_reported(log, tmp_path):
