@@ -15,10 +15,9 @@ from fieldhand.approval.account import unaccounted
 from fieldhand.approval.battery import battery_problems
 from fieldhand.approval.branch_checks import branch_problems, exit_problems
 from fieldhand.approval.budget import budget_problems
-from fieldhand.approval.doubts import doubts
 from fieldhand.approval.problem import PlanProblem, node_in, with_words
+from fieldhand.approval.request_warnings import request_warnings
 from fieldhand.approval.sentences import say_place
-from fieldhand.brief import brief_repr
 from fieldhand.errors import FieldhandError, PlaceError, TaskError
 from fieldhand.forecast.estimate import Estimate, estimate, explore
 from fieldhand.forecast.visit_order import drives_for, start_place
@@ -28,6 +27,7 @@ from fieldhand.places.resolution import resolve, resolve_one
 from fieldhand.places.selector import Selector
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.model import RobotProfile
+from fieldhand.short_repr import short_repr
 from fieldhand.site.drives import Drives
 from fieldhand.site.model import Place, Site
 from fieldhand.task.codec import encode
@@ -55,7 +55,7 @@ class Examination:
     problems: tuple[PlanProblem, ...]
     estimate: Estimate | None
 
-    __repr__ = brief_repr
+    __repr__ = short_repr
 
     @property
     def errors(self) -> tuple[PlanProblem, ...]:
@@ -93,7 +93,7 @@ def examine(
     problems = [*_document(task, robot, document), *_references(task, robot), *_resources(task, site, robot)]
     problems.extend(unaccounted(task))
     if not _errors(problems):
-        problems.extend(doubts(task, site, robot))
+        problems.extend(request_warnings(task, site, robot))
         problems.extend(_places(task, site, robot))
     forecast = None
     if not _errors(problems):

@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 from fieldhand.approval.paths import FAULTS, say_decisions
 from fieldhand.approval.resolved import gather
 from fieldhand.approval.sentences import ReadBackLine, say_exit_after, write_lines
-from fieldhand.brief import brief_repr
 from fieldhand.forecast.estimate import BranchEstimate, Estimate, Figure
 from fieldhand.forecast.resource_limits import ResourceKind, reserve_percent
 from fieldhand.forecast.walk_steps import Walk
@@ -20,6 +19,7 @@ from fieldhand.language import counted, joined, message, recalled
 from fieldhand.language.words import capitalised, listed, say_duration, say_number, say_rounded
 from fieldhand.places.explanation import notes
 from fieldhand.robot.model import RobotProfile
+from fieldhand.short_repr import short_repr
 from fieldhand.site.model import Site
 from fieldhand.task.build import FAULTED_EXITS
 from fieldhand.task.frames import Budget, FaultedExit, Task, Then
@@ -68,7 +68,7 @@ class ReadBack:
     totals: Totals
     usual: frozenset[str] = frozenset()
 
-    __repr__ = brief_repr
+    __repr__ = short_repr
 
     def text_lines(self, *, usual: bool = True) -> tuple[str, ...]:
         """Return the read-back for a terminal: numbered steps, then the rest.

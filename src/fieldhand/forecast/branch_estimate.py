@@ -9,11 +9,11 @@ from itertools import groupby
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.brief import brief_repr
 from fieldhand.forecast.resource_limits import ResourceKind, ResourceLimit, speed_of
 from fieldhand.forecast.sampled_costs import SampledUse
 from fieldhand.forecast.walk_steps import Decision, Walk
 from fieldhand.robot.model import RobotProfile
+from fieldhand.short_repr import short_repr
 from fieldhand.site.model import Place
 from fieldhand.task.frames import Constraints, Fault
 
@@ -81,7 +81,7 @@ class BranchEstimate:
     walk: Walk
     fault: Fault | None = None
 
-    __repr__ = brief_repr
+    __repr__ = short_repr
 
     @property
     def short(self) -> float:

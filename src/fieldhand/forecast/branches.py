@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from fieldhand.brief import brief_repr
 from fieldhand.errors import DriveFault, PlaceError
 from fieldhand.forecast import visit_order
 from fieldhand.forecast.local_decisions import local_decisions
@@ -21,6 +20,7 @@ from fieldhand.forecast.sampled_costs import LegCostSamples, MissionSamples
 from fieldhand.forecast.walk_state import Answers
 from fieldhand.forecast.walk_steps import Decision, Walk, WalkStep
 from fieldhand.robot.model import RobotProfile
+from fieldhand.short_repr import short_repr
 from fieldhand.site.model import Site
 from fieldhand.task import plan
 from fieldhand.task.frames import Task
@@ -80,7 +80,7 @@ class Branches:
     broken: tuple[BrokenBranch, ...] = ()
     coverage: Coverage = "enumerated"
 
-    __repr__ = brief_repr
+    __repr__ = short_repr
 
     @property
     def complete(self) -> bool:

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from fieldhand.brief import brief_repr
 from fieldhand.forecast import visit_order
 from fieldhand.forecast.branch_estimate import BranchEstimate, Figure, estimate_branch
 from fieldhand.forecast.branches import Branches, branches
@@ -17,6 +16,7 @@ from fieldhand.forecast.sampled_costs import DRAWS, LegCostSamples
 from fieldhand.language import message
 from fieldhand.language.words import say_rounded
 from fieldhand.robot.model import RobotProfile
+from fieldhand.short_repr import short_repr
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import InOrder, Node
@@ -49,7 +49,7 @@ class Estimate:
     problems: tuple[str, ...]
     charge_percent: float = 100.0
 
-    __repr__ = brief_repr
+    __repr__ = short_repr
 
     @property
     def complete(self) -> bool:

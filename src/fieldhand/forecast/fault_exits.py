@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fieldhand.brief import brief_repr
 from fieldhand.errors import DriveFault
 from fieldhand.forecast.mission_state import Work
 from fieldhand.forecast.resource_limits import speed_of
@@ -16,6 +15,7 @@ from fieldhand.forecast.sampled_costs import LegCostSamples, MissionSamples
 from fieldhand.forecast.service import retry_work
 from fieldhand.forecast.walk_steps import Decision, Walk, WalkStep
 from fieldhand.robot.model import RobotProfile
+from fieldhand.short_repr import short_repr
 from fieldhand.site.model import Place, Site
 from fieldhand.task.build import exit_of
 from fieldhand.task.frames import Fault, Task
@@ -47,7 +47,7 @@ class FaultExits:
     looked_at: int
     places: int
 
-    __repr__ = brief_repr
+    __repr__ = short_repr
 
 
 def fault_exits(

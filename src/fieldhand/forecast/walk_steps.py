@@ -6,9 +6,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
-from fieldhand.brief import brief_repr
 from fieldhand.forecast.sampled_costs import SampledUse
 from fieldhand.places.context import Context
+from fieldhand.short_repr import short_repr
 from fieldhand.site.model import Place
 from fieldhand.task.plan import Node
 
@@ -92,7 +92,7 @@ class WalkStep:
     answer: bool | None = None
     reached: bool = True
 
-    __repr__ = brief_repr
+    __repr__ = short_repr
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -114,7 +114,7 @@ class Walk:
     unread: tuple[tuple[str, str], ...] = ()
     used: SampledUse | None = field(default=None, compare=False)
 
-    __repr__ = brief_repr
+    __repr__ = short_repr
 
     @property
     def legs_m(self) -> tuple[float, ...]:

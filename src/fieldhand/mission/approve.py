@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING
 
-from fieldhand.brief import brief_repr
 from fieldhand.mission.review_task import Review
 from fieldhand.robot.model import RobotProfile
+from fieldhand.short_repr import short_repr
 from fieldhand.site.model import Site
 from fieldhand.task.authorization import AuthorizedTask
 from fieldhand.task.frames import Task
@@ -33,7 +33,7 @@ class ApprovedMission:
     robot: RobotProfile
     estimate: Estimate | None = None
 
-    __repr__ = brief_repr
+    __repr__ = short_repr
 
     @property
     def task(self) -> Task:

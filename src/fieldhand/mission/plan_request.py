@@ -8,13 +8,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from fieldhand.brief import brief_repr
 from fieldhand.errors import InputError, RequestError
 from fieldhand.files import state_folder
 from fieldhand.language import message
 from fieldhand.planning.planner import Answer, Clarify, Planned, Planner, PlannerSettings, Refused
 from fieldhand.plugins import active
 from fieldhand.robot.model import RobotProfile
+from fieldhand.short_repr import short_repr
 from fieldhand.site.model import Site
 from fieldhand.visible import find_hidden
 
@@ -35,7 +35,7 @@ class Plan(Planned):
     site: Site
     robot: RobotProfile
 
-    __repr__ = brief_repr
+    __repr__ = short_repr
 
     def _repr_html_(self) -> str:
         """Return map and read-back for a notebook."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldhand.brief import brief_repr
 from fieldhand.robot.model import RobotProfile
+from fieldhand.short_repr import short_repr
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
 
@@ -28,7 +28,7 @@ class Review:
     examination: Examination
     read_back: ReadBack | None
 
-    __repr__ = brief_repr
+    __repr__ = short_repr
 
     @property
     def task(self) -> Task:

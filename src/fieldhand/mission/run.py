@@ -8,10 +8,10 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from fieldhand.brief import brief_repr
 from fieldhand.mission.approve import ApprovedMission
 from fieldhand.mission.records import Records
 from fieldhand.robot.model import RobotProfile
+from fieldhand.short_repr import short_repr
 from fieldhand.site.model import Site
 from fieldhand.task.authorization import AuthorizedTask
 from fieldhand.task.exceeded import Exceeded
@@ -65,7 +65,7 @@ class Run:
     mission: ApprovedMission
     result: Result
 
-    __repr__ = brief_repr
+    __repr__ = short_repr
 
     @cached_property
     def events(self) -> Records[Event]:

@@ -14,7 +14,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
-from fieldhand.brief import brief_repr
+from fieldhand.short_repr import short_repr
 
 #: Releases whose definitions of the standard interfaces are known; those of nav2_msgs differ between them.
 Distro = Literal["humble", "iron", "jazzy", "kilted"]
@@ -214,7 +214,7 @@ class Ros2Bindings:
     interfaces: Mapping[str, str] = field(default_factory=dict)
     use_sim_time: bool = False
 
-    __repr__ = brief_repr
+    __repr__ = short_repr
 
     def whole_name(self, name: str) -> str:
         """A name with the robot's namespace before it, beginning with ``/``."""

@@ -8,8 +8,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import Literal
 
-from fieldhand.brief import brief_repr
 from fieldhand.robot.bindings import Ros2Bindings
+from fieldhand.short_repr import short_repr
 
 Direction = Literal["below", "above"]
 
@@ -198,7 +198,7 @@ class RobotProfile:
     patience: Patience = Patience()
     ros2: Ros2Bindings | None = None
 
-    __repr__ = brief_repr
+    __repr__ = short_repr
 
     @classmethod
     def load(cls, name_or_path: str | Path) -> RobotProfile:

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from shapely.geometry import Polygon
 
-from fieldhand.brief import brief_repr
+from fieldhand.short_repr import short_repr
 from fieldhand.site.feature_kinds import ZoneKind
 from fieldhand.site.planting import Planting
 from fieldhand.site.projection import Projection
@@ -125,7 +125,7 @@ class Site:
     notes: tuple[str, ...] = ()
     gates: tuple[Gate, ...] = ()
 
-    __repr__ = brief_repr
+    __repr__ = short_repr
 
     def __post_init__(self) -> None:
         if not isinstance(self.markers, MappingProxyType):

@@ -13,7 +13,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.brief import brief_repr
+from fieldhand.short_repr import short_repr
 
 Known = Literal["file", "inferred"]
 Indices = NDArray[np.intp]
@@ -64,7 +64,7 @@ class Block:
     known: Known
     confidence: float
 
-    __repr__ = brief_repr
+    __repr__ = short_repr
 
     @property
     def runs_east_west(self) -> bool:
@@ -86,7 +86,7 @@ class Planting:
     tree_count: int
     why: str = ""
 
-    __repr__ = brief_repr
+    __repr__ = short_repr
 
     @cached_property
     def rows(self) -> tuple[Row, ...]:

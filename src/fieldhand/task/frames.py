@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from fieldhand.brief import brief_repr
+from fieldhand.short_repr import short_repr
 from fieldhand.task.plan import Node, Span
 
 Then = Literal["return_to_end", "return_to_start", "stay"]
@@ -139,7 +139,7 @@ class Task:
     constraints: Constraints = Constraints()
     resources: tuple[Resource, ...] = ()
 
-    __repr__ = brief_repr
+    __repr__ = short_repr
 
     @classmethod
     def from_xml(cls, document: bytes | str | Path) -> Task:

@@ -126,12 +126,8 @@ def test_the_same_log_twice_is_one_mission(tmp_path):
 
 def test_what_is_kept_comes_back_and_the_same_mission_once(tmp_path):
     events = [mission(seed, stops=4) for seed in range(3)]
-    assert [finished_missions.save_history(tmp_path, PROFILE, e, NOW) for e in (*events, events[0])] == [
-        True,
-        True,
-        True,
-        False,
-    ]
+    saved = [finished_missions.save_history(tmp_path, PROFILE, e, NOW) for e in (*events, events[0])]
+    assert saved == [True, True, True, False]
     kept = history.load_missions(tmp_path, "husky")
     assert repr([m.steps for m in kept]) == repr([measure_mission(e).steps for e in events]), "nan is not itself"
     assert all(m.simulated for m in kept)

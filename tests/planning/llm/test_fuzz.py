@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from fieldhand.planning.llm.answer import LONGEST_ANSWER, TaskAnswer, Unusable, read_answer
 from fieldhand.planning.llm.chat import Reply
 from fieldhand.planning.llm.coordinates import coordinates
-from fieldhand.planning.llm.doubts import doubts
+from fieldhand.planning.llm.request_contradictions import request_contradictions
 from fieldhand.planning.llm.review import AnswerProblem, read_draft, review
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import load_robot
@@ -56,7 +56,7 @@ def read(document: str) -> tuple[AnswerProblem, ...]:
     if found:
         return found
     task = make_task(request="Go.", plan=draft.plan, measures={}, constraints=draft.constraints, nominal=draft.nominal)
-    return doubts(task, draft, DEMO, HUSKY)
+    return request_contradictions(task, draft, DEMO, HUSKY)
 
 
 def is_typed(found: tuple[AnswerProblem, ...]) -> bool:

@@ -12,7 +12,7 @@ from typing import Literal
 from xml.sax.saxutils import unescape
 
 from fieldhand.planning.llm.chat import Reply
-from fieldhand.planning.llm.plain import visible_line
+from fieldhand.planning.llm.display_text import visible_line
 
 #: The root elements of the three kinds of answer.
 Kind = Literal["task", "question", "refusal"]

@@ -17,9 +17,9 @@ from fieldhand.planning.homeward import faulted_exits, usual_exit, with_assumed_
 from fieldhand.planning.llm.answer import QuestionAnswer, RefusalAnswer, TaskAnswer, Unusable, read_answer
 from fieldhand.planning.llm.chat import Chat, ChatMessage, Reply
 from fieldhand.planning.llm.coordinates import coordinates
-from fieldhand.planning.llm.doubts import doubts
-from fieldhand.planning.llm.plain import visible_line
+from fieldhand.planning.llm.display_text import visible_line
 from fieldhand.planning.llm.prompt import answered, opening, repair
+from fieldhand.planning.llm.request_contradictions import request_contradictions
 from fieldhand.planning.llm.review import AnswerProblem, read_draft, review
 from fieldhand.planning.llm.settings import LlmSettings
 from fieldhand.planning.llm.transcript import TranscriptWriter, wall_clock
@@ -152,7 +152,7 @@ class LlmPlanner:
                 if problems:
                     return _Understood(problems=problems)
                 planned = _planned(draft, request, site, robot, name, answers)
-                return _Understood(outcome=planned, problems=doubts(planned.task, draft, site, robot))
+                return _Understood(outcome=planned, problems=request_contradictions(planned.task, draft, site, robot))
 
     def _unusable(self, problems: Sequence[AnswerProblem]) -> ModelError:
         """Return the error for the last failed attempt, with its problems."""

@@ -16,10 +16,10 @@ from xml.sax.saxutils import escape
 
 from fieldhand.places.selectors import SELECTORS
 from fieldhand.planning.llm.chat import ChatMessage
+from fieldhand.planning.llm.display_text import visible_line
 from fieldhand.planning.llm.examples import EXAMPLES
 from fieldhand.planning.llm.examples import ROBOT as EXAMPLE_ROBOT
 from fieldhand.planning.llm.language import describe_language
-from fieldhand.planning.llm.plain import visible_line
 from fieldhand.planning.llm.tokens import tokens
 from fieldhand.planning.planner import Answer
 from fieldhand.robot.model import Action, Parameter, Quantity, RobotProfile

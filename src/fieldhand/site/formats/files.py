@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from fieldhand.brief import brief_repr
 from fieldhand.errors import SiteError
 from fieldhand.files import FileFault, read_file
 from fieldhand.language import message, recalled
 from fieldhand.plugins import active
+from fieldhand.short_repr import short_repr
 from fieldhand.site.formats.records import MAX_BYTES, SHAPEFILE_PARTS, Format, SiteRecords, too_big
 from fieldhand.visible import visible
 
@@ -50,7 +50,7 @@ class SiteFiles:
     parts: Mapping[str, bytes]
     source: str
 
-    __repr__ = brief_repr
+    __repr__ = short_repr
 
     @property
     def name(self) -> str:

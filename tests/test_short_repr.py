@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from fieldhand import mission
-from fieldhand.brief import brief_repr
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.loader import load_robot
+from fieldhand.short_repr import short_repr
 from fieldhand.site.geojson import load_demo, site_files
 
 
@@ -21,7 +21,7 @@ class Held:
     array: object
     inner: object = None
 
-    __repr__ = brief_repr
+    __repr__ = short_repr
 
 
 def test_collections_are_counted_and_parts_named() -> None:

@@ -6,19 +6,20 @@ from collections.abc import Sized
 from dataclasses import fields, is_dataclass
 from typing import Any
 
+#: Maximum length of a value, in characters.
 _LONGEST = 60
 
 
-def brief_repr(value: Any) -> str:
-    """Return a dataclass as its fields: collections as their size, parts that are dataclasses as their class.
+def short_repr(value: Any) -> str:
+    """Return the representation of a dataclass: collections by their size, nested dataclasses by their class name.
 
     Assign it to ``__repr__`` of a dataclass with ``repr=False``.
     """
-    held = ", ".join(f"{f.name}={_brief(getattr(value, f.name))}" for f in fields(value) if f.repr)
-    return f"{type(value).__name__}({held})"
+    parts = ", ".join(f"{f.name}={_short(getattr(value, f.name))}" for f in fields(value) if f.repr)
+    return f"{type(value).__name__}({parts})"
 
 
-def _brief(part: Any) -> str:
+def _short(part: Any) -> str:
     if is_dataclass(part) and not isinstance(part, type):
         return f"<{type(part).__name__}>"
     if isinstance(part, Sized) and not isinstance(part, str | bytes):

@@ -12,7 +12,7 @@ from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
 
 
-def doubts(task: Task, site: Site, robot: RobotProfile) -> Iterator[PlanProblem]:
+def request_warnings(task: Task, site: Site, robot: RobotProfile) -> Iterator[PlanProblem]:
     """Yield the warnings that the planner attached to the Task and every detected contradiction with the request."""
     for said in task.command.warnings:
         yield PlanProblem(

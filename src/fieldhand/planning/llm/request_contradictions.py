@@ -14,7 +14,7 @@ from fieldhand.task.frames import Task
 from fieldhand.task.plan import walk
 
 
-def doubts(task: Task, draft: TaskDraft, site: Site, robot: RobotProfile) -> tuple[AnswerProblem, ...]:
+def request_contradictions(task: Task, draft: TaskDraft, site: Site, robot: RobotProfile) -> tuple[AnswerProblem, ...]:
     """Return every certain contradiction between a Task and its request.
 
     Args:
