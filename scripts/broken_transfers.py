@@ -48,7 +48,7 @@ from fieldhand.delivery.robot_client import RobotClient, open_client
 from fieldhand.errors import DeliveryError
 from fieldhand.places.selectors import TreeIs
 from fieldhand.robot.loader import load_robot, profile_bytes
-from fieldhand.site.geojson import open_site, site_files
+from fieldhand.site.loader import open_site, site_files
 from fieldhand.task.build import make_task
 from fieldhand.task.plan import Act
 

@@ -24,7 +24,7 @@ from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import load_robot
-from fieldhand.site.geojson import load_demo
+from fieldhand.site.loader import load_demo
 from fieldhand.task import plan as p
 from fieldhand.task.conditions import AllOf, AnyOf, Condition, Not
 from fieldhand.task.frames import Task

@@ -21,7 +21,7 @@ from fieldhand.errors import FieldhandError
 from fieldhand.planning.llm.replay import record
 from fieldhand.planning.llm.settings import require_settings
 from fieldhand.robot.loader import load_robot
-from fieldhand.site.geojson import open_site
+from fieldhand.site.loader import open_site
 
 
 def main() -> int:

@@ -17,7 +17,7 @@ from fieldhand.errors import BundleError, FieldhandError, ProfileError, RequestE
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.loader import load_robot, parse_profile, profile_bytes
-from fieldhand.site.geojson import load_demo, parse_site
+from fieldhand.site.loader import load_demo, parse_site
 from fieldhand.site.model import Site
 from fieldhand.strict_yaml import YamlFault, read_yaml
 from fieldhand.task.codec import decode, encode
@@ -178,7 +178,7 @@ def test_a_description_on_several_lines_is_read_on_one() -> None:
 
 @pytest.mark.parametrize("character", HIDDEN)
 def test_the_name_of_a_site_file_hides_nothing(character: str, tmp_path: Path) -> None:
-    from fieldhand.site.geojson import load_site
+    from fieldhand.site.loader import load_site
 
     path = tmp_path / f"ho{character}me.geojson"
     path.write_text(json.dumps({"type": "FeatureCollection", "features": features()}))

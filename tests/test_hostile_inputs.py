@@ -23,7 +23,7 @@ from fieldhand.planning.planner import Answer, Planned
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import load_robot, parse_profile, profile_bytes
 from fieldhand.site.formats.files import SiteFiles
-from fieldhand.site.geojson import load_demo, parse_site, site_of
+from fieldhand.site.loader import load_demo, parse_site, site_of
 from fieldhand.task.codec import decode, encode
 from support.examples import examples
 from support.hostile import HIDDEN, each_text, require_visible, texts_of

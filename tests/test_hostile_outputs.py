@@ -34,7 +34,7 @@ from fieldhand.robot.capabilities import measures_of
 from fieldhand.robot.loader import parse_profile, profile_bytes
 from fieldhand.site.drawing.choices import save_choices_picture
 from fieldhand.site.formats.files import SiteFiles
-from fieldhand.site.geojson import site_of
+from fieldhand.site.loader import site_of
 from fieldhand.task.build import make_task
 from fieldhand.task.codec import encode
 from fieldhand.task.frames import Resource

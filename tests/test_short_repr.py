@@ -11,7 +11,7 @@ from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.loader import load_robot
 from fieldhand.short_repr import short_repr
-from fieldhand.site.geojson import load_demo, site_files
+from fieldhand.site.loader import load_demo, site_files
 
 
 @dataclass(repr=False)

@@ -27,7 +27,7 @@ from fieldhand.planning.planner import Planned
 from fieldhand.robot.loader import parse_profile, profile_bytes
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.formats.files import SiteFiles
-from fieldhand.site.geojson import site_of
+from fieldhand.site.loader import site_of
 from fieldhand.site.model import Site
 from fieldhand.task.authorization import AuthorizedTask
 from fieldhand.task.event_lines import to_json

@@ -31,7 +31,7 @@ from fieldhand.robot.loader import parse_profile, profile_bytes, robot_names
 from fieldhand.site.formats.document import site_document
 from fieldhand.site.formats.files import SiteFiles
 from fieldhand.site.formats.geojson import geojson_records
-from fieldhand.site.geojson import demo_path, site_of
+from fieldhand.site.loader import demo_path, site_of
 from fieldhand.task.codec import decode, decode_draft, encode
 from fieldhand.task.event_lines import from_json
 from fieldhand.task.references import references

@@ -12,7 +12,7 @@ from fieldhand.places.selectors import TreeIs
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Clarify, Planned, Reason, Refused
 from fieldhand.robot.model import RobotProfile
-from fieldhand.site.geojson import load_demo
+from fieldhand.site.loader import load_demo
 from fieldhand.site.model import Site
 from fieldhand.task.codec import decode
 from fieldhand.task.plan import Act, walk

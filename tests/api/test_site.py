@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 import shapely
 
-from fieldhand.site.geojson import demo_path, load_demo, parse_site
+from fieldhand.site.loader import demo_path, load_demo, parse_site
 from fieldhand.site.random_orchards import random_orchard
 from support.processes.browser import browser
 

@@ -11,7 +11,7 @@ from fieldhand.approval.checks import check
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.loader import load_robot
-from fieldhand.site.geojson import open_site
+from fieldhand.site.loader import open_site
 from fieldhand.task.frames import Budget, Command, Composition, Constraints, Task
 from fieldhand.task.plan import Act, If, InOrder, Node, OptionalStep, StopMission, walk
 from fieldhand.task.request_coverage import Piece, request_pieces

@@ -20,7 +20,7 @@ from fieldhand.errors import BundleError, NotTrustedError
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.formats import gis
 from fieldhand.site.formats.files import SiteFiles, read_files
-from fieldhand.site.geojson import site_files, site_of
+from fieldhand.site.loader import site_files, site_of
 from fieldhand.task.codec import encode
 from fieldhand.testing.small_orchard import at
 from support.missions.signed import (

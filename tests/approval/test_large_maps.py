@@ -15,7 +15,7 @@ from fieldhand.forecast.estimate import estimate
 from fieldhand.places.selectors import Corners
 from fieldhand.site.drawing.blocks import block_words
 from fieldhand.site.drawing.choices import choices_picture
-from fieldhand.site.geojson import parse_site
+from fieldhand.site.loader import parse_site
 from fieldhand.site.random_orchards import random_orchard
 from fieldhand.task.plan import ForEach
 from fieldhand.task.results import Acted, Arrived, Driving

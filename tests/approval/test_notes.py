@@ -8,7 +8,7 @@ from fieldhand.approval.checks import examine
 from fieldhand.approval.readback import read_back
 from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import AlongRow, Top, TreeIs
-from fieldhand.site.geojson import load_demo
+from fieldhand.site.loader import load_demo
 from fieldhand.site.model import Site
 from fieldhand.task.plan import Act, ForEach, InOrder
 from fieldhand.testing.small_orchard import husky, orchard, task_for

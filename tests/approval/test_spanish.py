@@ -19,7 +19,7 @@ from fieldhand.language import Message, open_language
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.loader import load_robot
-from fieldhand.site.geojson import load_demo
+from fieldhand.site.loader import load_demo
 from fieldhand.task.codec import decode, encode
 from fieldhand.testing.generated.tasks import ROVER, Parts
 from fieldhand.testing.small_orchard import husky, orchard

@@ -13,7 +13,7 @@ from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve
 from fieldhand.places.selectors import SELECTORS
 from fieldhand.places.sources.bound import EXAMPLE_LABEL
-from fieldhand.site.geojson import parse_site
+from fieldhand.site.loader import parse_site
 from fieldhand_bench.site import benchmark_orchard, measure_site, samples
 
 

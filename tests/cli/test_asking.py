@@ -16,7 +16,7 @@ from fieldhand.errors import RequestError
 from fieldhand.mission.documents import SiteAndRobot
 from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned
 from fieldhand.robot.loader import load_robot
-from fieldhand.site.geojson import open_site
+from fieldhand.site.loader import open_site
 from fieldhand.site.model import Site
 from fieldhand.task.build import make_task
 from fieldhand.task.plan import StopMission

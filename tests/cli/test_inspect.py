@@ -18,7 +18,7 @@ from fieldhand.approval.bundle.signature import sign_manifest
 from fieldhand.approval.checks import examine
 from fieldhand.places.selectors import TreeIs
 from fieldhand.robot.loader import parse_profile, profile_bytes
-from fieldhand.site.geojson import site_of
+from fieldhand.site.loader import site_of
 from fieldhand.task.codec import decode, encode
 from fieldhand.task.plan import Act
 from fieldhand.testing.small_orchard import task_for

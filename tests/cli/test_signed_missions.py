@@ -26,7 +26,7 @@ from fieldhand.cli import app, approving, flight, main
 from fieldhand.exchange.mcap import read_mcap
 from fieldhand.execution.journal import store
 from fieldhand.robot.loader import profile_bytes
-from fieldhand.site.geojson import demo_path
+from fieldhand.site.loader import demo_path
 from fieldhand.task.codec import encode
 from fieldhand.task.results import Acted
 from support.missions.signed import pack_mission, signing_key
@@ -147,7 +147,7 @@ def test_what_is_given_beside_a_mission_must_be_what_was_approved(trusting: Comm
     approved(trusting)
     assert trusting("run", "m.mission", "--site", "demo", "--robot", "husky").status == 0
     refuses(trusting("run", "m.mission", "--robot", "amiga"), 2, "--robot", "amiga", "husky")
-    from fieldhand.site.geojson import demo_path
+    from fieldhand.site.loader import demo_path
 
     Path("demo.geojson").write_bytes(demo_path().read_bytes() + b"\n")
     refuses(trusting("run", "m.mission", "--site", "demo.geojson"), 2, "--site", "Demo orchard")

@@ -18,7 +18,7 @@ from fieldhand.forecast.visit_order import drives_for, visits_in_order
 from fieldhand.forecast.walk_branch import walk_branch
 from fieldhand.orienteering.overrun import overrun_probability
 from fieldhand.places.selectors import TreeIs, Trees
-from fieldhand.site.geojson import load_site
+from fieldhand.site.loader import load_site
 from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, ForEach, InOrder, Repeat
 from fieldhand.task.results import Shed

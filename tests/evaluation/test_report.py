@@ -28,7 +28,7 @@ from fieldhand.evaluation.report.readings import MOST_ROWS, relation, summaries
 from fieldhand.evaluation.report.writing import write_report
 from fieldhand.forecast.estimate import estimate
 from fieldhand.places.selectors import Corners
-from fieldhand.site.geojson import parse_site
+from fieldhand.site.loader import parse_site
 from fieldhand.task.authorization import Authorization
 from fieldhand.task.conditions import Compare
 from fieldhand.task.plan import Act, ForEach, If, InOrder

@@ -16,7 +16,7 @@ from PIL import Image
 from fieldhand.errors import InputError, OutputError
 from fieldhand.exchange.replay import film_of, page_of, save_animation
 from fieldhand.exchange.routes.route import driven
-from fieldhand.site.geojson import load_demo
+from fieldhand.site.loader import load_demo
 from fieldhand.task.results import Acted, Arrived, Driving, Ended, Started
 from support.missions.exported import flight
 

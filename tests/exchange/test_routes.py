@@ -18,7 +18,7 @@ from fieldhand.exchange.routes.ground_station import write_plan
 from fieldhand.exchange.routes.kml import write_kml
 from fieldhand.exchange.routes.route import ExportedRoute
 from fieldhand.exchange.routes.table import write_csv
-from fieldhand.site.geojson import load_demo
+from fieldhand.site.loader import load_demo
 from fieldhand.task.results import Acted, Arrived
 from support.missions.exported import PARTING, driven_route, flight, planned_route
 

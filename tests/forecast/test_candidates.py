@@ -21,7 +21,7 @@ from fieldhand.forecast.walk_branch import walk_branch
 from fieldhand.orienteering import table
 from fieldhand.places.selectors import Trees
 from fieldhand.robot.loader import load_robot
-from fieldhand.site.geojson import parse_site
+from fieldhand.site.loader import parse_site
 from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, ForEach
 from fieldhand.testing.small_orchard import husky, orchard, task_for

@@ -208,7 +208,7 @@ def test_what_must_be_done_is_judged_without_what_may_be_left_out() -> None:
     from fieldhand.planning.english.planner import EnglishPlanner
     from fieldhand.planning.planner import Planned
     from fieldhand.robot.loader import load_robot
-    from fieldhand.site.geojson import open_site
+    from fieldhand.site.loader import open_site
 
     site, robot = open_site("demo"), load_robot("husky")
 

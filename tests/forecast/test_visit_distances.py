@@ -11,7 +11,7 @@ from fieldhand.forecast.visit_distances import visit_distances
 from fieldhand.forecast.visit_order import drives_for, start_place, with_stands
 from fieldhand.orienteering.policy import State
 from fieldhand.robot.loader import load_robot
-from fieldhand.site.geojson import parse_site
+from fieldhand.site.loader import parse_site
 from fieldhand.task.frames import Budget, Constraints
 from fieldhand.testing.small_orchard import orchard
 from fieldhand_bench.site.orchard import benchmark_orchard

@@ -20,7 +20,7 @@ from fieldhand import mission
 from fieldhand.execution.world import BatteryDrains, Blocked, TreeRef, World, WorldFault
 from fieldhand.places.selectors import TreeIs, Trees
 from fieldhand.robot.loader import load_robot
-from fieldhand.site.geojson import open_site
+from fieldhand.site.loader import open_site
 from fieldhand.task.build import make_task
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import Budget, Constraints

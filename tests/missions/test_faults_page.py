@@ -17,7 +17,7 @@ from fieldhand.execution.world_file import parse_world
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.loader import load_robot
-from fieldhand.site.geojson import open_site
+from fieldhand.site.loader import open_site
 from support.missions.rig import approved
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"

@@ -14,7 +14,7 @@ from fieldhand.errors import ExecutionError, FieldhandError, JournalError, NotAp
 from fieldhand.execution.journal import store
 from fieldhand.execution.world import World
 from fieldhand.robot.loader import parse_profile
-from fieldhand.site.geojson import site_of
+from fieldhand.site.loader import site_of
 from fieldhand.task.results import Event
 from support.missions.kept import inputs
 

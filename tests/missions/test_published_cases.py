@@ -20,7 +20,7 @@ from fieldhand.planning.llm.replay import replay
 from fieldhand.planning.llm.transcript import read_transcript
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.loader import load_robot
-from fieldhand.site.geojson import open_site
+from fieldhand.site.loader import open_site
 from fieldhand.task.frames import Task
 from fieldhand_bench.missions.case_file import load_cases
 from fieldhand_bench.missions.cases import Expected

@@ -21,7 +21,7 @@ from fieldhand.execution.vehicle import Connection, Vehicle
 from fieldhand.execution.world import World
 from fieldhand.forecast.visit_order import drives_for, start_place
 from fieldhand.places.selectors import Trees
-from fieldhand.site.geojson import open_site
+from fieldhand.site.loader import open_site
 from fieldhand.site.model import Site
 from fieldhand.task.plan import Act, ForEach
 from fieldhand.task.results import Acted, Event, Resumed

@@ -32,7 +32,7 @@ from fieldhand.places.selectors import (
     Take,
     TreeIs,
 )
-from fieldhand.site.geojson import parse_site
+from fieldhand.site.loader import parse_site
 from fieldhand.site.model import Site
 from fieldhand.site.projection import Projection
 from fieldhand.site.random_orchards import make_orchard, random_shapes

@@ -36,7 +36,7 @@ from fieldhand.places.selectors import (
     Successive,
     TreeIs,
 )
-from fieldhand.site.geojson import load_site
+from fieldhand.site.loader import load_site
 from fieldhand.site.model import Place, Site, Tree
 from support.sites.points import at_start
 

@@ -8,7 +8,7 @@ from fieldhand.places import selectors as s
 from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve
 from fieldhand.places.selectors import SELECTORS
-from fieldhand.site.geojson import open_site
+from fieldhand.site.loader import open_site
 
 SITE = open_site("demo")
 EXAMPLES = [kind.example(SITE) for kind in SELECTORS]

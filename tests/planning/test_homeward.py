@@ -11,7 +11,7 @@ from fieldhand.planning.llm.planner import LlmPlanner
 from fieldhand.planning.llm.scripted import ScriptedEndpoint
 from fieldhand.planning.planner import Planned, Planner
 from fieldhand.robot.loader import load_robot
-from fieldhand.site.geojson import open_site
+from fieldhand.site.loader import open_site
 from fieldhand.site.model import Site
 from fieldhand.task.codec import encode_parts
 from fieldhand.task.frames import Composition, Task

@@ -13,7 +13,7 @@ from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
 from fieldhand.request_check import mismatches
 from fieldhand.robot.loader import load_robot
-from fieldhand.site.geojson import open_site
+from fieldhand.site.loader import open_site
 from fieldhand.task import plan as p
 from fieldhand.task.build import make_task
 from fieldhand.task.frames import Task

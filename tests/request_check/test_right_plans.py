@@ -22,7 +22,7 @@ from fieldhand.planning.planner import Planned
 from fieldhand.request_check import mismatches
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import load_robot
-from fieldhand.site.geojson import load_site, open_site
+from fieldhand.site.loader import load_site, open_site
 from fieldhand.site.model import Site
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p

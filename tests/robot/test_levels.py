@@ -12,7 +12,7 @@ from fieldhand.errors import ProfileError
 from fieldhand.mission import review
 from fieldhand.places.selectors import TreeIs
 from fieldhand.robot.loader import load_robot, parse_profile, profile_bytes
-from fieldhand.site.geojson import open_site
+from fieldhand.site.loader import open_site
 from fieldhand.task.build import make_task
 from fieldhand.task.frames import Constraints
 from fieldhand.task.plan import Act

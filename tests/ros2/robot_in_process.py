@@ -30,7 +30,7 @@ from fieldhand.execution.vehicle import Connection, Vehicle
 from fieldhand.robot.bindings import Ros2Bindings
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import Patience, RobotProfile
-from fieldhand.site.geojson import open_site
+from fieldhand.site.loader import open_site
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import Act, Node, walk
 from ros2.conftest import LOOPBACK

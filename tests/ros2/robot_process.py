@@ -20,7 +20,7 @@ from fieldhand.execution.drivers.ros2.simulated_robot.robot import GoalReport, S
 from fieldhand.execution.drivers.ros2.transport import QosProfile
 from fieldhand.execution.world import World
 from fieldhand.robot.loader import load_robot
-from fieldhand.site.geojson import open_site
+from fieldhand.site.loader import open_site
 from ros2.scripted import Script, ScriptedAction
 from ros2.scripted_robot import INTERFACES, Robot, bindings, interfaces
 from support.processes.patience import until

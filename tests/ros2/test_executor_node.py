@@ -151,7 +151,7 @@ class Executor:
 
 @pytest.fixture
 def executor(folder: Path, mission: Path, tmp_path: Path) -> Iterator[Executor]:
-    from fieldhand.site.geojson import open_site
+    from fieldhand.site.loader import open_site
 
     start = open_site("demo").start
     parameters = {

@@ -34,7 +34,7 @@ from fieldhand.execution.world_file import parse_world
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.loader import load_robot, profile_bytes
-from fieldhand.site.geojson import open_site, site_files
+from fieldhand.site.loader import open_site, site_files
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.results import Acted, Arrived, Ended, Event, InDoubt, Paused, Resumed, Shed
 from fieldhand_bench.missions.case_file import load_cases

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from fieldhand import missions
-from fieldhand.site.geojson import open_site
+from fieldhand.site.loader import open_site
 from ros2.sourced import NOT_CYCLONE, goals, graph, rclpy_robot, sourced, standard_husky
 from support.processes.command import fieldhand, in_background
 from support.processes.patience import until

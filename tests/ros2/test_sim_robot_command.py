@@ -21,7 +21,7 @@ from fieldhand.execution.drivers.ros2.dds import open_dds
 from fieldhand.execution.drivers.ros2.driver import Ros2Driver
 from fieldhand.execution.drivers.ros2.ros_clock import RosClock
 from fieldhand.robot.loader import load_robot, profile_bytes
-from fieldhand.site.geojson import open_site
+from fieldhand.site.loader import open_site
 from fieldhand.testing.driver_contract import drive_goal
 from ros2.sim_robots import patient
 from ros2.simulated_robot_rig import interfaces_of

@@ -22,7 +22,7 @@ from fieldhand.execution.world import ActionFails, Blocked, LocalisationLost, Se
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.model import RobotProfile
-from fieldhand.site.geojson import open_site
+from fieldhand.site.loader import open_site
 from fieldhand.site.model import Site
 from fieldhand.task.results import Acted
 from fieldhand.testing.driver_contract import DriverContract, drive_goal, finish

@@ -9,7 +9,7 @@ import pyproj
 import pytest
 
 from fieldhand.errors import SiteError
-from fieldhand.site.geojson import load_site, parse_site
+from fieldhand.site.loader import load_site, parse_site
 from fieldhand.site.model import Site
 from support.sites.points import area, collection, point, read, square
 

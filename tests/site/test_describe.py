@@ -9,7 +9,7 @@ import pytest
 
 from fieldhand.site.describe import describe, report_lines, report_record, row_table, summary_lines
 from fieldhand.site.describe.rows import direction_words
-from fieldhand.site.geojson import open_site
+from fieldhand.site.loader import open_site
 from support.sites.points import grid, orchard, site_of
 
 

@@ -13,7 +13,7 @@ from fieldhand.errors import DriveFault
 from fieldhand.site.describe import aisle_table, describe_driving, report_lines, report_record
 from fieldhand.site.describe import driving as describe_driving_module
 from fieldhand.site.drives import Drives
-from fieldhand.site.geojson import open_site, parse_site
+from fieldhand.site.loader import open_site, parse_site
 from fieldhand.site.random_orchards import random_orchard
 from support.sites.points import grid, orchard, site_of
 

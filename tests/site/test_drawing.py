@@ -23,7 +23,7 @@ from fieldhand.site.drawing import (
 )
 from fieldhand.site.drawing.colours import NO_ROW, ROWS
 from fieldhand.site.drives import Drives
-from fieldhand.site.geojson import open_site, parse_site
+from fieldhand.site.loader import open_site, parse_site
 from fieldhand.site.random_orchards import random_orchard
 from support.sites.points import grid, orchard, site_of, sites
 

@@ -16,7 +16,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fieldhand.errors import SiteError
-from fieldhand.site.geojson import load_demo, load_site
+from fieldhand.site.loader import load_demo, load_site
 from fieldhand.site.model import Site
 from support.sites.gisfiles import kml, placemark, write_layer, zipped
 from support.sites.points import collection, point, read, square
@@ -225,7 +225,7 @@ def test_gdal_never_reads_a_file_in_the_process_that_asks(tmp_path):
     path = tmp_path / "farm.kml"
     path.write_bytes(kml(placemark(LON, LAT)))
     script = (
-        "import sys; from pathlib import Path; from fieldhand.site.geojson import load_site\n"
+        "import sys; from pathlib import Path; from fieldhand.site.loader import load_site\n"
         f"print(len(load_site(Path({str(path)!r})).trees), 'pyogrio' in sys.modules)"
     )
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from fieldhand.site.demo_orchard import OrchardShape, Variety, demo_orchard, generate_orchard, to_text
 from fieldhand.site.drives import Drives
-from fieldhand.site.geojson import open_site, parse_site
+from fieldhand.site.loader import open_site, parse_site
 from fieldhand.site.random_orchards import random_orchard
 
 

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from fieldhand.errors import SiteError
 from fieldhand.site.formats.sandbox import ReadLimits, read_limits, read_sandboxed
-from fieldhand.site.geojson import load_site
+from fieldhand.site.loader import load_site
 from support.examples import examples
 from support.sites.gisfiles import kml, write_layer, zipped
 from support.sites.points import collection, point, square

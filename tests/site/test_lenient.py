@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from fieldhand.site.geojson import load_site, parse_site
+from fieldhand.site.loader import load_site, parse_site
 from fieldhand.site.model import Site
 from support.processes.command import fieldhand
 from support.sites.points import collection, point, read

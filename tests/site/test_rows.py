@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from fieldhand.site.geojson import load_demo, load_site
+from fieldhand.site.loader import load_demo, load_site
 from fieldhand.site.model import Site
 from fieldhand.site.planting import Planting
 from fieldhand.site.random_orchards import BlockShape, make_orchard, random_orchard

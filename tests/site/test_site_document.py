@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from fieldhand.site.demo_orchard import to_text
 from fieldhand.site.formats.document import site_document
-from fieldhand.site.geojson import load_demo, parse_site
+from fieldhand.site.loader import load_demo, parse_site
 from support.sites.gisfiles import degrees, line
 from support.sites.points import area, point, read, square
 

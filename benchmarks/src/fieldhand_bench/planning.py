@@ -16,7 +16,7 @@ from fieldhand.forecast.visit_order import drives_for
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Clarify, Outcome, Planned
 from fieldhand.robot.loader import load_robot
-from fieldhand.site.geojson import parse_site
+from fieldhand.site.loader import parse_site
 from fieldhand_bench.site import benchmark_orchard
 
 ROBOT = "husky"

@@ -12,7 +12,7 @@ import numpy as np
 from fieldhand.errors import SiteError
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
-from fieldhand.site.geojson import parse_site
+from fieldhand.site.loader import parse_site
 from fieldhand.site.model import Site
 from fieldhand.site.random_orchards import BlockShape, GeneratedOrchard, make_orchard, random_shapes
 

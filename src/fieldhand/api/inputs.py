@@ -160,7 +160,7 @@ def open_choice(choice: Literal["demo"] | SiteText | dict[str, Any]) -> Site:
     Raises:
         SiteError: What was sent is no site.
     """
-    from fieldhand.site.geojson import parse_site
+    from fieldhand.site.loader import parse_site
 
     if isinstance(choice, str):
         return _demo()
@@ -177,7 +177,7 @@ def open_choice(choice: Literal["demo"] | SiteText | dict[str, Any]) -> Site:
 @lru_cache(maxsize=1)
 def _demo() -> Site:
     """The built-in orchard, read once, without the path from which it was read."""
-    from fieldhand.site.geojson import load_demo
+    from fieldhand.site.loader import load_demo
 
     return replace(load_demo(), source="demo")
 

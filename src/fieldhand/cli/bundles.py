@@ -42,7 +42,7 @@ def open_mission(file: str, site: str | None, robot: str | None, *, lenient: boo
     from fieldhand.approval.bundle.container import read_bundle_file
     from fieldhand.approval.memory import approval_memory
     from fieldhand.robot.loader import load_robot
-    from fieldhand.site.geojson import open_site
+    from fieldhand.site.loader import open_site
 
     bundle = verify(read_bundle_file(Path(file)), file)
     if robot is not None and load_robot(robot).sha256 != bundle.robot.sha256:

@@ -51,7 +51,7 @@ def read_ground(
         SiteError, ProfileError: One of them cannot be used.
     """
     from fieldhand.robot.loader import parse_profile, profile_bytes
-    from fieldhand.site.geojson import site_files, site_of
+    from fieldhand.site.loader import site_files, site_of
 
     files = site_files(site)
     opened = site_of(files, lenient=lenient)

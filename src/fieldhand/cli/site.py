@@ -37,7 +37,7 @@ def site(
     from fieldhand.site.describe import describe_driving, report_lines, report_record
     from fieldhand.site.describe.figures import MOST_NOTES
     from fieldhand.site.drives import Drives
-    from fieldhand.site.geojson import open_site
+    from fieldhand.site.loader import open_site
 
     opened = open_site(file, lenient=lenient)
     profile = load_robot(robot)

@@ -336,7 +336,7 @@ class FolderContents:
         from fieldhand.approval.authorize import approved_before
         from fieldhand.robot.loader import parse_profile
         from fieldhand.site.formats.files import SiteFiles
-        from fieldhand.site.geojson import site_of
+        from fieldhand.site.loader import site_of
 
         folder, files = self.folder, self.files
         robot = parse_profile(files["robot.yaml"], source=str(folder / "robot.yaml"))

@@ -116,7 +116,7 @@ def compose_robot_agent(
     from fieldhand.execution.world import World
     from fieldhand.execution.world_file import load_world
     from fieldhand.robot.loader import load_robot
-    from fieldhand.site.geojson import open_site
+    from fieldhand.site.loader import open_site
 
     profile = load_robot(robot)
     places = tuple(open_site(one, lenient=lenient) for one in sites)

@@ -142,14 +142,14 @@ class Site:
         Raises:
             SiteError: The file cannot be read, or does not hold a site; names the features at fault.
         """
-        from fieldhand.site.geojson import load_site
+        from fieldhand.site.loader import load_site
 
         return load_site(Path(path), lenient=lenient)
 
     @classmethod
     def demo(cls) -> Site:
         """Return the built-in orchard, which is made up."""
-        from fieldhand.site.geojson import load_demo
+        from fieldhand.site.loader import load_demo
 
         return load_demo()
 

@@ -21,7 +21,7 @@ from fieldhand.errors import RequestError
 from fieldhand.planning.planner import Clarify, Planned, Planner, Refused
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
-from fieldhand.site.geojson import open_site
+from fieldhand.site.loader import open_site
 from fieldhand.site.model import Site
 from fieldhand.task.codec import encode
 from fieldhand.task.frames import Task

@@ -9,7 +9,7 @@ from typing import Any
 from fieldhand.robot.capabilities import measures_of
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
-from fieldhand.site.geojson import parse_site
+from fieldhand.site.loader import parse_site
 from fieldhand.site.model import Site
 from fieldhand.task.build import make_task
 from fieldhand.task.frames import Resource, Task

@@ -9,7 +9,7 @@ from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.english.rewording import Worded
 from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Refused
 from fieldhand.robot.loader import load_robot
-from fieldhand.site.geojson import open_site
+from fieldhand.site.loader import open_site
 from fieldhand.task.plan import Act, ForEach, walk
 from planning.english.outlines import outline
 

@@ -9,7 +9,7 @@ from fieldhand.planning.english.languages import language_of
 from fieldhand.planning.english.planner import LONGEST_REQUEST, EnglishPlanner
 from fieldhand.planning.planner import Outcome, Refused
 from fieldhand.robot.loader import load_robot
-from fieldhand.site.geojson import open_site
+from fieldhand.site.loader import open_site
 
 SITE, HUSKY = open_site("demo"), load_robot("husky")
 

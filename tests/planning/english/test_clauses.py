@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Clarify, Planned, Refused
 from fieldhand.robot.loader import load_robot
-from fieldhand.site.geojson import open_site
+from fieldhand.site.loader import open_site
 from planning.english.outlines import outline
 
 DEMO, HUSKY = open_site("demo"), load_robot("husky")

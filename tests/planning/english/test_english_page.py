@@ -10,7 +10,7 @@ import pytest
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Clarify, Planned
 from fieldhand.robot.loader import load_robot
-from fieldhand.site.geojson import open_site
+from fieldhand.site.loader import open_site
 from planning.english.outlines import outline
 
 PAGE = Path(__file__).resolve().parents[3] / "docs" / "english.md"

@@ -17,7 +17,7 @@ from fieldhand.planning.english.triggers import may_match
 from fieldhand.planning.english.wording import _compiled, _rules, _text
 from fieldhand.planning.planner import Clarify, Planned, Refused
 from fieldhand.robot.loader import load_robot
-from fieldhand.site.geojson import open_site
+from fieldhand.site.loader import open_site
 from planning.english.outlines import outline
 from support.requests.english import PLANNED
 

@@ -8,7 +8,7 @@ from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned
 from fieldhand.request_check import mismatches
 from fieldhand.robot.loader import load_robot
-from fieldhand.site.geojson import open_site
+from fieldhand.site.loader import open_site
 from fieldhand.task.codec import decode, encode
 
 DEMO, HUSKY = open_site("demo"), load_robot("husky")

@@ -17,7 +17,7 @@ from fieldhand.planning.english.vocabulary import vocabulary
 from fieldhand.planning.planner import Clarify, Planned, Refused
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import load_robot
-from fieldhand.site.geojson import open_site
+from fieldhand.site.loader import open_site
 from fieldhand.task.codec import encode
 from fieldhand.task.references import references
 from fieldhand.task.schema import validate

@@ -15,7 +15,7 @@ from fieldhand.planning.llm.request_contradictions import request_contradictions
 from fieldhand.planning.llm.review import AnswerProblem, read_draft, review
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import load_robot
-from fieldhand.site.geojson import open_site
+from fieldhand.site.loader import open_site
 from fieldhand.task.build import make_task
 from fieldhand.task.codec import TaskDraft, encode
 from fieldhand.task.frames import Task

@@ -11,7 +11,7 @@ from fieldhand.planning.llm.transcript import Session, read_transcript
 from fieldhand.planning.planner import Planned
 from fieldhand.request_check import mismatches
 from fieldhand.robot.loader import load_robot
-from fieldhand.site.geojson import load_site, open_site
+from fieldhand.site.loader import load_site, open_site
 from fieldhand.site.model import Site
 
 ROOT = Path(__file__).resolve().parents[3]

@@ -10,7 +10,7 @@ from fieldhand import mission
 from fieldhand.errors import ModelError
 from fieldhand.planning.planner import Clarify, Planned
 from fieldhand.robot.loader import load_robot
-from fieldhand.site.geojson import open_site
+from fieldhand.site.loader import open_site
 from fieldhand.task.codec import decode, encode
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import Act

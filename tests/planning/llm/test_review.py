@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from fieldhand.planning.llm.review import AnswerProblem, read_draft, review
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import load_robot
-from fieldhand.site.geojson import open_site
+from fieldhand.site.loader import open_site
 from fieldhand.task.build import number
 from fieldhand.task.codec import TaskDraft, encode
 from fieldhand.task.frames import Task

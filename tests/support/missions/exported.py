@@ -8,7 +8,7 @@ from fieldhand.exchange.routes.route import ExportedRoute, driven, planned
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.loader import load_robot
-from fieldhand.site.geojson import load_demo
+from fieldhand.site.loader import load_demo
 from fieldhand.task.frames import Task
 from support.missions.flights import Flight, fly_task
 

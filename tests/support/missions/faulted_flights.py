@@ -36,7 +36,7 @@ from fieldhand.execution.world import (
 from fieldhand.places.selectors import TreeIs, Trees, UnionOf
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import Patience, RobotProfile
-from fieldhand.site.geojson import open_site, parse_site
+from fieldhand.site.loader import open_site, parse_site
 from fieldhand.site.model import Site
 from fieldhand.task.build import FAULTED_EXITS, make_task
 from fieldhand.task.event_lines import to_json

@@ -14,7 +14,7 @@ from fieldhand.execution.world_file import parse_world
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned, Planner
 from fieldhand.robot.loader import load_robot
-from fieldhand.site.geojson import open_site
+from fieldhand.site.loader import open_site
 from fieldhand.site.model import Site
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import Task

@@ -10,7 +10,7 @@ from fieldhand.approval.authorize import EveryWarning
 from fieldhand.execution.world_file import decode_world
 from fieldhand.places.selectors import TreeIs
 from fieldhand.robot.loader import parse_profile, profile_bytes
-from fieldhand.site.geojson import site_files, site_of
+from fieldhand.site.loader import site_files, site_of
 from fieldhand.task.build import make_task
 from fieldhand.task.plan import Act
 

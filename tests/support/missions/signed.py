@@ -24,7 +24,7 @@ from fieldhand.approval.keys.trust import KnownKey
 from fieldhand.places.selectors import TreeIs
 from fieldhand.robot.loader import parse_profile, profile_bytes
 from fieldhand.site.formats.files import SiteFiles
-from fieldhand.site.geojson import site_of
+from fieldhand.site.loader import site_of
 from fieldhand.task.plan import Act
 from fieldhand.testing.small_orchard import at, task_for
 from support.sites.points import collection, point

@@ -18,7 +18,7 @@ from fieldhand.places.selectors import Corners, Here, Nearest, Quarter, Where
 from fieldhand.planning.planner import Answer, Outcome, Planned, Planner
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
-from fieldhand.site.geojson import load_demo
+from fieldhand.site.loader import load_demo
 from fieldhand.site.model import Site
 from fieldhand.task.build import make_task
 from fieldhand.task.codec import encode

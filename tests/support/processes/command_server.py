@@ -33,7 +33,7 @@ def load() -> None:
             importlib.import_module(module.name)
     from fieldhand.planning.english.planner import EnglishPlanner
     from fieldhand.robot.loader import load_robot
-    from fieldhand.site.geojson import open_site
+    from fieldhand.site.loader import open_site
 
     EnglishPlanner().plan("Take pictures of the corner trees.", open_site("demo"), load_robot("husky"))
 

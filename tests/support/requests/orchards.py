@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from fieldhand.site.geojson import parse_site
+from fieldhand.site.loader import parse_site
 from fieldhand.site.model import Site
 
 LAT, LON = 37.07, -120.25

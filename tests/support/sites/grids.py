@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from fieldhand.site.geojson import parse_site
+from fieldhand.site.loader import parse_site
 from fieldhand.site.model import Site
 
 LAT, LON = 37.3, -120.5

@@ -13,7 +13,7 @@ from shapely.geometry import Polygon
 
 from fieldhand.places.context import Context
 from fieldhand.site.feature_kinds import ZoneKind
-from fieldhand.site.geojson import parse_site
+from fieldhand.site.loader import parse_site
 from fieldhand.site.model import Place, Site, Tree, Zone
 from fieldhand.site.planting import Block, Planting, Row
 from fieldhand.site.projection import Projection

@@ -18,7 +18,7 @@ from fieldhand.execution.world_file import parse_world
 from fieldhand.files import FileFault, read_file
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
-from fieldhand.site.geojson import demo_path
+from fieldhand.site.loader import demo_path
 from fieldhand.strict_yaml import YamlFault, read_yaml
 from fieldhand_bench.missions.case_form import (
     BookForm,

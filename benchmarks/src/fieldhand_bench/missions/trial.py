@@ -16,7 +16,7 @@ from fieldhand.planning.llm.chat import Chat, ChatMessage, Reply
 from fieldhand.planning.planner import Clarify, Outcome, Planned, Planner, Refused
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
-from fieldhand.site.geojson import load_site
+from fieldhand.site.loader import load_site
 from fieldhand.site.model import Site
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import Task

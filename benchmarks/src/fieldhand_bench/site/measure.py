@@ -19,7 +19,7 @@ from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve
 from fieldhand.places.sources.bound import EXAMPLE_LABEL
 from fieldhand.site.drives import Drives
-from fieldhand.site.geojson import load_site, parse_site
+from fieldhand.site.loader import load_site, parse_site
 from fieldhand.site.model import Place, Site
 from fieldhand_bench.site.memory import own_peak_bytes, peak_bytes
 from fieldhand_bench.site.orchard import benchmark_orchard

@@ -19,7 +19,7 @@ from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import parse_profile
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.formats.files import SiteFiles, is_plain
-from fieldhand.site.geojson import site_of
+from fieldhand.site.loader import site_of
 from fieldhand.site.model import Site
 from fieldhand.task.authorization import Authorization, AuthorizedTask
 from fieldhand.task.codec import decode, encode

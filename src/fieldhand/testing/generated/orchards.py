@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from hypothesis import strategies as st
 
-from fieldhand.site.geojson import parse_site
+from fieldhand.site.loader import parse_site
 from fieldhand.site.model import Site
 from fieldhand.site.random_orchards import BlockShape, GeneratedOrchard, make_orchard
 

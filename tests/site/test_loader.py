@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from fieldhand.errors import SiteError
 from fieldhand.site.demo_orchard import demo_orchard, to_text
-from fieldhand.site.geojson import demo_path, load_site, open_site, parse_site
+from fieldhand.site.loader import demo_path, load_site, open_site, parse_site
 from support.sites.points import area, collection, point, read, square
 
 LON, LAT = -120.42, 37.26
