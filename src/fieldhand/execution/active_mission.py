@@ -7,7 +7,6 @@ blackboard.
 from __future__ import annotations
 
 import dataclasses
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
@@ -15,7 +14,7 @@ from typing import Literal
 from fieldhand.clock import Clock
 from fieldhand.errors import ActionFault, BlockedFault, DriveFault, FieldhandError, LostFault, PlaceError
 from fieldhand.execution.battery_meter import BatteryMeter
-from fieldhand.execution.drive_controller import AT_M, DriveController, drive_goal
+from fieldhand.execution.drive_controller import DriveController, drive_goal
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Progress
 from fieldhand.execution.guard import Guard
 from fieldhand.execution.journal.records import Observation
@@ -437,8 +436,4 @@ class ActiveMission:
     def _stands(self) -> Place:
         """Return the robot's position as a place: ``here`` if it is there."""
         position = self.observation.position
-        xy = (position.x, position.y)
-        if math.dist(xy, self.here.stand or self.here.xy) <= AT_M:
-            return self.here
-        lat, lon = position.lat, position.lon
-        return Place(kind="point", id="on the way", x=position.x, y=position.y, lat=lat, lon=lon, stand=xy)
+        return self.here if position.is_at(self.here) else position.as_place()

@@ -11,14 +11,11 @@ import math
 from collections.abc import Callable
 
 from fieldhand.errors import FieldhandError, OutputError
-from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Progress
+from fieldhand.execution.drivers.protocol import AT_M, ActionGoal, DriveGoal, Progress
 from fieldhand.execution.recorded_inputs import RecordedInputs
 from fieldhand.robot.model import InDoubtPolicy, RobotProfile
 from fieldhand.site.drives import Drive, Drives
 from fieldhand.site.model import Place, Site
-
-#: Metres within which the robot counts as being at a position.
-AT_M = 0.5
 
 
 class DriveController:
@@ -113,9 +110,10 @@ class DriveController:
         self._broken_off = self._approaching = False
         try:
             if isinstance(goal, DriveGoal):
-                self._drive(goal if self._is_at(goal.path_m[0]) else self._way_to(goal.place, goal.speed_m_s), goal)
+                begins_here = math.dist(self._inputs.observation.position.xy, goal.path_m[0]) <= AT_M
+                self._drive(goal if begins_here else self._way_to(goal.place, goal.speed_m_s), goal)
             elif goal is not None:
-                self._strayed = self._strayed and not self._is_at(goal.place.stand or goal.place.xy)
+                self._strayed = self._strayed and not self._inputs.observation.position.is_at(goal.place)
                 self._approaching = self._strayed
                 if self._strayed:
                     self._drive(self._way_to(goal.place, self._robot.speed_m_s), goal)
@@ -169,18 +167,13 @@ class DriveController:
             seconds=self._before.seconds + progress.seconds,
         )
 
-    def _is_at(self, xy: tuple[float, float]) -> bool:
-        at = self._inputs.observation.position
-        return math.dist((at.x, at.y), xy) <= AT_M
-
     def _way_to(self, place: Place, speed_m_s: float) -> DriveGoal:
         """Return the drive to a place from where the robot is.
 
         Raises:
             DriveFault: There is no way.
         """
-        at = self._inputs.observation.position
-        here = Place(kind="point", id="on the way", x=at.x, y=at.y, lat=at.lat, lon=at.lon, stand=(at.x, at.y))
+        here = self._inputs.observation.position.as_place()
         return drive_goal(self._site, self._ways().between(here, place), speed_m_s)
 
 

@@ -139,12 +139,12 @@ class LimitMonitor:
         self.alarm = "none"
         mission, at = self._mission, self._mission.observation.position
         try:
-            way = mission.drives.between(point_at(mission.site, (at.x, at.y), "on the way"), home)
+            way = mission.drives.between(at.as_place(), home)
         except DriveFault:
             return None
         for reach_m in (_SURELY * self._reach_m, self._reach_m):
             if (metres := safe_stop(mission.drives, way, reach_m)) is not None:
-                return point_at(mission.site, way.at(metres), "safe place")
+                return _point(mission.site, way.at(metres), "safe place")
         markers = [m for m in mission.site.markers.values() if mission.drives.linked((m,), way.start)[0]]
         ways = [(mission.drives.between(way.start, marker).length_m, k) for k, marker in enumerate(markers)]
         nearest_m, k = min(ways, default=(math.inf, -1))
@@ -254,12 +254,12 @@ class LimitMonitor:
             home = self._home_m(mission.standing)
             return 0.0, home, home
         if self._homes is None or self._homes[0] is not mission.driven:
-            begins, end = point_at(mission.site, mission.driven[0], "on the way"), doing.goal.place
+            begins, end = _point(mission.site, mission.driven[0]), doing.goal.place
             returning = self.phase == "exit"
             ways = (0.0, 0.0) if returning else (self._home_m(begins), self._home_m(end))
             self._homes = mission.driven, *ways
         path, at = LineString(mission.driven), mission.observation.position
-        done = path.project(Point(at.x, at.y))
+        done = path.project(Point(at.xy))
         on_m = max(0.0, path.length - done)
         _, from_start, from_end = self._homes
         return on_m, from_end, min(done + from_start, on_m + from_end)
@@ -281,7 +281,7 @@ class LimitMonitor:
         return Work(seconds=left * action.duration_s, joules=left * action.energy_j)
 
 
-def point_at(site: Site, xy: tuple[float, float], name: str) -> Place:
-    """Return a point of the site as a place at which the robot stands."""
+def _point(site: Site, xy: tuple[float, float], name: str = "on the way") -> Place:
+    """Return a point of a path as a place at which the robot stands."""
     ((lat, lon),) = site.projection.degrees([xy])
-    return Place(kind="point", id=name, x=xy[0], y=xy[1], lat=float(lat), lon=float(lon), stand=xy)
+    return Place.of_robot(xy, lat=float(lat), lon=float(lon), name=name)

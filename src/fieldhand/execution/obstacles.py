@@ -29,11 +29,11 @@ def avoid(mission: ActiveMission, node: str, place: Place, what: str) -> None:
     trees = [tree.place for tree in mission.site.trees]
     before = mission.drives.linked(trees, mission.standing)
     position, path = mission.observation.position, LineString(mission.driven)
-    along = path.project(Point(position.x, position.y))
+    along = path.project(Point(position.xy))
     ahead = path.interpolate(min(path.length, along + _AHEAD_M))
-    if ahead.distance(Point(position.x, position.y)) <= 0.0:
+    if ahead.distance(Point(position.xy)) <= 0.0:
         ahead = Point(mission.driven[-1])
-    mission.blockages.add_ahead((position.x, position.y), (ahead.x, ahead.y))
+    mission.blockages.add_ahead(position.xy, (ahead.x, ahead.y))
     mission.guard.update_drives(mission.drives)
     after = mission.drives.linked(trees, mission.standing)
     closed = [tree.id for tree, was, is_ in zip(trees, before, after, strict=True) if was and not is_]

@@ -402,7 +402,7 @@ class RecordedInputs:
         metres = 0.0
         if isinstance(self._goal, DriveGoal) and self._goal_from is not None:
             now = self._driver.position()
-            metres = max(progress.metres, math.dist((now.x, now.y), (self._goal_from.x, self._goal_from.y)))
+            metres = max(progress.metres, math.dist(now.xy, self._goal_from.xy))
         return dataclasses.replace(
             progress,
             state="cut_off",

@@ -187,6 +187,5 @@ class WalkState:
 
 
 def _on_the_way(place: Place) -> Place:
-    """A point just before a place that was not reached."""
-    x, y = place.stand or place.xy
-    return Place(kind="point", id="on the way", x=x, y=y, lat=place.lat, lon=place.lon, stand=(x, y))
+    """Return the point just before a place that was not reached."""
+    return Place.of_robot(place.stand or place.xy, lat=place.lat, lon=place.lon)

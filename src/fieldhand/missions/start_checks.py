@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from fieldhand.site.drives import XY
     from fieldhand.site.model import Site
 
-#: Metres within which the robot stands at the start.
-AT_M = 0.5
 #: Metres from the nearest tree or marker beyond which a robot is elsewhere, where no boundary says what belongs to the
 #: site.
 FAR_M = 100.0
@@ -35,7 +33,6 @@ def require_in_place(site: Site, robot: RobotProfile, driver: Driver) -> float:
         ExecutionError: It is stopped, does not know where it is, or stands where no drive can begin.
     """
     from fieldhand.forecast.visit_order import drives_for, start_place
-    from fieldhand.site.model import Place
 
     driver.poll()
     stopped, lost = driver.stopped(), driver.lost()
@@ -51,15 +48,10 @@ def require_in_place(site: Site, robot: RobotProfile, driver: Driver) -> float:
         )
     at, drives = driver.position(), drives_for(site, robot)
     start = start_place(drives)
-    away_m = math.dist((at.x, at.y), start.stand or start.xy)
-    if away_m <= AT_M:
+    away_m = math.dist(at.xy, start.stand or start.xy)
+    if at.is_at(start):
         return away_m
-    why = _elsewhere(site, (at.x, at.y))
-    if not why:
-        here = Place(
-            kind="point", id="where the robot stands", x=at.x, y=at.y, lat=at.lat, lon=at.lon, stand=(at.x, at.y)
-        )
-        why = drives.problem(here)
+    why = _elsewhere(site, at.xy) or drives.problem(at.as_place("where the robot stands"))
     if why:
         raise ExecutionError(
             message(

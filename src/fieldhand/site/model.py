@@ -48,6 +48,17 @@ class Place:
     lon: float
     stand: tuple[float, float] | None = field(default=None, compare=False)
 
+    @classmethod
+    def of_robot(cls, xy: tuple[float, float], *, lat: float, lon: float, name: str = "on the way") -> Place:
+        """Return the point where a robot is, as a place of its own: by default one between two stops.
+
+        Args:
+            xy: Metres east and north in the site's projection.
+            lat, lon: The same in degrees, WGS 84.
+            name: Its name.
+        """
+        return cls(kind="point", id=name, x=xy[0], y=xy[1], lat=lat, lon=lon, stand=xy)
+
     @property
     def xy(self) -> tuple[float, float]:
         """Metres east and north."""

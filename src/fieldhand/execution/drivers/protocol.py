@@ -15,6 +15,7 @@ interrupted between two calls. ``tests/driver_contract.py`` verifies these prope
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal, Protocol
@@ -35,6 +36,10 @@ GoalState = Literal["idle", "running", "succeeded", "failed", "cancelled", "cut_
 GoalFault = Literal["none", "failed", "blocked", "lost", "empty"]
 
 
+#: Metres within which a robot counts as being at a point.
+AT_M = 0.5
+
+
 @dataclass(frozen=True, kw_only=True)
 class Position:
     """Position of the robot itself (not of the tree it stands beside).
@@ -48,6 +53,19 @@ class Position:
     y: float
     lat: float
     lon: float
+
+    @property
+    def xy(self) -> tuple[float, float]:
+        """Metres east and north."""
+        return (self.x, self.y)
+
+    def is_at(self, place: Place) -> bool:
+        """Return True if the robot is where it stands to be at a place, within :data:`AT_M`."""
+        return math.dist(self.xy, place.stand or place.xy) <= AT_M
+
+    def as_place(self, name: str = "on the way") -> Place:
+        """Return the position as a place of its own."""
+        return Place.of_robot(self.xy, lat=self.lat, lon=self.lon, name=name)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -303,7 +303,7 @@ class Ros2Driver:
         position = self._last_position()
         if position is None:
             return None
-        away = math.dist((position.x, position.y), site.start.xy)
+        away = math.dist(position.xy, site.start.xy)
         if away <= _FAR_M:
             return None
         return f"the robot stands {away / 1000.0:.0f} km from the start of {site.name}: it is on another site"

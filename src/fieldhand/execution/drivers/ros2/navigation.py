@@ -247,7 +247,7 @@ class RunningDrive:
         x, y = number_at(feedback, _X), number_at(feedback, _Y)
         if x is None or y is None:
             return None
-        away = math.dist(plan.site_to_map((at.x, at.y)), (x, y))
+        away = math.dist(plan.site_to_map(at.xy), (x, y))
         if away <= ELSEWHERE_M + navigation.binding.tolerance_m + self._driven_between_m(feedback):
             return None
         return (
@@ -348,4 +348,4 @@ def _by_degrees(goal: DriveGoal) -> Message:
 
 
 def _distance_m(position: Position | None, there: Point) -> float:
-    return math.inf if position is None else math.dist((position.x, position.y), there)
+    return math.inf if position is None else math.dist(position.xy, there)

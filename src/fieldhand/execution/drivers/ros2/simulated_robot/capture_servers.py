@@ -88,7 +88,7 @@ class CaptureCall:
         named = {value: path for path, value in self.call.request.items() if isinstance(value, str)}
         at = self.platform.position
         identity, kind = (_text(request, named.get(reference)) for reference in ("$place", "$kind"))
-        return self._places.named(identity, kind, (at.x, at.y))
+        return self._places.named(identity, kind, at.xy)
 
     def _parameters(self, request: Message) -> Parameters:
         found: Parameters = {parameter.name: parameter.default for parameter in self.action.parameters}

@@ -86,10 +86,10 @@ class NavigationServer:
         corners = self._corners(goal.goal_message)
         here = self._platform.position
         self._goal, self._begun_s, self._told_s = goal, self._now(), -math.inf
-        if any(math.dist((here.x, here.y), corner) > _REACH_M for corner in corners):
+        if any(math.dist(here.xy, corner) > _REACH_M for corner in corners):
             self._end(Progress(state="failed", what="the goal lies outside of the map"), _OUTSIDE)
             return
-        self._through, self._legs, self._leg = corners, tuple(pairwise(((here.x, here.y), *corners))), 0
+        self._through, self._legs, self._leg = corners, tuple(pairwise((here.xy, *corners))), 0
         self._platform.drive(corners, self._places.nearest(corners[-1]), self._speed(), self._over)
 
     def cancel(self, goal: ServerGoal) -> None:
@@ -175,7 +175,7 @@ class NavigationServer:
         at = self._platform.position
         ((x, y),) = degrees_to_map(self._datum, [(at.lat, at.lon)])
         ahead = self._through[self._index_ahead() :]
-        left_m = length_m(((at.x, at.y), *ahead))
+        left_m = length_m((at.xy, *ahead))
         yaw = math.radians(self._datum.heading_deg - self._platform.heading_deg)
         feedback: dict[str, object] = {
             "current_pose": {
@@ -195,7 +195,7 @@ class NavigationServer:
     def _index_ahead(self) -> int:
         """Return the index of the next corner: the end of the leg that the robot is on."""
         at = self._platform.position
-        on = (n for n, leg in enumerate(self._legs) if n >= self._leg and _away((at.x, at.y), *leg) < _ON_M)
+        on = (n for n, leg in enumerate(self._legs) if n >= self._leg and _away(at.xy, *leg) < _ON_M)
         self._leg = next(on, self._leg)
         return self._leg
 

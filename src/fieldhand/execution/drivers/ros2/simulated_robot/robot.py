@@ -259,7 +259,7 @@ class SimulatedRobot:
 
     def _nearest(self) -> Place:
         at = self.platform.position
-        return self._places.nearest((at.x, at.y))
+        return self._places.nearest(at.xy)
 
     def _locate(self, to: object, request: Message) -> None:
         """Answer ``fromLL`` like robot_localization: convert degrees to the map frame."""
