@@ -180,7 +180,10 @@ class DriveController:
 def drive_goal(site: Site, drive: Drive, speed_m_s: float) -> DriveGoal:
     """Return the goal of a drive."""
     corners = tuple((float(x), float(y)) for x, y in drive.points)
-    degrees = tuple((float(lat), float(lon)) for lat, lon in site.projection.degrees(corners))
     return DriveGoal(
-        place=drive.end, path_m=corners, path_degrees=degrees, length_m=drive.length_m, speed_m_s=speed_m_s
+        place=drive.end,
+        path_m=corners,
+        path_degrees=site.projection.lat_lon(corners),
+        length_m=drive.length_m,
+        speed_m_s=speed_m_s,
     )

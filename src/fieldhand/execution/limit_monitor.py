@@ -283,5 +283,5 @@ class LimitMonitor:
 
 def _point(site: Site, xy: tuple[float, float], name: str = "on the way") -> Place:
     """Return a point of a path as a place at which the robot stands."""
-    ((lat, lon),) = site.projection.degrees([xy])
-    return Place.of_robot(xy, lat=float(lat), lon=float(lon), name=name)
+    ((lat, lon),) = site.projection.lat_lon([xy])
+    return Place.of_robot(xy, lat=lat, lon=lon, name=name)

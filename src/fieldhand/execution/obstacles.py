@@ -97,7 +97,6 @@ def _emit_obstructed(
     mission: ActiveMission, node: str, place: Place, what: str, *, unreachable: Sequence[str] = (), free: bool = False
 ) -> None:
     position, projection = mission.observation.position, mission.site.projection
-    areas = [projection.degrees(np.array(s.exterior.coords)[:-1]) for s in mission.blockages.stretches]
     mission.emit(
         Obstructed(
             t=mission.t,
@@ -107,7 +106,7 @@ def _emit_obstructed(
             lat=position.lat,
             lon=position.lon,
             travelled_m=mission.travelled_m,
-            blocked=tuple(tuple((float(lat), float(lon)) for lat, lon in area) for area in areas),
+            blocked=tuple(projection.lat_lon(list(s.exterior.coords)[:-1]) for s in mission.blockages.stretches),
             unreachable=tuple(unreachable),
             free=free,
             what=what,

@@ -35,3 +35,7 @@ class Projection:
         points = np.atleast_2d(np.asarray(xy, dtype=np.float64))
         lon, lat = self._transformer.transform(points[:, 0], points[:, 1], direction="INVERSE")
         return np.column_stack([lat, lon]).astype(np.float64)
+
+    def lat_lon(self, xy: ArrayLike) -> tuple[tuple[float, float], ...]:
+        """Return points in metres east and north, shape (n, 2), as n pairs of latitude and longitude in degrees."""
+        return tuple((lat, lon) for lat, lon in self.degrees(xy).tolist())

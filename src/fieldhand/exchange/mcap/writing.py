@@ -285,8 +285,8 @@ def _site_features(site: Site) -> list[dict[str, Any]]:
     """Return trees, markers and zones, with the colours that map panels read."""
     features = []
     for zone in site.zones:
-        corners = site.projection.degrees(np.asarray(zone.polygon.exterior.coords)[:, :2])
-        ring = [[round(float(lon), 8), round(float(lat), 8)] for lat, lon in corners]
+        corners = site.projection.lat_lon(np.asarray(zone.polygon.exterior.coords)[:, :2])
+        ring = [[round(lon, 8), round(lat, 8)] for lat, lon in corners]
         colour = {"boundary": "#8a7f66", "keep_out": "#4d7c99", "zone": "#c19a3f"}[zone.kind]
         style = {"stroke": colour, "fill": colour, "fill-opacity": 0.0 if zone.kind == "boundary" else 0.3}
         features.append(_feature({"type": "Polygon", "coordinates": [ring]}, {"name": zone.name, "style": style}))

@@ -93,8 +93,8 @@ def _fence(site: Site) -> list[dict[str, Any]]:
                 continue
             rings = [(zone.polygon.exterior, inside), *((ring, not inside) for ring in zone.polygon.interiors)]
             for ring, inclusion in rings:
-                corners = site.projection.degrees(np.asarray(ring.coords)[:-1, :2])
-                polygon = [_rounded((float(lat), float(lon))) for lat, lon in corners]
+                corners = site.projection.lat_lon(np.asarray(ring.coords)[:-1, :2])
+                polygon = [_rounded(at) for at in corners]
                 found.append({"version": 1, "inclusion": inclusion, "polygon": polygon})
     return found
 

@@ -24,7 +24,7 @@ from fieldhand.task.frames import Task
 from fieldhand.task.results import Acted, Arrived, Driving, Ended, Event, Started
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
+    pass
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -240,7 +240,7 @@ def _with(work: tuple[ExportedWork, ...], event: Acted) -> tuple[ExportedWork, .
 
 def _driven_to(step: WalkStep, site: Site, travelled: float, certain: bool) -> RouteStop:
     assert step.drive is not None  # noqa: S101  the caller looked
-    way = _degrees(site, step.drive.points)
+    way = site.projection.lat_lon(step.drive.points)
     made = _stop(step.places[0], site, node=step.node.id, certain=certain)
     return replace(
         made, way=way, stand=way[-1], length_m=step.drive.length_m, travelled_m=travelled, home=step.kind == "exit"
@@ -248,11 +248,7 @@ def _driven_to(step: WalkStep, site: Site, travelled: float, certain: bool) -> R
 
 
 def _stop(place: Place, site: Site, *, node: str, certain: bool) -> RouteStop:
-    stand = _degrees(site, [place.stand or place.xy])[0]
+    (stand,) = site.projection.lat_lon([place.stand or place.xy])
     return RouteStop(
         node=node, kind=place.kind, place=place.id, at=(place.lat, place.lon), stand=stand, certain=certain
     )
-
-
-def _degrees(site: Site, points: ArrayLike) -> tuple[LatLon, ...]:
-    return tuple((float(lat), float(lon)) for lat, lon in site.projection.degrees(points))

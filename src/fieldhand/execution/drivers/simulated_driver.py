@@ -190,8 +190,8 @@ class SimulatedDriver:
         x, y = self._xy
         if self._course is not None and self._course.path:
             x, y = _along(self._course.path, self._course.reach * self._course.done_at(self._clock.now()))
-        lat, lon = self._site.projection.degrees([(x, y)])[0]
-        return Position(x=x, y=y, lat=float(lat), lon=float(lon))
+        ((lat, lon),) = self._site.projection.lat_lon([(x, y)])
+        return Position(x=x, y=y, lat=lat, lon=lon)
 
     def charge_percent(self) -> float:
         left, step = self._left(), self._meter_step

@@ -49,5 +49,5 @@ class PlaceLookup:
         return self._places[nearest] if away[nearest] <= self._near_m else self._point("here", xy)
 
     def _point(self, identity: str, xy: Point) -> Place:
-        lat, lon = self._site.projection.degrees(xy)[0]
-        return Place(kind="point", id=identity, x=xy[0], y=xy[1], lat=float(lat), lon=float(lon))
+        ((lat, lon),) = self._site.projection.lat_lon([xy])
+        return Place(kind="point", id=identity, x=xy[0], y=xy[1], lat=lat, lon=lon)

@@ -93,13 +93,12 @@ class SimulatedPlatform:
         """
         here = self._driver.position()
         path = ((here.x, here.y), *through)
-        degrees = self._site.projection.degrees(path)
         self._speed = speed_m_s
         self._driver.start_drive(
             DriveGoal(
                 place=place,
                 path_m=path,
-                path_degrees=tuple((float(lat), float(lon)) for lat, lon in degrees),
+                path_degrees=self._site.projection.lat_lon(path),
                 length_m=length_m(path),
                 speed_m_s=speed_m_s,
             )
