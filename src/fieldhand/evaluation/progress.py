@@ -9,7 +9,7 @@ from typing import Literal
 from fieldhand.evaluation.event_text import EventText, noun
 from fieldhand.evaluation.outcome import judge, judge_end
 from fieldhand.language import message
-from fieldhand.language.words import say_place
+from fieldhand.language.words import say_near, say_place
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.exceeded import Exceeded
 from fieldhand.task.frames import Task
@@ -91,7 +91,7 @@ def mission_progress(task: Task, robot: RobotProfile, events: Sequence[Event], *
         doing=_doing(robot, last, task),
         node=next((e.node for e in reversed(events) if e.node), ""),
         place=to.place if to is not None else "",
-        near=_near(to),
+        near="" if to is None else say_near(to.kind, to.place, arrived=isinstance(to, Arrived)),
         lat=at.lat if at is not None else None,
         lon=at.lon if at is not None else None,
         seconds=last.t if last is not None else 0.0,
@@ -124,15 +124,6 @@ def state_of(events: Sequence[Event], *, running: bool) -> tuple[State, Ended | 
     return ("paused" if isinstance(turn, Paused) else "running"), None
 
 
-def _near(to: Arrived | Driving | None) -> str:
-    if to is None:
-        return ""
-    place = say_place(to.kind, to.place)
-    if isinstance(to, Arrived):
-        return message("at {place}", context="log", place=place)
-    return message("on the way to {place}", context="log", place=place)
-
-
 def _doing(robot: RobotProfile, last: Event | None, task: Task) -> str:
     match last:
         case None:
@@ -141,9 +132,9 @@ def _doing(robot: RobotProfile, last: Event | None, task: Task) -> str:
             return message("drives to {place}", place=say_place(last.kind, last.place))
         case Arrived():
             action = next((g.action for g in task.command.goals if g.node == last.node), None)
-            place = say_place(last.kind, last.place)
             if action is None:
-                return message("at {place}", context="log", place=place)
+                return say_near(last.kind, last.place, arrived=True)
+            place = say_place(last.kind, last.place)
             return message("{capture} at {place}", capture=noun(robot, action), place=place)
         case _:
             return EventText(robot).brief(last)

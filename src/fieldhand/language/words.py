@@ -114,6 +114,13 @@ def say_place(kind: str, name: str) -> str:
     return message("the {role}", context="log", role=named(name, "role"))
 
 
+def say_near(kind: str, name: str, *, arrived: bool) -> str:
+    """Return the location of a robot that has arrived at a place, or drives there: "at tree 12"."""
+    if arrived:
+        return message("at {place}", context="log", place=say_place(kind, name))
+    return message("on the way to {place}", context="log", place=say_place(kind, name))
+
+
 def say_tree(tree: str) -> str:
     """Return a tree by its id: "tree 81"."""
     return message("tree {id}", id=tree)

@@ -11,7 +11,7 @@ from typing import Literal
 
 from fieldhand.clock import clock_time
 from fieldhand.language import Number, joined, message
-from fieldhand.language.words import say_place
+from fieldhand.language.words import say_near
 from fieldhand.task.frames import BudgetKind, Constraints
 from fieldhand.task.results import Arrived, Driving, Event, MissionStatus, Started
 
@@ -135,16 +135,11 @@ def _amount(kind: LimitKind, started: Started, event: Event) -> float | None:
 
 
 def _near(event: Event, before: Sequence[Event]) -> str:
-    """Return the location of the robot at an event: at a place, or on the way to one. An arrival reports on the drive
-    before it.
-    """
+    """Return the location of the robot at an event; an arrival reports on the drive before it."""
     last = next((e for e in (event, *reversed(before)) if isinstance(e, Arrived | Driving)), None)
     if last is None:
         return ""
-    place = say_place(last.kind, last.place)
-    if last is not event and isinstance(last, Arrived):
-        return message("at {place}", context="log", place=place)
-    return message("on the way to {place}", context="log", place=place)
+    return say_near(last.kind, last.place, arrived=last is not event and isinstance(last, Arrived))
 
 
 def _digits(value: float, limit: float) -> str:
