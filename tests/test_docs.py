@@ -7,13 +7,18 @@ import re
 import shlex
 import subprocess
 import sys
+import tomllib
 from contextlib import ExitStack
-from importlib.util import find_spec
+from importlib import import_module
+from importlib.util import find_spec, module_from_spec, spec_from_file_location
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 
 import fieldhand as fh
+from fieldhand import errors
+from fieldhand.plugins import GROUPS
 from ros2.conftest import LOOPBACK
 from support.processes.command import fieldhand, in_background
 
@@ -21,7 +26,7 @@ ROOT = Path(__file__).resolve().parents[1]
 PAGES = [ROOT / "README.md", ROOT / "benchmarks" / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 SHELL = re.compile(r"^```sh\n(.*?)^```", re.MULTILINE | re.DOTALL)
 PYTHON = re.compile(r"^```python\n(.*?)^```", re.MULTILINE | re.DOTALL)
-PYTHON_PAGE = ROOT / "docs" / "python.md"
+PYTHON_PAGE, REFERENCE = ROOT / "docs" / "python.md", ROOT / "docs" / "reference.md"
 #: Commands that serve until they are stopped have tests of their own, and so has the page that needs a robot.
 SERVERS = ("fieldhand serve",)
 ROBOT = "delivery"
@@ -62,9 +67,18 @@ def test_every_command_runs(page: Path, tmp_path: Path, monkeypatch: pytest.Monk
 
 @pytest.mark.parametrize("page", PAGES, ids=page_name)
 def test_every_link_leads_somewhere(page: Path) -> None:
-    for target in re.findall(r"\]\(([^)#\s]+)", page.read_text()):
+    for target, anchor in re.findall(r"\]\(([^)#\s]*)(?:#([^)\s]+))?\)", page.read_text()):
         if not target.startswith(("http://", "https://", "mailto:")):
-            assert (page.parent / target).exists(), target
+            linked = page.parent / target if target else page
+            assert linked.exists(), target
+            # An anchor with a dot is one of the reference, which ``make docs`` checks.
+            assert not anchor or "." in anchor or anchor in _anchors(linked), f"{target}#{anchor}"
+
+
+def _anchors(page: Path) -> set[str]:
+    """Return the anchors of a page's headings."""
+    headings = re.findall(r"^#+ (.*)$", re.sub(r"^```.*?^```", "", page.read_text(), flags=re.M | re.S), re.M)
+    return {re.sub(r"\s+", "-", re.sub(r"[^\w\s-]", "", heading.lower()).strip()) for heading in headings}
 
 
 def test_every_python_example_runs(tmp_path: Path) -> None:
@@ -91,10 +105,74 @@ def test_every_public_name_is_explained_and_used_in_an_example() -> None:
 
 
 def test_the_reference_lists_every_public_name() -> None:
-    listed = re.findall(r"^::: fieldhand\.(\w+)$", (ROOT / "docs" / "reference.md").read_text(), re.MULTILINE)
+    listed = re.findall(r"^::: fieldhand\.(\w+)$", REFERENCE.read_text(), re.MULTILINE)
     assert sorted(listed) == fh.__all__
 
 
+def test_the_reference_lists_every_error() -> None:
+    listed = re.findall(r"^::: fieldhand\.(?:errors\.)?(\w+)$", REFERENCE.read_text(), re.MULTILINE)
+    assert set(errors.__all__) - {"few"} <= set(listed)
+
+
 def test_the_site_of_the_docs_leads_to_every_page() -> None:
-    pages = re.findall(r"[\w-]+\.md", (ROOT / "mkdocs.yml").read_text())
-    assert sorted(pages) == sorted(page.name for page in (ROOT / "docs").glob("*.md"))
+    navigation = (ROOT / "mkdocs.yml").read_text().partition("\nnav:")[2]
+    pages = re.findall(r"[\w-]+\.md", navigation)
+    written = [page.name for page in (ROOT / "docs").glob("*.md")]
+    assert sorted(pages) == sorted([*written, *_hooks().SOURCES])
+    for source in _hooks().SOURCES.values():
+        assert (ROOT / source).exists(), source
+
+
+def _hooks() -> ModuleType:
+    found = spec_from_file_location("mkdocs_hooks", ROOT / "scripts" / "mkdocs_hooks.py")
+    assert found is not None
+    assert found.loader is not None
+    module = module_from_spec(found)
+    found.loader.exec_module(module)
+    return module
+
+
+def test_the_map_of_the_packages_is_the_one_that_is_enforced() -> None:
+    page = (ROOT / "docs" / "architecture.md").read_text()
+    drawn = page.partition("## The packages")[2].split("\n\n")[2]
+    contracts = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["importlinter"]["contracts"]
+    assert [line.strip() for line in drawn.splitlines()] == contracts[0]["layers"]
+    rooms = [room.strip() for layer in contracts[0]["layers"] for room in layer.split("|")]
+    table = page.partition("## The packages")[2].partition("\n## ")[0]
+    for room in rooms:
+        assert re.search(rf"^\|[^|]*`{room}`", table, re.MULTILINE), room
+
+
+#: Files of a user or of a mission, of which the docs speak beside files of the repository.
+THEIRS = {"scout.yaml", "mine.yaml", "robot.yaml", "world.yaml", "w.yaml", "trusted/", "keys/", "site/"}
+
+
+@pytest.mark.parametrize("page", PAGES, ids=page_name)
+def test_every_file_and_module_that_is_named_is_there(page: Path) -> None:
+    listed = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.split()
+    places = {f"/{name}" for name in listed} | {f"/{folder}/" for name in listed for folder in Path(name).parents}
+    text = page.read_text()
+    for named in re.findall(r"`([\w.-][\w./-]*(?:\.(?:py|cpp|sh|yaml|toml|md|lark)|/))`", text):
+        assert named in THEIRS or any(place.endswith(f"/{named}") for place in places), named
+    for dotted in re.findall(r"`(fieldhand(?:_bench)?(?:\.\w+)+)[`(]", text):
+        if dotted not in GROUPS and not dotted[10].isupper():  # neither a group of plugins nor a schema
+            assert _resolves(dotted), dotted
+
+
+def _resolves(dotted: str) -> bool:
+    """Return True if a dotted name is a module, or a name in one."""
+    module, rest = dotted, list[str]()
+    while module and not _is_module(module):
+        module, _, last = module.rpartition(".")
+        rest.insert(0, last)
+    value: object = import_module(module) if module else None
+    for name in rest:
+        value = getattr(value, name, None)
+    return value is not None
+
+
+def _is_module(name: str) -> bool:
+    try:
+        return find_spec(name) is not None
+    except ModuleNotFoundError:
+        return False

@@ -104,7 +104,9 @@ def simulate(
         world: Readings of the sensors, faults, and charge at the start; by default nothing fails.
         seed: Seed of everything random: drives, readings, decisions of the budget guard.
         speed: Simulated seconds per second; None for as fast as possible.
-        emit, interrupted, watched: As for :func:`carry_out`.
+        emit: As for :func:`carry_out`.
+        interrupted: As for :func:`carry_out`.
+        watched: As for :func:`carry_out`.
 
     Raises:
         WorldError: The world does not fit the site or the robot.

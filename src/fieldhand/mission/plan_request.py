@@ -96,7 +96,8 @@ def plan(
 
     Args:
         request: The request in plain words.
-        site, robot: Site and robot that it is for.
+        site: Site that it is for.
+        robot: Robot that it is for.
         planner: A planner, or the name of one; a language model is configured from the process's environment.
         answers: Answers to earlier questions about this request, in their order.
 

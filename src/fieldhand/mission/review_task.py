@@ -89,7 +89,9 @@ def review(
     """Check a Task, forecast it and put it into words.
 
     Args:
-        task, site, robot: The Task, and the site and robot it is to be approved for.
+        task: The Task.
+        site: Site it is to be approved for.
+        robot: Robot it is to be approved for.
         seed: Seed of the forecast.
         document: The bytes that the Task was read from, if it was read.
         charge_percent: Charge at the beginning, in percent of a full battery.

@@ -26,7 +26,8 @@ def build_task(
 
     Args:
         plan: The plan, made of :mod:`fieldhand.task.plan` nodes; their ids are assigned here and may be left empty.
-        site, robot: Site and robot that the Task is for.
+        site: Site that the Task is for.
+        robot: Robot that the Task is for.
         request: What the Task is for, in words; they appear on maps and in reports.
         budgets: Limits of distance, time or energy for the whole mission, the way home included.
         reserve_percent: Charge that must be left at the end, in percent; None for the robot's own reserve.

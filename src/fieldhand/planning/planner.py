@@ -134,7 +134,8 @@ class Planner(Protocol):
 
         Args:
             request: What was asked, word for word.
-            site, robot: Where and with what.
+            site: Site that it is for.
+            robot: Robot that it is for.
             answers: What was answered to earlier questions about this request, in their order. They stand among the
                 assumptions of the Task; its request stays as it was typed.
 
