@@ -36,7 +36,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from fieldhand.visible import visible
+from fieldhand.hidden_characters import visible
 
 __all__ = [
     "ActionFault",

@@ -6,7 +6,7 @@ import base64
 from collections.abc import Iterable, Sequence
 from html import escape
 
-from fieldhand.visible import visible
+from fieldhand.hidden_characters import visible
 
 
 def text_html(value: object) -> str:

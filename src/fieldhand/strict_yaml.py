@@ -6,7 +6,7 @@ from collections.abc import Hashable
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from fieldhand.visible import find_hidden
+from fieldhand.hidden_characters import find_hidden
 
 if TYPE_CHECKING:
     import yaml

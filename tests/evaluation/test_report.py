@@ -27,6 +27,7 @@ from fieldhand.evaluation.report.place_names import PlaceNames
 from fieldhand.evaluation.report.readings import MOST_ROWS, relation, summaries
 from fieldhand.evaluation.report.writing import write_report
 from fieldhand.forecast.estimate import estimate
+from fieldhand.hidden_characters import visible
 from fieldhand.places.selectors import Corners
 from fieldhand.site.loader import parse_site
 from fieldhand.task.authorization import Authorization
@@ -52,7 +53,6 @@ from fieldhand.task.results import (
     Waited,
 )
 from fieldhand.testing.small_orchard import husky, orchard, task_for
-from fieldhand.visible import visible
 
 SITE, ROBOT = orchard(), husky()
 TASK = task_for(

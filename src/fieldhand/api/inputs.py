@@ -14,13 +14,13 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, StringConstraints, model_validator
 
 from fieldhand.errors import ProfileError, SiteError
+from fieldhand.hidden_characters import find_hidden
 from fieldhand.language import languages
 from fieldhand.mission.documents import SiteAndRobot
 from fieldhand.planning.planner import Answer
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
-from fieldhand.visible import find_hidden
 
 MAX_REQUEST = 20_000
 MAX_XML = 4_000_000

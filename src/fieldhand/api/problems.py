@@ -24,7 +24,7 @@ from starlette.exceptions import HTTPException
 from starlette.responses import JSONResponse, Response
 
 from fieldhand.errors import FieldhandError, InputError, NotConfirmedError
-from fieldhand.visible import json_text, visible_json
+from fieldhand.hidden_characters import json_text, visible_json
 
 MEDIA_TYPE = "application/problem+json"
 

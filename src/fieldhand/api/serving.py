@@ -11,7 +11,7 @@ from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 from fieldhand.errors import InputError
-from fieldhand.visible import print_error, visible
+from fieldhand.hidden_characters import print_error, visible
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -64,7 +64,7 @@ _INTERRUPTED = 130
 
 def _say(line: str) -> None:
     """Print a failure; whatever it quotes, only its first line begins as ours do."""
-    from fieldhand.visible import print_error
+    from fieldhand.hidden_characters import print_error
 
     first, *others = f"fieldhand: {line}".splitlines()
     print_error(first, *(f"  {other}" for other in others))
@@ -74,7 +74,7 @@ def _show_traceback() -> None:
     """Print where the program failed, indented, so that no line of what it quotes begins as ours do."""
     import traceback
 
-    from fieldhand.visible import print_error
+    from fieldhand.hidden_characters import print_error
 
     first, *others = traceback.format_exc().rstrip("\n").split("\n")
     print_error(first, *(f"  {other}" for other in others))

@@ -12,7 +12,7 @@ from rich.console import Console
 from rich.segment import Segment
 from rich.text import Text
 
-from fieldhand.visible import visible
+from fieldhand.hidden_characters import visible
 
 if TYPE_CHECKING:
     from fieldhand.language import Language

@@ -59,7 +59,7 @@ class CommandsWithPlugins(TyperGroup):
 
     def format_help(self, ctx: Any, formatter: Any) -> None:
         """Write the help, and name the plugins that cannot be loaded."""
-        from fieldhand.visible import print_error
+        from fieldhand.hidden_characters import print_error
 
         super().format_help(ctx, formatter)
         for error in self._loadable[1]:

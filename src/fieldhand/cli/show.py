@@ -13,11 +13,11 @@ from rich.text import Text
 from fieldhand.cli.console import Words
 from fieldhand.cli.console import err as err
 from fieldhand.cli.console import out as out
+from fieldhand.hidden_characters import json_text, visible
 from fieldhand.language import ENGLISH, Language, message
 from fieldhand.language.words import say_count, say_place
 from fieldhand.planning.planner import Clarify, Planned, Reason, Refused
 from fieldhand.task.request_coverage import ROLE_NAMES, Piece, WordRole, has_ranges, request_pieces
-from fieldhand.visible import json_text, visible
 
 if TYPE_CHECKING:
     from fieldhand.mission import Assessment, Review

@@ -171,6 +171,6 @@ def _print(text: str) -> None:
 def _line(**values: Any) -> None:
     """One JSON object on a line of its own, at once: a program may be waiting for it."""
 
-    from fieldhand.visible import json_text
+    from fieldhand.hidden_characters import json_text
 
     typer.echo(json_text(values))

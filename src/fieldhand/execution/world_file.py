@@ -25,9 +25,9 @@ from fieldhand.errors import WorldError
 from fieldhand.execution.world import Truth, World
 from fieldhand.execution.world_faults import AnyFault, FaultModel, Strict, TreeRefModel
 from fieldhand.files import FileFault, read_file
+from fieldhand.hidden_characters import find_hidden_within
 from fieldhand.language import message, recalled
 from fieldhand.strict_yaml import YamlFault, read_yaml
-from fieldhand.visible import find_hidden_within
 
 #: A world of a value for each of 3,000 trees is 200 kB; a file beyond this is something else.
 MAX_BYTES = 5_000_000

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING
 
 from fieldhand.errors import InputError, RequestError
 from fieldhand.files import state_folder
+from fieldhand.hidden_characters import find_hidden
 from fieldhand.language import message
 from fieldhand.planning.planner import Answer, Clarify, Planned, Planner, PlannerSettings, Refused
 from fieldhand.plugins import active
 from fieldhand.robot.model import RobotProfile
 from fieldhand.short_repr import short_repr
 from fieldhand.site.model import Site
-from fieldhand.visible import find_hidden
 
 if TYPE_CHECKING:
     from fieldhand.planning.llm.chat import Chat

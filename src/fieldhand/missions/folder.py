@@ -17,11 +17,11 @@ from fieldhand.errors import JournalError, NotApprovedError
 from fieldhand.execution.vehicle import Connection
 from fieldhand.files import FileFault, read_file, store_names, write_stored, write_whole
 from fieldhand.folders import Unguarded, require_guarded, require_own_file
+from fieldhand.hidden_characters import json_text
 from fieldhand.language import message, named
 from fieldhand.missions.direct_commands import no_command
 from fieldhand.missions.signed_contents import require_signed
 from fieldhand.task.authorization import Authorization, AuthorizedTask
-from fieldhand.visible import json_text
 
 if TYPE_CHECKING:
     from fieldhand.approval.bundle.opening import Bundle

@@ -13,7 +13,7 @@ from fieldhand.language import message
 from fieldhand.places import place_group
 from fieldhand.places.context import Context
 from fieldhand.places.filters.zones import zones_called
-from fieldhand.places.neighbours.distances import Origin, ZoneGround
+from fieldhand.places.neighbours.distances import Origin, ZoneArea
 from fieldhand.places.place_errors import nothing
 from fieldhand.places.place_group import PlaceGroup
 from fieldhand.places.resolution_notes import ResolutionNotes
@@ -121,13 +121,13 @@ class Resolution:
     def origin(self, selector: Selector) -> Origin:
         """Return what distances are measured from: the zone itself for a selector of all its trees."""
         zones = zones_called(self.site, selector.whole_zone)
-        return ZoneGround(site=self.site, area=shapely.union_all(zones)) if zones else self.spots(selector)
+        return ZoneArea(site=self.site, area=shapely.union_all(zones)) if zones else self.spots(selector)
 
-    def ground(self, selector: Selector, of: PlaceGroup, *, picks_too: bool = True) -> PlaceGroup:
+    def reference(self, selector: Selector, of: PlaceGroup, *, picks_too: bool = True) -> PlaceGroup:
         """Return the group whose extent counts: ``of`` before visited trees (and attributes and picks) are taken out.
 
         Args:
             selector: What ``of`` comes from.
         """
-        bare = selector.ground(picks_too=picks_too)
+        bare = selector.reference(picks_too=picks_too)
         return of if bare == selector else Resolution(self.site, self.context, self._known).spots(bare)

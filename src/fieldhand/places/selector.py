@@ -39,7 +39,7 @@ DependsOn = Literal["site", "nearness", "mission"]
 #: (``own``); the selector around what a region would be taken of (``region``); or its ``of``, since it leaves the
 #: geometry as it is: always (``of``), or for halves and edges but not for corners and middles (``pick``, which else is
 #: ``own``, and ``group``, which else is ``region``).
-GroundRule = Literal["own", "region", "of", "pick", "group"]
+ReferenceRule = Literal["own", "region", "of", "pick", "group"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -161,7 +161,7 @@ class Selector(ABC):
         """True if the places depend on where the robot is or has been, so that they resolve when they are reached."""
         return any(part.depends_on != "site" for part in self.walk())
 
-    def ground(self, *, picks_too: bool = True) -> Selector:
+    def reference(self, *, picks_too: bool = True) -> Selector:
         """Return the selector without the parts that leave the geometry as it is.
 
         Args:
@@ -206,7 +206,7 @@ class FromGroup(Selector):
 
     of: Selector
 
-    ground_rule: ClassVar[GroundRule] = "own"
+    reference_rule: ClassVar[ReferenceRule] = "own"
 
     @abstractmethod
     def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
@@ -227,13 +227,13 @@ class FromGroup(Selector):
     def keeps_order(self) -> bool:
         return self.of.keeps_order
 
-    def ground(self, *, picks_too: bool = True) -> Selector:
-        rule = self.ground_rule
+    def reference(self, *, picks_too: bool = True) -> Selector:
+        rule = self.reference_rule
         if rule == "of" or (picks_too and rule in ("pick", "group")):
-            return self.of.ground(picks_too=picks_too)
+            return self.of.reference(picks_too=picks_too)
         if rule in ("own", "pick"):
             return self
-        return self.around(self.of.ground(picks_too=picks_too))
+        return self.around(self.of.reference(picks_too=picks_too))
 
     def around(self, of: Selector) -> Self:
         """Return the same selector of another group."""

@@ -10,7 +10,7 @@ import typer
 
 from fieldhand.cli.driver_options import DomainOption, DriverOption, NamespaceOption, OnOption, SimTimeOption
 from fieldhand.errors import InputError
-from fieldhand.visible import print_error
+from fieldhand.hidden_characters import print_error
 
 if TYPE_CHECKING:
     from fastapi import FastAPI

@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fieldhand.hidden_characters import json_text
 from fieldhand.site.projection import Projection
-from fieldhand.visible import json_text
 
 _DEMO_SEED = 1872
 #: Seven decimals of a degree are 1 cm.

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from itertools import count
 from typing import Any, NoReturn
 
+from fieldhand.hidden_characters import find_hidden, visible
 from fieldhand.site.feature_kinds import (
     PointKind,
     ZoneKind,
@@ -22,7 +23,6 @@ from fieldhand.site.feature_kinds import (
 from fieldhand.site.formats.faults import Faults, UnusableFeature
 from fieldhand.site.formats.records import SiteRecords, UnusablePart
 from fieldhand.terms import Value
-from fieldhand.visible import find_hidden, visible
 
 _LONGEST_KEY = 100
 _LONGEST_ID = 64

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from fieldhand.hidden_characters import visible
 from fieldhand.language import joined, message
 from fieldhand.site.feature_kinds import phrase
-from fieldhand.visible import visible
 
 _MOST = 8
 _LONGEST = 40

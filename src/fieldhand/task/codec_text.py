@@ -10,9 +10,9 @@ import math
 import re
 from typing import Any
 
+from fieldhand.hidden_characters import find_hidden
 from fieldhand.task.codec_shapes import Attribute
 from fieldhand.terms import Value
-from fieldhand.visible import find_hidden
 
 NUMBER = r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?"
 INTEGER = r"[+-]?[0-9]{1,18}"

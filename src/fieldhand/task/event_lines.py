@@ -9,8 +9,8 @@ from functools import cache
 from typing import TYPE_CHECKING, Any, get_args
 
 from fieldhand.errors import TaskError
+from fieldhand.hidden_characters import json_text
 from fieldhand.task.results import Event
-from fieldhand.visible import json_text
 
 if TYPE_CHECKING:
     from pydantic import TypeAdapter

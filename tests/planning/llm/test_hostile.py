@@ -13,6 +13,7 @@ from shapely.geometry import box
 
 from fieldhand import mission
 from fieldhand.errors import ModelError, NotApprovedError
+from fieldhand.hidden_characters import visible
 from fieldhand.planning.llm.prompt import LONGEST_LINE, MOST_DATA, opening, repair
 from fieldhand.planning.planner import Clarify, Planned, Refused
 from fieldhand.request_check import mismatches
@@ -21,7 +22,6 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site, Zone
 from fieldhand.task.codec import decode, encode
 from fieldhand.testing.scripted_chat import ScriptedChat, planner_of, task_document
-from fieldhand.visible import visible
 from support.sites.grids import grid
 
 HUSKY = load_robot("husky")

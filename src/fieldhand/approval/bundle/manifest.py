@@ -11,7 +11,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationErr
 
 from fieldhand.approval.bundle.container import MANIFEST
 from fieldhand.errors import BundleError
-from fieldhand.visible import find_hidden, json_text
+from fieldhand.hidden_characters import find_hidden, json_text
 
 #: Format versions: the one written, and the older one still read, which lacks an approval number and an expiry date.
 #: Newer versions are refused, because their fields may have another meaning.

@@ -14,7 +14,7 @@ import re
 import unicodedata
 
 from fieldhand.errors import KeyFileError
-from fieldhand.visible import find_hidden, visible
+from fieldhand.hidden_characters import find_hidden, visible
 
 MAX_NAME = 80
 #: Combinations of scripts accepted in one name.

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from dataclasses import astuple, dataclass, fields
 from typing import Any
 
+from fieldhand.hidden_characters import csv_text, visible_json
 from fieldhand.task.results import Acted, Event, InDoubt
-from fieldhand.visible import csv_text, visible_json
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from fieldhand.evaluation.report.content import GOAL_HEAD, HEADINGS, TABLE_HEAD, ReportContent
 from fieldhand.evaluation.report.maps import ReportMap
-from fieldhand.visible import visible
+from fieldhand.hidden_characters import visible
 
 if TYPE_CHECKING:
     from jinja2 import Template

@@ -29,6 +29,7 @@ from fieldhand.exchange.broken_off import driven_part
 from fieldhand.exchange.incidents import known, position_of
 from fieldhand.exchange.mcap.schemas import EVENTS, GEOJSON, LOCATION, LOG, STATE, schema_of
 from fieldhand.files import open_output
+from fieldhand.hidden_characters import visible_json
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.results import (
     Acted,
@@ -47,7 +48,6 @@ from fieldhand.task.results import (
     Started,
     Waited,
 )
-from fieldhand.visible import visible_json
 
 if TYPE_CHECKING:
     from mcap.writer import Writer

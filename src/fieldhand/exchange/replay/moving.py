@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 from fieldhand.clock import clock_time
 from fieldhand.errors import OutputError
 from fieldhand.exchange.replay.film import Film, ReplayCapture
+from fieldhand.hidden_characters import visible
 from fieldhand.language.words import capitalised, say_name, say_unit
 from fieldhand.site.drawing import draw_site, name_site, site_figure
 from fieldhand.site.drawing.saving import make_text_visible
 from fieldhand.site.model import Site
-from fieldhand.visible import visible
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

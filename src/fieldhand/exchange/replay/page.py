@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 
 from fieldhand.exchange.replay.film import SIGNS, Film
+from fieldhand.hidden_characters import visible, visible_json
 from fieldhand.language.words import capitalised, say_action, say_name, say_unit
 from fieldhand.site.drawing.blocks import block_words, outline_of
 from fieldhand.site.model import Site
-from fieldhand.visible import visible, visible_json
 
 
 def page_of(film: Film, site: Site) -> bytes:

@@ -6,7 +6,7 @@ from typing import Any
 
 from fieldhand.exchange.incidents import Incident, LatLon
 from fieldhand.exchange.routes.route import ExportedRoute, RouteStop
-from fieldhand.visible import visible_json
+from fieldhand.hidden_characters import visible_json
 
 
 def write_geojson(route: ExportedRoute) -> bytes:

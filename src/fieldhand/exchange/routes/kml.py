@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 from fieldhand.exchange.incidents import LatLon
 from fieldhand.exchange.routes.route import ExportedRoute, RouteStop
+from fieldhand.hidden_characters import visible
 from fieldhand.language.words import capitalised, say_action, say_name, say_number, say_unit
-from fieldhand.visible import visible
 
 if TYPE_CHECKING:
     from lxml.etree import _Element

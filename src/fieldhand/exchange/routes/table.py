@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fieldhand.exchange.routes.route import ExportedRoute, ExportedWork
-from fieldhand.visible import csv_text
+from fieldhand.hidden_characters import csv_text
 
 COLUMNS = (
     "stop", "kind", "place", "lat", "lon", "robot_lat", "robot_lon", "leg_m", "travelled_m", "t_s", "certain",

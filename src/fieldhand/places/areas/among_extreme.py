@@ -27,7 +27,7 @@ class AmongExtreme(FromGroup):
     side: Side
     of: Selector = Trees()
 
-    ground_rule = "region"
+    reference_rule = "region"
 
     @classmethod
     def example(cls, site: Site) -> AmongExtreme:

@@ -18,15 +18,15 @@ if TYPE_CHECKING:
 _SIDES: tuple[Side, ...] = ("north", "east", "south", "west")
 
 
-def of_ground(of: Selector, wording: SelectorWording) -> str:
+def of_reference(of: Selector, wording: SelectorWording) -> str:
     """Return of what a half or an edge is one, empty for the whole site (:mod:`fieldhand.places` gives the rule)."""
-    ground = of.ground()
-    return "" if ground == Trees() else message("of {trees}", trees=wording.phrase(ground).group())
+    reference = of.reference()
+    return "" if reference == Trees() else message("of {trees}", trees=wording.phrase(reference).group())
 
 
 def in_area(of: Selector, area: str, wording: SelectorWording) -> NounPhrase:
     """Return the trees of a group in a region of its ground, whichever way it is nested with what else keeps trees."""
-    if of.ground() == of:
+    if of.reference() == of:
         return NounPhrase(after=(area,))
     return wording.phrase(of).keeping(after=area)
 

@@ -40,7 +40,7 @@ class Corners(FromGroup):
         if not self.which:
             raise nothing(resolution.site, self, "it names no corner")
         notes.rule = "corners are those of the smallest rectangle around the trees"
-        return corners(of, self.which, resolution.ground(self.of, of, picks_too=False))
+        return corners(of, self.which, resolution.reference(self.of, of, picks_too=False))
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:
         group = wording.phrase(self.of)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from fieldhand.language import message
 from fieldhand.language.words import SIDES
-from fieldhand.places.areas.area_words import in_area, of_ground
+from fieldhand.places.areas.area_words import in_area, of_reference
 from fieldhand.places.noun_phrase import NounPhrase
 from fieldhand.places.selector import FromGroup, Selector
 from fieldhand.places.sources.trees import Trees
@@ -28,7 +28,7 @@ class Edge(FromGroup):
     side: Side
     of: Selector = Trees()
 
-    ground_rule = "region"
+    reference_rule = "region"
 
     @classmethod
     def example(cls, site: Site) -> Edge:
@@ -38,10 +38,10 @@ class Edge(FromGroup):
         from fieldhand.places.areas.extent import edge
 
         notes.rule = "no tree beside them stands farther out"
-        return edge(of, self.side, resolution.ground(self.of, of))
+        return edge(of, self.side, resolution.reference(self.of, of))
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:
-        of = of_ground(self.of, wording)
+        of = of_reference(self.of, wording)
         return in_area(
             self.of, message("along the {northern} edge {of_trees}", northern=SIDES[self.side], of_trees=of), wording
         )

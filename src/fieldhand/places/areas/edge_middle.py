@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from fieldhand.language import message
 from fieldhand.language.words import SIDES
-from fieldhand.places.areas.area_words import of_ground
+from fieldhand.places.areas.area_words import of_reference
 from fieldhand.places.noun_phrase import NounPhrase
 from fieldhand.places.selection_phrase import picked_phrase
 from fieldhand.places.selector import Counted, Selector
@@ -38,11 +38,11 @@ class EdgeMiddle(Counted):
         from fieldhand.places.areas.extent import edge, from_edge_middle
         from fieldhand.places.ranks import rank
 
-        ground = resolution.ground(self.of, of)
-        candidates = edge(of, self.side, ground)
+        reference = resolution.reference(self.of, of)
+        candidates = edge(of, self.side, reference)
         notes.candidates = len(candidates)
         self.need(candidates, resolution)
-        away = from_edge_middle(candidates, self.side, ground)
+        away = from_edge_middle(candidates, self.side, reference)
         middle = message("the nearest to the middle of the {northern} edge", northern=SIDES[self.side])
         return rank(candidates, away, self.count, notes, middle)
 
@@ -50,7 +50,7 @@ class EdgeMiddle(Counted):
         near = message(
             "nearest to the middle of the {northern} edge {of_trees}",
             northern=SIDES[self.side],
-            of_trees=of_ground(self.of, wording),
+            of_trees=of_reference(self.of, wording),
         )
         return picked_phrase(wording.phrase(self.of), self.count, near)
 

@@ -42,10 +42,10 @@ class Extent:
     north: float
 
     @staticmethod
-    def around(ground: PlaceGroup) -> Extent:
+    def around(reference: PlaceGroup) -> Extent:
         """Of these places."""
-        west, south = ground.xy.min(axis=0).tolist()
-        east, north = ground.xy.max(axis=0).tolist()
+        west, south = reference.xy.min(axis=0).tolist()
+        east, north = reference.xy.max(axis=0).tolist()
         return Extent(west, south, east, north)
 
     @property
@@ -59,15 +59,15 @@ def outward(xy: NDArray[np.float64], side: Side) -> NDArray[np.float64]:
     return np.asarray(xy @ np.array(OUTWARD[side]))
 
 
-def half(spots: PlaceGroup, side: Side, ground: PlaceGroup) -> PlaceGroup:
+def half(spots: PlaceGroup, side: Side, reference: PlaceGroup) -> PlaceGroup:
     """On that side of the middle line of the ground's extent, or on the line."""
-    middle = outward(Extent.around(ground).centre[None, :], side)[0]
+    middle = outward(Extent.around(reference).centre[None, :], side)[0]
     return spots.keep(outward(spots.xy, side) >= middle - _ON_THE_LINE_M)
 
 
-def quarter(spots: PlaceGroup, name: CornerName, ground: PlaceGroup) -> PlaceGroup:
+def quarter(spots: PlaceGroup, name: CornerName, reference: PlaceGroup) -> PlaceGroup:
     """In both of the halves that name the quarter."""
-    return half(half(spots, _SIDE[name[0]], ground), _SIDE[name[1]], ground)
+    return half(half(spots, _SIDE[name[0]], reference), _SIDE[name[1]], reference)
 
 
 def among_extreme(spots: PlaceGroup, side: Side, notes: ResolutionNotes) -> PlaceGroup:
@@ -80,11 +80,11 @@ def among_extreme(spots: PlaceGroup, side: Side, notes: ResolutionNotes) -> Plac
     return spots.keep(reach > reach.max() - spacing + _ON_THE_LINE_M)
 
 
-def edge(spots: PlaceGroup, side: Side, ground: PlaceGroup) -> PlaceGroup:
+def edge(spots: PlaceGroup, side: Side, reference: PlaceGroup) -> PlaceGroup:
     """Those that no tree of the ground hides from that side: none stands farther out within 0.7 spacings to the left
     or right. It follows the outline of a farm that is turned against the compass."""
-    along = outward(ground.xy, "east" if side in ("north", "south") else "north")
-    reach = outward(ground.xy, side)
+    along = outward(reference.xy, "east" if side in ("north", "south") else "north")
+    reach = outward(reference.xy, side)
     order = np.argsort(along, kind="stable")
     corridor = _CORRIDOR * spots.site.spacing_m
     mine = outward(spots.xy, "east" if side in ("north", "south") else "north")
@@ -94,21 +94,21 @@ def edge(spots: PlaceGroup, side: Side, ground: PlaceGroup) -> PlaceGroup:
     return spots.keep(outward(spots.xy, side) >= farthest - _ON_THE_LINE_M)
 
 
-def from_edge_middle(spots: PlaceGroup, side: Side, ground: PlaceGroup) -> NDArray[np.float64]:
+def from_edge_middle(spots: PlaceGroup, side: Side, reference: PlaceGroup) -> NDArray[np.float64]:
     """Metres from the middle of that side of the smallest-area rectangle around the ground."""
-    at = named_corners(smallest_rectangle(ground.xy))
+    at = named_corners(smallest_rectangle(reference.xy))
     ends = [point for name, point in at.items() if _SIDE[name[0]] == side or _SIDE[name[1]] == side]
     return np.asarray(np.hypot(*(spots.xy - (ends[0] + ends[1]) / 2).T))
 
 
-def from_centre(spots: PlaceGroup, ground: PlaceGroup) -> NDArray[np.float64]:
+def from_centre(spots: PlaceGroup, reference: PlaceGroup) -> NDArray[np.float64]:
     """Metres from the centre of the ground's extent."""
-    return np.asarray(np.hypot(*(spots.xy - Extent.around(ground).centre).T))
+    return np.asarray(np.hypot(*(spots.xy - Extent.around(reference).centre).T))
 
 
-def corners(spots: PlaceGroup, which: Iterable[CornerName], ground: PlaceGroup) -> PlaceGroup:
+def corners(spots: PlaceGroup, which: Iterable[CornerName], reference: PlaceGroup) -> PlaceGroup:
     """For each name the place nearest to that corner of the smallest-area rectangle around the ground."""
-    at = named_corners(smallest_rectangle(ground.xy))
+    at = named_corners(smallest_rectangle(reference.xy))
     found = [int(spots.ranked(np.hypot(*(spots.xy - at[name]).T), 1).index[0]) for name in which]
     return PlaceGroup(site=spots.site, index=np.array(list(dict.fromkeys(found)), dtype=np.intp), others=spots.others)
 

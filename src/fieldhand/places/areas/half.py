@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from fieldhand.language import message
 from fieldhand.language.words import SIDES
-from fieldhand.places.areas.area_words import in_area, of_ground
+from fieldhand.places.areas.area_words import in_area, of_reference
 from fieldhand.places.count_range import CountRange, at_most
 from fieldhand.places.noun_phrase import NounPhrase
 from fieldhand.places.selector import FromGroup, Selector
@@ -33,7 +33,7 @@ class Half(FromGroup):
     side: Side
     of: Selector = Trees()
 
-    ground_rule = "region"
+    reference_rule = "region"
 
     @classmethod
     def example(cls, site: Site) -> Half:
@@ -43,10 +43,10 @@ class Half(FromGroup):
         from fieldhand.places.areas.extent import EXTENT_RULE, half
 
         notes.rule = EXTENT_RULE
-        return half(of, self.side, resolution.ground(self.of, of))
+        return half(of, self.side, resolution.reference(self.of, of))
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:
-        of = of_ground(self.of, wording)
+        of = of_reference(self.of, wording)
         return in_area(
             self.of, message("in the {northern} half {of_trees}", northern=SIDES[self.side], of_trees=of), wording
         )

@@ -35,7 +35,7 @@ class Middle(Counted):
         from fieldhand.places.ranks import rank
 
         self.need(of, resolution)
-        away = from_centre(of, resolution.ground(self.of, of, picks_too=False))
+        away = from_centre(of, resolution.reference(self.of, of, picks_too=False))
         return rank(of, away, self.count, notes, message("the nearest to the middle"))
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:

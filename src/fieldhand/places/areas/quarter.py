@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from fieldhand.language import message
 from fieldhand.language.words import CORNERS
-from fieldhand.places.areas.area_words import in_area, of_ground, sides_of_corners
+from fieldhand.places.areas.area_words import in_area, of_reference, sides_of_corners
 from fieldhand.places.count_range import CountRange, at_most
 from fieldhand.places.noun_phrase import NounPhrase
 from fieldhand.places.selector import FromGroup, Selector
@@ -29,7 +29,7 @@ class Quarter(FromGroup):
     quarter: CornerName
     of: Selector = Trees()
 
-    ground_rule = "region"
+    reference_rule = "region"
 
     @classmethod
     def example(cls, site: Site) -> Quarter:
@@ -39,10 +39,10 @@ class Quarter(FromGroup):
         from fieldhand.places.areas.extent import EXTENT_RULE, quarter
 
         notes.rule = EXTENT_RULE
-        return quarter(of, self.quarter, resolution.ground(self.of, of))
+        return quarter(of, self.quarter, resolution.reference(self.of, of))
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:
-        of = of_ground(self.of, wording)
+        of = of_reference(self.of, wording)
         return in_area(
             self.of,
             message("in the {north_west} quarter {of_trees}", north_west=CORNERS[self.quarter], of_trees=of),

@@ -27,7 +27,7 @@ class Excluding(FromGroup):
     places: Selector
     of: Selector = Trees()
 
-    ground_rule = "of"
+    reference_rule = "of"
 
     @classmethod
     def example(cls, site: Site) -> Excluding:

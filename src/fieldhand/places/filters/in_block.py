@@ -26,7 +26,7 @@ class InBlock(FromGroup):
     block: str
     of: Selector = Trees()
 
-    ground_rule = "region"
+    reference_rule = "region"
 
     @classmethod
     def example(cls, site: Site) -> InBlock:

@@ -33,7 +33,7 @@ class InZone(FromGroup):
     margin_m: float = 0.0
     of: Selector = Trees()
 
-    ground_rule = "region"
+    reference_rule = "region"
 
     @classmethod
     def example(cls, site: Site) -> InZone:

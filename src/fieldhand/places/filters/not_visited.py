@@ -24,7 +24,7 @@ class NotVisited(FromGroup):
 
     of: Selector = Trees()
 
-    ground_rule = "of"
+    reference_rule = "of"
 
     @classmethod
     def example(cls, site: Site) -> NotVisited:

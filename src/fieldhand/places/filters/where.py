@@ -33,7 +33,7 @@ class Where(FromGroup):
     value: Value
     of: Selector = Trees()
 
-    ground_rule = "group"
+    reference_rule = "group"
 
     @classmethod
     def example(cls, site: Site) -> Where:

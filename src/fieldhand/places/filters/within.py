@@ -31,7 +31,7 @@ class Within(FromGroup):
     to: Selector
     of: Selector = Trees()
 
-    ground_rule = "region"
+    reference_rule = "region"
 
     @classmethod
     def example(cls, site: Site) -> Within:

@@ -19,7 +19,7 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class ZoneGround:
+class ZoneArea:
     """The ground of a zone, from whose outline distances are measured; no tree inside is near to it or far from it."""
 
     site: Site
@@ -27,7 +27,7 @@ class ZoneGround:
 
 
 #: Distances are measured from the nearest of some places, or from the ground of a zone.
-Origin = PlaceGroup | ZoneGround
+Origin = PlaceGroup | ZoneArea
 
 #: "Next to" prefers the same row among those at most this much farther than the nearest one.
 _BAND = 1.5
@@ -47,7 +47,7 @@ _STRAIGHT_COS = 0.87
 
 def distance_to(spots: PlaceGroup, origin: Origin) -> Floats:
     """Metres from each place to the nearest of ``origin``, straight; 0 inside a zone."""
-    if isinstance(origin, ZoneGround):
+    if isinstance(origin, ZoneArea):
         return np.asarray(shapely.distance(origin.area, shapely.points(spots.xy)))
     if len(origin) == 1:
         return np.asarray(np.hypot(*(spots.xy - origin.xy[0]).T))
@@ -56,7 +56,7 @@ def distance_to(spots: PlaceGroup, origin: Origin) -> Floats:
 
 def nearest_of(origin: Origin, spots: PlaceGroup) -> Floats:
     """Return for each place the point of ``origin`` that is nearest to it, in metres east and north, shape (n, 2)."""
-    if isinstance(origin, ZoneGround):
+    if isinstance(origin, ZoneArea):
         lines = shapely.shortest_line(origin.area, shapely.points(spots.xy))
         return np.asarray(shapely.get_coordinates(lines)[::2])
     return np.asarray(origin.xy[np.atleast_1d(_index(origin).query(spots.xy)[1])])
@@ -64,7 +64,7 @@ def nearest_of(origin: Origin, spots: PlaceGroup) -> Floats:
 
 def apart_from(spots: PlaceGroup, origin: Origin) -> PlaceGroup:
     """Those neither among nor inside ``origin``, nor the same tree entered twice in the file (within a centimetre)."""
-    if isinstance(origin, ZoneGround):
+    if isinstance(origin, ZoneArea):
         return spots.keep(distance_to(spots, origin) > 0)
     left = spots.without(origin)
     if not len(left):
@@ -97,7 +97,7 @@ def on_side(spots: PlaceGroup, to: Origin, side: Side, *, next_to: bool) -> Plac
     outward = {"north": step[:, 1], "east": step[:, 0], "south": -step[:, 1], "west": -step[:, 0]}[side]
     sideways = np.abs(step[:, 0] if side in ("north", "south") else step[:, 1])
     kept = (outward > 0) & (sideways <= outward)
-    if next_to and isinstance(to, ZoneGround):
+    if next_to and isinstance(to, ZoneArea):
         kept &= np.hypot(*step.T) <= _BAND * to.site.spacing_m + 1e-9
     elif next_to and isinstance(to, PlaceGroup):
         reach = np.array([_BAND * _apart_at(to, k) for k in range(len(to))])
@@ -119,7 +119,7 @@ def _apart_at(to: PlaceGroup, k: int) -> float:
 
 def within(spots: PlaceGroup, to: Origin, distance_m: float) -> PlaceGroup:
     """At most that far, straight."""
-    if not len(spots) or isinstance(to, ZoneGround) or len(to) == 1:
+    if not len(spots) or isinstance(to, ZoneArea) or len(to) == 1:
         return spots.keep(distance_to(spots, to) <= distance_m) if len(spots) else spots
     reach = distance_m + 1e-9  # the bound itself is left out
     return spots.keep(_index(to).query(spots.xy, distance_upper_bound=reach)[0] <= distance_m)

@@ -33,7 +33,7 @@ class Evenly(Counted):
     out_of: int = 0
     of: Selector = Trees()
 
-    ground_rule = "of"
+    reference_rule = "of"
 
     @classmethod
     def example(cls, site: Site) -> Evenly:

@@ -71,7 +71,7 @@ class Ordered(FromGroup):
     descending: bool = False
     of: Selector = Trees()
 
-    ground_rule = "of"
+    reference_rule = "of"
 
     @classmethod
     def example(cls, site: Site) -> Ordered:

@@ -33,7 +33,7 @@ class RandomSample(Counted):
     seed: int = 0
     of: Selector = Trees()
 
-    ground_rule = "of"
+    reference_rule = "of"
 
     @classmethod
     def example(cls, site: Site) -> RandomSample:

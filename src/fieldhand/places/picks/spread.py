@@ -26,7 +26,7 @@ class Spread(Counted):
     count: int
     of: Selector = Trees()
 
-    ground_rule = "of"
+    reference_rule = "of"
 
     @classmethod
     def example(cls, site: Site) -> Spread:

@@ -26,7 +26,7 @@ class Take(Counted):
     count: int
     of: Selector
 
-    ground_rule = "of"
+    reference_rule = "of"
 
     @classmethod
     def example(cls, site: Site) -> Take:

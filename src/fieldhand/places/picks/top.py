@@ -31,7 +31,7 @@ class Top(Counted):
     lowest: bool = False
     of: Selector = Trees()
 
-    ground_rule = "pick"
+    reference_rule = "pick"
 
     @classmethod
     def example(cls, site: Site) -> Top:

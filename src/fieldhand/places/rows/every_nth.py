@@ -31,7 +31,7 @@ class EveryNth(FromGroup):
     counted_from: CountedFrom = "usual"
     of: Selector = Trees()
 
-    ground_rule = "group"
+    reference_rule = "group"
     counts_from_a_side = True
 
     @classmethod

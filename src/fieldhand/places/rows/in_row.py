@@ -34,7 +34,7 @@ class InRow(FromGroup):
     counted_from: CountedFrom = "usual"
     of: Selector = Trees()
 
-    ground_rule = "group"
+    reference_rule = "group"
     counts_from_a_side = True
 
     @classmethod

@@ -27,7 +27,7 @@ class RowOf(FromGroup):
     over: int = 0
     of: Selector = Trees()
 
-    ground_rule = "group"
+    reference_rule = "group"
     counts_from_a_side = True
 
     @classmethod

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from fieldhand.places.rows.rows import Rows
 
 
-def in_rows(spots: PlaceGroup, selector: Rows, ground: PlaceGroup, notes: ResolutionNotes) -> PlaceGroup:
+def in_rows(spots: PlaceGroup, selector: Rows, reference: PlaceGroup, notes: ResolutionNotes) -> PlaceGroup:
     """Those in a range of rows, or in every so many of them.
 
     A row that is called by name or number is looked for in the blocks of the ground; without one, each block counts.
@@ -42,7 +42,7 @@ def in_rows(spots: PlaceGroup, selector: Rows, ground: PlaceGroup, notes: Resolu
             message("every {every}th row is no row", every=selector.every),
             advice=message("ask for every row, every second row, ..."),
         )
-    blocks = blocks_of(site, ground)
+    blocks = blocks_of(site, reference)
     if not blocks:
         raise PlaceError(
             message("none of these trees stands in a row"), where=site.name, advice=message("ask for other trees")

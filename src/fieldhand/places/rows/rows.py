@@ -39,7 +39,7 @@ class Rows(FromGroup):
     counted_from: CountedFrom = "usual"
     of: Selector = Trees()
 
-    ground_rule = "group"
+    reference_rule = "group"
     counts_from_a_side = True
 
     @classmethod
@@ -49,7 +49,7 @@ class Rows(FromGroup):
     def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         from fieldhand.places.rows.row_range import in_rows
 
-        return in_rows(of, self, resolution.ground(self.of, of), notes)
+        return in_rows(of, self, resolution.reference(self.of, of), notes)
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:
         rows, single = self._said()

@@ -31,7 +31,7 @@ class Successive(Counted):
     near: Selector = Here()
     of: Selector = Trees()
 
-    ground_rule = "pick"
+    reference_rule = "pick"
     counts_from_a_side = True
 
     @classmethod

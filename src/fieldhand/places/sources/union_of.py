@@ -68,5 +68,5 @@ class UnionOf(Selector):
         apart = all(part.named_tree for part in self.parts) and len(set(self.parts)) == len(self.parts)
         return CountRange(low=total if apart and total is not None else 1, high=total)
 
-    def ground(self, *, picks_too: bool = True) -> Selector:
-        return UnionOf(parts=tuple(part.ground(picks_too=picks_too) for part in self.parts))
+    def reference(self, *, picks_too: bool = True) -> Selector:
+        return UnionOf(parts=tuple(part.reference(picks_too=picks_too) for part in self.parts))

@@ -15,8 +15,8 @@ from pathlib import Path
 from typing import Any
 
 from fieldhand.errors import InputError, OutputError
+from fieldhand.hidden_characters import json_text
 from fieldhand.planning.llm.chat import ChatMessage, Reply
-from fieldhand.visible import json_text
 
 FORMAT = "fieldhand-transcript/1"
 

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fieldhand.hidden_characters import visible
 from fieldhand.site.counting import rows_from
 from fieldhand.site.model import Site
 from fieldhand.site.planting import Block, Known, Row
-from fieldhand.visible import visible
 
 _LONGEST = 40
 _OPPOSITE = {"north": "south", "south": "north", "west": "east", "east": "west"}

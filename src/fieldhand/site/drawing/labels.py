@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.visible import visible
+from fieldhand.hidden_characters import visible
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from fieldhand.errors import OutputError
+from fieldhand.hidden_characters import visible
 from fieldhand.language import message
-from fieldhand.visible import visible
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

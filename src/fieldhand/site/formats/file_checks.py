@@ -9,7 +9,7 @@ from pathlib import Path
 from xml.parsers import expat
 
 from fieldhand.errors import SiteError
-from fieldhand.visible import visible
+from fieldhand.hidden_characters import visible
 
 MAX_DEPTH = 100
 _VIRTUAL = re.compile(r"\s*CREATE\s+VIRTUAL", re.IGNORECASE)

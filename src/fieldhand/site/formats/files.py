@@ -10,11 +10,11 @@ from pathlib import Path
 
 from fieldhand.errors import SiteError
 from fieldhand.files import FileFault, read_file
+from fieldhand.hidden_characters import visible
 from fieldhand.language import message, recalled
 from fieldhand.plugins import active
 from fieldhand.short_repr import short_repr
 from fieldhand.site.formats.records import MAX_BYTES, SHAPEFILE_PARTS, Format, SiteRecords, too_big
-from fieldhand.visible import visible
 
 _ENDINGS: dict[str, Format] = {
     ".geojson": "geojson",

@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from fieldhand.errors import SiteError
+from fieldhand.hidden_characters import visible
 from fieldhand.site.feature_kinds import KIND_KEYS, area_kind, barrier_name, point_kind, text_of
 from fieldhand.site.formats.archive import unpack
 from fieldhand.site.formats.file_checks import check_geopackage, check_kml
@@ -25,7 +26,6 @@ from fieldhand.site.formats.geojson import geojson_records
 from fieldhand.site.formats.records import SHAPEFILE_PARTS, Format, SiteRecords, UnusablePart
 from fieldhand.site.formats.sandbox import read_sandboxed
 from fieldhand.site.formats.table import table_records, value_of
-from fieldhand.visible import visible
 
 MAX_LAYERS = 100
 MAX_FEATURES = 1_000_000

@@ -11,11 +11,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from fieldhand.errors import SiteError
+from fieldhand.hidden_characters import visible
 from fieldhand.site.feature_kinds import phrase
 from fieldhand.site.features import readable
 from fieldhand.site.formats.faults import UnusableFeature
 from fieldhand.site.formats.records import SiteRecords, UnusablePart
-from fieldhand.visible import visible
 
 # fmt: off
 #: Names of the two columns, the surest first; compared without case, hyphens, underscores and what stands in brackets.

@@ -15,6 +15,7 @@ from typing import Any, Literal, Union, get_args, get_origin
 
 from hypothesis import strategies as st
 
+from fieldhand.hidden_characters import find_hidden
 from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import SELECTORS
 from fieldhand.task.build import make_task
@@ -30,7 +31,6 @@ from fieldhand.task.conditions import Between, Compare, Condition, Level
 from fieldhand.task.frames import Budget, Constraints, FaultedExit, Resource, Task
 from fieldhand.task.plan import Act, Node, Span
 from fieldhand.terms import Value
-from fieldhand.visible import find_hidden
 
 #: A robot with every kind of parameter, an action that measures two quantities and a quantity without level words.
 ROVER = Capabilities(

@@ -32,7 +32,7 @@ _FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n", "\uff1d", "\uff0b", "\uff0d", 
 
 
 @dataclass(frozen=True, kw_only=True)
-class Hidden:
+class HiddenCharacter:
     """A character that a person cannot see.
 
     Attributes:
@@ -63,7 +63,7 @@ def print_error(*lines: str) -> None:
         print(visible(line), file=sys.stderr, flush=True)  # noqa: T201
 
 
-def find_hidden(text: str, *, lines: bool = False) -> Hidden | None:
+def find_hidden(text: str, *, lines: bool = False) -> HiddenCharacter | None:
     """Return the first hidden character of a text; None if there is none.
 
     Args:
@@ -76,11 +76,11 @@ def find_hidden(text: str, *, lines: bool = False) -> Hidden | None:
     for at, character in enumerate(text):
         if character not in kept and _is_hidden(character):
             name = unicodedata.name(character, "")
-            return Hidden(at=at, name=f"U+{ord(character):04X}{f' {name}' if name else ''}")
+            return HiddenCharacter(at=at, name=f"U+{ord(character):04X}{f' {name}' if name else ''}")
     return None
 
 
-def find_hidden_within(value: object, where: str = "") -> tuple[str, Hidden] | None:
+def find_hidden_within(value: object, where: str = "") -> tuple[str, HiddenCharacter] | None:
     """Return the place of the first hidden character in mappings, lists and texts, as ``a.b[2]``, and the character."""
     if isinstance(value, str):
         character = find_hidden(value, lines=True)
