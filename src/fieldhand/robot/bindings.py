@@ -1,10 +1,10 @@
-"""How a robot is reached over ROS 2, as data: which of its actions, services and topics carry out what.
+"""ROS 2 bindings of a robot: the actions, services and topics that execute each action of its profile.
 
-Read from the ``ros2`` part of a profile by :mod:`fieldhand.robot.loader`. No code of the robot's maker is needed: what
-a profile does not say is not done.
+The bindings are read from the ``ros2`` part of a profile by :mod:`fieldhand.robot.loader`. They need no code from the
+robot's manufacturer; interfaces that a profile does not name are not used.
 
-Names are those of ROS: one that begins with ``/`` is whole, any other stands below the robot's namespace. Types are
-``package/msg/Name``, ``package/srv/Name``, ``package/action/Name``. A path leads to a value in a message:
+A name that begins with ``/`` is absolute; any other is relative to the robot's namespace. Types are written
+``package/msg/Name``, ``package/srv/Name`` or ``package/action/Name``. A path names a value in a message:
 ``percentage``, ``pose.pose.position.x``, ``cells[0].value``.
 """
 
@@ -16,18 +16,18 @@ from typing import Literal
 
 from fieldhand.short_repr import short_repr
 
-#: Releases whose definitions of the standard interfaces are known; those of nav2_msgs differ between them.
+#: Supported ROS 2 releases. The definitions of nav2_msgs differ between them.
 Distro = Literal["humble", "iron", "jazzy", "kilted"]
 
-#: What carries a drive out: one pose at a time, all corners of the way at once, or both as degrees.
+#: Action type for driving: one pose at a time, all waypoints of the way at once, or waypoints in degrees.
 NavigationType = Literal[
     "nav2_msgs/action/NavigateToPose", "nav2_msgs/action/NavigateThroughPoses", "nav2_msgs/action/FollowGPSWaypoints"
 ]
 
-#: What a failure code of navigation means to a mission: the kinds of ``execution/drivers/protocol.py``.
+#: Meaning of a navigation failure code for a mission: a fault kind of ``execution/drivers/protocol.py``.
 NavigationFault = Literal["failed", "blocked", "lost"]
 
-#: In a request, what stands for the place in hand; every other name behind ``$`` is a parameter of the action.
+#: References to the current place in a request; any other name after ``$`` is a parameter of the action.
 PLACE_REFERENCES = ("$place", "$kind", "$lat", "$lon")
 
 RequestValue = str | float | bool
@@ -35,7 +35,7 @@ RequestValue = str | float | bool
 
 @dataclass(frozen=True, kw_only=True)
 class FieldBinding:
-    """A number in a message: the value at ``path``, times ``scale``, plus ``offset``, in the quantity's unit."""
+    """A number in a message: ``value at path * scale + offset``, in the unit of the quantity."""
 
     path: str
     scale: float = 1.0
@@ -44,12 +44,15 @@ class FieldBinding:
 
 @dataclass(frozen=True, kw_only=True)
 class TopicBinding:
-    """A topic, and how old its last message may be.
+    """A subscribed topic with its quality of service and the maximum age of its last message.
 
     Attributes:
-        stale_s: Seconds without a message after which nothing is known any more.
-        reliable: Ask for reliable delivery; sensors mostly send best effort, which a reliable reader never hears.
-        transient: Ask for what was sent before (transient local).
+        topic: Name of the topic.
+        type: Message type.
+        stale_s: Age in seconds beyond which the last message no longer counts.
+        reliable: Request reliable delivery; a reliable subscriber receives nothing from a best-effort publisher, as most
+            sensors are.
+        transient: Request messages that were published before the subscription (transient local).
     """
 
     topic: str
@@ -61,10 +64,14 @@ class TopicBinding:
 
 @dataclass(frozen=True, kw_only=True)
 class NextMessage:
-    """A reading that is the next message of a topic after the capture began, or after its call was answered.
+    """A reading taken from the next message of a topic after the capture began, or after its call returned.
 
     Attributes:
-        within_s: How long to wait for it.
+        topic: Name of the topic.
+        type: Message type.
+        value: Number in the message.
+        within_s: Maximum wait for the message, in seconds.
+        reliable: Request reliable delivery.
     """
 
     topic: str
@@ -76,16 +83,18 @@ class NextMessage:
 
 @dataclass(frozen=True, kw_only=True)
 class CallBinding:
-    """A ROS action or service that makes a capture.
+    """A call of a ROS action or service that makes a capture.
 
     Attributes:
-        kind: By which of the two.
-        request: Values of the goal or request, by path: a constant, a parameter (``$depth_cm``), or what stands for the
-            place in hand (:data:`PLACE_REFERENCES`). What is not named keeps the default of its type.
-        readings: Where each quantity stands in the result or response.
-        success: Path to the flag that says whether it succeeded; empty where there is none.
-        message: Path to the words that say why not; empty where there are none.
-        within_s: How long it may take, from being asked to the result.
+        kind: ``action`` or ``service``.
+        name: Name of the action or service.
+        type: Its type.
+        request: Values of the goal or request by path: a constant, a parameter (``$depth_cm``), or a reference to the
+            current place (:data:`PLACE_REFERENCES`). Other fields keep the defaults of the type.
+        readings: Number of each quantity in the result or response.
+        success: Path of the success flag; empty if there is none.
+        message: Path of the text that explains a failure; empty if there is none.
+        within_s: Maximum time from sending the request to the result, in seconds.
     """
 
     kind: Literal["action", "service"]
@@ -100,11 +109,12 @@ class CallBinding:
 
 @dataclass(frozen=True, kw_only=True)
 class ActionBinding:
-    """How an action of the profile is carried out: by a call, by listening, or by a call and then listening.
+    """Execution of an action of the profile: a call, readings from topics, or a call followed by readings.
 
     Attributes:
-        topics: Quantities that are read from topics, each at the next message after the call; if none comes in time,
-            at the last one since it was sent.
+        call: ROS action or service to call; None if the action only reads topics.
+        topics: Quantities read from topics, each from the next message after the call; if none arrives in time, from
+            the last message since the call was sent.
     """
 
     call: CallBinding | None = None
@@ -113,11 +123,11 @@ class ActionBinding:
 
 @dataclass(frozen=True, kw_only=True)
 class Datum:
-    """The point of the earth at the origin of the map frame.
+    """The geographic position and heading of the map frame's origin.
 
     Attributes:
         lat, lon: Degrees, WGS 84.
-        heading_deg: Of the map's x axis, clockwise from true north; 90 where x leads east, as REP 103 has it.
+        heading_deg: Heading of the map's x axis in degrees clockwise from true north; 90 if x points east (REP 103).
     """
 
     lat: float
@@ -127,21 +137,24 @@ class Datum:
 
 @dataclass(frozen=True, kw_only=True)
 class NavigationBinding:
-    """How the robot is driven.
+    """Navigation of the robot: the driving action, its frame, its time limits and its failure codes.
 
     Attributes:
-        frame: Frame of the poses that are sent.
-        datum: Where the map frame lies; None where ``from_ll`` is asked.
-        from_ll: Service of robot_localization that turns degrees into the map frame; empty where ``datum`` says it.
-        tolerance_m: The robot has arrived if it stands within that of the goal when navigation says that it has.
-        behavior_tree: Handed on to Nav2; empty for its own.
-        speed_limit: Topic by which Nav2's controller is told how fast it may drive (``nav2_msgs/msg/SpeedLimit``);
-            empty where it cannot be: a drive that is to be slower than the robot's speed then fails.
-        codes: What failure codes mean, beside those that are known.
-        without_code: What a failure without any code means: Humble gives none.
-        accept_s: Within that a goal is accepted or rejected.
-        quiet_s: Seconds without feedback after which navigation is taken to be gone.
-        slower: A drive may last that many times as long as its metres at its speed, and ``extra_s`` more.
+        action: Name of the navigation action.
+        type: Its type.
+        frame: Frame of the goal poses.
+        datum: Position of the map frame; None to convert coordinates with ``from_ll``.
+        from_ll: Service of robot_localization that converts degrees to the map frame; empty if ``datum`` is given.
+        tolerance_m: Maximum distance from the goal, in metres, at which a drive that navigation reports as done counts.
+        behavior_tree: Behavior tree passed to Nav2; empty for its default.
+        speed_limit: Topic of Nav2's speed limit (``nav2_msgs/msg/SpeedLimit``); if empty, a drive below the robot's
+            speed fails.
+        codes: Meanings of failure codes, in addition to the known ones.
+        without_code: Meaning of a failure without a code; Humble sends none.
+        accept_s: Maximum time until a goal is accepted or rejected, in seconds.
+        quiet_s: Seconds without feedback after which navigation counts as lost.
+        slower: Maximum duration of a drive, as a multiple of its length divided by its speed, plus ``extra_s``.
+        extra_s: Seconds added to the maximum duration of a drive.
     """
 
     action: str
@@ -162,11 +175,12 @@ class NavigationBinding:
 
 @dataclass(frozen=True, kw_only=True)
 class PositionBinding:
-    """Where the robot is: a ``sensor_msgs/msg/NavSatFix``.
+    """The position source of the robot: a ``sensor_msgs/msg/NavSatFix``.
 
     Attributes:
-        most_sigma_m: Standard deviation, of the worse of east and north, beyond which the robot is lost; where the
-            receiver gives none, only the kind of the fix counts.
+        fix: Topic of the fixes.
+        most_sigma_m: Maximum standard deviation in metres, of the worse of east and north, beyond which the robot is
+            lost. If the receiver reports none, only the type of the fix counts.
     """
 
     fix: TopicBinding
@@ -175,7 +189,7 @@ class PositionBinding:
 
 @dataclass(frozen=True, kw_only=True)
 class BatteryBinding:
-    """The battery's charge in percent: mostly a ``sensor_msgs/msg/BatteryState``, whose percentage is 0 to 1."""
+    """The battery charge in percent, usually from a ``sensor_msgs/msg/BatteryState``, whose percentage is 0 to 1."""
 
     topic: TopicBinding
     value: FieldBinding
@@ -183,7 +197,7 @@ class BatteryBinding:
 
 @dataclass(frozen=True, kw_only=True)
 class StopBinding:
-    """An emergency stop: the robot is stopped while the value at ``path`` is ``stopped``."""
+    """An emergency stop: active while the value at ``path`` equals ``stopped``."""
 
     topic: TopicBinding
     path: str
@@ -192,15 +206,19 @@ class StopBinding:
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class Ros2Bindings:
-    """A robot over ROS 2.
+    """The ROS 2 interfaces of a robot.
 
     Attributes:
-        namespace: Before every name that does not begin with ``/``; empty, or ``/`` and a name.
-        odometry: A ``nav_msgs/msg/Odometry``: metres are counted along it; without it, along the fixes.
-        actions: By the names of the profile's actions; one that has none cannot be done on this robot.
-        interfaces: Definitions of types that are no part of ROS's own, as ``.msg``, ``.srv`` and ``.action`` files have
-            them, by type.
-        use_sim_time: The robot is a simulation whose time stands on ``/clock``.
+        distro: ROS 2 release of the robot.
+        namespace: Prefix of every relative name: empty, or ``/`` and a name.
+        navigation: Driving.
+        position: Position source.
+        battery: Battery charge.
+        odometry: ``nav_msgs/msg/Odometry`` along which driven metres are counted; None to count them along the fixes.
+        stop: Emergency stop; None if the robot has none.
+        actions: Bindings by action name; an action without one cannot be executed on this robot.
+        interfaces: Definitions of non-standard types by type, as in ``.msg``, ``.srv`` and ``.action`` files.
+        use_sim_time: True for a simulated robot that publishes its time on ``/clock``.
     """
 
     distro: Distro
@@ -217,5 +235,5 @@ class Ros2Bindings:
     __repr__ = short_repr
 
     def whole_name(self, name: str) -> str:
-        """A name with the robot's namespace before it, beginning with ``/``."""
+        """Return the absolute name, which begins with ``/``, of a name in the robot's namespace."""
         return name if name.startswith("/") else f"{self.namespace}/{name}"

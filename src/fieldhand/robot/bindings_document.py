@@ -1,8 +1,8 @@
-"""The form of the ``ros2`` part of a profile file: what keys it has and what values they may take.
+"""Pydantic models of the ``ros2`` part of a profile file: its keys and their value ranges.
 
-What can be told from this part alone is checked here, what needs actions and quantities in
-:mod:`fieldhand.robot.bindings_loader`. Whether a type has the field that a path names is known only where types are
-(``fieldhand robot check``). docs/formats.md describes the keys for readers.
+These models check the part by itself; :mod:`fieldhand.robot.bindings_loader` checks it against the actions and
+quantities of the profile. The fields of message types can be checked only where the types are installed
+(``fieldhand robot check``). docs/formats.md documents the keys.
 """
 
 from __future__ import annotations
@@ -16,11 +16,12 @@ from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator, mod
 from fieldhand.robot.bindings import Distro, NavigationFault, NavigationType, RequestValue
 from fieldhand.robot.fields import Keyed, Name, Number, Positive, Unit, no_bool
 
-#: ROS keeps names shorter; what is longer is no name.
+#: Maximum length of a name; ROS requires shorter ones.
 _LONGEST_NAME = 255
-#: Characters of one definition, and how many there may be: a profile is read by people, and goes into every bundle.
+#: Maximum length of an interface definition in characters, and maximum number of definitions: they are part of every
+#: bundle.
 _LONGEST_TEXT, _MOST_INTERFACES = 20_000, 50
-#: How many lines of dashes part the sections of each kind of interface.
+#: Number of separator lines (``---``) in the definition of each kind of interface.
 _SECTIONS = {"msg": 0, "srv": 1, "action": 2}
 
 
@@ -33,10 +34,10 @@ def _ros_name(value: str) -> str:
 
 
 def as_namespace(value: str) -> str:
-    """A namespace as names are put together with it: empty, or ``/`` and a name.
+    """Return a namespace in normal form: empty, or ``/`` and a name.
 
     Raises:
-        ValueError: It is none; says what to do.
+        ValueError: The value is not a namespace.
     """
     return "" if value in ("", "/") else "/" + _ros_name(value).removeprefix("/")
 
@@ -55,17 +56,17 @@ def _typed(kind: str, value: str) -> str:
 
 
 def _navigation(value: object) -> object:
-    """``NavigateToPose`` alone means that of Nav2."""
+    """Expand a bare type name such as ``NavigateToPose`` to the type of Nav2."""
     return f"nav2_msgs/action/{value}" if isinstance(value, str) and "/" not in value else value
 
 
 def _only_path(data: object) -> object:
-    """``reading: temperature`` means ``reading: {path: temperature}``."""
+    """Expand the short form ``reading: temperature`` to ``reading: {path: temperature}``."""
     return {"path": data} if isinstance(data, str) else data
 
 
 def _constant(value: object) -> RequestValue:
-    """Of a request: no list and no mapping; what no type of ROS holds is refused here already."""
+    """Validate a constant of a request: no list, no mapping, and no value outside the range of every ROS type."""
     match value:
         case bool():
             return value
@@ -93,7 +94,7 @@ ActionType = Annotated[str, AfterValidator(lambda value: _typed("action", value)
 ServiceType = Annotated[str, AfterValidator(lambda value: _typed("srv", value))]
 AnyType = Annotated[str, AfterValidator(lambda value: _typed("(?:msg|srv|action)", value))]
 Limit = Annotated[Positive, Field(le=3600)]
-#: How old the last message may be; a day where a robot says something only when it changes.
+#: Maximum age of the last message in seconds, up to a day for topics that are published only on change.
 Stale = Annotated[Positive, Field(le=86_400)]
 Metres = Annotated[Positive, Field(le=100)]
 Code = Annotated[int, BeforeValidator(no_bool), Field(ge=0, le=65_535)]
@@ -101,7 +102,7 @@ Constant = Annotated[RequestValue, PlainValidator(_constant)]
 
 
 class _ConvertedDocument(Keyed):
-    """A number in a message, and how it becomes the quantity's."""
+    """A number in a message with its conversion to the unit of the quantity."""
 
     path: Path | None = None
     unit: Unit | None = None
@@ -118,7 +119,7 @@ class _ConvertedDocument(Keyed):
 
 
 class _TopicDocument(Keyed):
-    """How a topic is read."""
+    """A subscribed topic with its quality of service."""
 
     topic: RosName
     reliable: bool = False
@@ -136,7 +137,7 @@ class ReadingDocument(_ConvertedDocument):
 
 
 class NextMessageDocument(_ConvertedDocument):
-    """A reading that is the next message of a topic."""
+    """A reading taken from the next message of a topic."""
 
     topic: RosName
     type: MessageType
@@ -145,7 +146,7 @@ class NextMessageDocument(_ConvertedDocument):
 
 
 class _CallDocument(Keyed):
-    """What both kinds of calls have."""
+    """The keys shared by action and service calls."""
 
     name: RosName
     request: Annotated[dict[Path, Constant], Field(max_length=100)] = Field(default_factory=dict)
@@ -168,7 +169,7 @@ class ServiceCallDocument(_CallDocument):
 
 
 class ActionBindingDocument(Keyed):
-    """How an action of the profile is carried out."""
+    """The binding of an action of the profile: a call, topics, or both."""
 
     action: ActionCallDocument | None = None
     service: ServiceCallDocument | None = None
@@ -184,7 +185,7 @@ class ActionBindingDocument(Keyed):
 
 
 class DatumDocument(Keyed):
-    """The point of the earth at the origin of the map frame."""
+    """The geographic position and heading of the map frame's origin."""
 
     lat: Annotated[Number, Field(ge=-90, le=90)]
     lon: Annotated[Number, Field(ge=-180, le=180)]
@@ -192,7 +193,7 @@ class DatumDocument(Keyed):
 
 
 class NavigationDocument(Keyed):
-    """How the robot is driven."""
+    """Navigation of the robot."""
 
     type: Annotated[NavigationType, BeforeValidator(_navigation)] = "nav2_msgs/action/NavigateToPose"
     action: RosName | None = None
@@ -220,7 +221,7 @@ class NavigationDocument(Keyed):
 
 
 class PositionDocument(_TopicDocument):
-    """Where the robot is."""
+    """The position source of the robot."""
 
     type: Literal["sensor_msgs/msg/NavSatFix"] = "sensor_msgs/msg/NavSatFix"
     stale_s: Stale = 3.0
@@ -228,14 +229,14 @@ class PositionDocument(_TopicDocument):
 
 
 class BatteryDocument(_TopicDocument, _ConvertedDocument):
-    """The battery's charge."""
+    """The battery charge."""
 
     type: MessageType = "sensor_msgs/msg/BatteryState"
     stale_s: Stale = 30.0
 
 
 class OdometryDocument(_TopicDocument):
-    """What counts the metres."""
+    """The odometry along which driven metres are counted."""
 
     type: Literal["nav_msgs/msg/Odometry"] = "nav_msgs/msg/Odometry"
     stale_s: Stale = 3.0
@@ -251,7 +252,7 @@ class StopDocument(_TopicDocument):
 
 
 class Ros2Document(Keyed):
-    """The whole part."""
+    """The ``ros2`` part of a profile."""
 
     distro: Distro
     namespace: Annotated[str, AfterValidator(as_namespace)] = ""

@@ -41,9 +41,9 @@ from fieldhand.robot.units import STANDARD_FIELDS, conversion, known_units
 if TYPE_CHECKING:
     from fieldhand.robot.document import ActionDocument, ProfileDocument
 
-#: Where a profile gives no limit: a call may last so many times as long as its action, at least so many seconds.
+#: Default time limit of a call: this multiple of the action's duration, at least this many seconds.
 _TIMES, _LEAST_S = 3.0, 30.0
-#: And so long the next message of a topic.
+#: Default wait for the next message of a topic, in seconds.
 _NEXT_S = 10.0
 
 Valued = ReadingDocument | NextMessageDocument | BatteryDocument
@@ -197,7 +197,7 @@ def _navigation(document: NavigationDocument) -> NavigationBinding:
     )
 
 
-#: Under which Nav2 serves each.
+#: Names under which Nav2 serves each action type by default.
 _USUAL_NAMES = {
     "nav2_msgs/action/NavigateToPose": "navigate_to_pose",
     "nav2_msgs/action/NavigateThroughPoses": "navigate_through_poses",

@@ -1,7 +1,7 @@
-"""The form of a robot profile file: what keys it has and what values they may take.
+"""Pydantic models of a robot profile file: its keys and their value ranges.
 
-These models check one file; :mod:`fieldhand.robot.loader` turns what passes into the frozen data of
-:mod:`fieldhand.robot.model`. docs/formats.md describes the keys for readers.
+:mod:`fieldhand.robot.loader` converts a valid document to the frozen data of :mod:`fieldhand.robot.model`.
+docs/formats.md documents the keys.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ def _label(value: str) -> str:
     return value.strip()
 
 
-#: Metres: no robot is wider, or works farther from a tree.
+#: Maximum width of a robot and maximum distance from which it works on a tree, in metres.
 _WIDEST = 100.0
 
 Breadth = Annotated[Positive, Field(le=_WIDEST)]
@@ -72,7 +72,7 @@ class LevelDocument(Keyed):
 
 
 class QuantityDocument(Keyed):
-    """Something that the robot measures."""
+    """A quantity that the robot measures."""
 
     unit: Unit
     words: Words
@@ -99,7 +99,7 @@ class QuantityDocument(Keyed):
 
 
 class ParameterDocument(Keyed):
-    """A number within bounds, or one of some choices."""
+    """A parameter of an action: a number within bounds, or a choice."""
 
     default: Annotated[float | str, BeforeValidator(no_bool)]
     minimum: Number | None = None
@@ -127,7 +127,7 @@ class ParameterDocument(Keyed):
 
 
 class ActionDocument(Keyed):
-    """Something that the robot does at a place."""
+    """An action that the robot performs at a place."""
 
     labels: Labels = Field(default_factory=dict)
     description: str = ""
@@ -143,7 +143,7 @@ class ActionDocument(Keyed):
 
 
 class PatienceDocument(Keyed):
-    """How long the robot waits when something is wrong."""
+    """Waiting times before a fault is given up on."""
 
     retry_wait_s: Wait = 0.0
     blocked_wait_s: Wait = 60.0
@@ -151,7 +151,7 @@ class PatienceDocument(Keyed):
 
 
 class EnergyDocument(Keyed):
-    """Energy store and what empties it."""
+    """Battery capacity, consumption and charge levels."""
 
     capacity_j: Positive
     drive_j_per_m: Positive
@@ -190,7 +190,7 @@ class LegCostDocument(Keyed):
 
 
 class ProfileDocument(Keyed):
-    """A whole profile."""
+    """A complete robot profile."""
 
     name: Name
     description: str = ""

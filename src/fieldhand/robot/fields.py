@@ -51,7 +51,7 @@ def _not_huge(value: float) -> float:
     return value
 
 
-#: Any unit: beyond these, what is computed with a number overflows or is lost.
+#: Smallest and largest magnitude of a number in any unit, so that computations neither overflow nor underflow.
 _LEAST, _MOST = 1e-9, 1e12
 
 Number = Annotated[float, BeforeValidator(no_bool), Field(allow_inf_nan=False), AfterValidator(_not_huge)]
@@ -62,7 +62,7 @@ Unit = Annotated[str, AfterValidator(_unit)]
 
 
 class Keyed(BaseModel):
-    """A part of a profile: unknown keys are refused."""
+    """The base model of profile parts; it rejects unknown keys."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 

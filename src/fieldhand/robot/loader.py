@@ -26,15 +26,15 @@ from fieldhand.robot.document import (
 from fieldhand.robot.model import Action, Energy, LegCost, LevelThreshold, Parameter, Patience, Quantity, RobotProfile
 from fieldhand.strict_yaml import YamlFault, read_yaml
 
-#: A profile is a page or two; a file beyond this is something else.
+#: Maximum size of a profile in bytes; a profile is a page or two.
 MAX_BYTES = 1_000_000
 
-#: A profile that gives no standoff: the robot's side stays this far from the trunk, about a young tree's canopy.
+#: Distance in metres from the trunk to the robot's side if a profile gives no standoff: about a young tree's canopy.
 CANOPY_M = 1.0
 
-#: Of what is said to be wrong, in characters: what is quoted in it may be of any length.
+#: Maximum length of a problem's description in characters; text quoted from the file can be of any length.
 _LONGEST = 400
-#: How many problems are told beside the first one; the rest is counted.
+#: Number of problems listed after the first one; the rest are only counted.
 _MOST_PROBLEMS = 9
 
 GUIDE = "docs/add-a-robot.md shows a whole profile"
@@ -118,7 +118,7 @@ def _installed_profile(plugin: Plugin) -> bytes:
     """Return the YAML of an installed robot.
 
     Raises:
-        PluginError: It cannot be imported, or is no file that can be read.
+        PluginError: The entry point cannot be imported, or is not a readable file.
     """
     file = plugin.load()
     try:

@@ -1,4 +1,4 @@
-"""What a robot can do, as data. Read from a profile by :mod:`fieldhand.robot.loader`."""
+"""The robot profile: capabilities, costs and limits of a robot, read by :mod:`fieldhand.robot.loader`."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from fieldhand.short_repr import short_repr
 
 Direction = Literal["below", "above"]
 
-#: What is done about a capture that was in the air when the power was cut: nobody knows whether it was made.
+#: Handling of a capture that a power cut interrupted, of which nobody knows if it was made.
 InDoubtPolicy = Literal["repeat", "skip"]
 
 
 @dataclass(frozen=True, kw_only=True)
 class LevelThreshold:
-    """A word for a reading: "low" is ``below`` 33."""
+    """The threshold of a level word: "low" means ``below`` 33."""
 
     direction: Direction
     value: float
@@ -27,16 +27,16 @@ class LevelThreshold:
 
 @dataclass(frozen=True, kw_only=True)
 class Quantity:
-    """Something that the robot measures.
+    """A quantity that the robot measures.
 
     Attributes:
-        name: ``canopy_temperature``; names are lower case with underscores.
-        unit: ``degC``, ``ppm``, ``percent``, or another unit, as readings are reported.
-        words: How people say it ("temperature", "canopy temperature").
-        levels: Words such as "low" and "high", each with its threshold.
-        labels: Its name with its article in other languages, by their codes.
-        minimum, maximum: Range of a believable reading.
-        typical, spread: Mean and standard deviation that the simulation draws from where a world file says nothing.
+        name: Identifier in lower case with underscores: ``canopy_temperature``.
+        unit: Unit of the readings: ``degC``, ``ppm``, ``percent`` or another.
+        words: Names that people use ("temperature", "canopy temperature").
+        levels: Thresholds by level word, such as "low" and "high".
+        minimum, maximum: Range of plausible readings.
+        typical, spread: Mean and standard deviation of simulated readings where a world file gives none.
+        labels: Names with article in other languages, by language code.
     """
 
     name: str
@@ -52,7 +52,16 @@ class Quantity:
 
 @dataclass(frozen=True, kw_only=True)
 class Parameter:
-    """A parameter of an action: a number within bounds, or one of some choices."""
+    """A parameter of an action: a number within bounds, or one of several choices.
+
+    Attributes:
+        name: Identifier in lower case with underscores.
+        kind: ``number`` or ``choice``.
+        default: Value if a Task gives none.
+        minimum, maximum: Bounds of a number; None if unbounded.
+        unit: Unit of a number; empty for none.
+        choices: Allowed values of a choice.
+    """
 
     name: str
     kind: Literal["number", "choice"]
@@ -65,17 +74,21 @@ class Parameter:
 
 @dataclass(frozen=True, kw_only=True)
 class Action:
-    """Something that the robot does at a place.
+    """An action that the robot performs at a place. One execution is a capture.
 
     Attributes:
-        words: Nouns that people use for what it yields ("thermal picture", "picture"), the most specific first.
-        verbs: Verbs that by themselves mean this action ("photograph"); take, measure and read need no entry.
-        measures: Names of the quantities that one capture yields.
-        duration_s, energy_j: Of one capture.
-        retries: How often it is tried again when it fails; None for as often as the robot's ``retries`` say.
-        retry_wait_s: Seconds between two tries; None for the robot's.
-        labels: What is done, once, in other languages, by their codes ("tomar una fotografía").
-        in_doubt: Whether a capture that the power cut off is made again: not where twice does harm, as a cut leaf.
+        name: Identifier in lower case with underscores: ``take_thermal_picture``.
+        words: Nouns for its result ("thermal picture", "picture"), the most specific first.
+        verbs: Verbs that mean this action by themselves ("photograph"); "take", "measure" and "read" need no entry.
+        measures: Names of the quantities that one capture measures.
+        duration_s, energy_j: Duration in seconds and energy in joules of one capture.
+        parameters: Parameters that a Task may set.
+        description: One sentence for people and language models.
+        labels: Descriptions of one capture in other languages, by language code ("tomar una fotografía").
+        retries: Number of retries after a failure; None for the robot's :attr:`RobotProfile.retries`.
+        retry_wait_s: Seconds between two attempts; None for :attr:`Patience.retry_wait_s`.
+        in_doubt: Handling of a capture interrupted by a power cut: ``repeat``, or ``skip`` if doing it twice does harm,
+            as cutting a leaf.
     """
 
     name: str
@@ -94,12 +107,12 @@ class Action:
 
 @dataclass(frozen=True, kw_only=True)
 class Patience:
-    """How long a robot waits when something is wrong that may come right by itself.
+    """Waiting times for faults that may clear by themselves.
 
     Attributes:
-        retry_wait_s: Before a failed drive or action is tried again.
-        blocked_wait_s: For what stands in the only way to a place.
-        lost_wait_s: To know again where it is.
+        retry_wait_s: Seconds before a failed drive or action is retried.
+        blocked_wait_s: Seconds to wait for an obstacle in the only way to a place.
+        lost_wait_s: Seconds to wait for the position to return.
     """
 
     retry_wait_s: float = 0.0
@@ -109,43 +122,46 @@ class Patience:
 
 @dataclass(frozen=True, kw_only=True)
 class LegCost:
-    """Random cost of a leg of ``d`` metres: ``d * (alpha + Exp(1 - alpha))``, whose mean is ``d``.
+    """The random cost of a leg of ``d`` metres: ``d * (alpha + Exp(1 - alpha))``, whose mean is ``d``.
 
-    Source: the published stochastic orienteering experiments (UC Merced); alpha 1 is deterministic.
+    Source: the published stochastic orienteering experiments (UC Merced).
+
+    Attributes:
+        alpha: Deterministic fraction of the cost, 0 to 1.
     """
 
     alpha: float
 
 
-#: Percent of charge between the return level and the warning level where a profile does not say the latter.
+#: Default distance of the warning level above the return level, in percent of charge.
 WARN_ABOVE = 10.0
 
 
 @dataclass(frozen=True, kw_only=True)
 class BatteryLevels:
-    """Charge in percent at which a mission says that it is low (``warn``), turns ``home``, and stops (``stop``)."""
+    """The charge levels of a mission in percent, at which the robot warns, returns ``home`` and stops."""
 
     warn: float
     home: float
     stop: float
 
 
-#: Seconds for which a surprising charge has to be read before it counts, unless the profile says otherwise.
+#: Default number of seconds for which an implausible charge must persist before it counts.
 HOLD_S = 3.0
 
 
 @dataclass(frozen=True, kw_only=True)
 class Energy:
-    """Energy store and what empties it.
+    """Battery capacity, energy consumption and charge levels.
 
     Attributes:
-        capacity_j: A full battery.
-        drive_j_per_m: For each metre driven.
-        idle_w: All the time.
-        reserve_percent: Charge that must be left at the end of a mission unless the Task says otherwise.
-        warn_percent, return_percent, stop_percent: Levels of the charge; None for those that follow from the reserve
+        capacity_j: Energy of a full battery in joules.
+        drive_j_per_m: Energy per driven metre in joules.
+        idle_w: Constant consumption in watts.
+        reserve_percent: Charge that must remain at the end of a mission, unless the Task sets another reserve.
+        warn_percent, return_percent, stop_percent: Charge levels in percent; None to derive them from the reserve
             (:meth:`levels`).
-        hold_s: Seconds for which a charge that surprises has to be read before it counts.
+        hold_s: Seconds for which an implausible charge must persist before it counts.
     """
 
     capacity_j: float
@@ -158,10 +174,13 @@ class Energy:
     hold_s: float = HOLD_S
 
     def levels(self, reserve_percent: float) -> BatteryLevels:
-        """Return the levels of a mission that has to leave so much charge.
+        """Return the charge levels of a mission with a given reserve.
 
-        The robot turns home at the reserve at the latest. Where the profile does not say otherwise, it warns
-        :data:`WARN_ABOVE` percent above its return level and stops at half the reserve.
+        The robot returns at the reserve at the latest. If the profile sets no levels, it warns :data:`WARN_ABOVE`
+        percent above the return level and stops at half the reserve.
+
+        Args:
+            reserve_percent: Charge that must remain at the end of the mission, in percent.
         """
         home = max(reserve_percent, self.return_percent or 0.0)
         warn = min(100.0, home + WARN_ABOVE) if self.warn_percent is None else max(home, self.warn_percent)
@@ -171,16 +190,29 @@ class Energy:
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class RobotProfile:
-    """A robot: what it can do and what that costs.
+    """A robot: its actions, measured quantities, dimensions, and costs of driving and working (``fh.Robot``).
+
+    Example:
+        >>> robot = RobotProfile.load("husky")
+        >>> robot.action["take_thermal_picture"].measures
+        ('canopy_temperature',)
 
     Attributes:
-        speed_m_s: Of driving.
-        width_m: Over all; it keeps half of it from tree lines, keep-outs and the boundary.
-        standoff_m: From a trunk to the middle of the robot when it works on that tree from the aisle; in a narrower
-            aisle it stands in the middle.
-        retries: Of a failed action or drive.
-        patience: How long it waits when something is wrong.
-        ros2: How it is reached over ROS 2; None for a robot that is only simulated.
+        name: Identifier in lower case.
+        description: One sentence for people and language models.
+        actions: Actions that the robot can perform at a place.
+        quantities: Quantities that its actions measure.
+        speed_m_s: Driving speed in metres per second.
+        width_m: Overall width in metres; half of it is kept clear of tree lines, keep-outs and the boundary.
+        standoff_m: Distance in metres from a trunk to the robot's centre when it works on the tree from the aisle; in
+            a narrower aisle it stops in the middle.
+        energy: Battery and consumption.
+        leg_cost: Distribution of the cost of a leg.
+        retries: Number of retries of a failed action or drive.
+        sha256: SHA-256 of the profile's YAML in hexadecimal; an approved mission is valid for this profile only.
+        source: Name or path from which the profile was loaded.
+        patience: Waiting times for faults.
+        ros2: ROS 2 interfaces; None for a robot that is only simulated.
     """
 
     name: str
@@ -202,10 +234,13 @@ class RobotProfile:
 
     @classmethod
     def load(cls, name_or_path: str | Path) -> RobotProfile:
-        """Load a robot: a built-in one by its name, such as ``husky``, or the profile in a YAML file.
+        """Load an installed robot by name, such as ``husky``, or a profile from a YAML file.
+
+        Args:
+            name_or_path: Name of an installed robot, or path of a YAML file; names take precedence.
 
         Raises:
-            ProfileError: There is no such robot, or its profile cannot be used; says where, and what to do.
+            ProfileError: There is no such robot, or its profile is invalid; the message names the key and a remedy.
         """
         from fieldhand.robot.loader import load_robot
 
@@ -213,15 +248,21 @@ class RobotProfile:
 
     @cached_property
     def action(self) -> Mapping[str, Action]:
-        """Actions by name."""
+        """Return the actions by name."""
         return {a.name: a for a in self.actions}
 
     @cached_property
     def quantity(self) -> Mapping[str, Quantity]:
-        """Quantities by name."""
+        """Return the quantities by name."""
         return {q.name: q for q in self.quantities}
 
     def percent(self, metres: float, seconds: float, action_j: float = 0.0) -> float:
-        """Energy of driving, time and actions, in percent of a full battery."""
+        """Return the energy of driving, idling and actions in percent of a full battery.
+
+        Args:
+            metres: Driven distance in metres.
+            seconds: Duration in seconds.
+            action_j: Energy of the actions in joules.
+        """
         joules = metres * self.energy.drive_j_per_m + seconds * self.energy.idle_w + action_j
         return 100.0 * joules / self.energy.capacity_j

@@ -9,7 +9,7 @@ import yaml
 from fieldhand.errors import ProfileError
 from fieldhand.robot.loader import GUIDE, parse_profile
 
-#: Digits of a figure that is written.
+#: Significant digits of a written figure.
 _DIGITS = 4
 
 Keys = tuple[str, ...]

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-#: For each unit: what it measures, and by what it becomes the first unit of that: times the one, plus the other.
+#: Dimension of each unit, with scale and offset to the reference unit of that dimension: ``value * scale + offset``.
 _UNITS: Mapping[str, tuple[str, float, float]] = {
     "degC": ("temperature", 1.0, 0.0),
     "K": ("temperature", 1.0, -273.15),
@@ -34,7 +34,7 @@ _UNITS: Mapping[str, tuple[str, float, float]] = {
     "lx": ("illuminance", 1.0, 0.0),
 }
 
-#: The one number that a standard message is about, and its unit as the definition has it; empty where it has none.
+#: Path and unit of the number in a standard message type; the unit is empty if its definition gives none.
 STANDARD_FIELDS: Mapping[str, tuple[str, str]] = {
     "sensor_msgs/msg/BatteryState": ("percentage", "fraction"),
     "sensor_msgs/msg/Temperature": ("temperature", "degC"),
@@ -51,20 +51,24 @@ def known_units() -> tuple[str, ...]:
     return tuple(_UNITS)
 
 
-def conversion(given: str, wanted: str) -> tuple[float, float] | None:
-    """What a value in one unit is to be multiplied by, and what then added, to have it in another.
+def conversion(unit: str, wanted: str) -> tuple[float, float] | None:
+    """Return scale and offset that convert a value from one unit to another: ``value * scale + offset``.
 
     >>> conversion("fraction", "percent")
     (100.0, 0.0)
 
+    Args:
+        unit: Unit of the value.
+        wanted: Unit to convert to.
+
     Returns:
-        None where there is no way from one to the other.
+        Scale and offset; None if the units measure different dimensions or are unknown.
     """
-    if given == wanted:
+    if unit == wanted:
         return 1.0, 0.0
-    if given not in _UNITS or wanted not in _UNITS or _UNITS[given][0] != _UNITS[wanted][0]:
+    if unit not in _UNITS or wanted not in _UNITS or _UNITS[unit][0] != _UNITS[wanted][0]:
         return None
-    _, scale, offset = _UNITS[given]
+    _, scale, offset = _UNITS[unit]
     _, wanted_scale, wanted_offset = _UNITS[wanted]
     return _tidy(scale / wanted_scale), _tidy((offset - wanted_offset) / wanted_scale)
 
