@@ -50,8 +50,8 @@ class TopicBinding:
         topic: Name of the topic.
         type: Message type.
         stale_s: Age in seconds beyond which the last message no longer counts.
-        reliable: Request reliable delivery; a reliable subscriber receives nothing from a best-effort publisher, as most
-            sensors are.
+        reliable: Request reliable delivery; a reliable subscriber receives nothing from a best-effort publisher,
+            as most sensors are.
         transient: Request messages that were published before the subscription (transient local).
     """
 
