@@ -25,6 +25,9 @@ def html_of_site(site: Site) -> str:
 
 def figure_html(figure: Figure) -> str:
     """Return a figure as an embedded PNG."""
+    from fieldhand.site.drawing.saving import make_text_visible
+
+    make_text_visible(figure)
     data = BytesIO()
     figure.savefig(data, format="png", dpi=_DPI)
     return picture_html(data.getvalue(), "image/png")
