@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from support.processes.command import fieldhand
-from test_visible import hidden
+from test_hidden_characters import hidden
 
 HOSTILE = "\x1b[2J\x9b3A\u202etxt\u2066\u200b\u2028\x85\r\n=1+1[red]:warning:$x$"
 #: Names that a plan and a site give; a log that has others is not one of this mission.

@@ -24,7 +24,7 @@ from fieldhand.task.plan import Act
 from fieldhand.testing.small_orchard import task_for
 from support.missions.signed import WHEN, manifest_of, members_of, orchard_files, signing_key
 from support.processes.command import fieldhand
-from test_visible import hidden
+from test_hidden_characters import hidden
 
 OURS = ("Signature", "fieldhand: ", "m.mission would", "SHA-256", "What m.mission")
 FORGED = "Signature trusted: key of Ada 0123 4567"

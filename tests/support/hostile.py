@@ -10,7 +10,7 @@ from typing import Any
 
 from lxml import etree, html
 
-from test_visible import hidden
+from test_hidden_characters import hidden
 
 #: One of each kind that a person cannot see: C0, ESC, DEL, C1, bidi, zero width, separators, tags, private, blank.
 HIDDEN = (
