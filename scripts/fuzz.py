@@ -41,8 +41,9 @@ _NOTED_EVERY_S = 0.5
 #: What is watched while it reads; what is compiled (numba) or only used to make seeds is not.
 READERS = (
     *("fieldhand.approval.bundle", "fieldhand.approval.keys", "fieldhand.evaluation.calibration", "fieldhand.exchange"),
-    *("fieldhand.execution.event_log", "fieldhand.execution.world_faults", "fieldhand.execution.world_file"),
-    *("fieldhand.execution.drivers.ground_truth", "fieldhand.robot", "fieldhand.strict_yaml", "fieldhand.task"),
+    *("fieldhand.execution.event_log", "fieldhand.execution.drivers.simulation.ground_truth"),
+    *(f"fieldhand.execution.drivers.simulation.{part}" for part in ("world_faults", "world_file")),
+    *("fieldhand.robot", "fieldhand.strict_yaml", "fieldhand.task"),
     *("fieldhand.site.build_site", "fieldhand.site.features", "fieldhand.site.formats", "fieldhand.site.feature_kinds"),
 )
 NAMES = ("bundle", "task", "tree", "world", "profile", "site", "table", "log", "mcap", "key")

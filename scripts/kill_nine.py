@@ -44,10 +44,18 @@ from fieldhand.errors import NotApprovedError
 from fieldhand.evaluation.budget_guard import BudgetGuard
 from fieldhand.evaluation.failsafe import BudgetFailsafe
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Driver, Progress
-from fieldhand.execution.drivers.simulated_driver import SimulatedDriver
+from fieldhand.execution.drivers.simulation.driver import SimulatedDriver
+from fieldhand.execution.drivers.simulation.world import (
+    ActionFails,
+    BatteryDrains,
+    Blocked,
+    SensorSilent,
+    TreeRef,
+    World,
+    WorldFault,
+)
 from fieldhand.execution.journal.store import Journal, create
 from fieldhand.execution.mission_runner import run
-from fieldhand.execution.world import ActionFails, BatteryDrains, Blocked, SensorSilent, TreeRef, World, WorldFault
 from fieldhand.forecast.visit_order import drives_for
 from fieldhand.task.authorization import AuthorizedTask
 from fieldhand.task.event_lines import from_json

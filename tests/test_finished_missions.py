@@ -10,7 +10,7 @@ import pytest
 from fieldhand import finished_missions, mission
 from fieldhand.errors import InputError
 from fieldhand.evaluation.report.log_facts import end_of
-from fieldhand.execution.world import World
+from fieldhand.execution.drivers.simulation.world import World
 from fieldhand.places.selectors import Corners
 from fieldhand.task.codec import encode
 from fieldhand.task.event_lines import to_json

@@ -17,7 +17,7 @@ from fieldhand.approval.keys.public import parse_public
 from fieldhand.errors import FieldhandError
 from fieldhand.exchange.btcpp.reading import read_tree
 from fieldhand.exchange.btcpp.writing import write_tree
-from fieldhand.execution.world_file import decode_world, parse_world
+from fieldhand.execution.drivers.simulation.world_file import decode_world, parse_world
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Answer, Planned
 from fieldhand.robot.capabilities import capabilities_of

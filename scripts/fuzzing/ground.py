@@ -21,7 +21,7 @@ from fieldhand.approval.checks import examine
 from fieldhand.approval.keys.public import PublicKey
 from fieldhand.approval.keys.signing import SigningKey
 from fieldhand.approval.keys.trust import KnownKey
-from fieldhand.execution.world import World
+from fieldhand.execution.drivers.simulation.world import World
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.loader import parse_profile, profile_bytes

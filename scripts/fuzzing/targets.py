@@ -24,8 +24,8 @@ from fieldhand.evaluation.calibration.measured_steps import measure_mission
 from fieldhand.exchange.btcpp import read_tree, write_tree
 from fieldhand.exchange.mcap.reading import read_mcap
 from fieldhand.exchange.mcap.writing import McapLog
+from fieldhand.execution.drivers.simulation.world_file import load_world
 from fieldhand.execution.event_log import read_events
-from fieldhand.execution.world_file import load_world
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import parse_profile, profile_bytes, robot_names
 from fieldhand.site.formats.document import site_document

@@ -23,8 +23,8 @@ __version__ = "0.1.0"
 
 if TYPE_CHECKING:
     from fieldhand.errors import FieldhandError
+    from fieldhand.execution.drivers.simulation.world import World
     from fieldhand.execution.vehicle import Vehicle
-    from fieldhand.execution.world import World
     from fieldhand.mission import (
         ApprovedMission,
         Assessment,
@@ -69,7 +69,7 @@ _PUBLIC = {
     "Site": ("fieldhand.site.model", "Site"),
     "Task": ("fieldhand.task.frames", "Task"),
     "Vehicle": ("fieldhand.execution.vehicle", "Vehicle"),
-    "World": ("fieldhand.execution.world", "World"),
+    "World": ("fieldhand.execution.drivers.simulation.world", "World"),
     "authorize": ("fieldhand.mission", "authorize"),
     "build_task": ("fieldhand.mission", "build_task"),
     "carry_out": ("fieldhand.mission", "carry_out"),

@@ -8,7 +8,7 @@ from functools import cache
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from fieldhand.execution.world import ActionFails, TreeRef, World
+from fieldhand.execution.drivers.simulation.world import ActionFails, TreeRef, World
 from fieldhand.places.selectors import TreeIs, Trees, UnionOf
 from fieldhand.task.frames import Budget, Constraints, Task
 from fieldhand.task.plan import Act, AnyOrder, ForEach, InOrder, Node, Repeat, Try, walk

@@ -12,7 +12,7 @@ from fieldhand import mission
 from fieldhand.cli import approving, flight
 from fieldhand.cli.inputs import open_ground
 from fieldhand.errors import NotApprovedError
-from fieldhand.execution.world import World
+from fieldhand.execution.drivers.simulation.world import World
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
 from fieldhand.task.codec import encode

@@ -9,12 +9,12 @@ import numpy as np
 
 from fieldhand.clock import SimulatedClock
 from fieldhand.execution import mission_clock
-from fieldhand.execution.drivers.simulated_driver import SimulatedDriver
+from fieldhand.execution.drivers.simulation.driver import SimulatedDriver
+from fieldhand.execution.drivers.simulation.world import World
 from fieldhand.execution.guard import Guard, NoGuard
 from fieldhand.execution.journal.store import Journal, create
 from fieldhand.execution.mission_runner import Result, run
 from fieldhand.execution.operator_commands import OperatorCommand
-from fieldhand.execution.world import World
 from fieldhand.places.selectors import Half, Take, TreeIs
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.conditions import Compare

@@ -11,8 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fieldhand.execution.battery_meter import STEP_PERCENT, BatteryMeter
-from fieldhand.execution.drivers.simulated_driver import SimulatedDriver
-from fieldhand.execution.world import World
+from fieldhand.execution.drivers.simulation.driver import SimulatedDriver
+from fieldhand.execution.drivers.simulation.world import World
 from fieldhand.places.selectors import Trees
 from fieldhand.robot.loader import load_robot, parse_profile, profile_bytes
 from fieldhand.robot.model import RobotProfile

@@ -12,8 +12,7 @@ import pytest
 from fieldhand import mission
 from fieldhand.errors import OutputError
 from fieldhand.execution.drivers.protocol import ActionGoal
-from fieldhand.execution.obstacles import restore_blockages
-from fieldhand.execution.world import (
+from fieldhand.execution.drivers.simulation.world import (
     ActionFails,
     BatteryDrains,
     Blocked,
@@ -26,7 +25,8 @@ from fieldhand.execution.world import (
     World,
     WorldFault,
 )
-from fieldhand.execution.world_file import parse_world
+from fieldhand.execution.drivers.simulation.world_file import parse_world
+from fieldhand.execution.obstacles import restore_blockages
 from fieldhand.places.selectors import TreeIs, Trees, UnionOf
 from fieldhand.robot.model import Patience
 from fieldhand.site.model import Site

@@ -11,8 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fieldhand.errors import WorldError
-from fieldhand.execution.drivers.ground_truth import GroundTruth, _enters
-from fieldhand.execution.world import (
+from fieldhand.execution.drivers.simulation.ground_truth import GroundTruth, _enters
+from fieldhand.execution.drivers.simulation.world import (
     ActionFails,
     Blocked,
     SensorAbsurd,

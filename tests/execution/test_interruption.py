@@ -11,10 +11,10 @@ import pytest
 
 from fieldhand.clock import SimulatedClock
 from fieldhand.execution.drivers.protocol import Progress
-from fieldhand.execution.drivers.simulated_driver import SimulatedDriver
+from fieldhand.execution.drivers.simulation.driver import SimulatedDriver
+from fieldhand.execution.drivers.simulation.world import ActionFails, Blocked, TreeRef, World
 from fieldhand.execution.interrupts import ctrl_c_as_request
 from fieldhand.execution.mission_runner import Result, run
-from fieldhand.execution.world import ActionFails, Blocked, TreeRef, World
 from fieldhand.places.selectors import Half, Take, TreeIs
 from fieldhand.task.conditions import Compare
 from fieldhand.task.frames import FaultedExit

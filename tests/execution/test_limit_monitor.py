@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from fieldhand.evaluation.battery_drain import BatteryDrain
 from fieldhand.evaluation.event_text import EventText
 from fieldhand.evaluation.failsafe import BudgetFailsafe
-from fieldhand.execution.world import BatteryDrains, World
+from fieldhand.execution.drivers.simulation.world import BatteryDrains, World
 from fieldhand.forecast.mission_state import Spent
 from fieldhand.language import open_language
 from fieldhand.places.selectors import TreeIs, Trees

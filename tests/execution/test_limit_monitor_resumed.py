@@ -14,12 +14,12 @@ from fieldhand.clock import SimulatedClock
 from fieldhand.evaluation.battery_drain import BatteryDrain
 from fieldhand.evaluation.failsafe import BudgetFailsafe
 from fieldhand.execution import mission_clock
-from fieldhand.execution.drivers.simulated_driver import SimulatedDriver
+from fieldhand.execution.drivers.simulation.driver import SimulatedDriver
+from fieldhand.execution.drivers.simulation.world import BatteryDrains, World
 from fieldhand.execution.guard import NoGuard
 from fieldhand.execution.journal import store
 from fieldhand.execution.journal.store import create
 from fieldhand.execution.mission_runner import Result, run
-from fieldhand.execution.world import BatteryDrains, World
 from fieldhand.places.selectors import TreeIs, Trees
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.plan import Act, ForEach, InOrder

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 import pytest
 
 from fieldhand.evaluation.outcome import judge
+from fieldhand.execution.drivers.simulation.world import ActionFails, World
 from fieldhand.execution.guard import NoGuard
-from fieldhand.execution.world import ActionFails, World
 from fieldhand.forecast.mission_state import MissionState, Verdict, Visit, VisitChoice
 from fieldhand.places.selectors import TreeIs, UnionOf
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, InOrder, Node, OptionalStep, Repeat, StopMission, Try

@@ -8,8 +8,7 @@ from itertools import count, pairwise
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from fieldhand.execution.guard import NoGuard
-from fieldhand.execution.world import (
+from fieldhand.execution.drivers.simulation.world import (
     ActionFails,
     BatteryDrains,
     Blocked,
@@ -21,6 +20,7 @@ from fieldhand.execution.world import (
     TreeRef,
     World,
 )
+from fieldhand.execution.guard import NoGuard
 from fieldhand.forecast.mission_state import MissionState, Verdict, Visit, VisitChoice
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.task.event_lines import from_json, to_json

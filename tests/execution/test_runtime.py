@@ -16,9 +16,8 @@ import pytest
 from fieldhand.clock import Clock, ScaledClock
 from fieldhand.errors import NotApprovedError, OutputError
 from fieldhand.execution.drivers.protocol import DriveGoal
-from fieldhand.execution.drivers.simulated_driver import SimulatedDriver
-from fieldhand.execution.mission_runner import run
-from fieldhand.execution.world import (
+from fieldhand.execution.drivers.simulation.driver import SimulatedDriver
+from fieldhand.execution.drivers.simulation.world import (
     ActionFails,
     Blocked,
     DriveFails,
@@ -28,6 +27,7 @@ from fieldhand.execution.world import (
     TreeRef,
     World,
 )
+from fieldhand.execution.mission_runner import run
 from fieldhand.forecast.mission_state import MissionState, Verdict, Visit, VisitChoice
 from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import Half, TreeIs, Trees, UnionOf

@@ -10,8 +10,8 @@ import pytest
 
 from fieldhand.clock import Clock, SimulatedClock
 from fieldhand.execution.drivers.protocol import ActionGoal, Driver
-from fieldhand.execution.drivers.simulated_driver import SimulatedDriver
-from fieldhand.execution.world import (
+from fieldhand.execution.drivers.simulation.driver import SimulatedDriver
+from fieldhand.execution.drivers.simulation.world import (
     ActionFails,
     BatteryDrains,
     Blocked,

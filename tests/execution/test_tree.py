@@ -7,8 +7,8 @@ import math
 import pytest
 from py_trees.common import Status
 
+from fieldhand.execution.drivers.simulation.world import ActionFails, DriveFails, SensorSilent, TreeRef, Truth, World
 from fieldhand.execution.tree import compile_tree
-from fieldhand.execution.world import ActionFails, DriveFails, SensorSilent, TreeRef, Truth, World
 from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import (
     Bound,

@@ -11,9 +11,9 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from fieldhand.errors import WorldError
-from fieldhand.execution import world as w
-from fieldhand.execution.world import World
-from fieldhand.execution.world_file import MAX_BYTES, load_world, parse_world
+from fieldhand.execution.drivers.simulation import world as w
+from fieldhand.execution.drivers.simulation.world import World
+from fieldhand.execution.drivers.simulation.world_file import MAX_BYTES, load_world, parse_world
 from fieldhand.strict_yaml import read_yaml
 
 

@@ -19,8 +19,8 @@ from lxml import etree
 from fieldhand import mission
 from fieldhand.evaluation.log_replay import replay_log
 from fieldhand.exchange.btcpp import write_tree
+from fieldhand.execution.drivers.simulation.world import ActionFails, TreeRef, World
 from fieldhand.execution.guard import Guard
-from fieldhand.execution.world import ActionFails, TreeRef, World
 from fieldhand.forecast import visit_order
 from fieldhand.forecast.conditions import ConditionInputs, evaluate
 from fieldhand.forecast.mission_state import MissionState, Verdict, Visit, VisitChoice

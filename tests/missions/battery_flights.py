@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from fieldhand import mission
-from fieldhand.execution.world import BatteryDrains, Blocked, TreeRef, World, WorldFault
+from fieldhand.execution.drivers.simulation.world import BatteryDrains, Blocked, TreeRef, World, WorldFault
 from fieldhand.places.selectors import TreeIs, Trees
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.loader import open_site

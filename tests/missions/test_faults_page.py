@@ -12,8 +12,8 @@ import yaml
 from fieldhand import mission
 from fieldhand.errors import OutputError
 from fieldhand.evaluation.event_text import EventText
-from fieldhand.execution.world_faults import AnyFault
-from fieldhand.execution.world_file import parse_world
+from fieldhand.execution.drivers.simulation.world_faults import AnyFault
+from fieldhand.execution.drivers.simulation.world_file import parse_world
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.loader import load_robot

@@ -8,7 +8,7 @@ import pytest
 
 from fieldhand import missions
 from fieldhand.errors import JournalError, WorldError
-from fieldhand.execution.world_file import load_world
+from fieldhand.execution.drivers.simulation.world_file import load_world
 
 
 def test_a_folder_that_is_none_is_named(tmp_path: Path) -> None:

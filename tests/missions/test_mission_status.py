@@ -11,8 +11,8 @@ import pytest
 
 from fieldhand import mission, missions
 from fieldhand.errors import ExecutionError, FieldhandError, JournalError, NotApprovedError
+from fieldhand.execution.drivers.simulation.world import World
 from fieldhand.execution.journal import store
-from fieldhand.execution.world import World
 from fieldhand.robot.loader import parse_profile
 from fieldhand.site.loader import site_of
 from fieldhand.task.results import Event

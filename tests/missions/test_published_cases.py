@@ -14,8 +14,8 @@ from typing import Any
 import pytest
 import yaml
 
-from fieldhand.execution.world import World
-from fieldhand.execution.world_file import parse_world
+from fieldhand.execution.drivers.simulation.world import World
+from fieldhand.execution.drivers.simulation.world_file import parse_world
 from fieldhand.planning.llm.replay import replay
 from fieldhand.planning.llm.transcript import read_transcript
 from fieldhand.planning.planner import Planned

@@ -15,10 +15,10 @@ from fieldhand import mission, missions
 from fieldhand.clock import Clock, SimulatedClock
 from fieldhand.errors import ExecutionError, FieldhandError, JournalError, NotApprovedError
 from fieldhand.execution.drivers.protocol import Position
-from fieldhand.execution.drivers.simulated_driver import SimulatedDriver
+from fieldhand.execution.drivers.simulation.driver import SimulatedDriver
+from fieldhand.execution.drivers.simulation.world import World
 from fieldhand.execution.journal import store
 from fieldhand.execution.vehicle import Connection, Vehicle
-from fieldhand.execution.world import World
 from fieldhand.forecast.visit_order import drives_for, start_place
 from fieldhand.places.selectors import Trees
 from fieldhand.site.loader import open_site

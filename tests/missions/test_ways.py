@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from shapely.geometry import LineString, Point, Polygon, box
 from shapely.ops import unary_union
 
-from fieldhand.execution.world import Blocked, TreeRef, World
+from fieldhand.execution.drivers.simulation.world import Blocked, TreeRef, World
 from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import (
     AlongRow,

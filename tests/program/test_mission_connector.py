@@ -16,11 +16,11 @@ from fieldhand.delivery.bundle_checks import acceptance, sha256_of
 from fieldhand.delivery.mission_store import MissionStore
 from fieldhand.delivery.mission_supervisor import MissionSupervisor, ReceivedStatus
 from fieldhand.errors import ExecutionError, FieldhandError, NotApprovedError, Ros2Error
-from fieldhand.execution.drivers.simulated_driver import SimulatedDriver
+from fieldhand.execution.drivers.simulation.driver import SimulatedDriver
+from fieldhand.execution.drivers.simulation.world import World
 from fieldhand.execution.journal import store
 from fieldhand.execution.operator_commands import parse_agent_command
 from fieldhand.execution.vehicle import Connection, Vehicle
-from fieldhand.execution.world import World
 from fieldhand.program.mission_connector import MissionConnector
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile

@@ -18,7 +18,7 @@ from fieldhand.execution.drivers.ros2.dds.transport import DdsTransport
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.simulated_robot.robot import GoalReport, SimulatedRobot, bindings_of
 from fieldhand.execution.drivers.ros2.transport import QosProfile
-from fieldhand.execution.world import World
+from fieldhand.execution.drivers.simulation.world import World
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.loader import open_site
 from ros2.scripted import Script, ScriptedAction

@@ -14,8 +14,8 @@ from fieldhand.execution.drivers.ros2.action_outcome import ActionOutcome
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.simulated_robot.robot import GoalReport, SimulatedRobot
 from fieldhand.execution.drivers.ros2.transport import SENSOR_QOS, Message
-from fieldhand.execution.drivers.simulation_state import SimulationState
-from fieldhand.execution.world import World
+from fieldhand.execution.drivers.simulation.state import SimulationState
+from fieldhand.execution.drivers.simulation.world import World
 from fieldhand.robot.bindings import Distro, NavigationBinding, Ros2Bindings
 from fieldhand.robot.model import RobotProfile
 from ros2.in_memory import Graph

@@ -7,9 +7,9 @@ from typing import ClassVar
 
 from fieldhand.evaluation.battery_drain import BatteryDrain
 from fieldhand.evaluation.failsafe import BudgetFailsafe
+from fieldhand.execution.drivers.simulation.world import BatteryDrains, World
 from fieldhand.execution.guard import NoGuard
 from fieldhand.execution.mission_runner import run
-from fieldhand.execution.world import BatteryDrains, World
 from fieldhand.places.selectors import TreeIs
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.plan import Act

@@ -27,10 +27,10 @@ from fieldhand.cli.demo import REQUEST
 from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.ros2 import robot_connection
 from fieldhand.execution.drivers.ros2.robot_connection import connected_robot
+from fieldhand.execution.drivers.simulation.world import World
+from fieldhand.execution.drivers.simulation.world_file import parse_world
 from fieldhand.execution.journal import store
 from fieldhand.execution.vehicle import Vehicle
-from fieldhand.execution.world import World
-from fieldhand.execution.world_file import parse_world
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.loader import load_robot, profile_bytes

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from fieldhand.errors import InputError, OutputError
 from fieldhand.execution.drivers.ros2.map_frame import degrees_to_map, map_to_degrees
 from fieldhand.execution.drivers.ros2.simulated_robot.state_file import Identity, read_state, write_state
-from fieldhand.execution.world import (
+from fieldhand.execution.drivers.simulation.world import (
     ActionFails,
     Blocked,
     DriveFails,

@@ -16,9 +16,16 @@ from fieldhand.execution.drivers.ros2.driver import Ros2Driver
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.simulated_robot.robot import SimulatedRobot
 from fieldhand.execution.drivers.ros2.transport import QosProfile, Transport
+from fieldhand.execution.drivers.simulation.world import (
+    ActionFails,
+    Blocked,
+    LocalisationLost,
+    SensorSilent,
+    TreeRef,
+    World,
+)
 from fieldhand.execution.guard import NoGuard
 from fieldhand.execution.mission_runner import Result, run
-from fieldhand.execution.world import ActionFails, Blocked, LocalisationLost, SensorSilent, TreeRef, World
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.model import RobotProfile

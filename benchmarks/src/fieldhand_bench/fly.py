@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Literal
 from fieldhand import mission
 from fieldhand.approval.authorize import EveryWarning
 from fieldhand.errors import FieldhandError, NotApprovedError
+from fieldhand.execution.drivers.simulation.world import World
 from fieldhand.execution.guard import Guard
-from fieldhand.execution.world import World
 from fieldhand.forecast.estimate import estimate, mandatory_part
 from fieldhand.forecast.mission_state import MissionState, Verdict, Visit, VisitChoice
 from fieldhand.forecast.service import reward_of

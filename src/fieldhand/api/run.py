@@ -40,8 +40,8 @@ def router(workers: Workers, planners: Planners, limits: Limits) -> APIRouter:
 
 
 def _run(body: RunBody, planners: Planners, limits: Limits) -> dict[str, Any]:
-    from fieldhand.execution.world import World
-    from fieldhand.execution.world_file import parse_world
+    from fieldhand.execution.drivers.simulation.world import World
+    from fieldhand.execution.drivers.simulation.world_file import parse_world
 
     require_unsigned_allowed(os.environ)
     ground = open_ground(body)

@@ -41,7 +41,7 @@ def demo(
     from fieldhand.cli.driver_options import connected, connection_of
     from fieldhand.cli.flight import Orders, fly
     from fieldhand.cli.inputs import open_ground
-    from fieldhand.execution.world import World
+    from fieldhand.execution.drivers.simulation.world import World
     from fieldhand.language import message, spoken
 
     language = spoken(lang, os.environ)

@@ -26,8 +26,8 @@ from fieldhand.task.results import Ended, Event, MissionStatus
 
 if TYPE_CHECKING:
     from fieldhand.approval.bundle.opening import Bundle
+    from fieldhand.execution.drivers.simulation.world import World
     from fieldhand.execution.vehicle import Vehicle
-    from fieldhand.execution.world import World
     from fieldhand.robot.model import RobotProfile
     from fieldhand.site.model import Site
     from fieldhand.task.authorization import AuthorizedTask
@@ -155,7 +155,7 @@ def leave_plan(ground: SiteAndRobot, review: mission.Review, document: bytes | N
 
 def _carry_out(approved: mission.ApprovedMission, orders: Orders, planner: str) -> tuple[tuple[Event, ...], str]:
     """The events of a mission, and the name under which it is kept; none is begun before every log is open."""
-    from fieldhand.execution.vehicle import simulation
+    from fieldhand.execution.drivers.simulation.vehicle import simulation
 
     with _taking(approved.site, approved.robot, orders, ()) as take:
         if orders.kept is not None:

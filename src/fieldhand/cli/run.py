@@ -78,8 +78,8 @@ def run(
     from fieldhand.cli.flight import Kept, Orders, fly, parse_speed
     from fieldhand.cli.inputs import InputFiles, read_ground
     from fieldhand.cli.outputs import require_folder
-    from fieldhand.execution.world import World
-    from fieldhand.execution.world_file import load_world
+    from fieldhand.execution.drivers.simulation.world import World
+    from fieldhand.execution.drivers.simulation.world_file import load_world
     from fieldhand.language import spoken
     from fieldhand.mission.documents import SiteAndRobot
 

@@ -15,7 +15,7 @@ from fieldhand.execution.drivers.ros2.domain import MOST_DOMAIN
 
 if TYPE_CHECKING:
     from fieldhand.execution.drivers.ros2.simulated_robot.robot import GoalReport
-    from fieldhand.execution.world import World
+    from fieldhand.execution.drivers.simulation.world import World
     from fieldhand.robot.bindings import Ros2Bindings
     from fieldhand.robot.model import RobotProfile
 
@@ -58,9 +58,9 @@ def sim_robot(
     from fieldhand.execution.drivers.ros2.simulated_robot.main_loop import run_robot
     from fieldhand.execution.drivers.ros2.simulated_robot.robot import SimulatedRobot, bindings_of
     from fieldhand.execution.drivers.ros2.simulated_robot.state_file import Identity, read_state, write_state
+    from fieldhand.execution.drivers.simulation.world import World
+    from fieldhand.execution.drivers.simulation.world_file import load_world
     from fieldhand.execution.interrupts import ctrl_c_as_request
-    from fieldhand.execution.world import World
-    from fieldhand.execution.world_file import load_world
 
     clock = ScaledClock(_paced(speed))
     ground = open_ground(site, robot, lenient=lenient)

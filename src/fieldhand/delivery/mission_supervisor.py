@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from fieldhand.approval.bundle.opening import Bundle
+    from fieldhand.execution.drivers.simulation.world import World
     from fieldhand.execution.operator_commands import AgentCommand, OperatorCommand, StoppingCommand
-    from fieldhand.execution.world import World
 
 log = logging.getLogger("fieldhand.agent")
 

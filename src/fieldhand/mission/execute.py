@@ -12,11 +12,11 @@ from fieldhand.site.model import Site
 from fieldhand.task.results import Event
 
 if TYPE_CHECKING:
+    from fieldhand.execution.drivers.simulation.world import World
     from fieldhand.execution.guard import Guard
     from fieldhand.execution.journal.records import InputLog
     from fieldhand.execution.operator_commands import OperatorCommand
     from fieldhand.execution.vehicle import Vehicle
-    from fieldhand.execution.world import World
 
 
 def _ignore(_: Event) -> None:
@@ -29,7 +29,7 @@ def check_world(world: World, site: Site, robot: RobotProfile) -> None:
     Raises:
         WorldError: It names a tree, a quantity or an action that does not exist.
     """
-    from fieldhand.execution.drivers.ground_truth import GroundTruth
+    from fieldhand.execution.drivers.simulation.ground_truth import GroundTruth
 
     GroundTruth(world, site, robot, seed=0)
 
@@ -111,8 +111,8 @@ def simulate(
     Raises:
         WorldError: The world does not fit the site or the robot.
     """
-    from fieldhand.execution.vehicle import simulation
-    from fieldhand.execution.world import World
+    from fieldhand.execution.drivers.simulation.vehicle import simulation
+    from fieldhand.execution.drivers.simulation.world import World
 
     vehicle = simulation(mission.site, mission.robot, world or World(), seed=seed, speed=speed)
     return carry_out(mission, vehicle=vehicle, seed=seed, emit=emit, interrupted=interrupted, watched=watched)

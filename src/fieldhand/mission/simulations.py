@@ -15,7 +15,7 @@ from fieldhand.mission.records import Records
 from fieldhand.task.results import Acted, Ended, MissionStatus
 
 if TYPE_CHECKING:
-    from fieldhand.execution.world import World
+    from fieldhand.execution.drivers.simulation.world import World
 
 
 #: Figures of a simulation that have quantiles.

@@ -25,9 +25,9 @@ from fieldhand.task.authorization import Authorization, AuthorizedTask
 
 if TYPE_CHECKING:
     from fieldhand.approval.bundle.opening import Bundle
+    from fieldhand.execution.drivers.simulation.world import World
     from fieldhand.execution.operator_commands import OperatorCommand
     from fieldhand.execution.vehicle import Vehicle
-    from fieldhand.execution.world import World
     from fieldhand.robot.model import RobotProfile
     from fieldhand.site.formats.files import SiteFiles
     from fieldhand.site.model import Site
@@ -186,9 +186,9 @@ def begin(under: Path, name: str, inputs: Inputs) -> StoredMission:
     Raises:
         JournalError: There is a mission of that name, or the folder cannot be written.
     """
+    from fieldhand.execution.drivers.simulation.world import World
     from fieldhand.execution.journal.store import create
     from fieldhand.execution.operator_commands import CommandFile
-    from fieldhand.execution.world import World
 
     folder, world = under / name, inputs.world or World()
     files = {"task.xml": inputs.document, "robot.yaml": inputs.profile}
@@ -289,8 +289,8 @@ class FolderContents:
         Raises:
             JournalError, NotApprovedError, BundleError, NotTrustedError: As :func:`open_mission`.
         """
-        from fieldhand.execution.world import World
-        from fieldhand.execution.world_file import decode_world
+        from fieldhand.execution.drivers.simulation.world import World
+        from fieldhand.execution.drivers.simulation.world_file import decode_world
 
         folder, about, files = self.folder, self.about, self.files
         try:

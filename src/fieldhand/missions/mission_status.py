@@ -67,7 +67,7 @@ def carry_out(
     Args:
         stored: From :func:`open_mission`.
         vehicle: The robot on which it was begun; None for a mission in simulation, which is made here.
-        speed: Of the simulation, as :func:`fieldhand.execution.vehicle.simulation`.
+        speed: Of the simulation, as :func:`fieldhand.execution.drivers.simulation.vehicle.simulation`.
         emit: Takes each event that is new, once it is safe on the disk; :func:`events_of` gives those before.
         interrupted, watched: As :func:`fieldhand.mission.carry_out`.
 
@@ -76,9 +76,9 @@ def carry_out(
         JournalError: Another process carries it out; its journal is damaged, of another mission or does not fit; the
             disk is full.
     """
+    from fieldhand.execution.drivers.simulation.vehicle import simulation
     from fieldhand.execution.journal.store import Journal
     from fieldhand.execution.operator_commands import CommandFile
-    from fieldhand.execution.vehicle import simulation
 
     require_vehicle(stored.id, stored.departure, simulated=vehicle is None or vehicle.simulated)
     if vehicle is None:

@@ -16,8 +16,8 @@ from fieldhand.delivery.received_missions import ReceivedMission
 
 if TYPE_CHECKING:
     from fieldhand.approval.bundle.opening import Bundle
+    from fieldhand.execution.drivers.simulation.world import World
     from fieldhand.execution.vehicle import Connection
-    from fieldhand.execution.world import World
     from fieldhand.missions import StoredMission
     from fieldhand.robot.model import RobotProfile
     from fieldhand.site.model import Site
@@ -113,8 +113,8 @@ def compose_robot_agent(
     from fieldhand import finished_missions, missions
     from fieldhand.approval.memory import approval_memory, trust_store
     from fieldhand.delivery.bundle_checks import acceptance
-    from fieldhand.execution.world import World
-    from fieldhand.execution.world_file import load_world
+    from fieldhand.execution.drivers.simulation.world import World
+    from fieldhand.execution.drivers.simulation.world_file import load_world
     from fieldhand.robot.loader import load_robot
     from fieldhand.site.loader import open_site
 

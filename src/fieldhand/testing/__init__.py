@@ -8,5 +8,5 @@ fixed_clock       a time of day that passes only when a test lets it
 generated         Hypothesis strategies: orchards, Tasks, event logs (needs Hypothesis)
 
 The clock of a mission is an argument as well: :class:`fieldhand.clock.SimulatedClock` jumps instead of waiting, and
-:class:`fieldhand.execution.drivers.simulated_driver.SimulatedDriver` is the robot that goes with it.
+:class:`fieldhand.execution.drivers.simulation.driver.SimulatedDriver` is the robot that goes with it.
 """

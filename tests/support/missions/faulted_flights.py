@@ -19,7 +19,7 @@ from shapely.geometry import LineString, Polygon
 
 from fieldhand import mission
 from fieldhand.errors import OutputError
-from fieldhand.execution.world import (
+from fieldhand.execution.drivers.simulation.world import (
     ActionFails,
     BatteryDrains,
     Blocked,

@@ -9,8 +9,8 @@ from typing import Any
 
 from fieldhand import mission
 from fieldhand.approval.authorize import EveryWarning
-from fieldhand.execution.world import World
-from fieldhand.execution.world_file import parse_world
+from fieldhand.execution.drivers.simulation.world import World
+from fieldhand.execution.drivers.simulation.world_file import parse_world
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned, Planner
 from fieldhand.robot.loader import load_robot

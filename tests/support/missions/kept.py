@@ -7,7 +7,7 @@ from functools import cache
 
 from fieldhand import mission, missions
 from fieldhand.approval.authorize import EveryWarning
-from fieldhand.execution.world_file import decode_world
+from fieldhand.execution.drivers.simulation.world_file import decode_world
 from fieldhand.places.selectors import TreeIs
 from fieldhand.robot.loader import parse_profile, profile_bytes
 from fieldhand.site.loader import site_files, site_of

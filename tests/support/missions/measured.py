@@ -8,8 +8,8 @@ import numpy as np
 
 from fieldhand.clock import SimulatedClock
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal
-from fieldhand.execution.drivers.simulated_driver import SimulatedDriver
-from fieldhand.execution.world import World
+from fieldhand.execution.drivers.simulation.driver import SimulatedDriver
+from fieldhand.execution.drivers.simulation.world import World
 from fieldhand.robot.model import LegCost
 from fieldhand.task.results import Acted, Arrived, Driving, Ended, Started
 from fieldhand.testing.small_orchard import husky, orchard

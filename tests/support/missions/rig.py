@@ -12,12 +12,12 @@ import numpy as np
 from fieldhand import mission
 from fieldhand.clock import Clock, SimulatedClock
 from fieldhand.execution.active_mission import ActiveMission
-from fieldhand.execution.drivers.simulated_driver import SimulatedDriver
+from fieldhand.execution.drivers.simulation.driver import SimulatedDriver
+from fieldhand.execution.drivers.simulation.world import World
 from fieldhand.execution.guard import Guard, NoFailsafe, NoGuard
 from fieldhand.execution.mission_clock import MissionClock
 from fieldhand.execution.mission_runner import Result, run
 from fieldhand.execution.recorded_inputs import RecordedInputs
-from fieldhand.execution.world import World
 from fieldhand.forecast.mission_state import MissionState, Verdict, Visit, VisitChoice
 from fieldhand.forecast.visit_order import drives_for
 from fieldhand.robot.loader import load_robot

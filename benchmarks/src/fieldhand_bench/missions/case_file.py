@@ -14,7 +14,7 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from fieldhand.errors import CaseError
-from fieldhand.execution.world_file import parse_world
+from fieldhand.execution.drivers.simulation.world_file import parse_world
 from fieldhand.files import FileFault, read_file
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
-from fieldhand.execution.world import World
+from fieldhand.execution.drivers.simulation.world import World
 from fieldhand_bench.missions.places import ANYWHERE, Place
 
 MarkerName = Literal["start", "end"]

@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from fieldhand.clock import ScaledClock
 from fieldhand.execution.drivers.ros2.simulated_robot.robot import SimulatedRobot
-from fieldhand.execution.drivers.simulation_state import SimulationState
+from fieldhand.execution.drivers.simulation.state import SimulationState
 
 #: Seconds of the wall clock between two steps, and between two writes of the state.
 _STEP_S, _SAVE_S = 0.005, 0.2

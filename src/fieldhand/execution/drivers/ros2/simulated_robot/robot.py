@@ -24,9 +24,9 @@ from fieldhand.execution.drivers.ros2.simulated_robot.sensor_topics import Senso
 from fieldhand.execution.drivers.ros2.simulated_robot.speed_limit import SpeedLimit
 from fieldhand.execution.drivers.ros2.simulated_robot.telemetry_topics import TelemetryTopics
 from fieldhand.execution.drivers.ros2.transport import Message, QosProfile, Server, Transport
-from fieldhand.execution.drivers.simulated_driver import SimulatedDriver
-from fieldhand.execution.drivers.simulation_state import SimulationState
-from fieldhand.execution.world import World
+from fieldhand.execution.drivers.simulation.driver import SimulatedDriver
+from fieldhand.execution.drivers.simulation.state import SimulationState
+from fieldhand.execution.drivers.simulation.world import World
 from fieldhand.robot.bindings import Datum, Ros2Bindings
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site

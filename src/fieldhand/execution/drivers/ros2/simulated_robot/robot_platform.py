@@ -7,8 +7,8 @@ from collections.abc import Callable, Mapping
 from itertools import pairwise
 
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Position, Progress
-from fieldhand.execution.drivers.simulated_driver import SimulatedDriver
-from fieldhand.execution.drivers.simulation_state import SimulationState
+from fieldhand.execution.drivers.simulation.driver import SimulatedDriver
+from fieldhand.execution.drivers.simulation.state import SimulationState
 from fieldhand.site.model import Place, Site
 
 Point = tuple[float, float]

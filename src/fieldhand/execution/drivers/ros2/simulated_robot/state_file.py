@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from fieldhand.errors import InputError, OutputError
-from fieldhand.execution.drivers.simulation_state import SimulationState
+from fieldhand.execution.drivers.simulation.state import SimulationState
 from fieldhand.files import FileFault, read_file, write_whole
 
 #: Size limit in bytes; the state of a robot that used every sensor at every tree of a large site is smaller.

@@ -10,10 +10,10 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from fieldhand.clock import Clock
-from fieldhand.execution.drivers.ground_truth import GroundTruth, Hindrance, Point
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, GoalFault, GoalState, Position, Progress
-from fieldhand.execution.drivers.simulation_state import SimulationState
-from fieldhand.execution.world import World
+from fieldhand.execution.drivers.simulation.ground_truth import GroundTruth, Hindrance, Point
+from fieldhand.execution.drivers.simulation.state import SimulationState
+from fieldhand.execution.drivers.simulation.world import World
 from fieldhand.forecast.visit_order import drives_for, start_place
 from fieldhand.language import message
 from fieldhand.robot.model import RobotProfile

@@ -1,7 +1,7 @@
 """World of a simulation: sensor readings and faults (:mod:`.world_file` reads it from YAML).
 
 A world refers to trees by id or by latitude and longitude, independent of how a program numbers them. Whether it fits a
-site and a robot is checked where it is used (:mod:`fieldhand.execution.drivers.ground_truth`).
+site and a robot is checked where it is used (:mod:`fieldhand.execution.drivers.simulation.ground_truth`).
 """
 
 from __future__ import annotations

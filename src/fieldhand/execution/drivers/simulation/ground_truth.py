@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fieldhand.errors import WorldError
-from fieldhand.execution.world import (
+from fieldhand.execution.drivers.simulation.world import (
     ActionFails,
     BatteryDrains,
     Blocked,

@@ -22,8 +22,8 @@ from pydantic import (
 from pydantic_core import ErrorDetails
 
 from fieldhand.errors import WorldError
-from fieldhand.execution.world import Truth, World
-from fieldhand.execution.world_faults import AnyFault, FaultModel, Strict, TreeRefModel
+from fieldhand.execution.drivers.simulation.world import Truth, World
+from fieldhand.execution.drivers.simulation.world_faults import AnyFault, FaultModel, Strict, TreeRefModel
 from fieldhand.files import FileFault, read_file
 from fieldhand.hidden_characters import find_hidden_within
 from fieldhand.language import message, recalled

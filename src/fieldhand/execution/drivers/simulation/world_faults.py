@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, StrictInt, model_validator
 
-from fieldhand.execution.world import (
+from fieldhand.execution.drivers.simulation.world import (
     ActionFails,
     BatteryDrains,
     Blocked,
