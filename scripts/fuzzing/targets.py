@@ -28,9 +28,9 @@ from fieldhand.execution.drivers.simulation.world_file import load_world
 from fieldhand.execution.event_log import read_events
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import parse_profile, profile_bytes, robot_names
-from fieldhand.site.formats.document import site_document
 from fieldhand.site.formats.files import SiteFiles
 from fieldhand.site.formats.geojson import geojson_records
+from fieldhand.site.formats.geojson_export import site_document
 from fieldhand.site.loader import demo_path, site_of
 from fieldhand.task.codec import decode, decode_draft, encode
 from fieldhand.task.event_lines import from_json

@@ -122,7 +122,7 @@ def test_gdal_reads_nothing_of_a_stranger(make, tmp_path: Path, monkeypatch: pyt
         raise AssertionError("a file of a stranger was read")
 
     monkeypatch.setattr(gis, "read_sandboxed", read)
-    monkeypatch.setattr(gis, "read_here", read)
+    monkeypatch.setattr(gis, "read_in_process", read)
     with pytest.raises(NotTrustedError, match="read only if someone trusted has signed it"):
         content_of(sealed, now=NOW, stranger=True)
     assert require_sendable(data, source="m.mission", known={}, now=NOW).hashes == sealed.hashes

@@ -105,7 +105,7 @@ def test_straight_drives_need_no_table_and_keep_all() -> None:
     visits = [Visit(place=p) for p in with_stands(drives, here, [t.place for t in site.trees])]
     home = site.home("return_to_end", here)
     straight = drives.are_straight([here, *(v.place for v in visits), home])
-    assert straight == drives.roads([here, *(v.place for v in visits), home]).straight
+    assert straight == drives.roadmap([here, *(v.place for v in visits), home]).straight
     kept = cheapest(here, visits, RemainingWork(stops=(home,)), drives, 3)
     assert len(kept) == (len(visits) if straight else 3)
 

@@ -16,9 +16,9 @@ from fieldhand.errors import DriveFault
 from fieldhand.forecast.distances import Distances
 from fieldhand.forecast.visit_order import reachable
 from fieldhand.site.drives import Drives
-from fieldhand.site.driving.free import Area
-from fieldhand.site.driving.roads import Roads
-from fieldhand.site.driving.visibility import Visibility
+from fieldhand.site.driving.free_space import Area
+from fieldhand.site.driving.roadmap import Roadmap
+from fieldhand.site.driving.visibility_graph import VisibilityGraph
 from fieldhand.site.model import Site
 from fieldhand.testing.generated.orchards import orchard_sites
 from support.sites.planted import generated, planted, scattered, upright
@@ -102,7 +102,7 @@ def test_a_table_that_grows_place_by_place_is_the_whole_one(site):
 # --- roads -------------------------------------------------------------------------------------------------------
 
 
-def over(roads: Roads) -> np.ndarray:
+def over(roads: Roadmap) -> np.ndarray:
     """Metres of the shortest way over the roads between every two places."""
     n, k = len(roads.at), len(roads.places)
     if roads.straight:
@@ -124,7 +124,7 @@ def test_over_the_roads_no_way_is_shorter_than_the_drive_and_hardly_any_is_longe
     assume(not drives.problem(site.start))
     places = [p for p in places_of(site) if not drives.problem(p)]
     assume(len(places) > 1)
-    roads = drives.roads(places)
+    roads = drives.roadmap(places)
     assert [p.stand for p in roads.places] == [p.stand for p in drives.stands(places)]
     assert roads.at[: len(places)].tolist() == [list(p.stand) for p in roads.places]
     assert (roads.lengths > 0.0).all()
@@ -145,18 +145,18 @@ def test_on_open_ground_all_drives_are_straight_lines_and_there_are_no_roads():
     trees = [(float(x), float(y)) for x, y in np.random.default_rng(1).uniform(0.0, 80.0, (20, 2))]
     for zones in ((), (boundary,)):
         site = planted([], lone=trees, zones=zones)
-        roads = drives_on(site).roads([t.place for t in site.trees])
+        roads = drives_on(site).roadmap([t.place for t in site.trees])
         assert roads.straight
         assert (len(roads.ways), len(roads.lengths), len(roads.at)) == (0, 0, 20)
         assert over(roads) == pytest.approx(drives_on(site).lengths(roads.places))
     pond = ("pond", "keep_out", Point(40.0, 40.0).buffer(3.0))
     site = planted([], lone=[t for t in trees if Point(t).distance(pond[2]) > 1.0], zones=[pond])
-    assert not drives_on(site).roads([t.place for t in site.trees]).straight
+    assert not drives_on(site).roadmap([t.place for t in site.trees]).straight
 
 
 def test_roads_between_few_places_or_none():
     drives = drives_on(upright(3, 5))
-    none, one = drives.roads([]), drives.roads([drives.site.trees[4].place])
+    none, one = drives.roadmap([]), drives.roadmap([drives.site.trees[4].place])
     assert (len(none.places), over(none).shape) == (0, (0, 0))
     assert over(one).tolist() == [[0.0]]
 
@@ -166,14 +166,14 @@ def test_places_that_no_way_joins_are_named_and_have_no_roads():
     fence = ("fence", "boundary", box(-5.0, -10.0, 35.0, 30.0))
     site = planted([], lone=[(3.0, 3.0), (20.0, 4.0), (20.0, 20.0)], zones=[wall, fence])
     with pytest.raises(DriveFault, match="no way from tree 1 to tree 3"):
-        drives_on(site).roads([t.place for t in site.trees])
+        drives_on(site).roadmap([t.place for t in site.trees])
 
 
 def test_the_size_of_the_roads_grows_with_the_places():
     ways = []
     for trees in (20, 40, 80):
         site = upright(6, trees)
-        roads = drives_on(site).roads([t.place for t in site.trees])
+        roads = drives_on(site).roadmap([t.place for t in site.trees])
         ways.append(len(roads.ways) / len(site.trees))
     assert max(ways) < 12.0
 
@@ -205,7 +205,7 @@ def test_a_line_is_seen_if_the_ground_covers_it_and_no_row_near_by_parts_its_end
     seen = area.sees(at[i], at[j])
     lines = [LineString(pair) for pair in np.stack([at[i], at[j]], axis=1)]
     assert seen.tolist() == [area.edged.covers(line) for line in lines]
-    visibility = Visibility(ground, axes)
+    visibility = VisibilityGraph(ground, axes)
     kept = pairs_of(visibility.pairs(at))
     assert pairs_of([(i[seen], j[seen])]) <= kept <= pairs_of([(i, j)])
     to_others = {(a, b + 7) for a, b in pairs_of(visibility.pairs(at[:7], at[7:]))}
@@ -218,9 +218,9 @@ def test_the_corners_seen_from_a_point_are_those_at_which_a_way_may_turn(world):
     ground, axes, at = world
     at = at[Area(ground).holds(at)]
     assume(len(at) > 1)
-    visibility = Visibility(ground, axes)
+    visibility = VisibilityGraph(ground, axes)
     shortest = visibility.graph.lengths(visibility.links(at))
-    everything = Visibility(ground, np.empty((0, 2, 2)))
+    everything = VisibilityGraph(ground, np.empty((0, 2, 2)))
     assert shortest == pytest.approx(everything.graph.lengths(everything.links(at)), abs=1e-9)
 
 
@@ -231,7 +231,7 @@ def pairs_of(batches) -> set[tuple[int, int]]:
 def test_a_line_through_the_middle_of_a_long_row_is_parted_by_its_axis():
     row = box(10.0, 49.0, 90.0, 51.0)
     ground = box(0.0, 0.0, 100.0, 100.0).difference(row)
-    visibility = Visibility(ground, np.array([[(10.0, 50.0), (90.0, 50.0)]]))
+    visibility = VisibilityGraph(ground, np.array([[(10.0, 50.0), (90.0, 50.0)]]))
     assert not pairs_of(visibility.pairs(np.array([(50.0, 20.0), (55.0, 80.0)])))
 
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 from fieldhand.approval.marks import INK, MANY_STOPS, WAY, stop_size
 from fieldhand.approval.stops import MapStop
+from fieldhand.site.drawing.detail_window import Window
 from fieldhand.site.drawing.labels import XY, Labels
-from fieldhand.site.drawing.window import Window
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -14,11 +14,11 @@ from fieldhand.forecast.estimate import Estimate
 from fieldhand.language import ENGLISH, Language, message
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.drawing import draw_site, site_figure
+from fieldhand.site.drawing.detail_window import Window, show_detail, show_window, window_of
 from fieldhand.site.drawing.ground import draw_ground, draw_scale
 from fieldhand.site.drawing.names import labels_on, name_ground, name_markers, name_zones
 from fieldhand.site.drawing.rows import name_rows_within, name_trees
 from fieldhand.site.drawing.saving import save_figure
-from fieldhand.site.drawing.window import Window, look_through, show_window, window_of
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
 
@@ -107,7 +107,7 @@ def _draw_window(
     height = float(figure.get_size_inches()[1])
     box = figure.axes[1].get_position()
     ax = figure.add_axes((box.x0, _MARGIN_IN / height, box.width, tall_in / height))
-    look_through(ax, window)
+    show_detail(ax, window)
     draw_ground(ax, site)
     draw_scale(ax)
     shown = [stop for stop in plan.stops if window.holds(stop.place.xy)]

@@ -67,6 +67,6 @@ def site(
 def _write_geojson(site: Site, drives: Drives, path: Path) -> None:
     from fieldhand.cli.inputs import write_file
     from fieldhand.site.demo_orchard import to_text
-    from fieldhand.site.formats.document import site_document
+    from fieldhand.site.formats.geojson_export import site_document
 
     write_file(path, to_text(site_document(site, drives.network())).encode())

@@ -145,7 +145,7 @@ class LimitMonitor:
         for reach_m in (_SURELY * self._reach_m, self._reach_m):
             if (metres := safe_stop(mission.drives, way, reach_m)) is not None:
                 return _point(mission.site, way.at(metres), "safe place")
-        markers = [m for m in mission.site.markers.values() if mission.drives.linked((m,), way.start)[0]]
+        markers = [m for m in mission.site.markers.values() if mission.drives.reachable((m,), way.start)[0]]
         ways = [(mission.drives.between(way.start, marker).length_m, k) for k, marker in enumerate(markers)]
         nearest_m, k = min(ways, default=(math.inf, -1))
         return markers[k] if nearest_m <= _SURELY * self._reach_m else None

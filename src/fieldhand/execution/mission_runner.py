@@ -25,7 +25,7 @@ from fieldhand.forecast.visit_order import drives_for
 from fieldhand.language import joined, message, named
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
-from fieldhand.site.stopping import stands_in
+from fieldhand.site.stopping import location_words
 from fieldhand.task.authorization import AuthorizedTask
 from fieldhand.task.exceeded import exceeded_limits, final_status, reason_with
 from fieldhand.task.frames import Task, Then
@@ -281,7 +281,7 @@ class MissionRunner:
         stands = message(
             "it stands in {where}, {metres} m from {place}",
             context="log",
-            where=stands_in(mission.drives, (at.x, at.y)),
+            where=location_words(mission.drives, (at.x, at.y)),
             metres=f"{away:.0f}",
             place=message("the {role}", context="log", role=named(home.id, "role")),
         )

@@ -27,7 +27,7 @@ _AHEAD_M = 0.5
 def avoid(mission: ActiveMission, node: str, place: Place, what: str) -> None:
     """Record the obstacle before the robot, which was stopped on the way to a place, and what it closes off."""
     trees = [tree.place for tree in mission.site.trees]
-    before = mission.drives.linked(trees, mission.standing)
+    before = mission.drives.reachable(trees, mission.standing)
     position, path = mission.observation.position, LineString(mission.driven)
     along = path.project(Point(position.xy))
     ahead = path.interpolate(min(path.length, along + _AHEAD_M))
@@ -35,7 +35,7 @@ def avoid(mission: ActiveMission, node: str, place: Place, what: str) -> None:
         ahead = Point(mission.driven[-1])
     mission.blockages.add_ahead(position.xy, (ahead.x, ahead.y))
     mission.guard.update_drives(mission.drives)
-    after = mission.drives.linked(trees, mission.standing)
+    after = mission.drives.reachable(trees, mission.standing)
     closed = [tree.id for tree, was, is_ in zip(trees, before, after, strict=True) if was and not is_]
     _emit_obstructed(mission, node, place, what, unreachable=closed)
 
@@ -58,14 +58,14 @@ def wait_for_way(mission: ActiveMission, node: str, place: Place) -> Steps:
     known = mission.blockages.stretches
     # The robot most likely stands before the stretch found last.
     for left in (*(tuple(s for s in known if s is not one) for one in reversed(known)), ()):
-        mission.blockages.are(left)
+        mission.blockages.replace(left)
         try:
             mission.way_to(place)
             break
         except DriveFault as fault:
             what = fault.what
     else:
-        mission.blockages.are(known)
+        mission.blockages.replace(known)
     mission.guard.update_drives(mission.drives)
     opened = len(mission.blockages.stretches) < len(known)
     waited = mission.robot.patience.blocked_wait_s
@@ -80,7 +80,7 @@ def cut_off_places(mission: ActiveMission, places: Sequence[Place]) -> tuple[boo
     if not mission.blockages.stretches:
         return (False,) * len(places)
     anywhere = [replace(place, stand=None) if place.kind == "tree" else place for place in places]
-    return tuple(not linked for linked in mission.drives.linked(anywhere, mission.standing))
+    return tuple(not linked for linked in mission.drives.reachable(anywhere, mission.standing))
 
 
 def restore_blockages(mission: ActiveMission, events: Iterable[Event]) -> None:
@@ -89,7 +89,7 @@ def restore_blockages(mission: ActiveMission, events: Iterable[Event]) -> None:
     if last is None:
         return
     projection = mission.site.projection
-    mission.blockages.are([Polygon(projection.metres(*np.array(area).T)) for area in last.blocked])
+    mission.blockages.replace([Polygon(projection.metres(*np.array(area).T)) for area in last.blocked])
     mission.guard.update_drives(mission.drives)
 
 

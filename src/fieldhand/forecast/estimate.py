@@ -105,12 +105,12 @@ def _explored(
     task: Task, site: Site, robot: RobotProfile, seed: int, charge_percent: float, draws: int
 ) -> _CachedBranches:
     asked = (task, seed, charge_percent, draws)
-    kept = site.memory.get("estimate")
+    kept = site.cache.get("estimate")
     if isinstance(kept, _CachedBranches) and kept.robot is robot and kept.asked == asked:
         return kept
     leg_costs = LegCostSamples(cost_model(robot), seed, draws)
     found = branches(task, site, robot, charge_percent=charge_percent, leg_costs=leg_costs, seed=seed)
-    made = site.memory["estimate"] = _CachedBranches(robot=robot, asked=asked, explored=found, leg_costs=leg_costs)
+    made = site.cache["estimate"] = _CachedBranches(robot=robot, asked=asked, explored=found, leg_costs=leg_costs)
     return made
 
 
@@ -145,7 +145,7 @@ def estimate(
     if kept.explored.broken:
         raise kept.explored.broken[0].error
     made = _estimated(kept, task, site, robot, charge_percent)
-    site.memory["estimate"] = replace(kept, found=made)
+    site.cache["estimate"] = replace(kept, found=made)
     return made
 
 

@@ -92,7 +92,7 @@ _CACHE: WeakKeyDictionary[Drives, _CachedDistances] = WeakKeyDictionary()
 def _along_roads(places: Sequence[Place], drives: Drives) -> VisitDistances:
     from fieldhand.orienteering.network import Network
 
-    roads = drives.roads(places)
+    roads = drives.roadmap(places)
     if roads.straight:
         return VisitDistances(coordinates=np.ascontiguousarray(roads.at[: len(places)]))
     network = Network(nodes=len(roads.at), edges=roads.ways, lengths=roads.lengths)

@@ -35,9 +35,9 @@ def drives_for(site: Site, robot: RobotProfile) -> Drives:
     from fieldhand.site.drives import Drives
 
     key = ("drives", robot.width_m, robot.standoff_m)
-    known = site.memory.get(key)
+    known = site.cache.get(key)
     if not isinstance(known, Drives):
-        known = site.memory[key] = Drives(site, robot.width_m / 2, robot.standoff_m)
+        known = site.cache[key] = Drives(site, robot.width_m / 2, robot.standoff_m)
     return known
 
 
@@ -82,7 +82,7 @@ def order_visits(drives: Drives, here: Place, places: Sequence[Place], home: Pla
         return (0,)
     around = [here, *places] if home is None else [here, *places, home]
     # Every branch of a forecast, and then the robot, asks for the same order.
-    known = drives.site.memory.setdefault("orders", {})
+    known = drives.site.cache.setdefault("orders", {})
     assert isinstance(known, dict)  # noqa: S101  nobody else keeps anything there
     key = (drives, home is None, tuple(p.stand or p.xy for p in around))
     if key not in known:

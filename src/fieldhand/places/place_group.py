@@ -102,9 +102,9 @@ class PlaceGroup:
 
         if len(self) <= count or not self.is_tree.any():
             return self
-        first = self.site.memory.setdefault("first_entries", None)
+        first = self.site.cache.setdefault("first_entries", None)
         if first is None:
-            first = self.site.memory["first_entries"] = first_entries(self.site.xy)
+            first = self.site.cache["first_entries"] = first_entries(self.site.xy)
         entries = np.where(self.is_tree, np.asarray(first)[self.index * self.is_tree], self.index)
         _, where = np.unique(entries, return_index=True)
         return self if len(where) in (len(self), *range(count)) else self.keep(np.sort(where))

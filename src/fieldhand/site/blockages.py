@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 import shapely
@@ -66,10 +66,10 @@ class Blockages:
         known = sum(stretch.intersects(near) for stretch in self.stretches)
         half_width_m = _WIDE * self._all.clearance_m * 2.0 ** min(known, 6)
         stretch = _blocked_ahead(self._all.layout, at, towards, half_width_m)
-        self.are((*self.stretches, stretch))
+        self.replace((*self.stretches, stretch))
         return stretch
 
-    def are(self, stretches: Sequence[Polygon]) -> None:
+    def replace(self, stretches: Sequence[Polygon]) -> None:
         """Replace all blocked areas."""
         self.stretches, self.version = tuple(stretches), self.version + 1
         self.drives = _without(self._all, self.stretches) if stretches else self._all
@@ -80,7 +80,7 @@ def _without(drives: Drives, stretches: Sequence[Polygon]) -> Drives:
         Zone(name=f"blocked stretch {number}", kind="keep_out", polygon=polygon)
         for number, polygon in enumerate(stretches, start=1)
     )
-    site = replace(drives.site, zones=(*drives.site.zones, *zones))
+    site = dataclasses.replace(drives.site, zones=(*drives.site.zones, *zones))
     vars(site)["planting"] = drives.site.planting  # the rows are where they were
     return Drives(site, drives.clearance_m, drives.standoff_m)
 

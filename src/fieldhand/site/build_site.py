@@ -1,4 +1,4 @@
-"""A site from what was gathered of a file: in one projection, checked as a whole."""
+"""A site from the features of a file: in one projection, checked as a whole."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ ON_BOUNDARY_M = 0.05
 _MOST_PAIRS = 5
 
 
-def build(gathered: FeatureSet, faults: Faults, *, name: str, sha256: str, notes: Sequence[str] = ()) -> Site:
+def build(features: FeatureSet, faults: Faults, *, name: str, sha256: str, notes: Sequence[str] = ()) -> Site:
     """The site; in a lenient reading without what cannot be used.
 
     Args:
-        gathered: The features that can be read, each for itself.
+        features: The features that can be read, each for itself.
         faults: Those that cannot; what shows only among the others is added.
         name: Of the site.
         sha256: Of the bytes that were read.
@@ -38,12 +38,12 @@ def build(gathered: FeatureSet, faults: Faults, *, name: str, sha256: str, notes
     Raises:
         SiteError: There are no trees, or there are faults that must not be left out.
     """
-    numbering = _numbering([p for p in gathered.points if p.kind == "tree"])
-    sound = drop_strays(gathered, faults)
+    numbering = _numbering([p for p in features.points if p.kind == "tree"])
+    sound = drop_strays(features, faults)
     planted = [p for p in sound.points if p.kind == "tree"]
     if not planted:
         faults.check()
-        raise _no_trees(gathered, faults.source)
+        raise _no_trees(features, faults.source)
     projection = middle_of(planted)
     zones = _zones(sound.areas, projection, faults)
     gates = gates_of([p for p in sound.points if p.kind == "gate"], projection)
@@ -54,7 +54,7 @@ def build(gathered: FeatureSet, faults: Faults, *, name: str, sha256: str, notes
     )
     faults.check()
     if not trees:
-        raise _no_trees(gathered, faults.source, left_out=True)
+        raise _no_trees(features, faults.source, left_out=True)
     return Site(
         name=_site_name(name, faults.source),
         trees=trees,
@@ -66,7 +66,7 @@ def build(gathered: FeatureSet, faults: Faults, *, name: str, sha256: str, notes
         notes=(
             *faults.notes(),
             *notes,
-            *_notes(gathered, faults),
+            *_notes(features, faults),
             *numbering.notes,
             *about_trees,
             *opens_nothing,
@@ -262,23 +262,23 @@ def _where_invalid(polygon: shapely.Polygon, projection: Projection) -> str:
     return f"{words.lower()} near latitude {lat:.6f}, longitude {lon:.6f}"
 
 
-def _notes(gathered: FeatureSet, faults: Faults) -> list[str]:
+def _notes(features: FeatureSet, faults: Faults) -> list[str]:
     notes: list[str] = []
-    if gathered.closed:
-        notes.append(f"a polygon that was not closed was closed: {numbered(faults.unit, gathered.closed)}")
-    landmarks = Counter(p.word.lower()[:30] for p in gathered.points if p.kind == "landmark")
+    if features.closed:
+        notes.append(f"a polygon that was not closed was closed: {numbered(faults.unit, features.closed)}")
+    landmarks = Counter(p.word.lower()[:30] for p in features.points if p.kind == "landmark")
     if landmarks:
         said = ", ".join(f"{n} x {word}" for word, n in landmarks.most_common(5))
         notes.append(f"points that are no trees were left out: {said}")
-    if gathered.lines:
+    if features.lines:
         notes.append(
-            f"{gathered.lines} line{'s' * (gathered.lines > 1)} left out: of lines only those are used"
+            f"{features.lines} line{'s' * (features.lines > 1)} left out: of lines only those are used"
             " that no robot drives across (a fence, a ditch)"
         )
-    if gathered.heights:
+    if features.heights:
         notes.append(
-            f"heights are not used ({gathered.heights} {faults.unit}{'s' * (gathered.heights > 1)} "
-            f"{'have' if gathered.heights > 1 else 'has'} them)"
+            f"heights are not used ({features.heights} {faults.unit}{'s' * (features.heights > 1)} "
+            f"{'have' if features.heights > 1 else 'has'} them)"
         )
     return notes
 
@@ -295,10 +295,10 @@ def _site_name(name: str, at: str) -> str:
         raise SiteError(fault.what, where=at, advice="correct the name in the file, or the name of the file") from None
 
 
-def _no_trees(gathered: FeatureSet, at: str, *, left_out: bool = False) -> SiteError:
+def _no_trees(features: FeatureSet, at: str, *, left_out: bool = False) -> SiteError:
     if left_out:
         what = "none of its trees can be used"
-    elif not gathered.points:
+    elif not features.points:
         what = "it has no points"
     else:
         what = "it has no trees, only markers and landmarks"

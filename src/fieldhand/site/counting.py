@@ -29,7 +29,7 @@ _TOWARDS_COS = 0.5 - 1e-9
 _NUMBERED = re.compile(r"(\D*?) ?0*(\d{1,9})")
 
 
-def need_rows(site: Site) -> Planting:
+def require_rows(site: Site) -> Planting:
     """Return the planting of a site.
 
     Raises:

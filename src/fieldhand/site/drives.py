@@ -18,12 +18,12 @@ from numpy.typing import NDArray
 from fieldhand.errors import DriveFault
 from fieldhand.language import message
 from fieldhand.language.words import say_marker, say_number, say_tree
+from fieldhand.site.driving.lane_choice import RowVisits, choose_lanes, pick_candidate
 from fieldhand.site.driving.layout import Layout, Spot
 from fieldhand.site.driving.network import DrivableNetwork, network_of
 from fieldhand.site.driving.reasons import cut_off, no_stand
-from fieldhand.site.driving.roads import Roads, roads_of
-from fieldhand.site.driving.sides import RowVisits, few_lanes, pick
-from fieldhand.site.driving.stands import Candidate, StandingPlaces
+from fieldhand.site.driving.roadmap import Roadmap, roadmap_of
+from fieldhand.site.driving.stands import Candidate, StandCandidates
 from fieldhand.site.model import Place, Site
 
 XY = tuple[float, float]
@@ -71,7 +71,7 @@ class Drives:
         self.standoff_m = standoff_m
         self.clearance_m = clearance_m
         self.layout = Layout(site, clearance_m, standoff_m)
-        self._stands = StandingPlaces(site, self.layout, clearance_m, standoff_m)
+        self._stands = StandCandidates(site, self.layout, clearance_m, standoff_m)
         self._ables: dict[Key, list[Candidate]] = {}
         self._closed: dict[Key, str] = {}
         self._problems: dict[Key, str] = {}
@@ -128,7 +128,7 @@ class Drives:
         """Return True if every drive between the places, each with its stand, is a straight line."""
         return not self.layout.open or self.layout.is_one_view(self.layout.spots([p.stand or p.xy for p in places]))
 
-    def roads(self, places: Sequence[Place]) -> Roads:
+    def roadmap(self, places: Sequence[Place]) -> Roadmap:
         """The ways between the places as a sparse graph, for many places: its size grows with their number.
 
         Between their stands; those that are still open are chosen as :meth:`stands` does. Shortest ways over it are
@@ -139,10 +139,10 @@ class Drives:
         """
         standing = self.stands(places)
         self._check(standing)
-        roads = roads_of(self.layout, standing)
-        if (other := roads.cut_off()) is not None:
+        roadmap = roadmap_of(self.layout, standing)
+        if (other := roadmap.cut_off()) is not None:
             raise self._no_way(places[0], places[other])
-        return roads
+        return roadmap
 
     # --- stands -----------------------------------------------------------------------------------------------
 
@@ -168,9 +168,9 @@ class Drives:
                     {c.lane: (c, m) for c, m in zip(candidates, away, strict=True) if c.lane and np.isfinite(m)}
                 )
         used = frozenset(lane for p in places if p.stand is not None and (lane := self._lane_at(p.stand)) is not None)
-        preferred = few_lanes(rows, used)
+        preferred = choose_lanes(rows, used)
         return tuple(
-            replace(place, stand=pick(candidates, None if key is None else preferred.get(key), away).xy)
+            replace(place, stand=pick_candidate(candidates, None if key is None else preferred.get(key), away).xy)
             for place, key, candidates, away in zip(places, keys, options, metres, strict=True)
         )
 
@@ -204,7 +204,7 @@ class Drives:
             for c in option
             if not c.why_not
         ]
-        linked = self.layout.linked(self.layout.spots([c.xy for c in able]), origin)
+        linked = self.layout.reachable(self.layout.spots([c.xy for c in able]), origin)
         away = np.hypot(*(np.array([c.xy for c in able]).reshape(-1, 2) - origin.xy).T).tolist()
         metres = {c.xy: m for c, m, is_linked in zip(able, away, linked, strict=True) if is_linked}
         return [
@@ -252,11 +252,11 @@ class Drives:
             self._problems.update((_key(p), reason or next(cut)) for p, reason in zip(new, reasons, strict=True))
         return tuple(self._problems[_key(p)] for p in places)
 
-    def linked(self, places: Sequence[Place], here: Place) -> tuple[bool, ...]:
+    def reachable(self, places: Sequence[Place], here: Place) -> tuple[bool, ...]:
         """Return for each place whether it can be reached from here, wherever the robot will stand there."""
         able = [[] if bad else c for bad, c in zip(self._impossible(places), self._able_of(places), strict=True)]
         spots = self.layout.spots([c.xy for some in able for c in some])
-        linked = iter(self.layout.linked(spots, self._origin(here)))
+        linked = iter(self.layout.reachable(spots, self._origin(here)))
         return tuple(any([next(linked) for _ in some]) for some in able)  # noqa: C419 - each has its turn
 
     def _impossible(self, places: Sequence[Place]) -> list[str]:
@@ -295,7 +295,7 @@ class Drives:
             return [""] * len(places)
         start = self._origin(None)
         able = self._able_of(places)
-        linked = iter(self.layout.linked(self.layout.spots([c.xy for cs in able for c in cs]), start))
+        linked = iter(self.layout.reachable(self.layout.spots([c.xy for cs in able for c in cs]), start))
         reached = [any([next(linked) for _ in candidates]) for candidates in able]  # noqa: C419 - each has its turn
         return [
             "" if reach else cut_off(self.layout, self.layout.spots([c.xy for c in candidates]), start)

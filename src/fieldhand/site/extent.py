@@ -16,22 +16,22 @@ MAX_EXTENT_M = 20_000.0
 _EARTH_RADIUS_M = 6_371_000.0
 
 
-def drop_strays(gathered: FeatureSet, faults: Faults) -> FeatureSet:
+def drop_strays(features: FeatureSet, faults: Faults) -> FeatureSet:
     """What lies within 20 km of the middle tree; what is farther is stray, or has its coordinates swapped."""
-    planted = [(p.lon, p.lat) for p in gathered.points if p.kind == "tree"]
+    planted = [(p.lon, p.lat) for p in features.points if p.kind == "tree"]
     if not planted:
-        return gathered
+        return features
     middle = np.median(_unwrapped(np.array(planted)), axis=0)
-    away = _great_circle_m(np.array([(p.lon, p.lat) for p in gathered.points]), middle)
+    away = _great_circle_m(np.array([(p.lon, p.lat) for p in features.points]), middle)
     strays = _Strays(middle, faults)
     for k in np.flatnonzero(away > MAX_EXTENT_M).tolist():
-        p = gathered.points[k]
+        p = features.points[k]
         strays.add(p.feature, (p.lon, p.lat), float(away[k]), needed=False)
     near = away <= MAX_EXTENT_M
-    points = gathered.points if near.all() else [gathered.points[k] for k in np.flatnonzero(near).tolist()]
-    areas = [a for a in gathered.areas if strays.near(a.feature, a.rings[0], needed=a.kind != "zone")]
-    barriers = [b for b in gathered.barriers if strays.near(b.feature, b.positions, needed=True)]
-    return replace(gathered, points=points, areas=areas, barriers=barriers)
+    points = features.points if near.all() else [features.points[k] for k in np.flatnonzero(near).tolist()]
+    areas = [a for a in features.areas if strays.near(a.feature, a.rings[0], needed=a.kind != "zone")]
+    barriers = [b for b in features.barriers if strays.near(b.feature, b.positions, needed=True)]
+    return replace(features, points=points, areas=areas, barriers=barriers)
 
 
 def middle_of(planted: Sequence[PointFeature]) -> Projection:

@@ -102,7 +102,7 @@ def phrase(text: str) -> str:
 
 def text_of(properties: Mapping[str, Value], keys: tuple[str, ...]) -> str:
     """The first of these properties that holds text (or a number), as it stands in the file; else empty."""
-    for key in _spelt(tuple(properties), keys):
+    for key in _matching_names(tuple(properties), keys):
         value = properties[key]
         if isinstance(value, str) and value.strip():
             return value.strip()
@@ -112,7 +112,7 @@ def text_of(properties: Mapping[str, Value], keys: tuple[str, ...]) -> str:
 
 
 @lru_cache(maxsize=4096)
-def _spelt(names: tuple[str, ...], keys: tuple[str, ...]) -> tuple[str, ...]:
+def _matching_names(names: tuple[str, ...], keys: tuple[str, ...]) -> tuple[str, ...]:
     """Of these property names those that are meant by the keys, in order of the keys.
 
     Remembered, since the trees of a file have the same few sets of properties.
@@ -131,50 +131,50 @@ def point_kind(properties: Mapping[str, Value]) -> tuple[PointKind, str]:
 
     A point without a kind is a marker if its *name* is exactly a marker's word ("Start"), else a tree.
     """
-    said = text_of(properties, KIND_KEYS)
-    words = phrase(said)
+    kind_text = text_of(properties, KIND_KEYS)
+    words = phrase(kind_text)
     if not words:
         name = text_of(properties, NAME_KEYS)
         return MARKERS.get(phrase(name), "tree"), name
     if words in MARKERS:
-        return MARKERS[words], said
+        return MARKERS[words], kind_text
     split = words.split()
     if PLANTS.isdisjoint(split):
         if split[-1] in GATES:
-            return "gate", said
+            return "gate", kind_text
         if split[-1] in LANDMARKS:
-            return "landmark", said
-    return "tree", said
+            return "landmark", kind_text
+    return "tree", kind_text
 
 
 def area_kind(properties: Mapping[str, Value]) -> tuple[ZoneKind, str]:
     """Return the kind of an area, and its name (the word of its kind if it has no name; empty if it has neither)."""
-    said, name = text_of(properties, KIND_KEYS), text_of(properties, NAME_KEYS)
-    flagged = any(value is True and _says_keep_out(phrase(key)) for key, value in properties.items())
-    if flagged or _says_keep_out(phrase(said)):
-        return "keep_out", name or said or "keep-out"
-    words = phrase(said).split()
+    kind_text, name = text_of(properties, KIND_KEYS), text_of(properties, NAME_KEYS)
+    flagged = any(value is True and _means_keep_out(phrase(key)) for key, value in properties.items())
+    if flagged or _means_keep_out(phrase(kind_text)):
+        return "keep_out", name or kind_text or "keep-out"
+    words = phrase(kind_text).split()
     if words and (words[-1] in _BOUNDARY_KINDS or words[0] in _BOUNDARY):
-        return "boundary", name or said
+        return "boundary", name or kind_text
     if words and words[-1] in _PLAIN_AREAS and len(words) == 1:
         words = []
-    if not words and _says_keep_out(phrase(name)):
+    if not words and _means_keep_out(phrase(name)):
         return "keep_out", name
     if not words and not _BOUNDARY.isdisjoint(phrase(name).split()[-1:]):
         return "boundary", name
-    return "zone", name or said
+    return "zone", name or kind_text
 
 
 def barrier_name(properties: Mapping[str, Value]) -> str:
     """Return the name of a line that no robot may cross (a fence, a ditch); empty for any other line."""
-    said, name = text_of(properties, KIND_KEYS), text_of(properties, NAME_KEYS)
-    words = phrase(said or name)
-    if words.split()[-1:] and (words.split()[-1] in _BARRIERS or _says_keep_out(words)):
-        return name or said
+    kind_text, name = text_of(properties, KIND_KEYS), text_of(properties, NAME_KEYS)
+    words = phrase(kind_text or name)
+    if words.split()[-1:] and (words.split()[-1] in _BARRIERS or _means_keep_out(words)):
+        return name or kind_text
     return ""
 
 
-#: Lines that :mod:`fieldhand.site.formats.document` writes of what was understood; they say nothing new.
+#: Lines that :mod:`fieldhand.site.formats.geojson_export` writes of what was understood; they say nothing new.
 DERIVED_LINES = frozenset({"row", "aisle", "headland", "gate", "link"})
 
 
@@ -188,7 +188,7 @@ def row_of(properties: Mapping[str, Value]) -> str:
     return text_of(properties, ROW_KEYS)
 
 
-def _says_keep_out(words: str) -> bool:
+def _means_keep_out(words: str) -> bool:
     if not words:
         return False
     for ending in (" zone", " area", " region"):

@@ -92,17 +92,17 @@ class FeatureSet:
     closed: list[int] = field(default_factory=list)
 
 
-def gather(records: SiteRecords, faults: Faults) -> FeatureSet:
+def parse_features(records: SiteRecords, faults: Faults) -> FeatureSet:
     """Sort the features into points, areas and barriers; what cannot be used goes to ``faults``."""
-    gathered = FeatureSet()
-    reader = _FeatureReader(gathered, lenient=faults.lenient)
+    features = FeatureSet()
+    reader = _FeatureReader(features, lenient=faults.lenient)
     for number, feature in zip(records.numbers or count(1), records.features, strict=False):
         try:
             reader.read(number, feature)
         except UnusableFeature as fault:
             faults.add(number, fault.what, fault.advice, needed=_keeps_out(feature))
-    gathered.heights = len(reader.high)
-    return gathered
+    features.heights = len(reader.high)
+    return features
 
 
 def readable(text: str, what: str) -> str:
@@ -155,10 +155,10 @@ def _keeps_out(feature: Any) -> bool:
 
 
 class _FeatureReader:
-    """Reads features one after the other into ``gathered``; what they have in common is kept only once."""
+    """Reads features one after the other into ``features``; what they have in common is kept only once."""
 
-    def __init__(self, gathered: FeatureSet, *, lenient: bool) -> None:
-        self._into = gathered
+    def __init__(self, features: FeatureSet, *, lenient: bool) -> None:
+        self._into = features
         self._lenient = lenient
         self._number = 0
         self._keys: dict[str, str] = {}

@@ -14,7 +14,7 @@ from importlib import resources
 from pathlib import Path
 
 from fieldhand.site.build_site import build
-from fieldhand.site.features import gather
+from fieldhand.site.features import parse_features
 from fieldhand.site.formats.faults import Faults
 from fieldhand.site.formats.files import SiteFiles, read_files, records_of
 from fieldhand.site.formats.geojson import geojson_records
@@ -74,7 +74,7 @@ def site_of(files: SiteFiles, *, lenient: bool = False) -> Site:
     Raises:
         SiteError: They do not hold a site.
     """
-    with _collector_at_rest():
+    with _garbage_collection_paused():
         records = records_of(files, lenient=lenient)
         name = Path(files.name).stem
         return _site(records, name=name, source=files.source, sha256=files.sha256, lenient=lenient)
@@ -97,20 +97,20 @@ def parse_site(data: bytes, *, name: str, source: str = "", lenient: bool = Fals
     if len(data) > MAX_BYTES:
         raise too_big(at, len(data))
     sha256 = hashlib.sha256(data).hexdigest()
-    with _collector_at_rest():
+    with _garbage_collection_paused():
         records = geojson_records(data, at, lenient=lenient)
         return _site(records, name=name, source=at, sha256=sha256, lenient=lenient)
 
 
 def _site(records: SiteRecords, *, name: str, source: str, sha256: str, lenient: bool) -> Site:
     faults = Faults(source, records.unit, lenient=lenient)
-    gathered = gather(records, faults)
+    features = parse_features(records, faults)
     own = records.name.strip()
-    return build(gathered, faults, name=own or name, sha256=sha256, notes=records.notes)
+    return build(features, faults, name=own or name, sha256=sha256, notes=records.notes)
 
 
 @contextmanager
-def _collector_at_rest() -> Iterator[None]:
+def _garbage_collection_paused() -> Iterator[None]:
     """A large site is a million new objects that are all kept; to look through them for garbage again and again takes
     longer than to read them.
     """

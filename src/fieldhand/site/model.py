@@ -207,7 +207,7 @@ class Site:
         return planting_of(self.xy, [t.row for t in self.trees], [t.properties for t in self.trees])
 
     @cached_property
-    def memory(self) -> dict[object, object]:
+    def cache(self) -> dict[object, object]:
         """What others computed of the site and keep with it, so that it is computed once."""
         return {}
 

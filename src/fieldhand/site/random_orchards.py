@@ -179,13 +179,13 @@ def make_orchard(
     features = _around(projection, xy, pond, pond_m, fenced, markers)
     xy, row_of, block_of, position = xy[order], row_of[order], block_of[order], position[order]
     degrees = _degrees(projection, xy)
-    told = [
+    properties = [
         _properties(named, int(r - rows_before[b]) + 1, int(b), int(s))
         for r, b, s in zip(row_of, block_of, position, strict=True)
     ]
     points = [
         {"type": "Feature", "properties": said, "geometry": {"type": "Point", "coordinates": place}}
-        for said, place in zip(told, degrees, strict=True)
+        for said, place in zip(properties, degrees, strict=True)
     ]
     return GeneratedOrchard(
         collection={"type": "FeatureCollection", "name": "made orchard", "features": [*features, *points]},

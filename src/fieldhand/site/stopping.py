@@ -49,7 +49,7 @@ def safe_stop(drives: Drives, way: Drive, within_m: float) -> float | None:
     return None
 
 
-def stands_in(drives: Drives, at: XY) -> str:
+def location_words(drives: Drives, at: XY) -> str:
     """Say where a point lies: "the aisle between rows 3 and 4", "the open"."""
     aisle = drives.layout.aisle(at)
     if aisle is None:

@@ -33,6 +33,7 @@ from fieldhand.evaluation.report.readings import ReadingSummary
 from fieldhand.language.words import capitalised, say_action
 from fieldhand.site.drawing import colours
 from fieldhand.site.drawing.blocks import draw_blocks, name_blocks
+from fieldhand.site.drawing.detail_window import Window, show_detail, show_window, window_of
 from fieldhand.site.drawing.ground import (
     bounds_of,
     disc_diameter,
@@ -48,7 +49,6 @@ from fieldhand.site.drawing.ground import (
 from fieldhand.site.drawing.names import labels_on, name_ground, name_zones
 from fieldhand.site.drawing.rows import name_rows_within
 from fieldhand.site.drawing.saving import make_text_visible
-from fieldhand.site.drawing.window import Window, look_through, show_window, window_of
 from fieldhand.site.model import Site
 from fieldhand.task.results import Acted, Event
 
@@ -125,7 +125,7 @@ def draw_map(
     window = window_of(ax, site, work, _WIDE_IN, _WIDE_IN)
     if window is not None:
         _draw_whole(figure, site, events, window)
-        look_through(ax, window)
+        show_detail(ax, window)
     size = _ground(ax, site)
     labels = labels_on(ax, site)
     disc = disc_diameter(ax, np.array(work).reshape(-1, 2), float(np.clip(1.5 * math.sqrt(size), 5.0, 9.5)))

@@ -133,9 +133,9 @@ def column_of(site: Site, attribute: str) -> Column:
             raise no_such_attribute(site, attribute)
         name = alike[0]
     key = ("attribute", name)
-    if key not in site.memory:
-        site.memory[key] = _column(site, name)
-    return cast(Column, site.memory[key])
+    if key not in site.cache:
+        site.cache[key] = _column(site, name)
+    return cast(Column, site.cache[key])
 
 
 def _column(site: Site, name: str) -> Column:

@@ -11,7 +11,7 @@ from fieldhand.language import counted
 from fieldhand.places.filters.attributes import column_of, column_rows
 from fieldhand.places.place_group import PlaceGroup
 from fieldhand.places.resolution_notes import ResolutionNotes
-from fieldhand.site.counting import need_rows, rows_from
+from fieldhand.site.counting import require_rows, rows_from
 from fieldhand.site.model import Site
 from fieldhand.site.planting import Indices
 
@@ -79,7 +79,7 @@ def _key(
 
 def _row_places(site: Site) -> tuple[Indices, str]:
     """For each row of the site its place in the count, block after block."""
-    planting = need_rows(site)
+    planting = require_rows(site)
     position = {id(row): k for k, row in enumerate(planting.rows)}
     place = np.zeros(len(planting.rows), dtype=np.intp)
     sides: dict[str, None] = {}

@@ -92,9 +92,9 @@ def segments(geometry: BaseGeometry) -> list[LineString]:
 
 def tree_index(site: Site) -> Any:
     """The trees, to ask how far the nearest is; kept with the site."""
-    if "tree index" not in site.memory:
-        site.memory["tree index"] = cKDTree(site.xy, balanced_tree=False, compact_nodes=False)
-    return site.memory["tree index"]
+    if "tree index" not in site.cache:
+        site.cache["tree index"] = cKDTree(site.xy, balanced_tree=False, compact_nodes=False)
+    return site.cache["tree index"]
 
 
 def off_trees(site: Site, xy: Floats) -> Floats:
@@ -105,7 +105,7 @@ def off_trees(site: Site, xy: Floats) -> Floats:
 def _open_ground(site: Site, margin_m: float) -> Any:
     """The whole plane, or the boundary's inside, without the keep-outs; a margin away from both."""
     key = ("open ground", margin_m)
-    if key not in site.memory:
+    if key not in site.cache:
         bounds = [z.polygon for z in site.zones_of("boundary")]
         if bounds:
             ground = unary_union(bounds).buffer(-margin_m)
@@ -114,5 +114,5 @@ def _open_ground(site: Site, margin_m: float) -> Any:
             east, north = site.xy.max(axis=0) + 10_000.0
             ground = shapely.box(west, south, east, north)
         outs = [z.polygon.buffer(margin_m) for z in site.zones_of("keep_out")]
-        site.memory[key] = ground.difference(unary_union(outs)) if outs else ground
-    return site.memory[key]
+        site.cache[key] = ground.difference(unary_union(outs)) if outs else ground
+    return site.cache[key]

@@ -14,7 +14,7 @@ from fieldhand.places.neighbours.distances import Origin, distance_to
 from fieldhand.places.place_group import PlaceGroup
 from fieldhand.places.resolution_notes import ResolutionNotes
 from fieldhand.site import counting
-from fieldhand.site.counting import need_rows, row_words, wind
+from fieldhand.site.counting import require_rows, row_words, wind
 from fieldhand.site.model import Site
 from fieldhand.site.planting import Row
 from fieldhand.terms import CountedFrom, Side, Towards
@@ -30,7 +30,7 @@ def reference_tree(origin: PlaceGroup, notes: ResolutionNotes) -> int:
         PlaceError: The site has no rows.
     """
     site = origin.site
-    planting = need_rows(site)
+    planting = require_rows(site)
     at = int(origin.index[0])
     if at >= 0 and planting.row_of[at] >= 0:
         return at
@@ -130,7 +130,7 @@ def successive(spots: PlaceGroup, near: Origin, count: int, notes: ResolutionNot
     all, in the order of the row from the end of theirs that is nearer. No place where no row has as many.
     """
     site = spots.site
-    need_rows(site)
+    require_rows(site)
     order = np.lexsort((spots.rank_in_row, spots.row))
     order = order[spots.row[order] >= 0]
     row = spots.row[order]

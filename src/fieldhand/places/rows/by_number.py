@@ -13,8 +13,8 @@ from fieldhand.places.place_group import PlaceGroup
 from fieldhand.places.resolution_notes import ResolutionNotes
 from fieldhand.places.rows.numbers_in_row import blocks_of, numbers_in_row
 from fieldhand.site.counting import (
-    need_rows,
     numbered_by_file,
+    require_rows,
     row_words,
     trees_from,
 )
@@ -98,7 +98,7 @@ def _row_by_row(spots: PlaceGroup, number: Indices) -> Indices:
 def _ways(spots: PlaceGroup, side: CountedFrom) -> tuple[Indices, str]:
     """For each row of the site the way in which its trees count, and from where, of the blocks of the group."""
     site = spots.site
-    planting = need_rows(site)
+    planting = require_rows(site)
     way = np.ones(len(planting.rows), dtype=np.intp)
     of_row = np.array([row.block for row in planting.rows])
     blocks = blocks_of(site, spots)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from fieldhand.places.place_group import PlaceGroup
-from fieldhand.site.counting import need_rows
+from fieldhand.site.counting import require_rows
 from fieldhand.site.model import Site
 from fieldhand.site.planting import Block, Indices, Row
 
@@ -35,7 +35,7 @@ def numbers_in_row(spots: PlaceGroup, way: Indices) -> tuple[Indices, Indices]:
 
 def blocks_of(site: Site, spots: PlaceGroup) -> tuple[Block, ...]:
     """The blocks in which these places stand, in the site's order."""
-    planting = need_rows(site)
+    planting = require_rows(site)
     rows = spots.row
     of_row = np.array([row.block for row in planting.rows], dtype=np.intp)
     return tuple(planting.blocks[k] for k in np.unique(of_row[np.unique(rows[rows >= 0])]).tolist())

@@ -18,7 +18,7 @@ from fieldhand.places.rows.numbers_in_row import blocks_of, in_those_rows
 from fieldhand.site.counting import (
     block_words,
     find_row,
-    need_rows,
+    require_rows,
     row_words,
     rows_from,
 )
@@ -36,7 +36,7 @@ def in_rows(spots: PlaceGroup, selector: Rows, reference: PlaceGroup, notes: Res
     A row that is called by name or number is looked for in the blocks of the ground; without one, each block counts.
     """
     site = spots.site
-    need_rows(site)
+    require_rows(site)
     if selector.every < 1:
         raise PlaceError(
             message("every {every}th row is no row", every=selector.every),
@@ -61,7 +61,7 @@ def in_rows(spots: PlaceGroup, selector: Rows, reference: PlaceGroup, notes: Res
 def row_of(spots: PlaceGroup, origin: PlaceGroup, over: int, notes: ResolutionNotes) -> PlaceGroup:
     """Those in the rows of the origin, or so many rows over."""
     site = spots.site
-    planting = need_rows(site)
+    planting = require_rows(site)
     rows = np.unique(origin.row)
     own = {
         int(planting.row_of[reference_tree(origin.keep([k]), notes)]) for k in np.flatnonzero(origin.row < 0).tolist()

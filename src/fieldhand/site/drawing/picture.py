@@ -11,6 +11,7 @@ import numpy as np
 from fieldhand.site.describe.driving import DrivingSummary
 from fieldhand.site.drawing import colours
 from fieldhand.site.drawing.blocks import draw_blocks
+from fieldhand.site.drawing.driving_network import draw_closed, draw_network, draw_unreachable
 from fieldhand.site.drawing.ground import (
     bounds_of,
     draw_gates,
@@ -21,7 +22,6 @@ from fieldhand.site.drawing.ground import (
 from fieldhand.site.drawing.names import labels_on, name_ground, name_markers
 from fieldhand.site.drawing.rows import LONGEST_NAME, draw_rows, name_trees
 from fieldhand.site.drawing.saving import save_figure
-from fieldhand.site.drawing.ways import draw_closed, draw_unreachable, draw_ways
 from fieldhand.site.driving.network import DrivableNetwork
 from fieldhand.site.model import Site
 from fieldhand.site.names import short
@@ -68,7 +68,7 @@ def site_picture(site: Site, network: DrivableNetwork | None = None, driving: Dr
     ax = figure.axes[0]
     draw_zones(ax, site)
     if network is not None:
-        draw_ways(ax, network, driving.width_m if driving is not None else 1.0)
+        draw_network(ax, network, driving.width_m if driving is not None else 1.0)
     draw_blocks(ax, site)
     draw_rows(ax, site)
     if driving is not None:

@@ -3,7 +3,7 @@
 free        where a robot may be at all: boundary, keep-outs, fences and gates
 rowlines    rows as lines in the frame of their block
 aisles      rows side by side in groups, the aisles between them, the headlands at their ends
-row_bodies  the ground around each row that a robot keeps off, as a polygon with few corners
+row_obstacles  the ground around each row that a robot keeps off, as a polygon with few corners
 row_axes    the lines along rows that no way crosses, and which points they part
 visibility  the corners of a ground that see each other, and what other points see
 graph       shortest ways over a sparse graph

@@ -12,9 +12,9 @@ import shapely
 from shapely.geometry import LineString, Point, Polygon
 from shapely.geometry.base import BaseGeometry
 
-from fieldhand.site.driving.free import Free
+from fieldhand.site.driving.free_space import FreeSpace
 from fieldhand.site.driving.graph import Points
-from fieldhand.site.driving.row_bodies import RowBody, row_bodies
+from fieldhand.site.driving.row_obstacles import RowObstacle, row_obstacles
 from fieldhand.site.driving.rowlines import Frame, Line, RowLine, row_line
 from fieldhand.site.model import Site
 from fieldhand.site.planting import Block
@@ -36,13 +36,13 @@ class RowGroup:
     Attributes:
         block: Position of their block in the planting.
         lines: In the order of v, at least one.
-        bodies: Of the lines.
+        obstacles: Of the lines.
     """
 
     block: int
     frame: Frame
     lines: tuple[RowLine, ...]
-    bodies: tuple[RowBody, ...]
+    obstacles: tuple[RowObstacle, ...]
 
     @cached_property
     def start_headland(self) -> Line:
@@ -55,7 +55,7 @@ class RowGroup:
         return self._headland(1)
 
     def _headland(self, end: int) -> Line:
-        uv = self.frame.local(np.concatenate([body.ends[end] for body in self.bodies]))
+        uv = self.frame.local(np.concatenate([body.ends[end] for body in self.obstacles]))
         uv = uv[np.argsort(uv[:, 1], kind="stable")]
         return uv[:, 1], uv[:, 0]
 
@@ -129,7 +129,7 @@ class Aisle:
     def polygon(self) -> BaseGeometry:
         """The strip from row to row, as long as the longer of them, in metres east and north."""
         below, above = self.below, self.above
-        ends = [self.group.bodies[k].ends for k in (self.position, self.position + 1)]
+        ends = [self.group.obstacles[k].ends for k in (self.position, self.position + 1)]
         first = min(float(self.frame.local(start)[:, 0].min()) for start, _ in ends)
         last = max(float(self.frame.local(end)[:, 0].max()) for _, end in ends)
         u = np.unique(np.concatenate([[first], below.u, above.u, [last]]))
@@ -140,7 +140,7 @@ class Aisle:
 
 
 class Aisles:
-    """The rows of a site in groups, their bodies, and the aisles between them.
+    """The rows of a site in groups, their obstacles, and the aisles between them.
 
     Args:
         site: With its rows.
@@ -148,7 +148,7 @@ class Aisles:
         standoff_m: Metres beyond the last trees at which a robot turns, where there is room.
     """
 
-    def __init__(self, site: Site, free: Free, standoff_m: float) -> None:
+    def __init__(self, site: Site, free: FreeSpace, standoff_m: float) -> None:
         self.row_lines = tree_lines(site)
         found = [
             (number, frame, lines)
@@ -156,8 +156,8 @@ class Aisles:
             for frame, together in _groups(site, number, block, free.clearance_m)
             for lines in _in_order(frame, together, self.row_lines)
         ]
-        bodies = iter(
-            row_bodies(
+        obstacles = iter(
+            row_obstacles(
                 [_trees_of(site, line) for _, _, lines in found for line in lines],
                 [(frame, site.planting.blocks[number]) for number, frame, lines in found for _ in lines],
                 free,
@@ -165,9 +165,10 @@ class Aisles:
             )
         )
         self.groups = tuple(
-            RowGroup(number, frame, tuple(lines), tuple(next(bodies) for _ in lines)) for number, frame, lines in found
+            RowGroup(number, frame, tuple(lines), tuple(next(obstacles) for _ in lines))
+            for number, frame, lines in found
         )
-        self.bodies = tuple(body for group in self.groups for body in group.bodies)
+        self.obstacles = tuple(body for group in self.groups for body in group.obstacles)
         self._first = [0, *itertools.accumulate(len(group.lines) - 1 for group in self.groups)]
         self.all = tuple(
             Aisle(self._first[k] + position, k, group, position)

@@ -15,9 +15,9 @@ from shapely.geometry import Point
 from shapely.ops import unary_union
 
 from fieldhand.site.driving.aisles import Aisle, Aisles
-from fieldhand.site.driving.free import Area, free_ground
+from fieldhand.site.driving.free_space import Area, free_space
 from fieldhand.site.driving.graph import Indices, Links, Points, ShortestWays, chain
-from fieldhand.site.driving.visibility import Visibility
+from fieldhand.site.driving.visibility_graph import VisibilityGraph
 from fieldhand.site.model import Site
 
 XY = tuple[float, float]
@@ -57,7 +57,7 @@ class Spot:
 
 
 class Layout:
-    """Free ground without the bodies of the rows, aisles, and the graph of the ground's corners.
+    """Free ground without the obstacles of the rows, aisles, and the graph of the ground's corners.
 
     Args:
         site: With rows, zones and gates.
@@ -66,14 +66,14 @@ class Layout:
     """
 
     def __init__(self, site: Site, clearance_m: float, standoff_m: float) -> None:
-        self.free = free_ground(site, clearance_m)
+        self.free = free_space(site, clearance_m)
         self.aisles = Aisles(site, self.free, max(standoff_m, clearance_m))
-        bodies = self.aisles.bodies
-        self.open = bool(self.free.bounded or bodies)
-        taken = unary_union([body.polygon for body in bodies])
-        self.soft = self.free.soft.difference(taken) if bodies else self.free.soft
-        axes = [np.stack([body.axis[:-1], body.axis[1:]], axis=1) for body in bodies]
-        self.visibility = Visibility(self.soft, np.concatenate([np.empty((0, 2, 2)), *axes]))
+        obstacles = self.aisles.obstacles
+        self.open = bool(self.free.bounded or obstacles)
+        taken = unary_union([body.polygon for body in obstacles])
+        self.soft = self.free.soft.difference(taken) if obstacles else self.free.soft
+        axes = [np.stack([body.axis[:-1], body.axis[1:]], axis=1) for body in obstacles]
+        self.visibility = VisibilityGraph(self.soft, np.concatenate([np.empty((0, 2, 2)), *axes]))
         self.graph = self.visibility.graph
         self._spots: dict[XY, Spot] = {}
         self._links: dict[XY, Links] = {}
@@ -108,7 +108,7 @@ class Layout:
         """Return what keeps a robot from standing at a point, in words; empty if nothing does."""
         return self.free.in_the_way(Point(xy)) if self.free.bounded else ""
 
-    def linked(self, spots: Sequence[Spot], origin: Spot) -> list[bool]:
+    def reachable(self, spots: Sequence[Spot], origin: Spot) -> list[bool]:
         """Return which of these spots can be driven to from there."""
         return [
             not self.open or spot.xy == origin.xy or (spot.part == origin.part and spot.part >= 0) for spot in spots
@@ -264,7 +264,7 @@ class Layout:
 
     def _is_beside(self, one: Points, two: Points, metres: Points) -> NDArray[np.bool_]:
         """Return which straight lines between places in a band can be driven: clear of everything by the clearance, if
-        not of the bodies of rows; or over a few clearances of free ground."""
+        not of the obstacles of rows; or over a few clearances of free ground."""
         clear = self.free.sees(one, two, soft=True) if self.free.bounded else np.ones(len(one), dtype=bool)
         lines = shapely.linestrings(np.stack([one, two], axis=1))
         near = self.aisles.row_lines.query(lines, predicate="dwithin", distance=self.free.clearance_m - 1e-9)[0]

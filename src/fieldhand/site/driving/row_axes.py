@@ -52,7 +52,7 @@ class RowAxes:
         self._turn = along.conj()
         self._length = length - 2.0 * _ENDS_M
 
-    def located(self, at: Points) -> Located:
+    def locate(self, at: Points) -> Located:
         """Return these points with the rows nearest to each."""
         count = min(_NEAREST, len(self._length))
         places = _complex(at)
@@ -69,7 +69,7 @@ class RowAxes:
             nearest[some] = np.take_along_axis(near, order, axis=1)
         return Located(places, nearest)
 
-    def unparted(
+    def unseparated_pairs(
         self, one: Located, two: Located | None = None, among: Among | None = None
     ) -> Iterator[tuple[Indices, Indices]]:
         """Yield, in batches and in order, the positions of all pairs of a point of ``one`` and one of ``two`` that none
@@ -85,17 +85,17 @@ class RowAxes:
                 kept &= among(some[:, None], there)
             else:  # most pairs are parted by the rows on either side of ``one``
                 for axes in one.near[some].T[:2]:
-                    kept &= ~self._part(axes[:, None], one.at[some, None], to.at[there])
+                    kept &= ~self._separates(axes[:, None], one.at[some, None], to.at[there])
             i, j = np.nonzero(kept)
             i, j = some[i], there[j]
             for ranks in (slice(0, 2), slice(2, None)):  # the rows on either side leave few pairs for the others
                 for points, which in ((one, 0), (to, 1)):
                     near = points.near[(i, j)[which], ranks].T
-                    clear = ~self._part(near, one.at[i], to.at[j]).any(axis=0)
+                    clear = ~self._separates(near, one.at[i], to.at[j]).any(axis=0)
                     i, j = i[clear], j[clear]
             yield i, j
 
-    def _part(self, axes: Indices, one: Complex, two: Complex) -> NDArray[np.bool_]:
+    def _separates(self, axes: Indices, one: Complex, two: Complex) -> NDArray[np.bool_]:
         """Return whether each of these rows parts a point of ``one`` from one of ``two``; they broadcast."""
         start, turn = self._start[axes], self._turn[axes]
         one, two = (one - start) * turn, (two - start) * turn

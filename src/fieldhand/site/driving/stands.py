@@ -50,7 +50,7 @@ class Candidate:
     aisle_m: float | None = None
 
 
-class StandingPlaces:
+class StandCandidates:
     """Candidates for the stands of a site's trees.
 
     Args:

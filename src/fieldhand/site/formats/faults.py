@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from fieldhand.errors import SiteError
 from fieldhand.site.formats.records import Unit
 
-MOST_TOLD = 10
+MOST_REASONS = 10
 _MOST_NUMBERS = 5
 
 
@@ -42,8 +42,8 @@ class Faults:
 
     def add(self, number: int, what: str, advice: str, *, needed: bool = False) -> None:
         """A feature cannot be used; ``needed`` where the site must not be used without it."""
-        for told in (self._found, self._needed) if needed else (self._found,):
-            numbers = told.setdefault((what, advice), [])
+        for faults in (self._found, self._needed) if needed else (self._found,):
+            numbers = faults.setdefault((what, advice), [])
             if number not in numbers[-1:]:
                 numbers.append(number)
 
@@ -53,23 +53,23 @@ class Faults:
         Raises:
             SiteError: With the first faults, each with its feature.
         """
-        told = self._needed if self.lenient else self._found
-        if not told:
+        faults = self._needed if self.lenient else self._found
+        if not faults:
             return
-        (what, advice), numbers = next(iter(told.items()))
-        if len(told) == 1 and len(numbers) == 1:
+        (what, advice), numbers = next(iter(faults.items()))
+        if len(faults) == 1 and len(numbers) == 1:
             raise SiteError(what, where=f"{self.source}, {self.unit} {numbers[0]}", advice=advice)
-        if len(told) == 1:
+        if len(faults) == 1:
             raise SiteError(f"{numbered(self.unit, numbers)} cannot be used: {what}", where=self.source, advice=advice)
-        count = len({n for numbers in told.values() for n in numbers})
-        said = [
+        count = len({n for numbers in faults.values() for n in numbers})
+        texts = [
             f"{numbered(self.unit, numbers)}: {what} ({advice})"
-            for (what, advice), numbers in list(told.items())[:MOST_TOLD]
+            for (what, advice), numbers in list(faults.items())[:MOST_REASONS]
         ]
-        more = len(told) - MOST_TOLD
+        more = len(faults) - MOST_REASONS
         raise SiteError(
             f"{count} {self.unit}{'s' * (count > 1)} cannot be used: "
-            + "; ".join(said)
+            + "; ".join(texts)
             + (f"; and {more} more kinds of fault" if more > 0 else ""),
             where=self.source,
             advice=self._way_out(),
@@ -77,12 +77,12 @@ class Faults:
 
     def notes(self) -> list[str]:
         """What was left out and why, a sentence each; the first few."""
-        said = [
+        texts = [
             f"left out {numbered(self.unit, numbers)}: {what}"
-            for (what, _), numbers in list(self._found.items())[:MOST_TOLD]
+            for (what, _), numbers in list(self._found.items())[:MOST_REASONS]
         ]
-        more = sum(len(numbers) for numbers in list(self._found.values())[MOST_TOLD:])
-        return [*said, f"left out {more} more {self.unit}s that cannot be used"] if more else said
+        more = sum(len(numbers) for numbers in list(self._found.values())[MOST_REASONS:])
+        return [*texts, f"left out {more} more {self.unit}s that cannot be used"] if more else texts
 
     def _way_out(self) -> str:
         if self.lenient:

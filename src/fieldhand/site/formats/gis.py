@@ -46,12 +46,12 @@ _KML_OWN = (
 )
 
 
-def gis_records(form: str, held: Mapping[str, bytes], at: str, *, lenient: bool = False) -> SiteRecords:
+def gis_records(form: str, contents: Mapping[str, bytes], at: str, *, lenient: bool = False) -> SiteRecords:
     """The features of all layers, one layer after the other, in degrees WGS 84.
 
     Args:
         form: ``shapefile``, ``geopackage``, ``kml`` or ``zip`` (which is KMZ, or one of the others packed).
-        held: The file by name, a Shapefile with its parts.
+        contents: The file by name, a Shapefile with its parts.
         at: Where it was read from, for messages.
         lenient: For a GeoJSON file that was packed.
 
@@ -60,18 +60,18 @@ def gis_records(form: str, held: Mapping[str, bytes], at: str, *, lenient: bool 
     """
     if form != "zip":
         _require_extra(at)
-    return read_sandboxed(form, held, at, lenient=lenient)
+    return read_sandboxed(form, contents, at, lenient=lenient)
 
 
-def read_here(form: Format, held: Mapping[str, bytes], at: str, *, lenient: bool = False) -> SiteRecords:
+def read_in_process(form: Format, contents: Mapping[str, bytes], at: str, *, lenient: bool = False) -> SiteRecords:
     """Return what :func:`gis_records` does, read in this very process: for files of one's own, and for its process."""
-    with tempfile.TemporaryDirectory(prefix="fieldhand-") as made:
-        folder = Path(made)
+    with tempfile.TemporaryDirectory(prefix="fieldhand-") as temporary:
+        folder = Path(temporary)
         if form == "zip":
-            paths = unpack(next(iter(held.values())), {*_MAIN, *SHAPEFILE_PARTS}, folder, at)
+            paths = unpack(next(iter(contents.values())), {*_MAIN, *SHAPEFILE_PARTS}, folder, at)
             return _packed(paths, at, lenient=lenient)
         ending = {"shapefile": "", "geopackage": ".gpkg", "kml": ".kml"}[form]
-        for name, data in held.items():
+        for name, data in contents.items():
             # One plain name for all parts: GDAL reads meaning into some names.
             (folder / f"site{ending or Path(name).suffix.lower()}").write_bytes(data)
         return _joined([(folder / f"site{ending or '.shp'}", "")], at)

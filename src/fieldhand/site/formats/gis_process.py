@@ -7,18 +7,18 @@ import sys
 from pathlib import Path
 
 from fieldhand.errors import SiteError
-from fieldhand.site.formats.sandbox import ASKED, RESULT, as_json
+from fieldhand.site.formats.sandbox import REQUEST, RESULT, as_json
 
 
 def main(folder: Path) -> int:
     """Read the files of a folder and write the records, or what is wrong with the files, beside them."""
-    asked = json.loads((folder / ASKED).read_text())
-    _limit(memory=asked["memory"], cpu_s=asked["cpu_s"], result=max(asked["result"], 250_000_000))
-    from fieldhand.site.formats.gis import read_here
+    request = json.loads((folder / REQUEST).read_text())
+    _limit(memory=request["memory"], cpu_s=request["cpu_s"], result=max(request["result"], 250_000_000))
+    from fieldhand.site.formats.gis import read_in_process
 
-    held = {name: (folder / str(number)).read_bytes() for number, name in enumerate(asked["names"])}
+    contents = {name: (folder / str(number)).read_bytes() for number, name in enumerate(request["names"])}
     try:
-        text = as_json(read_here(asked["form"], held, asked["at"], lenient=asked["lenient"]))
+        text = as_json(read_in_process(request["form"], contents, request["at"], lenient=request["lenient"]))
     except SiteError as error:
         text = json.dumps({"error": [error.what, error.where, error.advice]})
     except (MemoryError, RecursionError):

@@ -21,7 +21,7 @@ from typing import Any
 from fieldhand.errors import SiteError
 from fieldhand.site.formats.records import SiteRecords, UnusablePart
 
-RESULT, ASKED = "result.json", "asked.json"
+RESULT, REQUEST = "result.json", "request.json"
 #: What the process needs of the environment; of GDAL, of proxies and of tokens it sees nothing.
 _PASSED = ("PATH", "PYTHONPATH", "LD_LIBRARY_PATH", "LANG", "LC_ALL", "SYSTEMROOT", "PROJ_DATA", "PROJ_LIB")
 
@@ -53,35 +53,35 @@ def read_limits(size: int) -> ReadLimits:
 
 
 def read_sandboxed(
-    form: str, held: Mapping[str, bytes], at: str, *, lenient: bool, allowed: ReadLimits | None = None
+    form: str, contents: Mapping[str, bytes], at: str, *, lenient: bool, allowed: ReadLimits | None = None
 ) -> SiteRecords:
     """Read files in a process with limited resources and return their records.
 
     Args:
-        form, held, at, lenient: As for :func:`fieldhand.site.formats.gis.gis_records`.
+        form, contents, at, lenient: As for :func:`fieldhand.site.formats.gis.gis_records`.
         allowed: Limits; by default those for the size of the files.
 
     Raises:
         SiteError: The files cannot be read, or not within the limits.
     """
-    allowed = allowed or read_limits(sum(map(len, held.values())))
-    with tempfile.TemporaryDirectory(prefix="fieldhand-") as made:
-        folder = Path(made)
-        for number, data in enumerate(held.values()):
+    allowed = allowed or read_limits(sum(map(len, contents.values())))
+    with tempfile.TemporaryDirectory(prefix="fieldhand-") as temporary:
+        folder = Path(temporary)
+        for number, data in enumerate(contents.values()):
             (folder / str(number)).write_bytes(data)
-        asked = {
+        request = {
             "form": form,
-            "names": list(held),
+            "names": list(contents),
             "at": at,
             "lenient": lenient,
             "memory": allowed.memory,
             "result": allowed.result,
             "cpu_s": allowed.cpu_s,
         }
-        (folder / ASKED).write_text(json.dumps(asked))
+        (folder / REQUEST).write_text(json.dumps(request))
         environment = {name: os.environ[name] for name in _PASSED if name in os.environ}
-        environment |= {"TMPDIR": made, "HOME": made, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
-        command = [sys.executable, "-m", "fieldhand.site.formats.gis_process", made]
+        environment |= {"TMPDIR": temporary, "HOME": temporary, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
+        command = [sys.executable, "-m", "fieldhand.site.formats.gis_process", temporary]
         try:
             done = subprocess.run(  # noqa: S603
                 command,

@@ -20,7 +20,7 @@ from fieldhand.site.rows.assemble import assemble
 from fieldhand.site.rows.combine import combine
 from fieldhand.site.rows.labels import linked
 from fieldhand.site.rows.named import named_rows
-from fieldhand.site.rows.refine import SeenBlock
+from fieldhand.site.rows.refine import InferredBlock
 from fieldhand.terms import Value
 
 #: Trees nearer to each other than this, in metres, are one tree entered twice.
@@ -45,14 +45,14 @@ def planting_of(xy: NDArray[np.float64], rows: Sequence[str], properties: Sequen
     return assemble(xy, combine(xy, named, seen))
 
 
-def _seen(xy: NDArray[np.float64]) -> list[SeenBlock]:
+def _seen(xy: NDArray[np.float64]) -> list[InferredBlock]:
     """Rows from the points; trees entered twice are seen once, and stand where the other does."""
-    from fieldhand.site.rows.infer import seen_blocks
+    from fieldhand.site.rows.infer import infer_blocks
 
     first = first_entries(xy)
     kept = np.unique(first)
     copies = np.flatnonzero(first != np.arange(len(xy)))
-    blocks = seen_blocks(xy[kept])
+    blocks = infer_blocks(xy[kept])
     found = []
     for block in blocks:
         rows = [kept[trees] for trees in block.rows]

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from fieldhand.language import counted, message
 from fieldhand.site.planting import Known
 from fieldhand.site.rows.assemble import FoundRows, along_of, bearing
-from fieldhand.site.rows.grouping import lines_of, row_spacing, together
+from fieldhand.site.rows.grouping import group_rows, row_spacing, traced_rows
 from fieldhand.site.rows.labels import groups
 from fieldhand.site.rows.named import NamedRows
-from fieldhand.site.rows.refine import SeenBlock
+from fieldhand.site.rows.refine import InferredBlock
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -23,7 +23,7 @@ Indices = NDArray[np.intp]
 _OTHER_WAY = 8.0
 
 
-def combine(xy: Floats, named: NamedRows, seen: Sequence[SeenBlock]) -> FoundRows:
+def combine(xy: Floats, named: NamedRows, seen: Sequence[InferredBlock]) -> FoundRows:
     """Return the rows of the file, extended by unnamed trees, and the inferred rows of the other trees.
 
     Args:
@@ -31,7 +31,7 @@ def combine(xy: Floats, named: NamedRows, seen: Sequence[SeenBlock]) -> FoundRow
         named: Rows of the file; they take precedence.
         seen: Inferred blocks.
     """
-    seen_row, seen_block, sure = _flat(len(xy), seen)
+    seen_row, seen_block, sure = _by_tree(len(xy), seen)
     row_of, names, known, confidence = _rows(named, seen_row, sure)
     members = groups(row_of, len(names))
     block_key = _block_keys(xy, named, members, seen_row, seen_block, list(seen))
@@ -51,13 +51,13 @@ def combine(xy: Floats, named: NamedRows, seen: Sequence[SeenBlock]) -> FoundRow
     )
 
 
-def _flat(count: int, seen: Sequence[SeenBlock]) -> tuple[Indices, list[int], list[float]]:
+def _by_tree(count: int, seen: Sequence[InferredBlock]) -> tuple[Indices, list[int], list[float]]:
     """Of each tree the row it was seen in, -1 for none; of each of these rows its block and confidence."""
     row_of = np.full(count, -1, dtype=np.intp)
     block_of: list[int] = []
     sure: list[float] = []
     for k, block in enumerate(seen):
-        for trees, confidence in zip(block.rows, block.rows_sure, strict=True):
+        for trees, confidence in zip(block.rows, block.row_confidences, strict=True):
             row_of[trees] = len(block_of)
             block_of.append(k)
             sure.append(confidence)
@@ -107,10 +107,10 @@ def _block_keys(
     members: Sequence[Indices],
     seen_row: Indices,
     seen_block: Sequence[int],
-    seen: list[SeenBlock],
+    seen: list[InferredBlock],
 ) -> list[Hashable]:
     """Of each row what tells its block from others: the file's name, else a number."""
-    keys: list[Hashable] = [_said(named, trees) for trees in members]
+    keys: list[Hashable] = [_named_block(named, trees) for trees in members]
     if all(keys):
         return keys
     # Rows without a name for their block are in that of the rows they were seen with, ...
@@ -136,7 +136,7 @@ def _block_keys(
     return keys
 
 
-def _said(named: NamedRows, trees: Indices) -> str:
+def _named_block(named: NamedRows, trees: Indices) -> str:
     """The block that the file says these trees are in; empty where it says none, or several."""
     said = {named.block_names[k] for k in trees}
     return said.pop() if len(said) == 1 else ""
@@ -151,26 +151,26 @@ def _beside(xy: Floats, rows: Sequence[Indices]) -> list[int]:
         [bearing(xy[trees], np.zeros(len(trees), dtype=np.intp)) if len(trees) > 2 else np.nan for trees in rows]
     )
     first = 0
-    for same in _one_way(ways):
+    for same in _by_direction(ways):
         own = np.full(len(xy), -1, dtype=np.intp)
         for place, k in enumerate(same):
             own[rows[k]] = place
         way = along_of(bearing(xy, own))
         local = np.column_stack([xy @ np.array([way[1], -way[0]]), xy @ way])
-        lines = lines_of(local, own)
-        guess = _usual_step(np.sort([float(line.across.mean()) for line in lines]))
-        label[same] = first + together(lines, row_spacing(lines, guess), trusted=True)
+        lines = traced_rows(local, own)
+        guess = _median_step(np.sort([float(line.across.mean()) for line in lines]))
+        label[same] = first + group_rows(lines, row_spacing(lines, guess), trusted=True)
         first = int(label.max()) + 1
     return [int(k) for k in label]
 
 
-def _usual_step(middles: Floats) -> float:
+def _median_step(middles: Floats) -> float:
     steps = np.diff(middles)
     steps = steps[steps > 0.2]
     return float(np.median(steps)) if len(steps) else 1.0
 
 
-def _one_way(ways: Floats) -> list[Indices]:
+def _by_direction(ways: Floats) -> list[Indices]:
     """Rows by direction; those too short to have one go with the first."""
     short = np.flatnonzero(np.isnan(ways))
     long = np.flatnonzero(~np.isnan(ways))
@@ -194,7 +194,7 @@ def _block_sure(
     members: Sequence[Indices],
     seen_row: Indices,
     seen_block: Sequence[int],
-    seen: list[SeenBlock],
+    seen: list[InferredBlock],
 ) -> list[float]:
     """As sure as the blocks that were seen there; where the file names rows of it, those run as it says."""
     found = []
@@ -205,7 +205,7 @@ def _block_sure(
             continue
         trees = np.concatenate([members[k] for k in rows])
         inside = {seen_block[r] for r in np.unique(seen_row[trees]).tolist() if r >= 0}
-        found.append(min((seen[b].sure for b in inside), default=1.0))
+        found.append(min((seen[b].confidence for b in inside), default=1.0))
     return found
 
 

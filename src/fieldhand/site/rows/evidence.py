@@ -91,20 +91,20 @@ def _in_the_lanes(xy: Floats, rows: Sequence[Indices], way: Floats, spacing: flo
     return int((row_of[i][beside] >= 0).sum() + (row_of[j][beside] >= 0).sum())
 
 
-def bearing_confidence(evidence: float, enough: float, wider: float, walked: float) -> float:
+def bearing_confidence(evidence: float, enough: float, spacing_ratio: float, file_order_share: float) -> float:
     """Return the confidence, 0 to 1, that rows run this way: that they are rows, and that the lines across them are
     not.
 
     Args:
         evidence: Result of :func:`log_likelihood_ratio`.
         enough: Result of :func:`required_evidence`.
-        wider: Ratio of the row spacing to that of the lines of trees across; inf without such lines.
-        walked: Fraction of the steps from tree to tree in the order of the file that go along the rows, among those
-            along or across; 0.5 if unknown.
+        spacing_ratio: Ratio of the row spacing to that of the lines of trees across; inf without such lines.
+        file_order_share: Fraction of the steps from tree to tree in the order of the file that go along the rows,
+            among those along or across; 0.5 if unknown.
     """
     rows_at_all = 1.0 / (1.0 + math.exp(-min((evidence - enough) / 2.0 + 0.5, 50.0)))
-    square = math.exp(-(((max(wider, 1.0) - 1.0) / 0.05) ** 2)) if math.isfinite(wider) else 0.0
-    which = 1.0 - 0.5 * square * (1.0 - abs(2 * walked - 1.0) * 0.9)
+    square = math.exp(-(((max(spacing_ratio, 1.0) - 1.0) / 0.05) ** 2)) if math.isfinite(spacing_ratio) else 0.0
+    which = 1.0 - 0.5 * square * (1.0 - abs(2 * file_order_share - 1.0) * 0.9)
     return rows_at_all * which
 
 

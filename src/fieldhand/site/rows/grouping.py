@@ -33,7 +33,7 @@ class TracedRow:
         return float(np.mean(self.across[low : max(k + 4, low + 1)]))
 
 
-def lines_of(local: Floats, label: Indices) -> list[TracedRow]:
+def traced_rows(local: Floats, label: Indices) -> list[TracedRow]:
     """The rows of these labels (negative ones left out), each along its way."""
     found = []
     for own in groups(label, int(label.max(initial=-1)) + 1):
@@ -62,7 +62,7 @@ def row_spacing(lines: list[TracedRow], guess: float) -> float:
     return float(np.median(steps)) if steps else guess
 
 
-def together(
+def group_rows(
     lines: list[TracedRow], spacing: float, *, trusted: bool = False, sides: NDArray[np.intp] | None = None
 ) -> Indices:
     """Label rows by the block they are in: those side by side at about the row spacing.

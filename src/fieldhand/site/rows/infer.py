@@ -8,11 +8,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.site.rows.evidence import bearing_confidence, log_likelihood_ratio, required_evidence, row_confidence
-from fieldhand.site.rows.grouping import TracedRow, lines_of, row_spacing, together
+from fieldhand.site.rows.grouping import TracedRow, group_rows, row_spacing, traced_rows
 from fieldhand.site.rows.patches import PATCH, SMALL_PATCH, patches_of
-from fieldhand.site.rows.refine import RowRefinement, SeenBlock
-from fieldhand.site.rows.regions import Region, absorbed, assign, line_regions, regions_of, rows_run
-from fieldhand.site.rows.roads import parted, rejoined
+from fieldhand.site.rows.refine import InferredBlock, RowRefinement
+from fieldhand.site.rows.regions import (
+    Region,
+    assign_trees,
+    line_regions,
+    merge_small_regions,
+    regions_of,
+    row_direction,
+)
+from fieldhand.site.rows.roads import rejoin_rows, split_by_roads
 from fieldhand.site.rows.tracing import (
     join_across_gaps,
     pooled_slope,
@@ -33,12 +40,12 @@ _CLEAR = 11.0
 _SAME_WAY, _SAME_SPACING = 0.045, 0.12
 
 
-def seen_blocks(xy: Floats) -> list[SeenBlock]:
+def infer_blocks(xy: Floats) -> list[InferredBlock]:
     """Blocks and their rows, as they can be seen in how the trees stand.
 
     In rounds: what is not explained yet is looked at again, until nothing is found in it.
     """
-    found: list[SeenBlock] = []
+    found: list[InferredBlock] = []
     left = np.arange(len(xy))
     for _ in range(_ROUNDS):
         if len(left) < 3:
@@ -49,13 +56,15 @@ def seen_blocks(xy: Floats) -> list[SeenBlock]:
         found.extend(new)
         taken = np.concatenate([trees for block in new for trees in block.rows])
         left = np.setdiff1d(left, taken, assume_unique=True)
-    found = [block for alike in _alike(found) for block in (_again(xy, alike) if len(alike) > 1 else alike)]
-    return [_judged(xy, block) for block in RowRefinement(xy, found).settled()]
+    found = [
+        block for alike in _similar_blocks(found) for block in (_trace_together(xy, alike) if len(alike) > 1 else alike)
+    ]
+    return [_with_confidence(xy, block) for block in RowRefinement(xy, found).refined()]
 
 
-def _alike(blocks: list[SeenBlock]) -> list[list[SeenBlock]]:
+def _similar_blocks(blocks: list[InferredBlock]) -> list[list[InferredBlock]]:
     """Blocks whose straight rows run the same way, with trees as far apart; the greatest of them first."""
-    parts: list[list[SeenBlock]] = []
+    parts: list[list[InferredBlock]] = []
     for block in sorted(blocks, key=lambda b: -sum(map(len, b.rows))):
         for part in parts:
             first = part[0]
@@ -69,7 +78,7 @@ def _alike(blocks: list[SeenBlock]) -> list[list[SeenBlock]]:
     return parts
 
 
-def _again(xy: Floats, blocks: list[SeenBlock]) -> list[SeenBlock]:
+def _trace_together(xy: Floats, blocks: list[InferredBlock]) -> list[InferredBlock]:
     """Blocks that were found apart, looked at together: rows that go on in another, and roads between."""
     first = blocks[0]
     rows = [trees for block in blocks for trees in block.rows]
@@ -78,8 +87,8 @@ def _again(xy: Floats, blocks: list[SeenBlock]) -> list[SeenBlock]:
     local = turned(xy[trees], np.array([first.way[1], -first.way[0]]))
     lean = [float(_slope(block.way, first.way)) for block in blocks]
     slope = np.repeat(lean, [sum(map(len, block.rows)) for block in blocks])
-    lines = lines_of(local, join_across_gaps(local, slope, label, first.tree_spacing))
-    return _put_together(trees, lines, first)
+    lines = traced_rows(local, join_across_gaps(local, slope, label, first.tree_spacing))
+    return _split_into_blocks(trees, lines, first)
 
 
 def _slope(way: Floats, mean: Floats) -> float:
@@ -88,19 +97,19 @@ def _slope(way: Floats, mean: Floats) -> float:
     return float((way[0] * mean[1] - way[1] * mean[0]) / (way @ mean))
 
 
-def _blocks_among(xy: Floats, trees: Indices, size: int) -> list[SeenBlock]:
+def _blocks_among(xy: Floats, trees: Indices, size: int) -> list[InferredBlock]:
     patches = patches_of(xy, trees, size)
     clear = np.clip(_CLEAR / patches.count, 0.36, 0.6)
     regions = [*regions_of(xy, patches, clear), *line_regions(xy, patches, clear)]
     if not regions:
         return []
-    owner = absorbed(xy[trees], assign(xy, trees, regions), regions)
+    owner = merge_small_regions(xy[trees], assign_trees(xy, trees, regions), regions)
     found = [block for k, region in enumerate(regions) for block in _blocks_of(xy, trees[owner == k], region)]
     enough = required_evidence(len(trees))
     return [b for b in found if log_likelihood_ratio(xy, b.rows, b.way, b.tree_spacing) > enough]
 
 
-def _judged(xy: Floats, block: SeenBlock) -> SeenBlock:
+def _with_confidence(xy: Floats, block: InferredBlock) -> InferredBlock:
     """The block with how sure it and its rows are."""
     across = np.array([block.way[1], -block.way[0]])
     count = sum(map(len, block.rows))
@@ -110,17 +119,17 @@ def _judged(xy: Floats, block: SeenBlock) -> SeenBlock:
     sure = bearing_confidence(
         log_likelihood_ratio(xy, block.rows, block.way, block.tree_spacing),
         required_evidence(len(xy)),
-        block.wider if len(block.rows) > 1 else float("inf"),
-        block.walked,
+        block.spacing_ratio if len(block.rows) > 1 else float("inf"),
+        block.file_order_share,
     )
     rows = [sure * row_confidence(xy, trees, block.way, block.tree_spacing, wide, off) for trees in block.rows]
-    return replace(block, sure=sure, rows_sure=rows)
+    return replace(block, confidence=sure, row_confidences=rows)
 
 
-def _blocks_of(xy: Floats, trees: Indices, region: Region) -> list[SeenBlock]:
+def _blocks_of(xy: Floats, trees: Indices, region: Region) -> list[InferredBlock]:
     if len(trees) < 3:
         return []
-    region, walked = rows_run(xy, trees, region)
+    region, file_order_share = row_direction(xy, trees, region)
     wave = region.wave
     local = turned(xy[trees], wave)
     slope = _slopes(region.wave_at(xy, xy[trees]), wave)
@@ -140,21 +149,21 @@ def _blocks_of(xy: Floats, trees: Indices, region: Region) -> list[SeenBlock]:
         local = local - np.column_stack([local[:, 1] * slope, np.zeros(len(local))])
         label = split_double_rows(local, label, spacing)
         spacing = spacing_of(local, label) or spacing
-    lines = lines_of(local, label)
+    lines = traced_rows(local, label)
     rows = [line for line in lines if len(line.trees) >= 3]
     if not rows:
         return []
-    like = SeenBlock(
+    like = InferredBlock(
         rows=[],
         row_spacing=row_spacing(rows, region.spacing),
         tree_spacing=spacing,
         way=_way(wave, float(np.mean(slope))),
         power=region.power,
-        wider=region.wider,
-        walked=walked,
+        spacing_ratio=region.spacing_ratio,
+        file_order_share=file_order_share,
         straight=straight,
     )
-    return _put_together(trees, lines, like)
+    return _split_into_blocks(trees, lines, like)
 
 
 def _slopes(waves: Floats, mean: Floats) -> Floats:
@@ -169,12 +178,14 @@ def _way(wave: Floats, slope: float) -> Floats:
     return np.asarray(way / np.hypot(*way))
 
 
-def _put_together(trees: Indices, lines: list[TracedRow], like: SeenBlock) -> list[SeenBlock]:
+def _split_into_blocks(trees: Indices, lines: list[TracedRow], like: InferredBlock) -> list[InferredBlock]:
     """Blocks of these rows, else like that one; a block has a row of three trees."""
-    block_of = together(lines, like.row_spacing)
+    block_of = group_rows(lines, like.row_spacing)
     return [
-        replace(like, rows=[trees[line.trees] for line in rejoined(part, like.tree_spacing)])
+        replace(like, rows=[trees[line.trees] for line in rejoin_rows(part, like.tree_spacing)])
         for k in range(int(block_of.max()) + 1)
-        for part in parted([lines[r] for r in np.flatnonzero(block_of == k)], like.tree_spacing, like.row_spacing)
+        for part in split_by_roads(
+            [lines[r] for r in np.flatnonzero(block_of == k)], like.tree_spacing, like.row_spacing
+        )
         if max(len(line.trees) for line in part) >= 3
     ]

@@ -23,7 +23,7 @@ _ONE_WAY = np.cos(np.radians(9.0))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class SeenBlock:
+class InferredBlock:
     """A block found in the points.
 
     Attributes:
@@ -31,10 +31,11 @@ class SeenBlock:
         row_spacing, tree_spacing: Metres.
         way: The unit vector along the rows, of all of them together.
         power: How much in step its trees are, 0 to 1.
-        wider: How many times as far apart its rows are as the lines of trees across them.
-        walked: Part of the file's steps from tree to tree that go along its rows, not across.
+        spacing_ratio: Row spacing divided by the spacing of the lines of trees across the rows.
+        file_order_share: Part of the file's steps from tree to tree that go along its rows, not across.
         straight: Whether its rows are.
-        sure: That its rows run this way, 0 to 1; and ``rows_sure`` of each row.
+        confidence: Confidence in the direction of the rows, 0 to 1.
+        row_confidences: Confidence in each row, 0 to 1.
     """
 
     rows: list[Indices]
@@ -42,11 +43,11 @@ class SeenBlock:
     tree_spacing: float
     way: Floats
     power: float
-    wider: float
-    walked: float = 0.5
+    spacing_ratio: float
+    file_order_share: float = 0.5
     straight: bool = True
-    sure: float = 1.0
-    rows_sure: list[float] = field(default_factory=list)
+    confidence: float = 1.0
+    row_confidences: list[float] = field(default_factory=list)
 
 
 class RowRefinement:
@@ -57,7 +58,7 @@ class RowRefinement:
         blocks: Blocks as they were found.
     """
 
-    def __init__(self, xy: Floats, blocks: list[SeenBlock]) -> None:
+    def __init__(self, xy: Floats, blocks: list[InferredBlock]) -> None:
         self._xy = xy
         self._blocks = blocks
         self._rows: list[Indices] = []
@@ -66,17 +67,17 @@ class RowRefinement:
             for trees in block.rows:
                 self._rows.append(self._ordered(trees, block.way))
                 self._block_of.append(k)
-        self._gone: dict[int, int] = {}
+        self._merged: dict[int, int] = {}
         self._row_of = np.full(len(xy), -1, dtype=np.intp)
         for k, trees in enumerate(self._rows):
             self._row_of[trees] = k
 
-    def settled(self) -> list[SeenBlock]:
+    def refined(self) -> list[InferredBlock]:
         """Return the refined blocks, without those that lost all their rows."""
-        self._take_in_the_lone()
-        self._join()
+        self._assign_single_trees()
+        self._join_pieces()
         self._fill_gaps()
-        self._take_in_the_lone()
+        self._assign_single_trees()
         found = []
         for k, block in enumerate(self._blocks):
             rows = [r for r, b in zip(self._rows, self._block_of, strict=True) if b == k and len(r)]
@@ -101,7 +102,7 @@ class RowRefinement:
         beside = abs(float(middle[0] * way[1] - middle[1] * way[0]))
         return beside / block.tree_spacing, float(np.abs(off @ way).min()) / block.tree_spacing
 
-    def _home(self, tree: int, near: Indices) -> int | None:
+    def _best_row(self, tree: int, near: Indices) -> int | None:
         """Return the row that a tree fits best; None where it fits none."""
         found = []
         for row in {int(self._row_of[k]) for k in near} - {-1}:
@@ -118,14 +119,14 @@ class RowRefinement:
         size = min(24, len(self._xy))
         return list(np.asarray(cKDTree(self._xy).query(self._xy[trees], k=size)[1]).reshape(len(trees), size))
 
-    def _take_in_the_lone(self) -> None:
+    def _assign_single_trees(self) -> None:
         """Trees in no row go to the row that they are in line with; those that this makes a way for follow."""
         lone = np.flatnonzero(self._row_of < 0)
         around = self._near(lone) if len(lone) else []
         for _ in range(4):
             moved = False
             for tree, near in zip(lone.tolist(), around, strict=True):
-                if self._row_of[tree] < 0 and (row := self._home(tree, near)) is not None:
+                if self._row_of[tree] < 0 and (row := self._best_row(tree, near)) is not None:
                     way = self._blocks[self._block_of[row]].way
                     self._rows[row] = self._ordered(np.append(self._rows[row], tree), way)
                     self._row_of[tree] = row
@@ -133,7 +134,7 @@ class RowRefinement:
             if not moved:
                 return
 
-    def _join(self) -> None:
+    def _join_pieces(self) -> None:
         """Pieces of rows of different blocks that carry each other on are one row."""
         from scipy.spatial import cKDTree
 
@@ -160,7 +161,7 @@ class RowRefinement:
                 joins.append((gap, a, b))
         for _, a, b in sorted(joins):
             met[(min(self._block_of[a], self._block_of[b]), max(self._block_of[a], self._block_of[b]))] += 1
-            self._unite(a, b)
+            self._merge(a, b)
         for (a, b), count in met.items():
             if a != b and count >= 2:
                 self._block_of = [a if k == b else k for k in self._block_of]
@@ -177,11 +178,11 @@ class RowRefinement:
                 fits = [self._fit(other, int(tree)) for tree in ends]
                 one_way = abs(float(ways @ self._blocks[self._block_of[other]].way)) > _ONE_WAY
                 if one_way and all(beside < _BESIDE and gap < _JOINED_ALONE for beside, gap in fits):
-                    self._unite(other, row)
+                    self._merge(other, row)
                     break
 
-    def _unite(self, a: int, b: int) -> None:
-        a, b = self._standing(a), self._standing(b)
+    def _merge(self, a: int, b: int) -> None:
+        a, b = self._merged_into(a), self._merged_into(b)
         if a == b:
             return
         if len(self._rows[a]) < len(self._rows[b]):
@@ -189,12 +190,12 @@ class RowRefinement:
         way = self._blocks[self._block_of[a]].way
         self._row_of[self._rows[b]] = a
         self._rows[a] = self._ordered(np.concatenate([self._rows[a], self._rows[b]]), way)
-        self._gone[b] = a
+        self._merged[b] = a
         self._rows[b] = np.empty(0, dtype=np.intp)
 
-    def _standing(self, row: int) -> int:
-        while row in self._gone:
-            row = self._gone[row]
+    def _merged_into(self, row: int) -> int:
+        while row in self._merged:
+            row = self._merged[row]
         return row
 
     def _ends(self) -> tuple[Floats, Floats, list[int]]:

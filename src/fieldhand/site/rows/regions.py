@@ -24,7 +24,7 @@ _SQUARE = 1.025
 _SAME_LINE = 0.35
 _NEARLY_SQUARE = 1.2
 #: Neighbours whose waves say which part a tree belongs to, where it could be in several.
-_ASKED = 16
+_VOTERS = 16
 #: A region is a part of a greater one whose rows run its way within so many degrees, with trees that far apart within
 #: this part, where it has no more than this part of its trees.
 _SAME_WAY, _SAME_SPACING, _PART = 3.0, 0.15, 0.34
@@ -39,7 +39,7 @@ class Region:
         waves: Of each patch, across the rows, all pointing to the same side, shape (p, 2).
         wave: Their mean.
         cross: The wave along the rows, where the trees of neighbouring rows stand in step; else nan.
-        wider: How many times as far apart the rows are as the lines of trees across them; inf where there are none.
+        spacing_ratio: Row spacing divided by the spacing of the lines of trees across the rows; inf without such lines.
         power: Median power of the patches.
     """
 
@@ -47,7 +47,7 @@ class Region:
     waves: Floats
     wave: Floats
     cross: Floats
-    wider: float
+    spacing_ratio: float
     power: float
 
     @property
@@ -103,15 +103,15 @@ def _agreeing(xy: Floats, centre: Indices, first: Floats, second: Floats, power:
 
 def _region(seeds: Indices, first: Floats, second: Floats, power: Floats) -> Region:
     """Rows are between the lines of trees that stand farther apart; patches that took the others are corrected."""
-    main = _gathered(first, second, first[int(np.argmax(power))])
-    other_start = _crossing(first, second, main)
+    main = _similar_waves(first, second, first[int(np.argmax(power))])
+    other_start = _cross_wave(first, second, main)
     if other_start is None:
         mean = _mean(main)
         return Region(
-            seeds=seeds, waves=_filled(main, mean), wave=mean, cross=np.full(2, np.nan), wider=float("inf"),
+            seeds=seeds, waves=_filled(main, mean), wave=mean, cross=np.full(2, np.nan), spacing_ratio=float("inf"),
             power=float(np.median(power)),
         )  # fmt: skip
-    other = _gathered(first, second, other_start)
+    other = _similar_waves(first, second, other_start)
     a, b = _mean(main), _mean(other)
     if np.hypot(*a) > np.hypot(*b):
         main, other, a, b = other, main, b, a
@@ -120,12 +120,12 @@ def _region(seeds: Indices, first: Floats, second: Floats, power: Floats) -> Reg
         waves=_filled(main, a),
         wave=a,
         cross=b,
-        wider=float(np.hypot(*b) / np.hypot(*a)),
+        spacing_ratio=float(np.hypot(*b) / np.hypot(*a)),
         power=float(np.median(power)),
     )
 
 
-def _gathered(first: Floats, second: Floats, start: Floats) -> Floats:
+def _similar_waves(first: Floats, second: Floats, start: Floats) -> Floats:
     """Of each patch the wave that is like the one to start with, followed from near to like; nan where none is."""
     found = np.full(first.shape, np.nan)
     reference = start
@@ -144,7 +144,7 @@ def _gathered(first: Floats, second: Floats, start: Floats) -> Floats:
     return found
 
 
-def _crossing(first: Floats, second: Floats, main: Floats) -> Floats | None:
+def _cross_wave(first: Floats, second: Floats, main: Floats) -> Floats | None:
     """A wave of these patches that is another than the main one, the middle of those that there are; else None."""
     mean = _mean(main)
     waves = np.vstack([first, second])
@@ -183,7 +183,7 @@ def _angle(waves: Floats) -> Floats:
     return np.arctan2(waves[:, 1], waves[:, 0])
 
 
-def rows_run(xy: Floats, trees: Indices, region: Region) -> tuple[Region, float]:
+def row_direction(xy: Floats, trees: Indices, region: Region) -> tuple[Region, float]:
     """Which way rows run that are as far apart as their trees: the region, turned if it is the other way.
 
     It is the way in which the file goes from tree to tree, else the one in which the lines of trees are longer.
@@ -199,16 +199,16 @@ def rows_run(xy: Floats, trees: Indices, region: Region) -> tuple[Region, float]
     across, along = np.abs(step @ region.wave), np.abs(step @ region.cross)
     down = int(((across < _SAME_LINE) & (along > 1 - _SAME_LINE) & (along < 2 + _SAME_LINE)).sum())
     over = int(((along < _SAME_LINE) & (across > 1 - _SAME_LINE) & (across < 2 + _SAME_LINE)).sum())
-    walked = (down + 2) / (down + over + 4)
+    file_order_share = (down + 2) / (down + over + 4)
     if down + over < max(8, 0.2 * len(next_to)):
-        walked = 0.5
-    if region.wider >= CLEARLY_WIDER:
-        return region, walked
+        file_order_share = 0.5
+    if region.spacing_ratio >= CLEARLY_WIDER:
+        return region, file_order_share
     off = xy[trees] - xy[trees].mean(axis=0)
     wide, long = np.ptp(off @ region.wave), np.ptp(off @ region.cross)
-    if walked < 0.35 or (walked < 0.65 and region.wider < _SQUARE and long < 0.9 * wide):
-        return _swapped(region), 1.0 - walked
-    return region, walked
+    if file_order_share < 0.35 or (file_order_share < 0.65 and region.spacing_ratio < _SQUARE and long < 0.9 * wide):
+        return _swapped(region), 1.0 - file_order_share
+    return region, file_order_share
 
 
 def _swapped(region: Region) -> Region:
@@ -217,11 +217,11 @@ def _swapped(region: Region) -> Region:
         waves=np.broadcast_to(region.cross, region.waves.shape).copy(),
         wave=region.cross,
         cross=region.wave,
-        wider=1.0 / region.wider,
+        spacing_ratio=1.0 / region.spacing_ratio,
     )
 
 
-def assign(xy: Floats, trees: Indices, regions: list[Region]) -> Indices:
+def assign_trees(xy: Floats, trees: Indices, regions: list[Region]) -> Indices:
     """The region of each of the trees, shape (n,): of the seeds next to it, and where they differ the one whose waves
     the trees around it are most in step with."""
     from scipy.spatial import cKDTree
@@ -236,7 +236,7 @@ def assign(xy: Floats, trees: Indices, regions: list[Region]) -> Indices:
     contested = np.flatnonzero((candidates != candidates[:, :1]).any(axis=1))
     if not len(contested):
         return np.asarray(chosen)
-    size = min(_ASKED, len(points))
+    size = min(_VOTERS, len(points))
     tree = cKDTree(points)
     distance, around = tree.query(points[contested], k=size)
     distance, around = np.asarray(distance).reshape(-1, size), np.asarray(around).reshape(-1, size)
@@ -254,7 +254,7 @@ def assign(xy: Floats, trees: Indices, regions: list[Region]) -> Indices:
     return np.asarray(chosen)
 
 
-def absorbed(points: Floats, owner: Indices, regions: list[Region]) -> Indices:
+def merge_small_regions(points: Floats, owner: Indices, regions: list[Region]) -> Indices:
     """The region of each tree where small ones are parts of the great ones that they lie beside.
 
     Patches across a road see rows that run as on both sides of it, but as far apart as the road has them.

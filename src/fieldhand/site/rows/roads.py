@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.site.rows.grouping import TracedRow, together
+from fieldhand.site.rows.grouping import TracedRow, group_rows
 from fieldhand.site.rows.labels import groups
 
 Floats = NDArray[np.float64]
@@ -61,19 +61,19 @@ class Strip:
     closed: bool = False
 
 
-def roads(lines: Sequence[TracedRow], spacing: float, wide: float) -> list[Strip]:
+def find_roads(lines: Sequence[TracedRow], spacing: float, wide: float) -> list[Strip]:
     """The roads through these rows, ``spacing`` from tree to tree and ``wide`` from row to row."""
     gaps = [np.flatnonzero(np.diff(line.along) > 2 * _FREE * spacing) for line in lines]
     planted = sum(len(line.trees) for line in lines)
     missing = sum(
         float(np.sum(np.rint(np.diff(line.along)[k] / spacing) - 1)) for line, k in zip(lines, gaps, strict=True)
     )
-    beside = _Beside(lines, wide)
+    beside = _Neighbours(lines, wide)
     found: list[Strip] = []
     cut: set[tuple[int, int]] = set()
     for row in range(len(lines)):
         places = -1
-        for k, at in _unflanked(lines, row, gaps[row], beside, spacing):
+        for k, at in _open_gaps(lines, row, gaps[row], beside, spacing):
             if (row, k) in cut:
                 continue
             strip = _strip(lines, row, at, beside, spacing, wide)
@@ -86,7 +86,7 @@ def roads(lines: Sequence[TracedRow], spacing: float, wide: float) -> list[Strip
     return found
 
 
-class _Beside:
+class _Neighbours:
     """Rows beside a row."""
 
     def __init__(self, lines: Sequence[TracedRow], wide: float) -> None:
@@ -127,8 +127,8 @@ class _Beside:
             yield from (k for d, k in own if d < reach)
 
 
-def _unflanked(
-    lines: Sequence[TracedRow], row: int, gaps: NDArray[np.intp], beside: _Beside, spacing: float
+def _open_gaps(
+    lines: Sequence[TracedRow], row: int, gaps: NDArray[np.intp], beside: _Neighbours, spacing: float
 ) -> list[tuple[int, float]]:
     """Gaps of a row, and where in them no row next to it has a tree beside."""
     if not len(gaps):
@@ -142,7 +142,7 @@ def _unflanked(
     return [(int(gaps[k]), float(x)) for k, x in zip(gap[free], at[free], strict=True)]
 
 
-def _strip(lines: Sequence[TracedRow], row: int, at: float, beside: _Beside, spacing: float, wide: float) -> Strip:
+def _strip(lines: Sequence[TracedRow], row: int, at: float, beside: _Neighbours, spacing: float, wide: float) -> Strip:
     """What is free of trees there, from one row on, until a row runs through it."""
     strip = Strip(at=at, gaps={row: int(np.searchsorted(lines[row].along, at)) - 1})
     visited, ahead = {row}, [(row, at)]
@@ -153,7 +153,7 @@ def _strip(lines: Sequence[TracedRow], row: int, at: float, beside: _Beside, spa
                 continue
             visited.add(other)
             along = lines[other].along
-            aside = _askew(at, float(along[0]), float(along[-1]), _FREE * spacing, _SKEW * wide)
+            aside = _skewed(at, float(along[0]), float(along[-1]), _FREE * spacing, _SKEW * wide)
             k = int(np.searchsorted(along, aside))
             before = aside - float(along[k - 1]) if k else np.inf
             after = float(along[k]) - aside if k < len(along) else np.inf
@@ -171,7 +171,7 @@ def _strip(lines: Sequence[TracedRow], row: int, at: float, beside: _Beside, spa
     return strip
 
 
-def _askew(at: float, first: float, last: float, free: float, reach: float) -> float:
+def _skewed(at: float, first: float, last: float, free: float, reach: float) -> float:
     """Where a strip passes a row that ends or begins beside it, for one that does not lead straight across."""
     if abs(at - (last + free)) <= reach and at < last + free:
         return last + free
@@ -188,7 +188,7 @@ def _is_road(
         return False
     elsewhere = max(missing - float(np.rint(widths - 1).sum()), 0.0)
     part = float(np.clip((elsewhere + 1.0) / (planted + elsewhere + 10.0), 0.05, 0.3))
-    lost = _lost(widths)
+    lost = _missing_trees(widths)
     if len(widths) > 1:
         places = int(max(float(np.ptp(lines[row].along)) for row in strip.gaps) / spacing)
     chance = lost * np.log(part) + np.log(places + 1.0)
@@ -208,7 +208,7 @@ def _is_road(
         paired |= {a, b}
         if apart < _IN_LINE * spacing and b not in strip.gaps:
             width = (float(lines[b].along[0]) - float(lines[a].along[-1])) / spacing
-            chance += min(_lost(np.array([width])) * np.log(part), 0.0)
+            chance += min(_missing_trees(np.array([width])) * np.log(part), 0.0)
         else:
             chance += np.log(_OUT_OF_LINE)
     chance += _overhang(lines, strip, spacing)
@@ -244,14 +244,14 @@ def _rows_at_both_sides(lines: Sequence[TracedRow], strip: Strip) -> bool:
     return max(before) >= 3 and max(after) >= 3
 
 
-def _lost(widths: Floats) -> float:
+def _missing_trees(widths: Floats) -> float:
     """How many trees are missing in gaps of these widths, in tree spacings, at the least."""
     return float(np.maximum(np.maximum(np.rint(widths - 0.1) - 1.0, widths - 1.3), 0.0).sum())
 
 
-def parted(lines: list[TracedRow], spacing: float, wide: float) -> list[list[TracedRow]]:
+def split_by_roads(lines: list[TracedRow], spacing: float, wide: float) -> list[list[TracedRow]]:
     """A block's rows, cut where roads lead through; one list of rows for each part."""
-    strips = roads(lines, spacing, wide)
+    strips = find_roads(lines, spacing, wide)
     if not strips:
         return [lines]
     cuts: dict[int, list[int]] = {}
@@ -269,11 +269,11 @@ def parted(lines: list[TracedRow], spacing: float, wide: float) -> list[list[Tra
     for strip in strips:
         beside = np.isin(of_row, [*strip.gaps, *strip.before, *strip.after])
         sides.append(np.where(beside, np.where(middle < strip.at, -1, 1), 0))
-    label = together(pieces, wide, sides=np.array(sides))
+    label = group_rows(pieces, wide, sides=np.array(sides))
     return [[pieces[k] for k in own] for own in groups(label, int(label.max()) + 1)]
 
 
-def rejoined(lines: list[TracedRow], spacing: float) -> list[TracedRow]:
+def rejoin_rows(lines: list[TracedRow], spacing: float) -> list[TracedRow]:
     """Rows of a block put together again that a hole parts, a pond say, where rows on both sides of it run past."""
     long = [k for k, line in enumerate(lines) if len(line.trees) > 2]
     first = np.array([lines[k].along[0] for k in long])

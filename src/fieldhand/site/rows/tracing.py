@@ -143,7 +143,7 @@ def split_double_rows(local: Floats, label: Indices, spacing: float) -> Indices:
     Args:
         local: Coordinates across and along rows that are straight and parallel here.
     """
-    parted = label.copy()
+    split = label.copy()
     for own in groups(label, int(label.max(initial=-1)) + 1):
         if len(own) < _TWINS or np.mean(np.diff(np.sort(local[own, 1])) < 0.5 * spacing) < _CROWDED:
             continue
@@ -162,8 +162,8 @@ def split_double_rows(local: Floats, label: Indices, spacing: float) -> Indices:
         one, other = local[own[~far], 1], local[own[far], 1]
         shared = min(one.max(), other.max()) - max(one.min(), other.min())
         if shared > 0.5 * min(np.ptp(one), np.ptp(other)):
-            parted[own[far]] = parted.max() + 1
-    return parted
+            split[own[far]] = split.max() + 1
+    return split
 
 
 def spacing_of(local: Floats, label: Indices) -> float:

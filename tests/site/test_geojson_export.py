@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fieldhand.site.demo_orchard import to_text
-from fieldhand.site.formats.document import site_document
+from fieldhand.site.formats.geojson_export import site_document
 from fieldhand.site.loader import load_demo, parse_site
 from support.sites.gisfiles import degrees, line
 from support.sites.points import area, point, read, square

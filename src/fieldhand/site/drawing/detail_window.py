@@ -82,7 +82,7 @@ def show_window(ax: Axes, window: Window) -> None:
     ax.add_patch(frame)
 
 
-def look_through(ax: Axes, window: Window) -> None:
+def show_detail(ax: Axes, window: Window) -> None:
     """Let axes show a window, in a frame; everything outside is cut off."""
     ax.set_xlim(window.west, window.east)
     ax.set_ylim(window.south, window.north)

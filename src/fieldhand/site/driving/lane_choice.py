@@ -21,7 +21,7 @@ class RowVisits:
     visits: list[Mapping[Lane, tuple[Candidate, float]]] = field(default_factory=list)
 
 
-def few_lanes(rows: Mapping[tuple[int, int], RowVisits], used: frozenset[Lane]) -> dict[tuple[int, int], Lane]:
+def choose_lanes(rows: Mapping[tuple[int, int], RowVisits], used: frozenset[Lane]) -> dict[tuple[int, int], Lane]:
     """For each row, (group, line), the lane that is preferred for it.
 
     Row by row across a group: what is best for the rows so far, once with the lane above the last row driven through
@@ -60,7 +60,7 @@ def _taken(row: RowVisits, lane: Lane) -> tuple[frozenset[Lane], float]:
     return frozenset(lanes), metres
 
 
-def pick(candidates: Sequence[Candidate], lane: Lane | None, metres: Sequence[float]) -> Candidate:
+def pick_candidate(candidates: Sequence[Candidate], lane: Lane | None, metres: Sequence[float]) -> Candidate:
     """The candidate in the preferred lane, else the nearest that can be driven to, else the first."""
     able = [k for k, m in enumerate(metres) if math.isfinite(m)]
     if not able:

@@ -9,7 +9,7 @@ import numpy as np
 import shapely
 from shapely.geometry import LineString, Polygon
 
-from fieldhand.site.driving.free import Free
+from fieldhand.site.driving.free_space import FreeSpace
 from fieldhand.site.driving.graph import Points
 from fieldhand.site.driving.rowlines import Frame
 from fieldhand.site.planting import Block
@@ -31,7 +31,7 @@ _SHORT_M = 0.02
 
 
 @dataclass(frozen=True, eq=False)
-class RowBody:
+class RowObstacle:
     """The ground around a row that the robot's middle keeps off.
 
     Attributes:
@@ -58,10 +58,10 @@ class RowBody:
         return found[0], found[1]
 
 
-def row_bodies(
-    rows: Sequence[Points], blocks: Sequence[tuple[Frame, Block]], free: Free, standoff_m: float
-) -> list[RowBody]:
-    """Return the bodies of rows.
+def row_obstacles(
+    rows: Sequence[Points], blocks: Sequence[tuple[Frame, Block]], free: FreeSpace, standoff_m: float
+) -> list[RowObstacle]:
+    """Return the obstacles of rows.
 
     A body is straight where its row stands straight enough for the room beside it; else it bends with the row. Beyond
     the last trees it goes on by the standoff, or as far as leaves room to drive past its end.
@@ -113,7 +113,7 @@ def _room_beside(lines: Sequence[LineString], most_m: float) -> Points:
     return room
 
 
-def _room_to_edges(lines: Sequence[LineString], free: Free) -> Points:
+def _room_to_edges(lines: Sequence[LineString], free: FreeSpace) -> Points:
     """Return the metres from each line to the edge of free ground; where the edge crosses it, from its ends."""
     if not free.bounded:
         return np.full(len(lines), np.inf)
@@ -140,14 +140,16 @@ def _straightened(xy: Points, frame: Frame, tolerance_m: float) -> tuple[Points,
     return shapely.get_coordinates(line), float(shapely.distance(shapely.points(xy), line).max())
 
 
-def _extended(bodies: Sequence[tuple[Points, float, float]], lines: Sequence[LineString], free: Free) -> list[RowBody]:
-    """Return the bodies with their ends moved out by the turn, or by less where something is near."""
-    tips = np.array([axis[[0, -1]] for axis, _, _ in bodies])
-    ahead = np.array([[axis[0] - axis[1], axis[-1] - axis[-2]] for axis, _, _ in bodies])
+def _extended(
+    obstacles: Sequence[tuple[Points, float, float]], lines: Sequence[LineString], free: FreeSpace
+) -> list[RowObstacle]:
+    """Return the obstacles with their ends moved out by the turn, or by less where something is near."""
+    tips = np.array([axis[[0, -1]] for axis, _, _ in obstacles])
+    ahead = np.array([[axis[0] - axis[1], axis[-1] - axis[-2]] for axis, _, _ in obstacles])
     ahead /= np.hypot(ahead[..., 0], ahead[..., 1])[..., None]
-    half = np.array([half_m for _, half_m, _ in bodies])[:, None, None]
+    half = np.array([half_m for _, half_m, _ in obstacles])[:, None, None]
     beside = half * np.stack([-ahead[..., 1], ahead[..., 0]], axis=2)
-    turn = np.repeat([[turn] for _, _, turn in bodies], 2, axis=1)
+    turn = np.repeat([[turn] for _, _, turn in obstacles], 2, axis=1)
     # From the middle and from both corners of each end.
     start = np.stack([tips - beside, tips, tips + beside], axis=2).reshape(-1, 2)
     reach = np.repeat(3.0 * turn[..., None] * ahead, 3, axis=1).reshape(-1, 2)
@@ -163,7 +165,7 @@ def _extended(bodies: Sequence[tuple[Points, float, float]], lines: Sequence[Lin
     np.minimum.at(out, which, shapely.distance(points[which], meets) / 3.0)  # the other row may come as near
     out = np.maximum(out, free.clearance_m).reshape(-1, 2, 3).min(axis=2)
     found = []
-    for (axis, half_m, _), tip, away, metres in zip(bodies, tips, ahead, out, strict=True):
+    for (axis, half_m, _), tip, away, metres in zip(obstacles, tips, ahead, out, strict=True):
         moved = tip + metres[:, None] * away
-        found.append(RowBody(np.vstack([moved[:1], axis[1:-1], moved[1:]]), half_m))
+        found.append(RowObstacle(np.vstack([moved[:1], axis[1:-1], moved[1:]]), half_m))
     return found

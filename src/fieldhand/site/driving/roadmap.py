@@ -33,7 +33,7 @@ _SHORTEST_M = 1e-9
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Roads:
+class Roadmap:
     """The ways between some places of a site, as a sparse graph that is driven in both directions.
 
     Attributes:
@@ -62,14 +62,14 @@ class Roads:
         return int(apart[0]) if len(apart) else None
 
 
-def roads_of(layout: Layout, places: tuple[Place, ...]) -> Roads:
+def roadmap_of(layout: Layout, places: tuple[Place, ...]) -> Roadmap:
     """Return the roads between places, each with its stand."""
     stands = [p.stand or p.xy for p in places]
     at = np.array(stands).reshape(-1, 2)
     spots = layout.spots(stands) if layout.open else []
     if not spots or layout.is_one_view(spots):
         none = np.empty((0, 2), dtype=np.int64)
-        return Roads(places=places, at=at, ways=none, lengths=np.empty(0), straight=True)
+        return Roadmap(places=places, at=at, ways=none, lengths=np.empty(0), straight=True)
     # A stand off the ground that ways keep to hangs by one way at its foot there: none leads through it.
     feet = [spot if spot.foot is None or spot.spur == 0.0 else layout.spot(spot.foot) for spot in spots]
     off = np.array([k for k, spot in enumerate(spots) if feet[k] is not spot], dtype=np.intp)
@@ -91,7 +91,7 @@ def roads_of(layout: Layout, places: tuple[Place, ...]) -> Roads:
     there = np.isfinite(metres)
     found.append((node[i[there]], node[j[there]], metres[there]))
     one, two, metres = (np.concatenate(part) for part in zip(*found, strict=True))
-    return Roads(
+    return Roadmap(
         places=places,
         at=np.vstack([at, layout.visibility.corners, np.array([feet[k].xy for k in off.tolist()]).reshape(-1, 2)]),
         ways=np.column_stack([one, two]).astype(np.int64),

@@ -16,12 +16,12 @@ from shapely.geometry import Polygon
 from shapely.geometry.base import BaseGeometry
 from shapely.geometry.polygon import orient
 
-from fieldhand.site.driving.free import Area
+from fieldhand.site.driving.free_space import Area
 from fieldhand.site.driving.graph import Graph, Indices, Links, Points
 from fieldhand.site.driving.row_axes import RowAxes
 
 
-class Visibility:
+class VisibilityGraph:
     """The corners of a ground, the graph of those that see each other, and what other points see.
 
     Args:
@@ -33,7 +33,7 @@ class Visibility:
         self.area = Area(ground)
         self._axes = RowAxes(axes)
         self.corners, self._before, self._after = _corners(ground)
-        self._located = self._axes.located(self.corners)
+        self._located = self._axes.locate(self.corners)
         one, two = self._edges()
         self.graph = Graph(len(self.corners), one, two, np.hypot(*(self.corners[one] - self.corners[two]).T))
 
@@ -44,7 +44,7 @@ class Visibility:
         def turns(i: Indices, j: Indices) -> NDArray[np.bool_]:
             return self._touched(j, self.corners[j] - at[i])
 
-        i, j = self._seen(at, self.corners, self._axes.unparted(self._axes.located(at), self._located, turns))
+        i, j = self._seen(at, self.corners, self._axes.unseparated_pairs(self._axes.locate(at), self._located, turns))
         metres = np.hypot(*(at[i] - self.corners[j]).T)
         ends = np.searchsorted(i, np.arange(len(at) + 1)).tolist()
         return [Links(j[a:b], metres[a:b]) for a, b in itertools.pairwise(ends)]
@@ -53,7 +53,7 @@ class Visibility:
         """Yield, in batches, the positions of all pairs of a point of ``one`` and one of ``two`` that may see each
         other: none of the rows nearest to either parts them. Without ``two`` pairs within ``one``, each once.
         """
-        return self._axes.unparted(self._axes.located(one), None if two is None else self._axes.located(two))
+        return self._axes.unseparated_pairs(self._axes.locate(one), None if two is None else self._axes.locate(two))
 
     def _edges(self) -> tuple[Indices, Indices]:
         """Return the pairs of corners that see each other and at both of which a way can turn."""
@@ -63,7 +63,7 @@ class Visibility:
             towards = at[j] - at[i]
             return self._touched(i, towards) & self._touched(j, towards)
 
-        return self._seen(at, at, self._axes.unparted(self._located, among=turns))
+        return self._seen(at, at, self._axes.unseparated_pairs(self._located, among=turns))
 
     def _seen(self, one: Points, two: Points, pairs: Iterator[tuple[Indices, Indices]]) -> tuple[Indices, Indices]:
         """Return those of the pairs whose points, on the ground, see each other."""

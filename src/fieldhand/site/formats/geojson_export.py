@@ -56,26 +56,26 @@ def _trees(site: Site) -> Iterator[Feature]:
     several = len(planting.blocks) > 1
     where: dict[int, dict[str, Value]] = {}
     for row in planting.rows:
-        said: dict[str, Value] = {"row": row.name}
+        names: dict[str, Value] = {"row": row.name}
         if several:
-            said["block"] = planting.blocks[row.block].name
+            names["block"] = planting.blocks[row.block].name
         for tree, slot in zip(row.trees.tolist(), row.slots.tolist(), strict=True):
-            where[tree] = {**said, "position": slot}
+            where[tree] = {**names, "position": slot}
     for tree in site.trees:
-        properties = {**tree.properties, **_unsaid(tree, where.get(tree.index, {}))}
+        properties = {**tree.properties, **_missing_properties(tree, where.get(tree.index, {}))}
         yield {**_point(tree.place.lon, tree.place.lat, properties), "id": tree.place.id}
 
 
-def _unsaid(tree: Tree, where: dict[str, Value]) -> dict[str, Value]:
+def _missing_properties(tree: Tree, where: dict[str, Value]) -> dict[str, Value]:
     """What the file does not say of where the tree stands; what it says stays as it is."""
-    said = {
+    names = {
         "row": row_of(tree.properties),
         "block": text_of(tree.properties, BLOCK_KEYS),
         "position": text_of(tree.properties, POSITION_KEYS),
     }
-    if not said["row"] and text_of(tree.properties, COLUMN_KEYS):
-        said["row"] = said["position"] = "its column"  # beside a row it would mean the position in it
-    return {name: value for name, value in where.items() if not said[name]}
+    if not names["row"] and text_of(tree.properties, COLUMN_KEYS):
+        names["row"] = names["position"] = "its column"  # beside a row it would mean the position in it
+    return {name: value for name, value in where.items() if not names[name]}
 
 
 def _rows(site: Site) -> Iterator[Feature]:

@@ -21,7 +21,7 @@ _THINNEST, _WIDEST, _LINE = 0.5, 14.0, 0.8
 _BANDS: dict[LineKind, str] = {"aisle": colours.LANE, "headland": colours.HEADLAND}
 
 
-def draw_ways(ax: Axes, network: DrivableNetwork, width_m: float) -> None:
+def draw_network(ax: Axes, network: DrivableNetwork, width_m: float) -> None:
     """The lines of the network: aisles and headlands as wide as the robot, links thin."""
     from matplotlib.collections import LineCollection
 

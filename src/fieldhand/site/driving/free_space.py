@@ -41,7 +41,7 @@ _FAR_M = 50_000.0
 
 
 @dataclass(frozen=True, eq=False)
-class Free:
+class FreeSpace:
     """The ground of one site for a robot of one width.
 
     Attributes:
@@ -121,14 +121,14 @@ class Area:
         return ~np.asarray(shapely.intersects(self._edge, shapely.linestrings(np.stack([one, two], axis=1))))
 
 
-def free_ground(site: Site, clearance_m: float) -> Free:
+def free_space(site: Site, clearance_m: float) -> FreeSpace:
     """Boundary without keep-outs; boundaries that touch are parted by a fence with the site's gates in it."""
     keep_outs = site.zones_of("keep_out")
     boundaries = [z.polygon for z in site.zones_of("boundary")]
     taken = unary_union([z.polygon for z in keep_outs])
     ground = _fenced(boundaries, site.gates) if boundaries else _endless(site, taken)
     hard = ground.difference(taken) if keep_outs else ground
-    return Free(
+    return FreeSpace(
         clearance_m=clearance_m,
         bounded=bool(keep_outs or boundaries),
         hard=hard,
