@@ -1,1 +1,1 @@
-"""The orchard: trees, markers, zones, places, drives."""
+"""Model of a site: trees, markers, zones, gates and rows, and the drives between its places."""

@@ -1,4 +1,4 @@
-"""A site from the features of a file: in one projection, checked as a whole."""
+"""Build a :class:`Site` from the features of a file: project them into metres and check them against each other."""
 
 from __future__ import annotations
 
@@ -20,20 +20,21 @@ from fieldhand.site.model import Place, Site, Tree, Zone
 from fieldhand.site.projection import Projection
 
 SAME_TREE_M = 0.2
-#: A boundary is often drawn from tree to tree; a tree between two others is then off the line by its curvature.
+#: Tolerance in metres. A boundary is often drawn from tree to tree, and a tree between two of its corners may then lie
+#: slightly outside.
 ON_BOUNDARY_M = 0.05
 _MOST_PAIRS = 5
 
 
 def build(features: FeatureSet, faults: Faults, *, name: str, sha256: str, notes: Sequence[str] = ()) -> Site:
-    """The site; in a lenient reading without what cannot be used.
+    """Return the site; in a lenient reading without the features that cannot be used.
 
     Args:
-        features: The features that can be read, each for itself.
-        faults: Those that cannot; what shows only among the others is added.
-        name: Of the site.
-        sha256: Of the bytes that were read.
-        notes: What the reader of the format has to say.
+        features: Features that were read individually.
+        faults: Features that could not be read; faults found by comparing features are added.
+        name: Name of the site.
+        sha256: SHA-256 of the bytes that were read.
+        notes: Notes of the format's reader.
 
     Raises:
         SiteError: There are no trees, or there are faults that must not be left out.
@@ -76,7 +77,7 @@ def build(features: FeatureSet, faults: Faults, *, name: str, sha256: str, notes
 
 
 class _Numbering:
-    """The id of each tree of the file, whether it is left out later or not."""
+    """The id of each tree of the file, including trees that are left out later."""
 
     def __init__(self, ids: Mapping[int, str], notes: tuple[str, ...]) -> None:
         self._ids, self.notes = ids, notes
@@ -86,7 +87,7 @@ class _Numbering:
 
 
 def _numbering(planted: Sequence[PointFeature]) -> _Numbering:
-    """The file's own ids if every tree has one and all differ, else the position among its trees from 1."""
+    """Return the file's own ids if every tree has one and all differ, else numbers in file order from 1."""
     notes: tuple[str, ...] = ()
     ids = [p.own_id for p in planted]
     if not _all_differ(ids):
@@ -111,7 +112,7 @@ def _trees(
     zones: Sequence[Zone],
     faults: Faults,
 ) -> tuple[tuple[Tree, ...], list[str]]:
-    """The trees, and what there is to say of them."""
+    """Return the trees, and notes about them."""
     metres = projection.metres([p.lat for p in planted], [p.lon for p in planted])
     numbers = [p.feature for p in planted]
     stays = _inside_boundary(metres, numbers, zones, faults)
@@ -139,7 +140,10 @@ def _trees(
 def _inside_boundary(
     metres: NDArray[np.float64], numbers: Sequence[int], zones: Sequence[Zone], faults: Faults
 ) -> NDArray[np.bool_]:
-    """Trees outside the boundary can never be reached: either the tree or the boundary is wrong."""
+    """Return a mask of the trees inside the boundary and report the others.
+
+    Trees outside the boundary can never be reached: either the tree or the boundary is wrong.
+    """
     boundaries = [z.polygon for z in zones if z.kind == "boundary"]
     inside = np.full(len(metres), not boundaries)
     for polygon in boundaries:
@@ -153,8 +157,9 @@ def _inside_boundary(
 def _entered_twice(
     points: shapely.STRtree, numbers: Sequence[int], stays: NDArray[np.bool_], faults: Faults
 ) -> tuple[NDArray[np.bool_], list[str]]:
-    """Trees that stand within 0.2 m of an earlier one: real surveys hold a few, so they are told and kept unless
-    only what is sound was asked for.
+    """Return a mask of the trees to leave out because they stand within 0.2 m of an earlier one, and notes about them.
+
+    Real surveys contain a few such pairs, so they are noted and kept unless the reading is lenient.
     """
     one, other = points.query(points.geometries, predicate="dwithin", distance=SAME_TREE_M)
     later = one > other
@@ -188,7 +193,7 @@ def _in_keep_outs(
     zones: Sequence[Zone],
     faults: Faults,
 ) -> list[str]:
-    """Trees in a keep-out are there, but no robot gets to them."""
+    """Return notes about trees inside keep-outs: they stay on the site, but no robot can reach them."""
     notes = []
     for zone in zones:
         if zone.kind != "keep_out":
@@ -207,7 +212,10 @@ def _in_keep_outs(
 def _markers(
     points: Sequence[PointFeature], projection: Projection, zones: Sequence[Zone], faults: Faults
 ) -> Mapping[str, Place]:
-    """Start, end and charger, each once, where a robot may stand: another makes every mission impossible."""
+    """Return the start, end and charger markers and report duplicates and unreachable ones.
+
+    A marker inside a keep-out or outside the boundary would make every mission impossible.
+    """
     markers: dict[str, Place] = {}
     numbers: dict[str, int] = {}
     boundaries = [z.polygon for z in zones if z.kind == "boundary"]
@@ -284,10 +292,10 @@ def _notes(features: FeatureSet, faults: Faults) -> list[str]:
 
 
 def _site_name(name: str, at: str) -> str:
-    """Return what a site is called.
+    """Return the name of a site.
 
     Raises:
-        SiteError: It holds a character that nobody sees.
+        SiteError: The name contains an invisible character.
     """
     try:
         return readable(name.strip(), "name")[:100]

@@ -1,4 +1,4 @@
-"""Several sets of places to choose from, each place once, with the choices that it belongs to."""
+"""Number the places of several alternative sets, so that a picture can show each place once."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ import numpy as np
 
 from fieldhand.site.model import Place
 
-#: A set of so many places has its number at each of them, a larger one at the place in its middle.
+#: A set of up to this many places has its number at each of them, a larger one only at its middle place.
 _MOST_LABELLED = 12
 
 
 @dataclass(frozen=True, kw_only=True)
 class ChoiceMark:
-    """A place among those to choose from.
+    """A place that belongs to one or more choices.
 
     Attributes:
-        numbers: The choices that hold it, counted from 1, the one with the fewest places first.
-        labelled: Its numbers are to be written there.
+        numbers: Numbers of the choices that contain it, from 1, the choice with the fewest places first.
+        labelled: True if its numbers are written at the place.
     """
 
     place: Place
@@ -28,7 +28,7 @@ class ChoiceMark:
 
 
 def choice_marks(choices: Sequence[Sequence[Place]]) -> tuple[ChoiceMark, ...]:
-    """A mark for each place of some choices, those of the largest set first, so that a smaller one is drawn on top."""
+    """Return a mark for each place, those of the largest choice first, so that smaller choices are drawn on top."""
     by_size = sorted(range(len(choices)), key=lambda k: (len(choices[k]), k))
     places: dict[tuple[str, str], Place] = {}
     numbers: dict[tuple[str, str], tuple[int, ...]] = {}
@@ -42,7 +42,10 @@ def choice_marks(choices: Sequence[Sequence[Place]]) -> tuple[ChoiceMark, ...]:
 
 
 def _labelled(choice: Sequence[Place], numbers: dict[tuple[str, str], tuple[int, ...]]) -> list[tuple[str, str]]:
-    """Where the number of a choice is written: in a large set at one place that no smaller set has, if there is one."""
+    """Return the places at which the number of a choice is written.
+
+    In a large choice that is one place, if possible one that no smaller choice contains.
+    """
     keys: list[tuple[str, str]] = [(p.kind, p.id) for p in choice]
     if len(choice) <= _MOST_LABELLED:
         return keys

@@ -1,7 +1,7 @@
 """Classify the features of a site file by their properties: trees, markers, landmarks, kinds of areas.
 
-Programs name the property differently (``marker-symbol``, ``kind``, ``type``), so names are compared without regard to
-case, hyphens, underscores and spaces. A point is a tree unless its kind says otherwise.
+Programs name the property differently (``marker-symbol``, ``kind``, ``type``); names are compared ignoring case,
+hyphens, underscores and spaces. A point without another kind is a tree.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ BLOCK_KEYS = (
     *("block", "block id", "block number", "block no", "block name", "plot", "plot id", "plot number", "plot name"),
     *("parcel", "parcel id", "parcel name", "section", "section id", "section name", "paddock", "quarter"),
 )
-#: A column is a position where rows are named as well, else the row.
+#: A column is the position in the row if the file names rows as well, else it is the row.
 COLUMN_KEYS = ("column", "col", "column id", "column number", "column no", "col no", "line", "line id", "line number")
 POSITION_KEYS = (
     *("position", "pos", "position in row", "row position", "place in row", "tree in row", "tree number", "tree no"),
@@ -56,7 +56,7 @@ MARKERS: Mapping[str, PointKind] = {
 }
 
 # fmt: off
-#: A kind that has one of these words is a plant, whatever else it says ("pole bean plant", "tree by the gate").
+#: A kind that contains one of these words is a plant ("pole bean plant", "tree by the gate").
 PLANTS = frozenset({
     "tree", "trees", "vine", "vines", "plant", "plants", "bush", "shrub", "palm", "seedling", "sapling",
 })
@@ -64,7 +64,7 @@ PLANTS = frozenset({
 #: A kind that ends in one of these words is an opening in a fence.
 GATES = frozenset({"gate", "entrance"})
 
-#: A kind that ends in one of these words is something that stands there and is no tree.
+#: A kind that ends in one of these words is an object other than a tree.
 LANDMARKS = frozenset({
     "door", "well", "borehole", "pole", "post", "pylon", "pump", "valve", "hydrant", "tap",
     "outlet", "sprinkler", "sensor", "station", "probe", "camera", "antenna", "gateway", "trap", "sign", "barn",
@@ -72,7 +72,7 @@ LANDMARKS = frozenset({
     "crossing", "bridge", "landmark", "waypoint",
 })
 
-#: A line whose kind ends in one of these words is something that no robot drives across.
+#: A line whose kind ends in one of these words is a barrier that no robot crosses.
 _BARRIERS = frozenset({
     "fence", "fencing", "wall", "hedge", "hedgerow", "railing", "rail", "railway", "barrier", "pipe", "pipeline",
     "drain", "trench", "dyke", "dike", "embankment", "cliff", "boundary", "border", "perimeter", "geofence",
@@ -101,7 +101,7 @@ def phrase(text: str) -> str:
 
 
 def text_of(properties: Mapping[str, Value], keys: tuple[str, ...]) -> str:
-    """The first of these properties that holds text (or a number), as it stands in the file; else empty."""
+    """Return the first of these properties that is a text or a number, as text; empty if there is none."""
     for key in _matching_names(tuple(properties), keys):
         value = properties[key]
         if isinstance(value, str) and value.strip():
@@ -113,23 +113,23 @@ def text_of(properties: Mapping[str, Value], keys: tuple[str, ...]) -> str:
 
 @lru_cache(maxsize=4096)
 def _matching_names(names: tuple[str, ...], keys: tuple[str, ...]) -> tuple[str, ...]:
-    """Of these property names those that are meant by the keys, in order of the keys.
+    """Return the property names that match the keys, in the order of the keys.
 
-    Remembered, since the trees of a file have the same few sets of properties.
+    Cached, since the trees of a file have the same few sets of properties.
     """
     spelling = {phrase(name): name for name in names}
     return tuple(spelling[key] for key in keys if key in spelling)
 
 
 def number_text(value: float) -> str:
-    """Return a number as people write it: 3.0 is ``3``."""
+    """Return a number as text, whole numbers without decimals: 3.0 is ``3``."""
     return str(int(value)) if math.isfinite(value) and value == int(value) else repr(value)
 
 
 def point_kind(properties: Mapping[str, Value]) -> tuple[PointKind, str]:
-    """Return the kind of a point, and the word of the file that gives it (empty if none does).
+    """Return the kind of a point, and the file's word for it (empty if there is none).
 
-    A point without a kind is a marker if its *name* is exactly a marker's word ("Start"), else a tree.
+    A point without a kind is a marker if its *name* is exactly a marker word ("Start"), else a tree.
     """
     kind_text = text_of(properties, KIND_KEYS)
     words = phrase(kind_text)
@@ -148,7 +148,7 @@ def point_kind(properties: Mapping[str, Value]) -> tuple[PointKind, str]:
 
 
 def area_kind(properties: Mapping[str, Value]) -> tuple[ZoneKind, str]:
-    """Return the kind of an area, and its name (the word of its kind if it has no name; empty if it has neither)."""
+    """Return the kind of an area and its name, else the word for its kind; empty if it has neither."""
     kind_text, name = text_of(properties, KIND_KEYS), text_of(properties, NAME_KEYS)
     flagged = any(value is True and _means_keep_out(phrase(key)) for key, value in properties.items())
     if flagged or _means_keep_out(phrase(kind_text)):
@@ -174,17 +174,18 @@ def barrier_name(properties: Mapping[str, Value]) -> str:
     return ""
 
 
-#: Lines that :mod:`fieldhand.site.formats.geojson_export` writes of what was understood; they say nothing new.
+#: Lines that :mod:`fieldhand.site.formats.geojson_export` derives from the trees; reading them again adds
+#: nothing.
 DERIVED_LINES = frozenset({"row", "aisle", "headland", "gate", "link"})
 
 
 def is_derived(properties: Mapping[str, Value]) -> bool:
-    """Return True if a line only repeats what follows from the trees."""
+    """Return True for a line that was derived from the trees, such as an exported row or aisle."""
     return phrase(text_of(properties, KIND_KEYS)) in DERIVED_LINES
 
 
 def row_of(properties: Mapping[str, Value]) -> str:
-    """Return the row that a tree names, else empty."""
+    """Return the name of a tree's row; empty if the file gives none."""
     return text_of(properties, ROW_KEYS)
 
 

@@ -1,4 +1,4 @@
-"""Validate and sort the features of a site file; every fault names its feature and gives advice."""
+"""Validate the features of a site file and sort them into points, areas and barriers."""
 
 from __future__ import annotations
 
@@ -38,11 +38,11 @@ Ring = list[Position]
 
 @dataclass(slots=True, kw_only=True)
 class PointFeature:
-    """One point in degrees; several of them come from one MultiPoint.
+    """A point in degrees; a MultiPoint yields several.
 
     Attributes:
-        own_id: Its property ``id``, else that of the feature; empty where neither can be shown and typed.
-        feature_id: The feature's own ``id``.
+        own_id: Property ``id``, else the id of the feature; empty if neither is printable and short enough to type.
+        feature_id: The ``id`` member of the feature.
     """
 
     feature: int
@@ -57,7 +57,7 @@ class PointFeature:
 
 @dataclass(frozen=True, kw_only=True)
 class AreaFeature:
-    """One polygon in degrees: its outer ring, then its holes."""
+    """A polygon in degrees: its outer ring, then its holes."""
 
     feature: int
     kind: ZoneKind
@@ -67,7 +67,7 @@ class AreaFeature:
 
 @dataclass(frozen=True, kw_only=True)
 class BarrierFeature:
-    """One line in degrees that no robot drives across."""
+    """A line in degrees that no robot may cross."""
 
     feature: int
     name: str
@@ -76,12 +76,12 @@ class BarrierFeature:
 
 @dataclass(kw_only=True)
 class FeatureSet:
-    """The features of a file in their order.
+    """The features of a file, in file order.
 
     Attributes:
-        lines: Number of lines without meaning for a robot.
+        lines: Number of ignored lines, which are neither barriers nor derived from the trees.
         heights: Number of features with heights, which are ignored.
-        closed: Numbers of features with a ring that had to be closed.
+        closed: Numbers of the features with a ring that the reader closed.
     """
 
     points: list[PointFeature] = field(default_factory=list)
@@ -93,7 +93,7 @@ class FeatureSet:
 
 
 def parse_features(records: SiteRecords, faults: Faults) -> FeatureSet:
-    """Sort the features into points, areas and barriers; what cannot be used goes to ``faults``."""
+    """Sort the features into points, areas and barriers; report unusable ones to ``faults``."""
     features = FeatureSet()
     reader = _FeatureReader(features, lenient=faults.lenient)
     for number, feature in zip(records.numbers or count(1), records.features, strict=False):
@@ -106,14 +106,14 @@ def parse_features(records: SiteRecords, faults: Faults) -> FeatureSet:
 
 
 def readable(text: str, what: str) -> str:
-    """Return text of a feature on one line.
+    """Return the text of a feature on one line.
 
     Args:
-        text: As it stands in the file; line ends and tabs become spaces.
-        what: What to call it in a message.
+        text: Text from the file; line ends and tabs become spaces.
+        what: Name of the text in error messages.
 
     Raises:
-        Unsound: It holds a character that nobody sees.
+        UnusableFeature: The text contains an invisible character.
     """
     if text.isprintable() and text.isascii():
         return text
@@ -125,10 +125,10 @@ def readable(text: str, what: str) -> str:
 
 
 def gate_width_m(properties: Mapping[str, Value]) -> float:
-    """The width that a gate says it has, else a usual one.
+    """Return the width of a gate in metres, or the usual one if the file gives none.
 
     Raises:
-        Unsound: It says one that no gate has.
+        UnusableFeature: The width is not a number of metres from 0.1 to 100.
     """
     said = text_of(properties, _GATE_KEYS)
     if not said:
@@ -141,7 +141,7 @@ def gate_width_m(properties: Mapping[str, Value]) -> float:
 
 
 def _keeps_out(feature: Any) -> bool:
-    """Return True if an unreadable feature claims to keep a robot out of, or inside, an area."""
+    """Return True if an unreadable feature is meant as a keep-out, a barrier or the boundary."""
     known = isinstance(feature, dict)
     properties = feature.get("properties") if known else getattr(feature, "properties", None)
     if not isinstance(properties, Mapping):
@@ -155,7 +155,7 @@ def _keeps_out(feature: Any) -> bool:
 
 
 class _FeatureReader:
-    """Reads features one after the other into ``features``; what they have in common is kept only once."""
+    """Reader that adds features to ``features``; equal property names and texts are stored only once."""
 
     def __init__(self, features: FeatureSet, *, lenient: bool) -> None:
         self._into = features
@@ -244,7 +244,7 @@ class _FeatureReader:
         self._into.barriers.extend(BarrierFeature(feature=self._number, name=name, positions=line) for line in every)
 
     def _scalars(self, raw: Mapping[str, Any]) -> dict[str, Value]:
-        """Text, numbers (as float) and booleans by name; nested values and nulls are left out."""
+        """Return the texts, numbers (as float) and booleans by name; nested values and nulls are left out."""
         kept: dict[str, Value] = {}
         keys, texts = self._keys, self._texts
         for name, value in raw.items():
@@ -268,7 +268,7 @@ class _FeatureReader:
         return kept
 
     def _position(self, value: Any) -> Position:
-        """Longitude and latitude; a height is read over."""
+        """Return longitude and latitude; a height is ignored."""
         if not isinstance(value, list) or len(value) < 2:
             held = (
                 f"hold {('nothing', 'one number')[len(value)]}" if isinstance(value, list) else f"are {_shown(value)}"
@@ -332,7 +332,7 @@ def _listed(value: Any) -> list[Any]:
 
 
 def _id_text(value: Any) -> str:
-    """The id as text; empty where there is none that can be shown and typed."""
+    """Return the id as text; empty if it is not printable or too long to type."""
     if isinstance(value, str):
         readable(value, "id")
         return value.strip() if value.isprintable() and len(value) <= _LONGEST_ID else ""

@@ -1,4 +1,7 @@
-"""A site from a file: GeoJSON, a table (CSV), and with the extra ``gis`` what GDAL reads.
+"""Load a site from a file: GeoJSON, a table (CSV), and with the extra ``gis`` the formats that GDAL reads.
+
+Points become trees, markers and gates; polygons become boundary, keep-outs and named zones; fences, ditches and similar
+lines become thin keep-outs.
 
 Points become trees, markers and gates; polygons become boundary, keep-outs and named zones; fences and their
 like become thin keep-outs.
@@ -23,21 +26,21 @@ from fieldhand.site.model import Site
 
 
 def demo_path() -> Path:
-    """The file of the built-in orchard."""
+    """Return the path of the built-in orchard's file."""
     return Path(str(resources.files("fieldhand.site") / "data" / "demo.geojson"))
 
 
 def load_demo() -> Site:
-    """The built-in orchard."""
+    """Load the built-in orchard."""
     return load_site(demo_path())
 
 
 def open_site(name_or_path: str, *, lenient: bool = False) -> Site:
-    """The built-in orchard for ``demo``, else the site of that file (``./demo`` for a file of that name).
+    """Load the built-in orchard for ``demo``, else the site of that file (``./demo`` for a file of that name).
 
     Args:
-        name_or_path: As on a command line.
-        lenient: Load what is sound, with a note for what was left out; see :func:`load_site`.
+        name_or_path: ``demo`` or a path, as given on a command line.
+        lenient: Skip unusable features, with a note for each; see :func:`load_site`.
 
     Raises:
         SiteError: The file cannot be read or used; see :func:`load_site`.
@@ -46,10 +49,10 @@ def open_site(name_or_path: str, *, lenient: bool = False) -> Site:
 
 
 def site_files(name_or_path: str) -> SiteFiles:
-    """The files of the built-in orchard for ``demo``, else of that path.
+    """Read the files of the built-in orchard for ``demo``, else of that path, without parsing them.
 
     Raises:
-        SiteError: There is none that can be read.
+        SiteError: The file is missing or cannot be read.
     """
     return read_files(demo_path() if name_or_path == "demo" else Path(name_or_path))
 
@@ -58,21 +61,22 @@ def load_site(path: Path, *, lenient: bool = False) -> Site:
     """Read a site from a file: GeoJSON, CSV; with the extra ``gis`` Shapefile, GeoPackage, KML, KMZ, or a zip of one.
 
     Args:
-        path: Of the file; its ending says the format, and where it says nothing the content does.
-        lenient: Leave out the features that cannot be used, each with a note, instead of refusing the file. Keep-outs,
-            fences and the boundary are never left out.
+        path: Path of the file. Its extension selects the format; without a known extension, its content does.
+        lenient: Skip unusable features, with a note for each, instead of rejecting the file. Keep-outs, fences and the
+            boundary are never skipped.
 
     Raises:
-        SiteError: The file is missing, no file, too big, or does not hold a site; see :func:`parse_site`.
+        SiteError: The path is missing or not a file, or the file is too big or not a valid site; see
+            :func:`parse_site`.
     """
     return site_of(read_files(path), lenient=lenient)
 
 
 def site_of(files: SiteFiles, *, lenient: bool = False) -> Site:
-    """The site that these files hold: the same for the same files, wherever they lie; see :func:`load_site`.
+    """Return the site in these files, independent of where they are stored; see :func:`load_site`.
 
     Raises:
-        SiteError: They do not hold a site.
+        SiteError: The files are not a valid site.
     """
     with _garbage_collection_paused():
         records = records_of(files, lenient=lenient)
@@ -81,17 +85,17 @@ def site_of(files: SiteFiles, *, lenient: bool = False) -> Site:
 
 
 def parse_site(data: bytes, *, name: str, source: str = "", lenient: bool = False) -> Site:
-    """A site from the bytes of a GeoJSON document.
+    """Return the site in the bytes of a GeoJSON document.
 
     Args:
         data: A FeatureCollection, UTF-8, in degrees WGS 84.
-        name: The site's name where the document has no ``name`` of its own.
-        source: Where the bytes came from, for messages.
+        name: Name of the site if the document has no ``name``.
+        source: Origin of the bytes, for messages.
         lenient: As for :func:`load_site`.
 
     Raises:
-        SiteError: The document cannot be used; the message names the source, the first features that are at fault
-            (counted from 1) and what to do.
+        SiteError: The document cannot be used; the message names the source, the first faulty features (counted from 1)
+            and a remedy.
     """
     at = source or name
     if len(data) > MAX_BYTES:
@@ -111,8 +115,10 @@ def _site(records: SiteRecords, *, name: str, source: str, sha256: str, lenient:
 
 @contextmanager
 def _garbage_collection_paused() -> Iterator[None]:
-    """A large site is a million new objects that are all kept; to look through them for garbage again and again takes
-    longer than to read them.
+    """Disable garbage collection while a site is loaded.
+
+    A large site allocates a million objects that all stay alive; repeated collections would take longer than reading
+    it.
     """
     was_on = gc.isenabled()
     gc.disable()

@@ -1,4 +1,4 @@
-"""The orchard as data: trees, markers, zones, in degrees and in local metres.
+"""Site model: trees, markers, zones and gates, in degrees and in local metres.
 
 Metres are east (x) and north (y) in one projection per site, whose origin is the middle of the trees.
 """
@@ -22,7 +22,7 @@ from fieldhand.site.planting import Planting
 from fieldhand.site.projection import Projection
 from fieldhand.terms import Value
 
-#: The median over so many trees is that over all, to a millimetre or so.
+#: Sample size for the median tree spacing; the median of this many trees differs from that of all by about 1 mm.
 _ENOUGH_TREES = 5_000
 
 PlaceKind = Literal["tree", "marker", "point"]
@@ -30,14 +30,14 @@ PlaceKind = Literal["tree", "marker", "point"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Place:
-    """Somewhere a robot can be sent: a tree, a marker or a free point.
+    """A position that a robot can be sent to: a tree, a marker or a free point.
 
     Attributes:
-        id: The tree's id, the marker's name, or a name of its own for a point.
+        id: Id of the tree, name of the marker, or name of the point.
         x, y: Metres east and north in the site's projection.
         lat, lon: Degrees, WGS 84.
-        stand: Where the robot stands, or will stand, to be at the place, in metres; None while that is open
-            (:mod:`fieldhand.site.drives` chooses). A tree is worked on from the aisle beside it.
+        stand: Position from which the robot works on the place, in metres; None until :mod:`fieldhand.site.drives`
+            chooses it. A robot works on a tree from the aisle beside it.
     """
 
     kind: PlaceKind
@@ -67,12 +67,12 @@ class Place:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Tree:
-    """A tree (or vine, or plant) with what the file says about it.
+    """A tree (or vine, or plant) with its properties from the file.
 
     Attributes:
-        index: Position among the file's trees, counted from 0; row of :attr:`Site.xy`.
-        feature: Position among the file's features (in a table the line), counted from 1, for error messages.
-        row: The row's name where the file gives one, else empty.
+        index: Index among the site's trees, from 0, and into :attr:`Site.xy`.
+        feature: Number of the feature in the file (in a table, of the line), from 1, for error messages.
+        row: Name of the row if the file gives one, else empty.
     """
 
     place: Place
@@ -104,10 +104,10 @@ class Zone:
 
 @dataclass(frozen=True, kw_only=True)
 class Gate:
-    """An opening in a fence: where a robot passes from one fenced part of the site to the next.
+    """An opening in a fence, through which a robot passes from one fenced part of the site to the next.
 
     Attributes:
-        width_m: Of the opening, along the fence.
+        width_m: Width of the opening along the fence, in metres.
     """
 
     place: Place
@@ -119,11 +119,11 @@ class Site:
     """A site, immutable.
 
     Attributes:
-        name: The file's name without its ending, or the collection's own ``name``.
-        sha256: Of the bytes it was read from: what an approval is given for.
-        source: Where it was read from, for messages.
+        name: Name of the FeatureCollection, else the file name without its extension.
+        sha256: SHA-256 of the bytes that the site was read from; an approval refers to it.
+        source: Path or name of the input, for messages.
         gates: Openings in fences.
-        notes: What the reader left out of the file or took otherwise than it stands there, a sentence each.
+        notes: Sentences about features that the reader left out or interpreted differently from the file.
     """
 
     name: str
@@ -147,11 +147,11 @@ class Site:
         """Read a site from a file: GeoJSON, CSV; with the extra ``gis`` Shapefile, GeoPackage, KML, KMZ, or a zip.
 
         Args:
-            path: Path of the file; its ending names the format.
-            lenient: Leave out features that cannot be used, each with a note, instead of refusing the file.
+            path: Path of the file; its extension selects the format.
+            lenient: Skip unusable features, with a note for each, instead of rejecting the file.
 
         Raises:
-            SiteError: The file cannot be read, or does not hold a site; names the features at fault.
+            SiteError: The file cannot be read or is not a valid site; the message names the faulty features.
         """
         from fieldhand.site.loader import load_site
 
@@ -159,29 +159,30 @@ class Site:
 
     @classmethod
     def demo(cls) -> Site:
-        """Return the built-in orchard, which is made up."""
+        """Return the built-in synthetic orchard."""
         from fieldhand.site.loader import load_demo
 
         return load_demo()
 
     def __getstate__(self) -> dict[str, object]:
-        """Return the fields alone: what was computed of them is computed anew in another process."""
+        """Return only the fields; another process computes the cached properties again."""
         return {f.name: getattr(self, f.name) for f in fields(self)} | {"markers": dict(self.markers)}
 
     def __setstate__(self, state: dict[str, object]) -> None:
         self.__dict__.update(state, markers=MappingProxyType(state["markers"]))  # type: ignore[arg-type]
 
     def _repr_html_(self) -> str:
-        """Return a map and the facts of the site for a notebook."""
+        """Return an HTML map and description of the site for a notebook."""
         from fieldhand.site.drawing.notebook import html_of_site
 
         return html_of_site(self)
 
     @cached_property
     def content_sha256(self) -> str:
-        """Of what the site holds: trees in their order with their properties, markers, zones, gates.
+        """Return a SHA-256 of the trees in file order, their properties, the markers, zones and gates.
 
-        The same for the same orchard in another format or layout of the file; :attr:`sha256` is of the file's bytes.
+        It is equal for the same orchard in another file format or layout; :attr:`sha256` is the hash of the file's
+        bytes.
         """
         from fieldhand.site.content_hash import content_sha256, rings_of
 
@@ -193,44 +194,44 @@ class Site:
 
     @cached_property
     def xy(self) -> NDArray[np.float64]:
-        """Trees in local metres, shape (n, 2)."""
+        """Return the trees in local metres, shape (n, 2)."""
         xy = np.array([t.place.xy for t in self.trees], dtype=np.float64).reshape(-1, 2)
         xy.flags.writeable = False
         return xy
 
     @cached_property
     def planting(self) -> Planting:
-        """Blocks and rows: the file's own where it names them, else as they can be seen in how the trees stand."""
+        """Return the blocks and rows: those named in the file, else those inferred from the positions of the trees."""
         from fieldhand.site.rows import planting_of
 
-        self.spacing_m  # noqa: B018  selectors over rows ask for it next, and should not have to wait for it
+        self.spacing_m  # noqa: B018  computed now, since selectors over rows need it next
         return planting_of(self.xy, [t.row for t in self.trees], [t.properties for t in self.trees])
 
     @cached_property
     def cache(self) -> dict[object, object]:
-        """What others computed of the site and keep with it, so that it is computed once."""
+        """Return a dictionary in which other modules cache results computed from this site."""
         return {}
 
     @cached_property
     def by_id(self) -> Mapping[str, Tree]:
-        """Trees by id."""
+        """Return the trees by id."""
         return MappingProxyType({t.place.id: t for t in self.trees})
 
     @cached_property
     def spacing_m(self) -> float:
-        """Median distance from a tree to its nearest neighbour, in metres; 5 where there is one tree alone."""
+        """Return the median distance from a tree to its nearest neighbour, in metres; 5 for a single tree."""
         from scipy.spatial import cKDTree
 
         if len(self.trees) < 2:
             return 5.0
         some = self.xy[:: max(1, len(self.trees) // _ENOUGH_TREES)]
         nearest = np.asarray(cKDTree(self.xy).query(some, k=[2])[0])
-        apart = nearest[nearest > 0.01]  # trees entered twice have no spacing
+        apart = nearest[nearest > 0.01]  # exclude trees entered twice
         return float(np.median(apart)) if apart.size else 5.0
 
     @cached_property
     def attributes(self) -> Mapping[str, tuple[Value, ...]]:
-        """Each attribute of the trees with its distinct values, sorted within their type."""
+        """Return each attribute of the trees with its distinct values, sorted within their type."""
         found: dict[str, set[Value]] = {}
         for tree in self.trees:
             for key, value in tree.properties.items():
@@ -240,16 +241,19 @@ class Site:
         )
 
     def zones_of(self, kind: ZoneKind) -> tuple[Zone, ...]:
-        """The zones of one kind."""
+        """Return the zones of one kind."""
         return tuple(z for z in self.zones if z.kind == kind)
 
     @property
     def start(self) -> Place:
-        """Where a mission starts: the start marker, else the first tree of the file."""
+        """Return the place at which missions start: the start marker, else the first tree of the file."""
         return self.markers.get("start", self.trees[0].place)
 
     def home(self, then: Literal["return_to_end", "return_to_start", "stay"], here: Place) -> Place:
-        """Where an exit ends: a missing end marker falls back to the start, a missing start to the first tree."""
+        """Return the place at which an exit ends.
+
+        A missing end marker falls back to the start, a missing start marker to the first tree.
+        """
         match then:
             case "return_to_end":
                 return self.markers.get("end", self.start)
