@@ -9,8 +9,11 @@ from pathlib import Path
 import pytest
 
 from fieldhand import mission
-from fieldhand.cli import approving, flight
+from fieldhand.cli import approving
+from fieldhand.cli.draft import MissionDraft
 from fieldhand.cli.inputs import open_ground
+from fieldhand.cli.options import ApprovalOptions, DisplayOptions
+from fieldhand.cli.run_mission import RunSettings, run_mission
 from fieldhand.errors import NotApprovedError
 from fieldhand.execution.drivers.simulation.world import World
 from fieldhand.planning.english.planner import EnglishPlanner
@@ -63,9 +66,10 @@ def test_a_person_is_asked_about_the_warnings_and_then_to_approve(
     monkeypatch.setattr(approving, "may_ask", lambda: True)
     monkeypatch.setattr("sys.stdin", io.StringIO(typed))
     read, document = mission.read_task(Path(task), GROUND.robot)
-    orders = flight.Orders(ask=True, by="Ada", world=World(), seed=0)
+    draft = MissionDraft(ground=GROUND, task=read, document=document, planner="file")
+    settings = RunSettings(approval=ApprovalOptions(by="Ada"), display=DisplayOptions(lang="en"), world=World(), seed=0)
     with nullcontext() if flown else pytest.raises(NotApprovedError, match="not approved, nothing was done"):
-        assert flight.fly(GROUND, read, document, orders, planner="file") == 0
+        assert run_mission(draft, settings) == 0
     out = capsys.readouterr().out
     assert "Is the plan right in spite of the" in out
     assert ("Approve and carry out?" in out) == typed.startswith("y")

@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 from fieldhand import missions
 from fieldhand.cli.app import assemble
-from fieldhand.cli.driver_options import connection_again, connection_of
+from fieldhand.cli.driver_options import DriverOptions, connection_again, connection_of
 from fieldhand.errors import ExecutionError, FieldhandError, InputError
 from fieldhand.execution.vehicle import Connection
 from support.missions.kept import inputs
@@ -65,7 +65,9 @@ def test_a_mission_goes_on_on_what_it_was_begun(tmp_path: Path) -> None:
     begun = missions.Departure(by=by, charge_percent=90.0)
 
     def again(on: str | None = None, domain: int | None = None, namespace: str | None = None) -> Connection | None:
-        return connection_again("m1", begun, on, domain, namespace, sim_time=False, environ={"ROS_DOMAIN_ID": "9"})
+        return connection_again(
+            "m1", begun, DriverOptions(on=on, domain=domain, namespace=namespace), {"ROS_DOMAIN_ID": "9"}
+        )
 
     assert again() == again("dds") == by
     assert again(domain=5, namespace="/") == Connection(transport="dds", domain=5, namespace="", sim_time=True)
@@ -76,7 +78,7 @@ def test_a_mission_goes_on_on_what_it_was_begun(tmp_path: Path) -> None:
 def test_the_domain_is_that_of_the_environment_where_none_is_given() -> None:
     def domain(said: str | None, given: int | None = None) -> int:
         environ = {} if said is None else {"ROS_DOMAIN_ID": said}
-        connection = connection_of("dds", given, None, sim_time=False, environ=environ)
+        connection = connection_of(DriverOptions(on="dds", domain=given), environ)
         assert connection is not None
         return connection.domain
 
@@ -88,6 +90,6 @@ def test_the_domain_is_that_of_the_environment_where_none_is_given() -> None:
 
 @pytest.mark.parametrize(("said", "namespace"), [("/", ""), ("", ""), ("a", "/a"), ("/a/b_2", "/a/b_2")])
 def test_a_namespace_is_written_as_people_do(said: str, namespace: str) -> None:
-    connection = connection_of("dds", 1, said, sim_time=False, environ={})
+    connection = connection_of(DriverOptions(on="dds", domain=1, namespace=said), {})
     assert connection is not None
     assert connection.namespace == namespace

@@ -47,22 +47,22 @@ def files(tmp_path: Path) -> Path:
 @pytest.mark.parametrize(
     ("command", "given", "said"),
     [
-        (export, {"given": "task.xml", "to": "pdf"}, "no format 'pdf'; choose one of btcpp"),
-        (export, {"given": "task.xml", "to": "mcap"}, "a Task cannot be written as mcap"),
-        (export, {"given": "events.jsonl", "to": "btcpp"}, "an event log cannot be written as btcpp"),
-        (export, {"given": "task.xml", "to": "kml"}, "needs its site"),
-        (export, {"given": "none.xml", "to": "btcpp"}, "none.xml: there is no such file"),
-        (export, {"given": "task.xml", "to": "btcpp", "robot": "amiga"}, "not valid for this robot"),
-        (export, {"given": "empty.jsonl", "to": "csv"}, "holds no event"),
-        (export, {"given": "binary.jsonl", "to": "csv"}, "cannot be read"),
-        (export, {"given": "text.mcap", "to": "csv"}, "no event|damaged"),
-        (replay, {"given": "events.jsonl", "site": "demo", "output": Path("m.avi")}, ".avi is no kind of animation"),
+        (export, {"source": "task.xml", "to": "pdf"}, "no format 'pdf'; choose one of btcpp"),
+        (export, {"source": "task.xml", "to": "mcap"}, "a Task cannot be written as mcap"),
+        (export, {"source": "events.jsonl", "to": "btcpp"}, "an event log cannot be written as btcpp"),
+        (export, {"source": "task.xml", "to": "kml"}, "needs its site"),
+        (export, {"source": "none.xml", "to": "btcpp"}, "none.xml: there is no such file"),
+        (export, {"source": "task.xml", "to": "btcpp", "robot": "amiga"}, "not valid for this robot"),
+        (export, {"source": "empty.jsonl", "to": "csv"}, "holds no event"),
+        (export, {"source": "binary.jsonl", "to": "csv"}, "cannot be read"),
+        (export, {"source": "text.mcap", "to": "csv"}, "no event|damaged"),
+        (replay, {"source": "events.jsonl", "site": "demo", "output": Path("m.avi")}, ".avi is no kind of animation"),
         (import_tree, {"tree": "none.xml"}, "cannot be read"),
         (import_tree, {"tree": "task.xml"}, "is no tree of BehaviorTree.CPP"),
     ],
 )
 def test_bad_input_gets_one_line(files: Path, command: Command, given: dict[str, object], said: str) -> None:
-    paths: dict[str, object] = {"given": str(files / str(given["given"]))} if "given" in given else {}
+    paths: dict[str, object] = {"source": str(files / str(given["source"]))} if "source" in given else {}
     paths |= {"tree": files / str(given["tree"])} if "tree" in given else {}
     with pytest.raises(InputError, match=said) as caught:
         call(command, **({"output": files / "out"} | given | paths))
@@ -72,23 +72,23 @@ def test_bad_input_gets_one_line(files: Path, command: Command, given: dict[str,
 
 
 def test_a_task_goes_out_and_comes_back(files: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    call(export, given=str(files / "task.xml"), to="btcpp", output=files / "tree.xml", json=True)
+    call(export, source=str(files / "task.xml"), to="btcpp", output=files / "tree.xml", json=True)
     call(import_tree, tree=files / "tree.xml", output=files / "again.xml", site="demo")
     assert (files / "again.xml").read_bytes() == (files / "task.xml").read_bytes()
     assert json.loads(capsys.readouterr().out.split("\n}")[0] + "\n}")["task"] == task_of(STRAIGHT).id
 
 
 def test_a_log_goes_out_as_mcap_and_comes_back(files: Path) -> None:
-    call(export, given=str(files / "events.jsonl"), to="mcap", output=files / "log.mcap", site="demo")
-    call(export, given=str(files / "log.mcap"), to="events", output=files / "back.jsonl")
+    call(export, source=str(files / "events.jsonl"), to="mcap", output=files / "log.mcap", site="demo")
+    call(export, source=str(files / "log.mcap"), to="events", output=files / "back.jsonl")
     assert (files / "back.jsonl").read_bytes() == (files / "events.jsonl").read_bytes()
 
 
 def test_facts_come_as_json(files: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    call(export, given=str(files / "task.xml"), to="qgc", output=files / "m.plan", site="demo", json=True)
+    call(export, source=str(files / "task.xml"), to="qgc", output=files / "m.plan", site="demo", json=True)
     facts = json.loads(capsys.readouterr().out)
     assert (facts["stops"], facts["left_out"], facts["driven"]) == (5, 0, False)
-    call(replay, given=str(files / "events.jsonl"), site="demo", output=files / "m.html", json=True)
+    call(replay, source=str(files / "events.jsonl"), site="demo", output=files / "m.html", json=True)
     facts = json.loads(capsys.readouterr().out)
     assert (facts["events"], facts["captures"]) == (len(flight().events), 8)
 
@@ -106,22 +106,22 @@ def test_a_tree_that_reads_after_it_tests_is_refused(files: Path) -> None:
 def test_a_log_that_was_cut_off_is_written_and_drawn_as_far_as_it_goes(files: Path) -> None:
     whole = (files / "events.jsonl").read_text()
     (files / "cut.jsonl").write_text(whole[: len(whole) // 2])
-    call(export, given=str(files / "cut.jsonl"), to="events", output=files / "again.jsonl")
+    call(export, source=str(files / "cut.jsonl"), to="events", output=files / "again.jsonl")
     kept = (files / "again.jsonl").read_text()
     assert kept
     assert whole.startswith(kept)
-    call(replay, given=str(files / "cut.jsonl"), site="demo", output=files / "cut.html")
+    call(replay, source=str(files / "cut.jsonl"), site="demo", output=files / "cut.html")
     assert "cut off" in (files / "cut.html").read_text()
 
 
 def test_a_report_reads_mcap_as_it_reads_json_lines(files: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    call(export, given=str(files / "events.jsonl"), to="mcap", output=files / "log.mcap", site="demo")
+    call(export, source=str(files / "events.jsonl"), to="mcap", output=files / "log.mcap", site="demo")
     capsys.readouterr()
     said = []
     for log in ("events.jsonl", "log.mcap"):
         with pytest.raises(SystemExit):
             call(
-                report, given=str(files / log), task=files / "task.xml", site="demo", output=files / log[:3], json=True
+                report, source=str(files / log), task=files / "task.xml", site="demo", output=files / log[:3], json=True
             )
         said.append(json.loads(capsys.readouterr().out)["goals"])
     assert said[0] == said[1]
@@ -132,7 +132,7 @@ def test_an_mcap_file_that_is_made_of_a_log_begins_when_the_mission_did(files: P
     events = flight().events
     dated = [replace(e, at=began.isoformat()) if isinstance(e, Started) else e for e in events]
     (files / "dated.jsonl").write_text("".join(to_json(e) + "\n" for e in dated))
-    call(export, given=str(files / "dated.jsonl"), to="mcap", output=files / "log.mcap")
+    call(export, source=str(files / "dated.jsonl"), to="mcap", output=files / "log.mcap")
     with (files / "log.mcap").open("rb") as file:
         first = min(message.log_time for _, _, message in make_reader(file).iter_messages())
     assert first == pytest.approx((began.timestamp() + events[0].t) * 1e9)

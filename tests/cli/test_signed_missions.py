@@ -22,7 +22,7 @@ from cli.opened import read_files_under
 from fieldhand import missions
 from fieldhand.approval.keys.signing import SigningKeys
 from fieldhand.approval.keys.trust import TrustStore
-from fieldhand.cli import app, approving, flight, main
+from fieldhand.cli import app, approving, main, show
 from fieldhand.exchange.mcap import read_mcap
 from fieldhand.execution.journal import store
 from fieldhand.robot.loader import profile_bytes
@@ -246,14 +246,14 @@ def cut_off(trusting: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setattr(store, "SYNCHRONOUS", "OFF")
     approved(trusting)
     with monkeypatch.context() as patch:
-        told = flight.show.out.print
+        told = show.out.print
 
         def cut(line: object = "", *more: object) -> None:
             if "at tree 4 (" in str(line):
                 raise _PowerCut
             told(line, *more)
 
-        patch.setattr(flight.show.out, "print", cut)
+        patch.setattr(show.out, "print", cut)
         with pytest.raises(_PowerCut):
             trusting("run", "m.mission")
     Path("m.mission").unlink()

@@ -147,7 +147,7 @@ class Executor(LifecycleNode):
                 namespace=_namespace(namespace) if namespace else None,
                 sim_time=self._value("use_sim_time"),
             ),
-            tell=self.get_logger().warning,
+            warn=self.get_logger().warning,
         )
         try:
             received = robot_agent.take(Path(file))

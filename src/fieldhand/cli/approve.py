@@ -1,4 +1,4 @@
-"""``fieldhand approve``: a plan, read and approved by a person, as a signed file for the robot."""
+"""``fieldhand approve``: show a plan, ask for approval, and sign it as a file for the robot."""
 
 from __future__ import annotations
 
@@ -9,18 +9,13 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from fieldhand.cli.option_groups import grouped
 from fieldhand.cli.options import (
-    AnswerOption,
-    AssumeOption,
-    ConfirmOption,
-    JsonOption,
-    LangOption,
-    LenientOption,
+    ApprovalOptions,
+    DisplayOptions,
     PictureOption,
-    PlannerOption,
-    RobotOption,
-    SiteOption,
-    TranscriptOption,
+    PlanningOptions,
+    SiteAndRobotOptions,
 )
 from fieldhand.cli.outputs import to_whole_file
 from fieldhand.language import message
@@ -28,44 +23,36 @@ from fieldhand.language import message
 if TYPE_CHECKING:
     from datetime import timedelta
 
-    from fieldhand.language import Language
-
 
 @dataclass(frozen=True, kw_only=True)
-class _Consent:
-    ask: bool
-    confirm: bool
-    by: str | None
-    quiet: bool
-    language: Language
+class SigningOptions(ApprovalOptions):
+    """Approval with a signature."""
+
+    by: Annotated[str | None, typer.Option("--by", help="Who approves; else the name of the key.")] = None
+    key: Annotated[str | None, typer.Option("--key", help="Name of the key to sign with, if you have several.")] = None
+    valid_for: Annotated[
+        str, typer.Option("--valid-for", help="How long the robot may begin it, such as 12h or 30d; at most 366d.")
+    ] = "90d"
 
 
+@grouped(
+    "request site output robot planner key by yes confirm valid_for picture answer assume transcript lenient lang json"
+)
 def approve(
     request: Annotated[str, typer.Argument(help="A Task (.xml), or what the robot should do, in plain words.")],
-    site: SiteOption,
+    place: SiteAndRobotOptions,
+    planning: PlanningOptions,
+    signing: SigningOptions,
+    display: DisplayOptions,
     output: Annotated[
         Path,
         typer.Option("-o", "--output", callback=to_whole_file, help="Where to write the signed mission (.mission)."),
     ],
-    robot: RobotOption = "husky",
-    planner: PlannerOption = "auto",
-    key: Annotated[str | None, typer.Option("--key", help="Name of the key to sign with, if you have several.")] = None,
-    by: Annotated[str | None, typer.Option("--by", help="Who approves; else the name of the key.")] = None,
-    yes: Annotated[bool, typer.Option("--yes", "-y", help="Approve without asking.")] = False,
-    confirm: ConfirmOption = False,
-    valid_for: Annotated[
-        str, typer.Option("--valid-for", help="How long the robot may begin it, such as 12h or 30d; at most 366d.")
-    ] = "90d",
     picture: PictureOption = None,
-    answer: AnswerOption = None,
-    assume: AssumeOption = False,
-    transcript: TranscriptOption = None,
-    lenient: LenientOption = False,
-    lang: LangOption = None,
-    json: JsonOption = False,
 ) -> None:
     """Show what a mission will do and take, have it approved, and sign it for the robot."""
     import os
+    from dataclasses import replace
     from datetime import datetime
 
     from fieldhand.approval.bundle.packing import pack
@@ -73,32 +60,28 @@ def approve(
     from fieldhand.cli import show
     from fieldhand.cli.approving import approve_plan, review_plan
     from fieldhand.cli.asking import Replies, plan_or_read
-    from fieldhand.cli.bundles import require_ending
+    from fieldhand.cli.bundles import require_ending, signed_record
     from fieldhand.cli.inputs import read_ground, write_whole
+    from fieldhand.cli.pictures import draw_plan
     from fieldhand.cli.secrets import passphrase
     from fieldhand.files import config_folder
-    from fieldhand.language import message, spoken
 
     require_ending(output)
-    lasting = parse_validity(valid_for)
-    language = spoken(lang, os.environ)
-    own = SigningKeys(config_folder(os.environ))
-    chosen = own.choose(key)
-    ground, files = read_ground(site, robot, lenient=lenient, language=language)
-    replies = Replies(
-        given=tuple(answer or ()), assume=assume, ask=not json, progress=None if json else language, language=language
-    )
-    task, document, planned_by = plan_or_read(request, ground, planner, transcript, replies)
-    consent = _Consent(ask=not yes, confirm=confirm, by=by or chosen.public.name, quiet=json, language=language)
-    review = review_plan(ground, task, document, consent)
+    valid_for = parse_validity(signing.valid_for)
+    language = display.language
+    keys = SigningKeys(config_folder(os.environ))
+    key = keys.choose(signing.key)
+    ground, files = read_ground(place.site, place.robot, lenient=place.lenient, language=language)
+    replies = Replies.of(planning, display)
+    task, document, planner = plan_or_read(request, ground, planning.planner, planning.transcript, replies)
+    review = review_plan(ground, task, document, display)
     if picture is not None:
-        from fieldhand.cli.pictures import draw_plan
-
         draw_plan(picture, review, ground, language)
-        if not json:
+        if not display.json:
             show.out.print(language.say(message("Map: {file}", file=str(picture))))
-    authorized = approve_plan(review, consent, message("Approve and sign?")).authorized
-    signing = own.open(chosen, passphrase)
+    approval = replace(signing, by=signing.by or key.public.name)
+    authorized = approve_plan(review, approval, display, message("Approve and sign?")).authorized
+    opened = keys.open(key, passphrase)
     data = pack(
         authorized,
         ground.site,
@@ -106,30 +89,24 @@ def approve(
         files=files.site,
         lenient=files.lenient,
         profile=files.profile,
-        key=signing,
-        planner=planned_by,
-        valid_for=lasting,
-        number=own.next_number(chosen, datetime.fromisoformat(authorized.authorization.at)),
+        key=opened,
+        planner=planner,
+        valid_for=valid_for,
+        number=keys.next_number(key, datetime.fromisoformat(authorized.authorization.at)),
     )
     write_whole(output, data)
-    if json:
-        from fieldhand.cli.bundles import signed_record
-
-        show.print_json(signed_record(output, data, authorized.authorization, signing.public))
+    if display.json:
+        show.print_json(signed_record(output, data, authorized.authorization, opened.public))
         return
-    signed = message(
-        "Signed by {who} with the key {key}.", who=authorized.authorization.by, key=chosen.public.fingerprint
-    )
-    show.out.print()
-    show.out.print(language.say(signed))
-    show.out.print(language.say(message("Mission: {file}", file=str(output))))
+    signed = message("Signed by {who} with the key {key}.", who=authorized.authorization.by, key=key.public.fingerprint)
+    show.out.print_lines("", language.say(signed), language.say(message("Mission: {file}", file=str(output))))
 
 
 def parse_validity(text: str) -> timedelta:
-    """Return how long a mission may be begun.
+    """Return the time for which a mission may be begun.
 
     Raises:
-        InputError: The text says no time, or more than an approval may last.
+        InputError: The text is not a duration, or longer than an approval may last.
     """
     from datetime import timedelta
 

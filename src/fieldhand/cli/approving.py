@@ -1,64 +1,32 @@
-"""The approval of a plan at the terminal: it is shown, warnings are confirmed, and the person says yes."""
+"""Approval of a plan at the terminal: print the review, ask for each confirmation, and authorize the Task."""
 
 from __future__ import annotations
 
 import getpass
 from datetime import UTC, datetime
-from typing import TYPE_CHECKING, Protocol
 
 from fieldhand import mission
 from fieldhand.cli import show
 from fieldhand.cli.console import working
 from fieldhand.cli.inputs import may_ask
+from fieldhand.cli.options import ApprovalOptions, DisplayOptions
 from fieldhand.errors import NotApprovedError, NotConfirmedError
 from fieldhand.language import Language, Message, counted, joined, message
 from fieldhand.language.words import some_names
 from fieldhand.mission.documents import SiteAndRobot
 from fieldhand.task.frames import Task
 
-if TYPE_CHECKING:
-    pass
 
-
-class Consent(Protocol):
-    """How a person's consent is had."""
-
-    @property
-    def ask(self) -> bool:
-        """Ask the person; else ``confirm`` alone decides about warnings."""
-        ...
-
-    @property
-    def confirm(self) -> bool:
-        """Every warning is confirmed without asking."""
-        ...
-
-    @property
-    def by(self) -> str | None:
-        """Who approves; None for the user who is logged in."""
-        ...
-
-    @property
-    def quiet(self) -> bool:
-        """Show nothing."""
-        ...
-
-    @property
-    def language(self) -> Language:
-        """In which the plan is read."""
-        ...
-
-
-def review_plan(ground: SiteAndRobot, task: Task, document: bytes | None, consent: Consent) -> mission.Review:
-    """Check a Task and show what it will do.
+def review_plan(ground: SiteAndRobot, task: Task, document: bytes | None, display: DisplayOptions) -> mission.Review:
+    """Check a Task and print its review.
 
     Raises:
-        NotApprovedError: A check fails.
+        NotApprovedError: A check failed.
     """
-    with working(message("Checking ..."), None if consent.quiet else consent.language):
+    with working(message("Checking ..."), display.progress):
         review = mission.review(task, ground.site, ground.robot, document=document)
-    if not consent.quiet:
-        show.show_review(review, consent.language)
+    if not display.json:
+        show.show_review(review, display.language)
         if review.errors:
             raise NotApprovedError(message("not approved: mend the errors above first"))
     elif review.errors:
@@ -66,43 +34,47 @@ def review_plan(ground: SiteAndRobot, task: Task, document: bytes | None, consen
     return review
 
 
-def approve_plan(review: mission.Review, consent: Consent, question: Message) -> mission.ApprovedMission:
-    """Have the warnings confirmed and the plan approved.
+def approve_plan(
+    review: mission.Review, approval: ApprovalOptions, display: DisplayOptions, question: Message
+) -> mission.ApprovedMission:
+    """Ask the operator to confirm the warnings and to approve the plan.
 
     Args:
-        review: As it was shown.
-        consent: Whose it is, and how it is asked for.
-        question: What a person is asked at the end.
+        review: Review that was printed.
+        approval: Name of the operator, and what is approved without asking.
+        display: Language of the questions.
+        question: Last question to the operator.
 
     Raises:
-        NotConfirmedError: There are warnings, and nobody is asked about them.
-        NotApprovedError: The person says no, or nobody is there.
+        NotConfirmedError: There are warnings, and the operator may not be asked about them.
+        NotApprovedError: The operator declines, or standard input is not a terminal.
     """
-    if consent.ask and not may_ask():
+    ask, language = not approval.yes, display.language
+    if ask and not may_ask():
         raise NotApprovedError(
             message("nobody is here to approve"), advice=message("give --yes if you have read the plan")
         )
-    if review.warnings and not consent.confirm:
-        _confirm(consent.language.read(review.warnings), consent)
-    if consent.ask:
-        _ask(question, consent.language)
+    if review.warnings and not approval.confirm:
+        _confirm(language.read(review.warnings), language, ask=ask)
+    if ask:
+        _ask(question, language)
     return mission.authorize(
         review,
-        by=consent.by or user_name(),
+        by=approval.by or user_name(),
         at=datetime.now(UTC),
-        confirmed=consent.language.read(review.warnings),
-        language=consent.language.code,
+        confirmed=language.read(review.warnings),
+        language=language.code,
     )
 
 
-def _confirm(warnings: tuple[str, ...], consent: Consent) -> None:
-    """Have the operator confirm the warnings; they were shown with the review.
+def _confirm(warnings: tuple[str, ...], language: Language, *, ask: bool) -> None:
+    """Ask the operator to confirm the warnings that the review lists.
 
     Raises:
-        NotConfirmedError: Nobody is asked.
-        NotApprovedError: The operator says no.
+        NotConfirmedError: The operator may not be asked.
+        NotApprovedError: The operator declines.
     """
-    if not consent.ask:
+    if not ask:
         raise NotConfirmedError(
             message("not confirmed: {warnings}", warnings=joined("; ", warnings)),
             warnings,
@@ -113,33 +85,33 @@ def _confirm(warnings: tuple[str, ...], consent: Consent) -> None:
         "Is the plan right in spite of the {count} warnings above?",
         len(warnings),
     )
-    _ask(question, consent.language)
+    _ask(question, language)
 
 
 def _ask(question: str, language: Language) -> None:
-    """Ask a question until it is answered with yes or no, in that language or in English; nothing typed is no.
+    """Ask a question until the answer is yes or no, in the given language or in English; an empty answer is no.
 
     Raises:
         NotApprovedError: The answer is no.
-        Abort: The input has ended.
+        Abort: Standard input ended.
     """
     import typer
 
     yes, no = message("yes"), message("no")
     short = message("y/N", context="yes or no")
     letters = zip(language.say(short).lower().split("/"), short.lower().split("/"), strict=True)
-    agreed, declined = ({*both, language.say(said), said} for both, said in zip(letters, (yes, no), strict=True))
+    agreed, declined = ({*both, language.say(word), word} for both, word in zip(letters, (yes, no), strict=True))
     while True:
-        said = typer.prompt(f"\n{language.say(question)} [{language.say(short)}]", default="", show_default=False)
-        if said.strip().lower() in agreed:
+        answer = typer.prompt(f"\n{language.say(question)} [{language.say(short)}]", default="", show_default=False)
+        if answer.strip().lower() in agreed:
             return
-        if said.strip().lower() in declined | {""}:
+        if answer.strip().lower() in declined | {""}:
             raise NotApprovedError(message("not approved, nothing was done"))
         show.err.print(language.say(message("answer yes or no")))
 
 
 def user_name() -> str:
-    """Who is logged in."""
+    """Return the name of the user who is logged in."""
     try:
         return getpass.getuser()
     except (KeyError, OSError):

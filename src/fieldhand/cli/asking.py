@@ -13,6 +13,7 @@ from fieldhand import mission
 from fieldhand.cli.bundles import is_bundle
 from fieldhand.cli.console import Words, err, working
 from fieldhand.cli.inputs import may_ask
+from fieldhand.cli.options import DisplayOptions, PlanningOptions
 from fieldhand.cli.show import fail_outcome, show_question
 from fieldhand.errors import InputError, RequestError
 from fieldhand.files import STANDARD, FileFault, read_file
@@ -49,6 +50,20 @@ class Replies:
     draw: Callable[[Clarify], None] = lambda _: None
     progress: Language | None = None
     language: Language = ENGLISH
+
+    @classmethod
+    def of(
+        cls, planning: PlanningOptions, display: DisplayOptions, draw: Callable[[Clarify], None] = lambda _: None
+    ) -> Replies:
+        """Return the replies that the options of a command describe; nobody is asked where JSON is printed."""
+        return cls(
+            given=tuple(planning.answer or ()),
+            assume=planning.assume,
+            ask=not display.json,
+            draw=draw,
+            progress=display.progress,
+            language=display.language,
+        )
 
 
 def plan_and_ask(request: str, ground: SiteAndRobot, planner: Planner, replies: Replies) -> tuple[str, Outcome]:

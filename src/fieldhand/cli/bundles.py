@@ -145,7 +145,7 @@ def signer_record(bundle: Bundle) -> dict[str, Any]:
     }
 
 
-def tell_signer(bundle: Bundle) -> str:
+def approval_line(bundle: Bundle) -> str:
     """Who approved a mission, and with which key, in a line."""
     approved = bundle.manifest.approved
     return message(

@@ -1,4 +1,4 @@
-"""``fieldhand check``: every check on a Task document, each problem on its own line, and what each branch takes."""
+"""``fieldhand check``: check a Task document, and print each problem and the forecast of each branch."""
 
 from __future__ import annotations
 
@@ -7,39 +7,35 @@ from typing import Annotated
 
 import typer
 
-from fieldhand.cli.options import JsonOption, LangOption, LenientOption, PictureOption, RobotOption, SiteOption
+from fieldhand.cli.option_groups import grouped
+from fieldhand.cli.options import DisplayOptions, PictureOption, SiteAndRobotOptions
 
 
+@grouped("task site robot picture lenient charge lang json")
 def check(
     task: Annotated[Path, typer.Argument(help="A Task document (XML).")],
-    site: SiteOption,
-    robot: RobotOption = "husky",
+    place: SiteAndRobotOptions,
+    display: DisplayOptions,
     picture: PictureOption = None,
-    lenient: LenientOption = False,
     charge: Annotated[
         float, typer.Option("--charge", min=0.0, max=100.0, metavar="<%>", help="Battery at the beginning, percent.")
     ] = 100.0,
-    lang: LangOption = None,
-    json: JsonOption = False,
 ) -> None:
     """Check a Task against a site and a robot; exit status 1 if anything forbids approval."""
-    import os
-
     from fieldhand import mission
     from fieldhand.cli import show
     from fieldhand.cli.forecast_table import show_forecast
     from fieldhand.cli.inputs import open_ground
-    from fieldhand.language import spoken
 
-    language = spoken(lang, os.environ)
-    ground = open_ground(site, robot, lenient=lenient, language=language)
+    language = display.language
+    ground = open_ground(place.site, place.robot, lenient=place.lenient, language=language)
     read, document = mission.read_task(task, ground.robot)
     review = mission.review(read, ground.site, ground.robot, document=document, charge_percent=charge)
     if picture is not None:
         from fieldhand.cli.pictures import draw_plan
 
         draw_plan(picture, review, ground, language)
-    if json:
+    if display.json:
         show.print_json(show.review_record(review, language, every=True))
     else:
         show.show_review(review, language)

@@ -1,4 +1,4 @@
-"""``fieldhand demo``: the whole way on the built-in orchard, with no key and no network."""
+"""``fieldhand demo``: plan, approve, carry out and judge a mission on the built-in orchard, without key or network."""
 
 from __future__ import annotations
 
@@ -7,8 +7,16 @@ from typing import Annotated
 
 import typer
 
-from fieldhand.cli.driver_options import DomainOption, DriverOption, NamespaceOption, OnOption, SimTimeOption
-from fieldhand.cli.options import LangOption, SeedOption
+from fieldhand.cli.driver_options import DriverOptions
+from fieldhand.cli.option_groups import grouped
+from fieldhand.cli.options import (
+    ApprovalOptions,
+    DisplayOptions,
+    LangOption,
+    OutputOptions,
+    PlanningOptions,
+    SeedOption,
+)
 from fieldhand.cli.outputs import to_folder
 
 REQUEST = (
@@ -18,43 +26,48 @@ REQUEST = (
 )
 
 
+@grouped("output seed lang on domain namespace sim_time driver_option")
 def demo(
+    driver: DriverOptions,
     output: Annotated[
         Path, typer.Option("-o", "--out", callback=to_folder, help="Folder for what the mission leaves behind.")
     ] = Path("out"),
     seed: SeedOption = 7,
     lang: LangOption = None,
-    on: OnOption = None,
-    domain: DomainOption = None,
-    namespace: NamespaceOption = None,
-    sim_time: SimTimeOption = False,
-    driver_option: DriverOption = None,
 ) -> None:
     """Plan, approve, drive and judge a mission on the built-in orchard."""
     import os
     import shutil
-    from dataclasses import replace
 
     from fieldhand.approval.production import require_unsigned_allowed
     from fieldhand.cli import show
-    from fieldhand.cli.asking import Replies, plan_or_read
+    from fieldhand.cli.draft import OpenedInputs, draft_mission
     from fieldhand.cli.driver_options import connected, connection_of
-    from fieldhand.cli.flight import Orders, fly
-    from fieldhand.cli.inputs import open_ground
+    from fieldhand.cli.inputs import read_ground
+    from fieldhand.cli.run_mission import RunSettings, run_mission
     from fieldhand.execution.drivers.simulation.world import World
-    from fieldhand.language import message, spoken
+    from fieldhand.language import message
 
-    language = spoken(lang, os.environ)
+    display = DisplayOptions(lang=lang)
+    language = display.language
     require_unsigned_allowed(os.environ)
-    connection = connection_of(
-        on, domain, namespace, sim_time=sim_time, environ=os.environ, options=driver_option or ()
+    connection = connection_of(driver, os.environ)
+    ground, files = read_ground("demo", "husky", language=language)
+    draft = draft_mission(
+        REQUEST, OpenedInputs(ground=ground, files=files), PlanningOptions(planner="english"), display
     )
-    ground = open_ground("demo", "husky", language=language)
-    task, document, planner = plan_or_read(REQUEST, ground, "english", None, Replies(language=language))
-    # Nobody is there to read the warning that the budget is tight; it is shown, and the report says it was confirmed.
-    orders = Orders(ask=False, confirm=True, by="demo", world=World(), seed=seed, folder=output, language=language)
-    with connected(ground, task, connection, quiet=False, language=language) as vehicle:
-        status = fly(ground, task, document, replace(orders, vehicle=vehicle), planner=planner)
+    # Nobody reads the warning that the budget is tight; it is printed, and the report names it as confirmed.
+    approval = ApprovalOptions(yes=True, confirm=True, by="demo")
+    with connected(ground, draft.task, connection, display) as vehicle:
+        settings = RunSettings(
+            approval=approval,
+            display=display,
+            outputs=OutputOptions(output=output),
+            world=World(),
+            seed=seed,
+            vehicle=vehicle,
+        )
+        status = run_mission(draft, settings)
     show.heading(language.say(message("Try next")))
     if shutil.which("fieldhand") is None:
         show.out.print("  . .venv/bin/activate")

@@ -1,10 +1,11 @@
-"""The options that choose a driver, and the connection to the robot that they name."""
+"""Options that choose the driver of a mission, and the connection to the robot that they describe."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -12,10 +13,10 @@ import typer
 
 from fieldhand.errors import InputError
 from fieldhand.execution.drivers.ros2.domain import MOST_DOMAIN
-from fieldhand.language import ENGLISH, Language, Number, message
+from fieldhand.language import Number, message
 
 if TYPE_CHECKING:
-    from fieldhand.cli.approving import Consent
+    from fieldhand.cli.options import DisplayOptions
     from fieldhand.execution.vehicle import Connection, Vehicle
     from fieldhand.mission import Review
     from fieldhand.mission.documents import SiteAndRobot
@@ -26,47 +27,44 @@ SIMULATION = "simulation"
 #: Seconds within which the whole robot must respond.
 READY_WITHIN_S = 20.0
 
-OnOption = Annotated[
-    str | None,
-    typer.Option(
-        "--on",
-        metavar="simulation|dds|rclpy|...",
-        help="On what: the simulation (default); the robot over ROS 2 (dds needs no ROS here, rclpy does); or the"
-        " driver of a plugin (fieldhand plugins).",
-    ),
-]
-DriverOption = Annotated[
-    list[str] | None,
-    typer.Option("--driver-option", metavar="NAME=VALUE", help="Option of a plugin's driver; may be repeated."),
-]
-DomainOption = Annotated[
-    int | None,
-    typer.Option("--domain", min=0, max=MOST_DOMAIN, help="ROS domain of the robot; else ROS_DOMAIN_ID, else 0."),
-]
 NamespaceOption = Annotated[
     str | None, typer.Option("--namespace", help="Of the robot's names in ROS, in place of the profile's; / for none.")
 ]
-SimTimeOption = Annotated[
-    bool, typer.Option("--sim-time", help="The robot is a simulation that publishes /clock: take its time.")
-]
 
 
-def connection_of(
-    on: str | None,
-    domain: int | None,
-    namespace: str | None,
-    *,
-    sim_time: bool,
-    environ: Mapping[str, str],
-    options: Sequence[str] | None = None,
-) -> Connection | None:
+@dataclass(frozen=True, kw_only=True)
+class DriverOptions:
+    """Driver of a mission, and the address of the robot; the simulation by default."""
+
+    on: Annotated[
+        str | None,
+        typer.Option(
+            "--on",
+            metavar="simulation|dds|rclpy|...",
+            help="On what: the simulation (default); the robot over ROS 2 (dds needs no ROS here, rclpy does); or the"
+            " driver of a plugin (fieldhand plugins).",
+        ),
+    ] = None
+    domain: Annotated[
+        int | None,
+        typer.Option("--domain", min=0, max=MOST_DOMAIN, help="ROS domain of the robot; else ROS_DOMAIN_ID, else 0."),
+    ] = None
+    namespace: NamespaceOption = None
+    sim_time: Annotated[
+        bool, typer.Option("--sim-time", help="The robot is a simulation that publishes /clock: take its time.")
+    ] = False
+    driver_option: Annotated[
+        list[str] | None,
+        typer.Option("--driver-option", metavar="NAME=VALUE", help="Option of a plugin's driver; may be repeated."),
+    ] = None
+
+
+def connection_of(options: DriverOptions, environ: Mapping[str, str]) -> Connection | None:
     """Return the connection to the robot that the options name; None for the simulation.
 
     Args:
-        on: Name of the driver; None for the simulation.
-        domain, namespace, sim_time: Options of drivers for ROS 2.
+        options: Options of the command line.
         environ: Environment variables, of which ``ROS_DOMAIN_ID`` is used.
-        options: Options of other drivers, as ``name=value``.
 
     Raises:
         InputError: An option cannot be used, or contradicts another.
@@ -76,23 +74,11 @@ def connection_of(
     from fieldhand.execution.drivers.ros2.domain import domain_of
     from fieldhand.execution.vehicle import Connection
 
-    simulated = on is None or on == SIMULATION
-    kind = None if on is None or simulated else driver_kind(on)
+    on = options.on
+    kind = None if on is None or on == SIMULATION else driver_kind(on)
     if kind is None or not kind.ros2:
-        for given, option in (
-            (domain is not None, "--domain"),
-            (namespace is not None, "--namespace"),
-            (sim_time, "--sim-time"),
-        ):
-            if given:
-                raise InputError(
-                    message("the simulation has no {option}", option=option[2:])
-                    if simulated
-                    else message("the driver {name} has no {option}", name=str(on), option=option[2:]),
-                    where=option,
-                    advice=message("give --on dds with it"),
-                )
-    if options and (kind is None or kind.ros2):
+        _refuse_ros2_options(options)
+    if options.driver_option and (kind is None or kind.ros2):
         raise InputError(
             message("{on} has no such options", on=on or SIMULATION),
             where="--driver-option",
@@ -102,11 +88,32 @@ def connection_of(
         return None
     return Connection(
         transport=on,
-        domain=domain_of(domain, environ) if kind.ros2 else 0,
-        namespace=None if namespace is None else namespace_of(namespace),
-        sim_time=sim_time,
-        options=_named_values(options or ()),
+        domain=domain_of(options.domain, environ) if kind.ros2 else 0,
+        namespace=None if options.namespace is None else namespace_of(options.namespace),
+        sim_time=options.sim_time,
+        options=_named_values(options.driver_option or ()),
     )
+
+
+def _refuse_ros2_options(options: DriverOptions) -> None:
+    """Require that no option of ROS 2 is given.
+
+    Raises:
+        InputError: One is.
+    """
+    for is_given, option in (
+        (options.domain is not None, "--domain"),
+        (options.namespace is not None, "--namespace"),
+        (options.sim_time, "--sim-time"),
+    ):
+        if is_given:
+            raise InputError(
+                message("the simulation has no {option}", option=option[2:])
+                if options.on in (None, SIMULATION)
+                else message("the driver {name} has no {option}", name=str(options.on), option=option[2:]),
+                where=option,
+                advice=message("give --on dds with it"),
+            )
 
 
 def _named_values(options: Sequence[str]) -> dict[str, str]:
@@ -130,50 +137,63 @@ def _named_values(options: Sequence[str]) -> dict[str, str]:
 
 
 def connection_again(
-    name: str,
-    begun: Departure | None,
-    on: str | None,
-    domain: int | None,
-    namespace: str | None,
-    *,
-    sim_time: bool,
-    environ: Mapping[str, str],
-    options: Sequence[str] | None = None,
+    name: str, begun: Departure | None, options: DriverOptions, environ: Mapping[str, str]
 ) -> Connection | None:
-    """Return the connection for resuming a mission: the one it was begun with, with these options in place of its own.
+    """Return the connection for resuming a mission: the one it was begun with, overridden by the given options.
 
     Args:
         name: Name of the mission.
         begun: Robot on which it was begun; None for the simulation.
-        on, domain, namespace, sim_time, environ, options: As for :func:`connection_of`.
+        options, environ: As for :func:`connection_of`.
 
     Raises:
         InputError: An option cannot be used.
-        ExecutionError: It was begun in simulation and is to go on on a robot, or the other way round.
+        ExecutionError: The mission was begun in simulation and shall be resumed on a robot, or the other way round.
     """
     from fieldhand import missions
 
-    if on is None and begun is not None:
-        on = begun.by.transport
-    given = connection_of(on, domain, namespace, sim_time=sim_time, environ=environ, options=options)
+    if options.on is None and begun is not None:
+        options = replace(options, on=begun.by.transport)
+    given = connection_of(options, environ)
     missions.require_vehicle(name, begun, simulated=given is None)
     if begun is None or given is None:
         return None
     return replace(
         begun.by,
         transport=given.transport,
-        domain=begun.by.domain if domain is None else given.domain,
-        namespace=begun.by.namespace if namespace is None else given.namespace,
-        sim_time=begun.by.sim_time or sim_time,
+        domain=begun.by.domain if options.domain is None else given.domain,
+        namespace=begun.by.namespace if options.namespace is None else given.namespace,
+        sim_time=begun.by.sim_time or options.sim_time,
         options={**begun.by.options, **given.options},
     )
 
 
-def refuse_simulation_options(connection: Connection | None, *, world: Path | None, speed: str | None) -> None:
-    """A robot has no world file, and time passes for it as it does.
+def parse_speed(text: str | None) -> float | None:
+    """Return the speed of a simulation, in simulated seconds per second; None for ``max`` and by default.
 
     Raises:
-        InputError: One is given for a robot.
+        InputError: The text is neither ``max`` nor a positive number.
+    """
+    if text is None or text == "max":
+        return None
+    try:
+        speed = float(text)
+    except ValueError:
+        speed = math.nan
+    if not 0 < speed < math.inf:
+        raise InputError(
+            message("'{text}' is no speed", text=text),
+            where="--speed",
+            advice=message("give max, or a number above 0 (1 is real time)"),
+        )
+    return speed
+
+
+def refuse_simulation_options(connection: Connection | None, *, world: Path | None, speed: str | None) -> None:
+    """Require that no option of the simulation is given for a robot.
+
+    Raises:
+        InputError: ``--world`` or ``--speed`` is given for a robot.
     """
     if connection is None:
         return
@@ -193,7 +213,7 @@ def refuse_simulation_options(connection: Connection | None, *, world: Path | No
 
 @contextmanager
 def connected(
-    ground: SiteAndRobot, task: Task, connection: Connection | None, *, quiet: bool, language: Language = ENGLISH
+    ground: SiteAndRobot, task: Task, connection: Connection | None, display: DisplayOptions
 ) -> Iterator[Vehicle | None]:
     """Connect to the robot for the duration of the context; None for the simulation.
 
@@ -209,52 +229,54 @@ def connected(
     from fieldhand.execution.drivers.registry import driver_kind
 
     kind = driver_kind(connection.transport)
-    if not quiet:
+    if not display.json:
         fills = {"robot": ground.robot.name, "way": str(connection)}
         if kind.ros2:
-            note(message("looking for {robot} over ROS 2 ({way})", **fills), language)
+            note(message("looking for {robot} over ROS 2 ({way})", **fills), display.language)
         else:
-            note(message("looking for {robot} ({way})", **fills), language)
+            note(message("looking for {robot} ({way})", **fills), display.language)
     with kind.connect(ground.site, ground.robot, task, connection, READY_WITHIN_S) as vehicle:
         yield vehicle
 
 
-def see_off(ground: SiteAndRobot, review: Review, vehicle: Vehicle, consent: Consent) -> None:
-    """See whether the robot may set out, before a wheel turns, and say where it stands and what charge it has.
+def check_start(
+    ground: SiteAndRobot, review: Review, vehicle: Vehicle, *, confirm: bool, display: DisplayOptions
+) -> None:
+    """Check position and battery of the robot before it moves, and print them.
 
     Raises:
-        ExecutionError: It stands elsewhere, does not know where, or is stopped.
-        NotApprovedError: Its charge does not last.
-        NotConfirmedError: It may not last, and nobody has accepted that.
+        ExecutionError: The robot is not on the site, has no position, or is stopped.
+        NotApprovedError: The charge is not enough for the mission.
+        NotConfirmedError: The charge may not be enough, and that was not confirmed.
     """
     from fieldhand import missions
     from fieldhand.cli.show import note
 
     away_m = missions.require_in_place(ground.site, ground.robot, vehicle.driver)
     charge = vehicle.driver.charge_percent()
-    if not consent.quiet:
-        stands = message(
+    if not display.json:
+        position = message(
             "{robot} stands {metres} m from the start, battery at {charge} %",
             robot=ground.robot.name,
             metres=Number(f"{away_m:.1f}"),
             charge=f"{charge:.0f}",
         )
-        note(stands, consent.language)
+        note(position, display.language)
         if vehicle.remark:
-            note(vehicle.remark, consent.language)
-    missions.require_charged(review, ground.site, ground.robot, charge, confirm=consent.confirm)
+            note(vehicle.remark, display.language)
+    missions.require_charged(review, ground.site, ground.robot, charge, confirm=confirm)
 
 
-def namespace_of(said: str) -> str:
-    """A namespace as it was given.
+def namespace_of(text: str) -> str:
+    """Return the namespace that an option names: empty, or ``/`` and a name.
 
     Raises:
-        InputError: It is none.
+        InputError: It is not a valid name in ROS.
     """
     from fieldhand.robot.bindings_document import as_namespace
 
     try:
-        return as_namespace(said)
+        return as_namespace(text)
     except ValueError as error:
         what, _, advice = str(error).partition("; ")
         raise InputError(what, where="--namespace", advice=advice) from None

@@ -1,4 +1,4 @@
-"""``fieldhand export``: a Task or an event log for other programs."""
+"""``fieldhand export``: convert a Task or an event log to a format of other programs."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from fieldhand.cli.options import JsonOption, LenientOption, MissionsOption, RecordedSiteOption
+from fieldhand.cli.option_groups import grouped
+from fieldhand.cli.options import JsonOption, RecordedOptions
 from fieldhand.cli.outputs import to_file
 from fieldhand.errors import InputError
 
@@ -18,13 +19,22 @@ if TYPE_CHECKING:
     from fieldhand.mission.documents import SiteAndRobot
     from fieldhand.task.results import Event
 
-#: What each format can hold.
+#: Names of all formats, of those for Tasks, and of those for event logs.
 FORMATS = ("btcpp", "geojson", "kml", "csv", "qgc", "mcap", "events")
 _OF_TASKS, _OF_LOGS = ("btcpp", "geojson", "kml", "csv", "qgc"), ("geojson", "kml", "csv", "mcap", "events")
 
 
+@dataclass(frozen=True, kw_only=True)
+class ExportedSourceOptions(RecordedOptions):
+    """Site and robot of a Task or an event log."""
+
+    robot: Annotated[str | None, typer.Option("--robot", help="The robot; husky if none is given.")] = None
+
+
+@grouped("source to output site robot lenient missions json")
 def export(
-    given: Annotated[
+    recorded: ExportedSourceOptions,
+    source: Annotated[
         str,
         typer.Argument(
             metavar="TASK|EVENTS|MISSION",
@@ -33,10 +43,6 @@ def export(
     ],
     to: Annotated[str, typer.Option("--to", help=f"Format: {', '.join(FORMATS)}.")],
     output: Annotated[Path, typer.Option("-o", "--output", callback=to_file, help="Where to write.")],
-    site: RecordedSiteOption = None,
-    robot: Annotated[str | None, typer.Option("--robot", help="The robot; husky if none is given.")] = None,
-    lenient: LenientOption = False,
-    kept: MissionsOption = None,
     json: JsonOption = False,
 ) -> None:
     """Write a Task or an event log for another program."""
@@ -46,34 +52,35 @@ def export(
 
     if to not in FORMATS:
         raise InputError(f"there is no format '{to}'", where="--to", advice=f"choose one of {', '.join(FORMATS)}")
-    folder = folder_of(given, kept)
+    folder = folder_of(source, recorded.missions)
     if folder is not None:
-        require_nothing_beside(folder, site=site, robot=robot)
-    # A mission's folder holds both; what was driven says more than what was planned.
-    is_task = to not in _OF_LOGS if folder else given.lower().endswith((".xml", ".mission"))
+        require_nothing_beside(folder, site=recorded.site, robot=recorded.robot)
+    # A mission's folder contains both; the event log is preferred, as it records what was driven.
+    is_task = to not in _OF_LOGS if folder else source.lower().endswith((".xml", ".mission"))
     if to not in (_OF_TASKS if is_task else _OF_LOGS):
         what, fits = ("a Task", _OF_TASKS) if is_task else ("an event log", _OF_LOGS)
         raise InputError(f"{what} cannot be written as {to}", where="--to", advice=f"choose one of {', '.join(fits)}")
-    source = _Source(given=given, folder=folder, site=site, robot=robot, lenient=lenient)
-    made = _of_task(source, to) if is_task else _of_log(source, to, output)
-    if made.data is not None:
-        write_file(output, made.data)
+    exported = (
+        _export_task(source, folder, recorded, to) if is_task else _export_log(source, folder, recorded, to, output)
+    )
+    if exported.data is not None:
+        write_file(output, exported.data)
     if json:
-        show.print_json({"format": to, "file": str(output), **made.facts, "notes": list(made.notes)})
+        show.print_json({"format": to, "file": str(output), **exported.facts, "notes": list(exported.notes)})
         return
-    for said in made.notes:
-        show.note(said)
+    for note in exported.notes:
+        show.note(note)
     show.out.print(f"{to}: {output}")
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Made:
-    """What was exported.
+class _Exported:
+    """An exported file.
 
     Attributes:
-        data: None where it is written already.
-        facts: Numbers for ``--json``.
-        notes: What the format could not hold.
+        data: Bytes of the file; None if it is written already.
+        facts: Fields for ``--json``.
+        notes: Parts of the mission that the format cannot represent.
     """
 
     data: bytes | None
@@ -81,18 +88,8 @@ class _Made:
     notes: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True, kw_only=True)
-class _Source:
-    """What is exported; ``folder`` is that of a mission, where one was given."""
-
-    given: str
-    folder: Path | None
-    site: str | None
-    robot: str | None
-    lenient: bool
-
-
-def _of_task(source: _Source, to: str) -> _Made:
+def _export_task(source: str, folder: Path | None, recorded: RecordedOptions, to: str) -> _Exported:
+    """Return a Task in a format of other programs; ``folder`` is that of a stored mission, if one is exported."""
     from fieldhand import mission
     from fieldhand.cli.bundles import is_bundle
     from fieldhand.cli.recorded import plan_of_files, plan_of_folder
@@ -102,43 +99,44 @@ def _of_task(source: _Source, to: str) -> _Made:
     from fieldhand.robot.capabilities import capabilities_of
     from fieldhand.robot.loader import load_robot
 
-    path = Path(source.given)
-    if to == "btcpp" and source.folder is None and not is_bundle(source.given):
-        profile = load_robot(source.robot or "husky")
+    path = Path(source)
+    if to == "btcpp" and folder is None and not is_bundle(source):
+        profile = load_robot(recorded.robot or "husky")
         task, _ = mission.read_task(path, profile)
-        return _Made(data=write_tree(task, capabilities_of(profile)), facts={"task": task.id})
-    if source.folder is not None:
-        plan = plan_of_folder(source.folder)
-    elif source.site is None and not is_bundle(source.given):
+        return _Exported(data=write_tree(task, capabilities_of(profile)), facts={"task": task.id})
+    if folder is not None:
+        plan = plan_of_folder(folder)
+    elif recorded.site is None and not is_bundle(source):
         raise InputError("the route of a Task needs its site", where="--site", advice="give the site's file, or demo")
     else:
-        plan = plan_of_files(path, source.site, source.robot, lenient=source.lenient)
+        plan = plan_of_files(path, recorded.site, recorded.robot, lenient=recorded.lenient)
     task, ground = plan.task, plan.ground
     if to == "btcpp":
-        return _Made(data=write_tree(task, capabilities_of(ground.robot)), facts={"task": task.id})
+        return _Exported(data=write_tree(task, capabilities_of(ground.robot)), facts={"task": task.id})
     route = planned(task, ground.site, ground.robot)
     facts = _facts(route) | {"task": task.id}
     open_ = [stop for stop in route.stops if not stop.certain]
     if to == "qgc":
-        made = write_plan(route, ground.site)
-        if not made.stops:
+        plan_file = write_plan(route, ground.site)
+        if not plan_file.stops:
             raise InputError(
                 "no part of this mission is straight: its first stop hangs on a reading or on the budget",
-                where=source.given,
+                where=source,
                 advice="choose another format",
             )
-        left = f"left out: {made.left_out} stops that hang on a reading or on the budget"
+        left = f"left out: {plan_file.left_out} stops that hang on a reading or on the budget"
         notes = ("a plan holds drives and waits; what is done at a stop is not in it",)
-        return _Made(
-            data=made.data,
-            facts=facts | {"stops": made.stops, "left_out": made.left_out},
-            notes=(*notes, left) if made.left_out else notes,
+        return _Exported(
+            data=plan_file.data,
+            facts=facts | {"stops": plan_file.stops, "left_out": plan_file.left_out},
+            notes=(*notes, left) if plan_file.left_out else notes,
         )
     note = f"{len(open_)} stops hang on a reading or on the budget; shown is the branch on which every condition holds"
-    return _Made(data=_WRITERS[to](route), facts=facts, notes=(note,) if open_ else ())
+    return _Exported(data=_WRITERS[to](route), facts=facts, notes=(note,) if open_ else ())
 
 
-def _of_log(source: _Source, to: str, output: Path) -> _Made:
+def _export_log(source: str, folder: Path | None, recorded: RecordedOptions, to: str, output: Path) -> _Exported:
+    """Return an event log in a format of other programs; ``folder`` is that of a stored mission, if one is exported."""
     from fieldhand.cli.recorded import ground_of, log_of_folder, plan_of_folder
     from fieldhand.evaluation.event_text import EventText
     from fieldhand.exchange.routes.route import driven
@@ -146,23 +144,22 @@ def _of_log(source: _Source, to: str, output: Path) -> _Made:
     from fieldhand.robot.loader import load_robot
     from fieldhand.task.event_lines import to_json
 
-    folder, site = source.folder, source.site
-    events = (read_log(Path(source.given)) if folder is None else log_of_folder(folder)).events
+    events = (read_log(Path(source)) if folder is None else log_of_folder(folder)).events
     facts: dict[str, Any] = {"events": len(events)}
     if to == "events":
-        return _Made(data="".join(to_json(event) + "\n" for event in events).encode(), facts=facts)
+        return _Exported(data="".join(to_json(event) + "\n" for event in events).encode(), facts=facts)
     if to == "mcap":
         ground: SiteAndRobot | None = None
         if folder is not None:
             ground = plan_of_folder(folder).ground
-        elif site is not None:
-            ground = ground_of(site, source.robot, lenient=source.lenient)
-        _write_mcap(events, output, ground, source.robot or "husky")
+        elif recorded.site is not None:
+            ground = ground_of(recorded.site, recorded.robot, lenient=recorded.lenient)
+        _write_mcap(events, output, ground, recorded.robot or "husky")
         notes = () if ground else ("without --site the map shows no trees",)
-        return _Made(data=None, facts=facts, notes=notes)
-    named = plan_of_folder(folder).ground.robot if folder is not None else load_robot(source.robot or "husky")
+        return _Exported(data=None, facts=facts, notes=notes)
+    named = plan_of_folder(folder).ground.robot if folder is not None else load_robot(recorded.robot or "husky")
     route = driven(events, tell=EventText(named).line)
-    return _Made(data=_WRITERS[to](route), facts=facts | _facts(route))
+    return _Exported(data=_WRITERS[to](route), facts=facts | _facts(route))
 
 
 def _write_mcap(events: tuple[Event, ...], output: Path, ground: SiteAndRobot | None, robot: str) -> None:

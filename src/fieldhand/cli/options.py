@@ -1,13 +1,19 @@
-"""Options that several commands share, so that each means the same everywhere."""
+"""Options that several commands share, and the groups in which they are passed."""
 
 from __future__ import annotations
 
+import os
+from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from fieldhand.cli.outputs import to_file, to_folder, to_named_file, to_picture
+
+if TYPE_CHECKING:
+    from fieldhand.language import Language
 
 
 def _robots() -> list[str]:
@@ -52,6 +58,7 @@ MissionRobotOption = Annotated[
     ),
 ]
 ByOption = Annotated[str | None, typer.Option("--by", help="Who approves; else the user who is logged in.")]
+YesOption = Annotated[bool, typer.Option("--yes", "-y", help="Approve without asking.")]
 ConfirmOption = Annotated[
     bool, typer.Option("--confirm", help="Confirm every warning without asking; --yes alone does not.")
 ]
@@ -118,7 +125,105 @@ SeedOption = Annotated[int, typer.Option("--seed", min=0, help="Same seed, same 
 CpuTimeOption = Annotated[
     bool, typer.Option("--cpu-time", help="Count processor time, where others use the machine as well.")
 ]
+RecordedArgument = Annotated[
+    str | None,
+    typer.Argument(
+        metavar="[MISSION|EVENTS]",
+        help="Name or folder of a mission, else the one begun last; or an event log (JSON lines or MCAP).",
+    ),
+]
 RecordedSiteOption = Annotated[
     str | None,
     typer.Option("--site", help=f"{SITE_HELP} A signed mission (.mission) brings site and robot."),
 ]
+
+
+@dataclass(frozen=True, kw_only=True)
+class DisplayOptions:
+    """Language of a command's output, and JSON instead of text."""
+
+    lang: LangOption = None
+    json: JsonOption = False
+
+    def __post_init__(self) -> None:
+        _ = self.language  # an unknown language is refused before the command begins
+
+    @cached_property
+    def language(self) -> Language:
+        """The language to print in.
+
+        Raises:
+            InputError: There is no such language.
+        """
+        from fieldhand.language import spoken
+
+        return spoken(self.lang, os.environ)
+
+    @property
+    def progress(self) -> Language | None:
+        """Language of progress messages on a terminal; None for JSON, which has none."""
+        return None if self.json else self.language
+
+
+@dataclass(frozen=True, kw_only=True)
+class SiteAndRobotOptions:
+    """Site and robot that a command works on."""
+
+    site: SiteOption
+    robot: RobotOption = "husky"
+    lenient: LenientOption = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class MissionInputOptions:
+    """Site and robot of a mission; a signed mission brings its own."""
+
+    site: MissionSiteOption = None
+    robot: MissionRobotOption = None
+    lenient: LenientOption = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class RecordedOptions:
+    """Site and robot of an event log, and the folder of stored missions, which bring their own."""
+
+    site: RecordedSiteOption = None
+    robot: Annotated[str | None, typer.Option("--robot", help="Of a log: the robot; husky if none is given.")] = None
+    lenient: LenientOption = False
+    missions: MissionsOption = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlanningOptions:
+    """Planner of a request, and the answers to its questions."""
+
+    planner: PlannerOption = "auto"
+    answer: AnswerOption = None
+    assume: AssumeOption = False
+    transcript: TranscriptOption = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class ApprovalOptions:
+    """Approval of a plan at the command line."""
+
+    yes: YesOption = False
+    confirm: ConfirmOption = False
+    by: ByOption = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class OutputOptions:
+    """Files that a mission writes."""
+
+    events: EventsOption = None
+    mcap: McapOption = None
+    output: LeaveOption = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class StoreOptions:
+    """Folder in which missions are stored, and the missions that may run from it."""
+
+    missions: MissionsOption = None
+    production: ProductionOption = False

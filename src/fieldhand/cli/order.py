@@ -1,4 +1,4 @@
-"""``fieldhand order``: tell a mission on a robot elsewhere to start, pause, resume, return or abort."""
+"""``fieldhand order``: start, pause, resume or abort a mission on a robot, or call the robot back."""
 
 from __future__ import annotations
 
@@ -6,19 +6,18 @@ from typing import Annotated
 
 import typer
 
-from fieldhand.cli.links import CaOption, InsecureOption, MissionOfRobot, PinOption, TokenFileOption, UrlArgument
+from fieldhand.cli.links import LinkOptions, MissionOfRobot, UrlArgument
+from fieldhand.cli.option_groups import grouped
 from fieldhand.cli.options import JsonOption
 
 
+@grouped("url command mission because token_file ca pin insecure json")
 def order(
     url: UrlArgument,
-    said: Annotated[str, typer.Argument(metavar="ORDER", help="start, pause, resume, return or abort.")],
+    command: Annotated[str, typer.Argument(metavar="ORDER", help="start, pause, resume, return or abort.")],
+    link: LinkOptions,
     mission: MissionOfRobot = None,
     because: Annotated[str, typer.Option("--because", help="Why, in words; the event log keeps it.")] = "",
-    token_file: TokenFileOption = None,
-    ca: CaOption = None,
-    pin: PinOption = None,
-    insecure: InsecureOption = False,
     json: JsonOption = False,
 ) -> None:
     """Tell a mission on a robot to start, pause, resume, return (come home) or abort (stop here).
@@ -28,15 +27,15 @@ def order(
     from contextlib import closing
 
     from fieldhand.cli import show
-    from fieldhand.cli.links import find_mission, open_robot_client, state_line, trust_of
+    from fieldhand.cli.links import find_mission, state_line
     from fieldhand.execution.operator_commands import parse_agent_command
 
-    word = parse_agent_command(said)
-    with closing(open_robot_client(url, token_file, trust_of(ca, pin, insecure=insecure))) as link:
-        # Without a mission nothing is looked up first: whoever wants the robot to stop shall not wait for a list.
-        heard = link.order_now(word, because) if mission is None and word != "start" else None
+    word = parse_agent_command(command)
+    with closing(link.open(url)) as client:
+        # Without the name of a mission, the order is sent at once: a stop must not wait for a list of missions.
+        heard = client.order_now(word, because) if mission is None and word != "start" else None
         if heard is None:
-            heard = link.order(find_mission(link, mission).bundle, word, because)
+            heard = client.order(find_mission(client, mission).bundle, word, because)
     if json:
         show.print_json(heard.model_dump())
     else:

@@ -87,14 +87,14 @@ def to_folder(ctx: typer.Context, param: typer.CallbackParam, path: Path | None)
     if path is not None:
         refuse_standard_output(path, _name(param))
         require_folder(path, f"{_name(param)} {path}")
-        for file in left_in(path):
+        for file in mission_files(path):
             if file.exists():
                 _require_file(file, f"{_name(param)} {file}")
         _require_own(ctx, param, path)
     return path
 
 
-def left_in(folder: Path) -> tuple[Path, ...]:
+def mission_files(folder: Path) -> tuple[Path, ...]:
     """What a mission leaves behind in a folder: Task, map, events, and the report, its page first."""
     from fieldhand.evaluation.report.writing import ReportFiles
 

@@ -1,43 +1,27 @@
-"""``fieldhand plan``: a request becomes a Task, in words, on a map and as XML."""
+"""``fieldhand plan``: turn a request into a Task, and show it in words, on a map and as XML."""
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from fieldhand.cli.options import (
-    AnswerOption,
-    AssumeOption,
-    JsonOption,
-    LangOption,
-    LenientOption,
-    PictureOption,
-    PlannerOption,
-    RobotOption,
-    SiteOption,
-    TranscriptOption,
-)
+from fieldhand.cli.option_groups import grouped
+from fieldhand.cli.options import DisplayOptions, PictureOption, PlanningOptions, SiteAndRobotOptions
 from fieldhand.cli.outputs import to_file
 
 
+@grouped("request site robot planner output picture answer assume transcript lenient lang json")
 def plan(
     request: Annotated[str, typer.Argument(help="What the robot should do, in plain words.")],
-    site: SiteOption,
-    robot: RobotOption = "husky",
-    planner: PlannerOption = "auto",
+    place: SiteAndRobotOptions,
+    planning: PlanningOptions,
+    display: DisplayOptions,
     output: Annotated[
         Path | None, typer.Option("-o", "--output", callback=to_file, help="Where to write the Task (XML).")
     ] = None,
     picture: PictureOption = None,
-    answer: AnswerOption = None,
-    assume: AssumeOption = False,
-    transcript: TranscriptOption = None,
-    lenient: LenientOption = False,
-    lang: LangOption = None,
-    json: JsonOption = False,
 ) -> None:
     """Plan a request: what was understood, where, and what it will take."""
     import os
@@ -47,21 +31,22 @@ def plan(
     from fieldhand.cli.asking import Replies, given_words, plan_and_ask
     from fieldhand.cli.inputs import open_ground, write_file
     from fieldhand.cli.pictures import draw_plan, draw_question
-    from fieldhand.language import message, spoken
-    from fieldhand.planning.planner import Planned
+    from fieldhand.language import message
+    from fieldhand.planning.planner import Clarify, Planned
     from fieldhand.task.codec import encode
 
-    language = spoken(lang, os.environ)
-    ground = open_ground(site, robot, lenient=lenient, language=language)
-    chosen = mission.make_planner(planner, os.environ, transcript)
-    replies = Replies(
-        given=tuple(answer or ()), assume=assume, ask=not json, progress=None if json else language, language=language
-    )
-    if picture is not None:
-        replies = replace(replies, draw=lambda asked: draw_question(picture, asked, ground))
-    request, outcome = plan_and_ask(given_words(request), ground, chosen, replies)
+    language = display.language
+    ground = open_ground(place.site, place.robot, lenient=place.lenient, language=language)
+    planner = mission.make_planner(planning.planner, os.environ, planning.transcript)
+
+    def draw(question: Clarify) -> None:
+        if picture is not None:
+            draw_question(picture, question, ground)
+
+    replies = Replies.of(planning, display, draw)
+    request, outcome = plan_and_ask(given_words(request), ground, planner, replies)
     if not isinstance(outcome, Planned):
-        if json:
+        if display.json:
             show.print_json(show.outcome_record(outcome))
             raise SystemExit(2)
         show.fail_outcome(request, outcome, language)
@@ -71,11 +56,11 @@ def plan(
         write_file(output, document)
     if picture is not None:
         draw_plan(picture, review, ground, language)
-    if json:
+    if display.json:
         record = show.outcome_record(outcome) | show.review_record(review, language) | {"xml": document.decode()}
         show.print_json(record)
     else:
-        # Whoever approves is shown every line; here those that are the same in each plan say nothing new.
+        # Lines that are the same for every plan are only printed for approval.
         show.show_review(review, language, usual=False)
         if output is not None:
             show.out.print(language.say(message("Task: {file}", file=str(output))))

@@ -1,4 +1,4 @@
-"""What belongs to a mission that was approved or carried out: its folder, a signed bundle, or single files."""
+"""Missions that were approved or carried out, read from a mission's folder, a signed mission, or single files."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from fieldhand.cli.bundles import is_bundle, read_unverified, require_site
 from fieldhand.cli.inputs import open_ground
+from fieldhand.cli.options import RecordedOptions
 from fieldhand.errors import InputError
 from fieldhand.language import ENGLISH, Language, message
 from fieldhand.mission.documents import SiteAndRobot
@@ -22,13 +23,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class RecordedPlan:
-    """What was to be done, where and with what.
+    """Task, site and robot of a recorded mission.
 
     Attributes:
-        document: The bytes of the Task.
-        authorization: Who approved it; None where that is not known.
-        signed: Whose signature it has, in words; empty where there is none.
-        hashes: SHA-256 of what else it rests on, each with its name.
+        task, document: The Task, and the bytes of its document.
+        ground: Site and robot.
+        authorization: Approval of the Task; None if it is unknown.
+        signed: Name of the signer in words; empty for an unsigned mission.
+        hashes: Name and SHA-256 of further files that the mission depends on.
     """
 
     task: Task
@@ -39,50 +41,86 @@ class RecordedPlan:
     hashes: Sequence[tuple[str, str]] = ()
 
 
-def folder_of(given: str | None, under: Path | None) -> Path | None:
-    """The folder of a mission, where none is given that of the one begun last; None where a file is given.
+def recorded_mission(
+    source: str | None, task: Path | None, options: RecordedOptions, language: Language
+) -> tuple[RecordedPlan, MissionLog]:
+    """Return the plan and the event log of a recorded mission.
+
+    Args:
+        source: Name or folder of a stored mission, or an event log; None for the mission begun last.
+        task: Task document or signed mission of an event log.
+        options: Site and robot of an event log, and folder of all missions.
+        language: Language of notes about the site.
+
+    Raises:
+        InputError: The log comes without its Task or site, or a stored mission with options that it brings itself.
+        JournalError: There is no such mission, or its folder is damaged.
+    """
+    from fieldhand.finished_missions import read_log
+
+    folder = folder_of(source, options.missions)
+    if folder is not None:
+        require_nothing_beside(folder, task=task, site=options.site, robot=options.robot)
+        return plan_of_folder(folder), log_of_folder(folder)
+    if task is None:
+        raise InputError(
+            message("what was carried out is not given"),
+            where="--task",
+            advice=message("give the Task document or the signed mission; or the mission by its name"),
+        )
+    plan = plan_of_files(task, options.site, options.robot, lenient=options.lenient, language=language)
+    return plan, read_log(Path(source or ""))
+
+
+def folder_of(source: str | None, parent: Path | None) -> Path | None:
+    """Return the folder of a stored mission, by default of the one begun last; None if ``source`` is a file.
+
+    Args:
+        source: Name or folder of a mission, or name of a file.
+        parent: Folder of all missions; None for the default.
 
     Raises:
         JournalError: There is no mission of that name.
-        InputError: What is given is the name of a file, and there is none.
+        InputError: ``source`` looks like the name of a file, and there is no such file.
     """
     from fieldhand import missions
 
-    path = Path(given or "")
-    if given is not None and path.suffix and not path.exists():
+    path = Path(source or "")
+    if source is not None and path.suffix and not path.exists():
         advice = message("give the event log of a mission, or the name or folder of a mission")
-        raise InputError(message("there is no such file"), where=given, advice=advice)
-    if given is not None and (path.is_file() or (path.suffix and not path.is_dir())):
+        raise InputError(message("there is no such file"), where=source, advice=advice)
+    if source is not None and (path.is_file() or (path.suffix and not path.is_dir())):
         return None
-    return missions.find(under or missions.missions_folder(os.environ), given)
+    return missions.find(parent or missions.missions_folder(os.environ), source)
 
 
 def plan_of_folder(folder: Path) -> RecordedPlan:
-    """What a mission's folder holds; every byte has to be the one that it began with.
+    """Return the plan in a mission's folder, and check that no file was changed since the mission began.
 
     Raises:
-        JournalError, NotApprovedError, BundleError: It does not.
+        JournalError: A file was changed or cannot be read.
+        NotApprovedError, BundleError: The Task is not the approved one, or the signed mission is damaged.
     """
     from fieldhand import missions
 
     contents = missions.read_folder(folder)
-    given = contents.mission()
+    stored = contents.mission()
     bundle = None if contents.signed is None else read_unverified(contents.signed, str(folder))
     return RecordedPlan(
-        task=given.authorized.task,
+        task=stored.authorized.task,
         document=contents.files["task.xml"],
-        ground=SiteAndRobot(site=given.site, robot=given.robot),
-        authorization=given.authorized.authorization,
+        ground=SiteAndRobot(site=stored.site, robot=stored.robot),
+        authorization=stored.authorized.authorization,
         signed="" if bundle is None else bundle.signed,
         hashes=() if bundle is None else (("signed mission", bundle.sha256),),
     )
 
 
 def log_of_folder(folder: Path) -> MissionLog:
-    """The log of a mission, as far as it is safe on the disk.
+    """Return the events of a stored mission that are written to disk.
 
     Raises:
-        InputError: It has not begun.
+        InputError: There is no event yet.
     """
     from fieldhand import missions
     from fieldhand.finished_missions import MissionLog
@@ -98,10 +136,10 @@ def log_of_folder(folder: Path) -> MissionLog:
 def plan_of_files(
     task: Path, site: str | None, robot: str | None, *, lenient: bool, language: Language = ENGLISH
 ) -> RecordedPlan:
-    """A Task document with site and robot, or a signed mission, which has its own.
+    """Return the plan of a Task document with its site and robot, or of a signed mission, which contains them.
 
     Raises:
-        InputError: One of them is missing, cannot be used, or is given beside a signed mission.
+        InputError: A file is missing or cannot be read, or site or robot is given for a signed mission.
     """
     from fieldhand import mission
 
@@ -114,10 +152,10 @@ def plan_of_files(
 
 
 def plan_of_bundle(file: Path) -> RecordedPlan:
-    """What a signed mission holds, whoever signed it.
+    """Return the plan in a signed mission, without requiring that its key is trusted.
 
     Raises:
-        BundleError: It is broken.
+        BundleError: The file is damaged.
     """
     from fieldhand.approval.bundle.container import read_bundle_file
     from fieldhand.approval.bundle.opening import authorization_of
@@ -134,10 +172,10 @@ def plan_of_bundle(file: Path) -> RecordedPlan:
 
 
 def ground_of(site: str, robot: str | None, *, lenient: bool, language: Language = ENGLISH) -> SiteAndRobot:
-    """Site and robot; those of a signed mission, where one is given for the site.
+    """Return site and robot; if ``site`` is a signed mission, those that it contains.
 
     Raises:
-        SiteError, ProfileError, BundleError: One of them cannot be used.
+        SiteError, ProfileError, BundleError: A file cannot be used.
     """
     if is_bundle(site):
         require_nothing_beside(Path(site), robot=robot)
@@ -146,10 +184,10 @@ def ground_of(site: str, robot: str | None, *, lenient: bool, language: Language
 
 
 def require_nothing_beside(brings: Path, **given: object) -> None:
-    """Refuse options that say again what a signed mission or a mission's folder says.
+    """Require that options are not given whose values come from a signed mission or a mission's folder.
 
     Raises:
-        InputError: One was given.
+        InputError: One is given.
     """
     for option, value in given.items():
         if value is not None:

@@ -1,4 +1,4 @@
-"""``fieldhand replay``: a mission drawn again from its event log."""
+"""``fieldhand replay``: draw a mission as an animation from its event log."""
 
 from __future__ import annotations
 
@@ -7,31 +7,24 @@ from typing import Annotated
 
 import typer
 
-from fieldhand.cli.options import JsonOption, LenientOption, MissionsOption, RecordedSiteOption
+from fieldhand.cli.option_groups import grouped
+from fieldhand.cli.options import JsonOption, RecordedArgument, RecordedOptions
 from fieldhand.cli.outputs import to_named_file
 
 _ENDINGS = (".html", ".gif", ".mp4")
 
 
+@grouped("output source site robot seconds lenient missions json")
 def replay(
+    recorded: RecordedOptions,
     output: Annotated[
         Path,
         typer.Option(
             "-o", "--output", callback=to_named_file, help="Where to write: .html, .gif, or .mp4 (needs ffmpeg)."
         ),
     ],
-    given: Annotated[
-        str | None,
-        typer.Argument(
-            metavar="[MISSION|EVENTS]",
-            help="Name or folder of a mission, else the one begun last; or an event log (JSON lines or MCAP).",
-        ),
-    ] = None,
-    site: RecordedSiteOption = None,
-    robot: Annotated[str | None, typer.Option("--robot", help="Of a log: the robot; husky if none is given.")] = None,
+    source: RecordedArgument = None,
     seconds: Annotated[float, typer.Option("--seconds", min=0.5, max=120, help="Length of a GIF or MP4.")] = 10.0,
-    lenient: LenientOption = False,
-    kept: MissionsOption = None,
     json: JsonOption = False,
 ) -> None:
     """Draw a mission again as an animation: the way, the captures, the clock and the battery."""
@@ -47,13 +40,13 @@ def replay(
     if output.suffix.lower() not in _ENDINGS:
         what = f"{output.suffix or 'no ending'} is no kind of animation"
         raise OutputError(what, where=str(output), advice=f"end its name in {', '.join(_ENDINGS)}")
-    folder = folder_of(given, kept)
+    folder = folder_of(source, recorded.missions)
     if folder is not None:
-        require_nothing_beside(folder, site=site, robot=robot)
+        require_nothing_beside(folder, site=recorded.site, robot=recorded.robot)
         log, ground = log_of_folder(folder).events, plan_of_folder(folder).ground
     else:
-        log = read_log(Path(given or "")).events
-        ground = ground_of(require_site(site), robot, lenient=lenient)
+        log = read_log(Path(source or "")).events
+        ground = ground_of(require_site(recorded.site), recorded.robot, lenient=recorded.lenient)
     film = film_of(log, ground.site, tell=EventText(ground.robot).line)
     if output.suffix.lower() == ".html":
         write_file(output, page_of(film, ground.site))

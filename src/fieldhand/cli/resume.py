@@ -1,100 +1,72 @@
-"""``fieldhand resume``: go on with a mission that was cut off, or that is paused."""
+"""``fieldhand resume``: continue a mission that was interrupted or is paused."""
 
 from __future__ import annotations
 
 import os
 
-from fieldhand.cli.driver_options import DomainOption, DriverOption, NamespaceOption, OnOption, SimTimeOption
-from fieldhand.cli.options import (
-    EventsOption,
-    JsonOption,
-    LangOption,
-    LeaveOption,
-    McapOption,
-    MissionArgument,
-    MissionsOption,
-    ProductionOption,
-    SpeedOption,
-)
+from fieldhand.cli.driver_options import DriverOptions
+from fieldhand.cli.option_groups import grouped
+from fieldhand.cli.options import DisplayOptions, MissionArgument, OutputOptions, SpeedOption, StoreOptions
 
 
+@grouped("mission events output speed on domain namespace sim_time driver_option mcap production lang missions json")
 def resume(
+    outputs: OutputOptions,
+    driver: DriverOptions,
+    store: StoreOptions,
+    display: DisplayOptions,
     mission: MissionArgument = None,
-    events: EventsOption = None,
-    output: LeaveOption = None,
     speed: SpeedOption = None,
-    on: OnOption = None,
-    domain: DomainOption = None,
-    namespace: NamespaceOption = None,
-    sim_time: SimTimeOption = False,
-    driver_option: DriverOption = None,
-    mcap: McapOption = None,
-    production: ProductionOption = False,
-    lang: LangOption = None,
-    kept: MissionsOption = None,
-    json: JsonOption = False,
 ) -> None:
     """Go on with a mission that a power cut has cut off, from where it was; or end the pause of one under way."""
     from dataclasses import replace
 
-    from fieldhand import finished_missions, missions
+    from fieldhand import finished_missions
     from fieldhand import mission as steps
+    from fieldhand import missions as stored_missions
     from fieldhand.approval.production import require_unsigned_allowed
     from fieldhand.cli import show
-    from fieldhand.cli.bundles import tell_signer, verify
-    from fieldhand.cli.driver_options import connected, connection_again, refuse_simulation_options
-    from fieldhand.cli.flight import Orders, conclude, go_on, leave_plan, parse_speed
+    from fieldhand.cli.bundles import approval_line, verify
+    from fieldhand.cli.driver_options import connected, connection_again, parse_speed, refuse_simulation_options
+    from fieldhand.cli.options import ApprovalOptions
+    from fieldhand.cli.run_mission import RunSettings, conclude, resume_mission, write_plan
     from fieldhand.cli.tell import tell
-    from fieldhand.language import message, spoken
+    from fieldhand.language import message
     from fieldhand.mission.documents import SiteAndRobot
 
-    language = spoken(lang, os.environ)
-    pace = parse_speed(speed)
-    folder = missions.find(kept or missions.missions_folder(os.environ), mission)
-    if missions.is_running(folder):
-        tell(str(folder), folder.parent, "continue", "the operator", message("goes on"), json=json, language=language)
+    language = display.language
+    simulation_speed = parse_speed(speed)
+    folder = stored_missions.find(store.missions or stored_missions.missions_folder(os.environ), mission)
+    if stored_missions.is_running(folder):
+        tell(str(folder), folder.parent, "continue", "the operator", message("goes on"), display)
         return
-    contents = missions.read_folder(folder)
-    connection = connection_again(
-        folder.name,
-        contents.departure,
-        on,
-        domain,
-        namespace,
-        sim_time=sim_time,
-        environ=os.environ,
-        options=driver_option,
-    )
+    contents = stored_missions.read_folder(folder)
+    connection = connection_again(folder.name, contents.departure, driver, os.environ)
     refuse_simulation_options(connection, world=None, speed=speed)
     if contents.signed is None:
-        require_unsigned_allowed(os.environ, asked=production)
-    given = contents.mission(verify)
-    if given.bundle is not None and not json:
-        show.out.print(language.say(tell_signer(given.bundle)))
-    if missions.last_order(folder) == "pause":
-        missions.order(folder, "continue", "resumed by the operator")
-    orders = Orders(
-        ask=False,
-        by=None,
-        world=given.world,
-        seed=given.seed,
-        speed=pace,
-        log=events,
-        mcap=mcap,
-        folder=output,
+        require_unsigned_allowed(os.environ, asked=store.production)
+    stored = contents.mission(verify)
+    if stored.bundle is not None and not display.json:
+        show.out.print(language.say(approval_line(stored.bundle)))
+    if stored_missions.last_order(folder) == "pause":
+        stored_missions.order(folder, "continue", "resumed by the operator")
+    settings = RunSettings(
+        approval=ApprovalOptions(yes=True),
+        display=display,
+        outputs=outputs,
+        world=stored.world,
+        seed=stored.seed,
+        speed=simulation_speed,
         history=finished_missions.history_folder(os.environ),
-        quiet=json,
-        language=language,
-        bundle=given.bundle,
     )
-    ground = SiteAndRobot(site=given.site, robot=given.robot)
-    review = steps.review(given.authorized.task, given.site, given.robot)
-    approved = steps.ApprovedMission(
-        authorized=given.authorized, site=given.site, robot=given.robot, estimate=review.estimate
-    )
-    with connected(ground, given.authorized.task, connection, quiet=json, language=language) as vehicle:
+    ground, task = SiteAndRobot(site=stored.site, robot=stored.robot), stored.authorized.task
+    review = steps.review(task, stored.site, stored.robot)
+    approved = steps.approved_earlier(stored.authorized, review)
+    with connected(ground, task, connection, display) as vehicle:
         if vehicle is not None:
-            missions.require_in_place(given.site, given.robot, vehicle.driver)
-        leave_plan(ground, review, None, orders)
-        done = go_on(given, replace(orders, vehicle=vehicle))
-        raise SystemExit(conclude(approved, done, orders, given.planner, given.id))
+            stored_missions.require_in_place(stored.site, stored.robot, vehicle.driver)
+        write_plan(ground, review, None, settings)
+        events = resume_mission(stored, replace(settings, vehicle=vehicle))
+        raise SystemExit(
+            conclude(approved, events, settings, planner=stored.planner, name=stored.id, bundle=stored.bundle)
+        )

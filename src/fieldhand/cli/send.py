@@ -1,4 +1,4 @@
-"""``fieldhand send``: a signed mission to a robot, now or when it is back."""
+"""``fieldhand send``: send a signed mission to a robot; one that cannot be reached gets it later from the outbox."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from fieldhand.cli.links import CaOption, InsecureOption, PinOption, RetrySeedOption, TokenFileOption
+from fieldhand.cli.links import LinkOptions, RetrySeedOption
+from fieldhand.cli.option_groups import grouped
 from fieldhand.cli.options import JsonOption
 
 if TYPE_CHECKING:
@@ -16,7 +17,9 @@ if TYPE_CHECKING:
     from fieldhand.delivery.outbox_sender import OutboxSender
 
 
+@grouped("file to start pending watch token_file ca pin insecure seed json")
 def send(
+    link: LinkOptions,
     file: Annotated[Path | None, typer.Argument(help="A signed mission (.mission).")] = None,
     to: Annotated[str | None, typer.Option("--to", help="Address of the robot's agent: https://robot:8443.")] = None,
     start: Annotated[bool, typer.Option("--start", help="Start it once it has arrived.")] = False,
@@ -24,10 +27,6 @@ def send(
     watch: Annotated[
         bool, typer.Option("--watch", help="Send what is in the outbox as robots come back, until it is empty.")
     ] = False,
-    token_file: TokenFileOption = None,
-    ca: CaOption = None,
-    pin: PinOption = None,
-    insecure: InsecureOption = False,
     seed: RetrySeedOption = None,
     json: JsonOption = False,
 ) -> None:
@@ -37,36 +36,36 @@ def send(
 
     if (file is None) == (not pending and not watch) or (file is None) != (to is None):
         raise InputError("give a mission with --to, or --pending, or --watch", advice="fieldhand send --help says more")
-    outbox_sender = _posting(seed)
+    outbox_sender = _make_sender(seed)
     if file is not None and to is not None:
-        posted = [_send(outbox_sender, file, to, start=start, token_file=token_file, ca=ca, pin=pin, insecure=insecure)]
-        _tell(posted, quiet=json)
+        sent = [_send(outbox_sender, file, to, link, start=start)]
+        _print(sent, quiet=json)
     else:
-        posted = [] if watch else list(outbox_sender.post_due(all_of_them=True))
-        _tell(posted, quiet=json)
+        sent = [] if watch else list(outbox_sender.post_due(all_of_them=True))
+        _print(sent, quiet=json)
     if watch:
-        posted += _watch(outbox_sender, quiet=json)
-    last = {entry.n: entry for entry in posted}
+        sent += _watch(outbox_sender, quiet=json)
+    last = {entry.n: entry for entry in sent}
     if json:
         show.print_json([record(entry) for entry in last.values()])
-    elif not posted:
+    elif not sent:
         show.out.print("Nothing waits in the outbox.")
     raise SystemExit(0 if all(entry.state == "delivered" for entry in last.values()) else 1)
 
 
 def record(entry: OutboxEntry) -> dict[str, Any]:
-    """A mission of the outbox, as JSON."""
+    """Return an entry of the outbox as JSON."""
     from dataclasses import asdict
 
     return asdict(entry)
 
 
 def line(entry: OutboxEntry) -> str:
-    """A mission of the outbox, in a line."""
+    """Return an entry of the outbox as one line."""
     return f"{entry.name} for {entry.url}: {entry.state}; {entry.said or 'not tried yet'}"
 
 
-def _posting(seed: int | None) -> OutboxSender:
+def _make_sender(seed: int | None) -> OutboxSender:
     import random
     import time
 
@@ -79,20 +78,10 @@ def _posting(seed: int | None) -> OutboxSender:
     return OutboxSender(outbox=outbox, connect=client_for, check=sendable, clock=time.time, rng=rng)
 
 
-def _send(
-    outbox_sender: OutboxSender,
-    file: Path,
-    to: str,
-    *,
-    start: bool,
-    token_file: Path | None,
-    ca: Path | None,
-    pin: str | None,
-    insecure: bool,
-) -> OutboxEntry:
-    """Check all that can be checked here, put the mission into the outbox, and try to send it."""
+def _send(outbox_sender: OutboxSender, file: Path, to: str, link: LinkOptions, *, start: bool) -> OutboxEntry:
+    """Check a mission and the options as far as possible, put it into the outbox, and try to send it."""
     from fieldhand.approval.bundle.container import read_bundle_file
-    from fieldhand.cli.links import sendable, trust_of
+    from fieldhand.cli.links import sendable
     from fieldhand.delivery.agent_token import read_token
     from fieldhand.delivery.outbox import OutboxEntry
     from fieldhand.delivery.robot_client import require_httpx
@@ -101,9 +90,9 @@ def _send(
     require_httpx()
     data = read_bundle_file(file)
     found = sendable(data, str(file))
-    trust = trust_of(ca, pin, insecure=insecure)
+    trust = link.trust()
     url = require_address(to, trust)
-    read_token(os.environ, token_file)
+    read_token(os.environ, link.token_file)
     now = outbox_sender.clock()
     entry = OutboxEntry(
         sha256=found.sha256,
@@ -113,7 +102,7 @@ def _send(
         ca=trust.ca,
         pin=trust.pin,
         plain=trust.plain,
-        token_file="" if token_file is None else str(token_file.absolute()),
+        token_file="" if link.token_file is None else str(link.token_file.absolute()),
         queued_at=now,
         next_at=now,
     )
@@ -121,19 +110,19 @@ def _send(
 
 
 def _watch(outbox_sender: OutboxSender, *, quiet: bool) -> list[OutboxEntry]:
-    """Send what waits, each when its time has come, until nothing waits."""
+    """Send each waiting mission when it is due, until none waits."""
     import time
 
-    posted: list[OutboxEntry] = []
+    sent: list[OutboxEntry] = []
     while (wait := outbox_sender.next_s()) is not None:
         time.sleep(wait)
         tried = outbox_sender.post_due()
-        _tell(tried, quiet=quiet)
-        posted += tried
-    return posted
+        _print(tried, quiet=quiet)
+        sent += tried
+    return sent
 
 
-def _tell(entries: list[OutboxEntry] | tuple[OutboxEntry, ...], *, quiet: bool) -> None:
+def _print(entries: list[OutboxEntry] | tuple[OutboxEntry, ...], *, quiet: bool) -> None:
     from fieldhand.cli import show
 
     for entry in () if quiet else entries:

@@ -1,15 +1,17 @@
-"""``fieldhand sim-robot``: a simulated robot that is reached over ROS 2, with no ROS installed."""
+"""``fieldhand sim-robot``: a simulated robot with a ROS 2 interface, which needs no ROS installation."""
 
 from __future__ import annotations
 
 import hashlib
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from fieldhand.cli.driver_options import NamespaceOption, namespace_of
-from fieldhand.cli.options import LenientOption, RobotOption, SiteOption
+from fieldhand.cli.option_groups import grouped
+from fieldhand.cli.options import SiteAndRobotOptions
 from fieldhand.cli.outputs import refuse_standard_output, to_whole_file
 from fieldhand.execution.drivers.ros2.domain import MOST_DOMAIN
 
@@ -19,13 +21,25 @@ if TYPE_CHECKING:
     from fieldhand.robot.bindings import Ros2Bindings
     from fieldhand.robot.model import RobotProfile
 
-#: Faster, and between two looks at its messages a robot would have driven for minutes.
+#: Highest speed: above it, the robot would drive for minutes between two checks of its messages.
 _FASTEST = 1000.0
 
 
+@dataclass(frozen=True, kw_only=True)
+class TransportOptions:
+    """ROS 2 transport of the simulated robot."""
+
+    on: Annotated[str, typer.Option("--on", metavar="dds|rclpy", help="What carries its messages.")] = "dds"
+    domain: Annotated[
+        int | None, typer.Option("--domain", min=0, max=MOST_DOMAIN, help="ROS domain; else ROS_DOMAIN_ID, else 0.")
+    ] = None
+    namespace: NamespaceOption = None
+
+
+@grouped("site robot world seed speed on domain namespace state lenient json")
 def sim_robot(
-    site: SiteOption,
-    robot: RobotOption = "husky",
+    place: SiteAndRobotOptions,
+    transport: TransportOptions,
     world: Annotated[Path | None, typer.Option("--world", help="What sensors read, and what goes wrong.")] = None,
     seed: Annotated[
         int | None, typer.Option("--seed", min=0, help="Same seed, same readings and legs; else the world's, else 0.")
@@ -33,21 +47,16 @@ def sim_robot(
     speed: Annotated[
         float, typer.Option("--speed", help="Its seconds in one of ours; other than 1, the time is on /clock.")
     ] = 1.0,
-    on: Annotated[str, typer.Option("--on", metavar="dds|rclpy", help="What carries its messages.")] = "dds",
-    domain: Annotated[
-        int | None, typer.Option("--domain", min=0, max=MOST_DOMAIN, help="ROS domain; else ROS_DOMAIN_ID, else 0.")
-    ] = None,
-    namespace: NamespaceOption = None,
     state: Annotated[
         Path | None,
         typer.Option(
             "--state", callback=to_whole_file, help="Go on from this file if it is there, and keep it up to date."
         ),
     ] = None,
-    lenient: LenientOption = False,
     json: Annotated[bool, typer.Option("--json", help="Print one JSON object a line instead of text.")] = False,
 ) -> None:
     """Be a robot on ROS 2 that serves what its profile binds: Nav2's action, sensors, battery, fix. Ctrl-C ends it."""
+    from contextlib import closing
     from dataclasses import replace
 
     from fieldhand import mission
@@ -58,52 +67,46 @@ def sim_robot(
     from fieldhand.execution.drivers.ros2.simulated_robot.main_loop import run_robot
     from fieldhand.execution.drivers.ros2.simulated_robot.robot import SimulatedRobot, bindings_of
     from fieldhand.execution.drivers.ros2.simulated_robot.state_file import Identity, read_state, write_state
-    from fieldhand.execution.drivers.simulation.world import World
-    from fieldhand.execution.drivers.simulation.world_file import load_world
     from fieldhand.execution.interrupts import ctrl_c_as_request
 
-    clock = ScaledClock(_paced(speed))
-    ground = open_ground(site, robot, lenient=lenient)
-    given = World() if world is None else load_world(world)
-    mission.check_world(given, ground.site, ground.robot)
+    clock = ScaledClock(_checked_speed(speed))
+    ground = open_ground(place.site, place.robot, lenient=place.lenient)
+    simulated_world = mission.read_world(world, ground.site, ground.robot)
     bindings = bindings_of(ground.robot)
-    if namespace is not None:
-        bindings = replace(bindings, namespace=namespace_of(namespace))
+    if transport.namespace is not None:
+        bindings = replace(bindings, namespace=namespace_of(transport.namespace))
     profile = replace(ground.robot, ros2=bindings)
-    made_for = Identity(site=ground.site.content_sha256, robot=profile.sha256, world=_hash_of(given))
+    identity = Identity(site=ground.site.content_sha256, robot=profile.sha256, world=_hash_of(simulated_world))
     refuse_standard_output(state, "--state")
-    saved = None if state is None else read_state(state, made_for)
+    saved = None if state is None else read_state(state, identity)
     interfaces = Interfaces.of(bindings.distro, bindings.interfaces)
-    node = open_transport(on, interfaces, domain)
-    try:
+    with closing(open_transport(transport.on, interfaces, transport.domain)) as node:
         sim_time = bindings.use_sim_time or speed != 1.0
         simulated = SimulatedRobot(
             ground.site,
             profile,
-            given,
+            simulated_world,
             node,
             interfaces,
             clock,
-            seed=given.seed if seed is None else seed,
+            seed=simulated_world.seed if seed is None else seed,
             sim_time=sim_time,
             speed=speed,
             report=_print_report_json if json else _print_report,
             state=saved,
         )
-        _greet(profile, bindings, ground.site.name, sim_time=sim_time, goes_on=saved is not None, json=json)
+        _print_ready(profile, bindings, ground.site.name, sim_time=sim_time, goes_on=saved is not None, json=json)
         with ctrl_c_as_request() as ended:
             why = run_robot(
                 simulated,
                 clock,
                 ended=ended,
-                save=lambda kept: None if state is None else write_state(state, kept, made_for),
+                save=lambda kept: None if state is None else write_state(state, kept, identity),
             )
-    finally:
-        node.close()
-    _part(why, json=json)
+    _print_end(why, json=json)
 
 
-def _paced(speed: float) -> float:
+def _checked_speed(speed: float) -> float:
     from fieldhand.errors import InputError
 
     if not 0 < speed <= _FASTEST:
@@ -115,10 +118,10 @@ def _hash_of(world: World) -> str:
     return "" if world.data is None else hashlib.sha256(world.data).hexdigest()
 
 
-def _greet(
+def _print_ready(
     profile: RobotProfile, bindings: Ros2Bindings, site: str, *, sim_time: bool, goes_on: bool, json: bool
 ) -> None:
-    """Say what can be reached now."""
+    """Print that the robot is ready, and the names under which it is reached."""
     if json:
         _line(
             event="ready",
@@ -139,7 +142,7 @@ def _greet(
 
 
 def _print_report(report: GoalReport) -> None:
-    """A line a goal."""
+    """Print the report of a goal as one line."""
     facts = [f"{report.metres:.1f} m"] if report.metres else []
     if report.end != "rejected":
         facts += [f"{report.took_s:.1f} s", *(f"{name} {value:.4g}" for name, value in report.readings.items())]
@@ -155,7 +158,7 @@ def _print_report_json(report: GoalReport) -> None:
     _line(event="goal", **asdict(report))
 
 
-def _part(why: str, *, json: bool) -> None:
+def _print_end(why: str, *, json: bool) -> None:
     if json:
         _line(event="ended", why=why)
     else:
@@ -169,8 +172,7 @@ def _print(text: str) -> None:
 
 
 def _line(**values: Any) -> None:
-    """One JSON object on a line of its own, at once: a program may be waiting for it."""
-
+    """Print a JSON object on one line, unbuffered, for programs that wait for it."""
     from fieldhand.hidden_characters import json_text
 
     typer.echo(json_text(values))

@@ -1,4 +1,4 @@
-"""``fieldhand pause``, ``abort`` and ``return``: tell a mission something from another process."""
+"""``fieldhand pause``, ``abort`` and ``return``: send a command to a mission from another process."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fieldhand.cli.options import JsonOption, LangOption, MissionArgument, MissionsOption
-from fieldhand.language import Language, message, spoken
+from fieldhand.cli.options import DisplayOptions, JsonOption, LangOption, MissionArgument, MissionsOption
+from fieldhand.language import message
 
 if TYPE_CHECKING:
     from fieldhand.execution.operator_commands import FileCommand
@@ -28,7 +28,7 @@ def pause(
     json: JsonOption = False,
 ) -> None:
     """Let the robot stand still, as soon as the capture in hand is made; `fieldhand resume` lets it go on."""
-    tell(mission, kept, "pause", because, message("paused"), json=json, language=spoken(lang, os.environ))
+    tell(mission, kept, "pause", because, message("paused"), DisplayOptions(lang=lang, json=json))
 
 
 def abort(
@@ -39,7 +39,7 @@ def abort(
     json: JsonOption = False,
 ) -> None:
     """Stop here, at once; the mission is over."""
-    tell(mission, kept, "abort", because, message("stopped"), json=json, language=spoken(lang, os.environ))
+    tell(mission, kept, "abort", because, message("stopped"), DisplayOptions(lang=lang, json=json))
 
 
 def come_home(
@@ -50,32 +50,41 @@ def come_home(
     json: JsonOption = False,
 ) -> None:
     """Leave the rest and come home; the mission is over when the robot is there."""
-    tell(mission, kept, "return", because, message("coming home"), json=json, language=spoken(lang, os.environ))
+    tell(mission, kept, "return", because, message("coming home"), DisplayOptions(lang=lang, json=json))
 
 
 def tell(
-    name: str | None, under: Path | None, said: FileCommand, because: str, done: str, *, json: bool, language: Language
+    name: str | None, parent: Path | None, command: FileCommand, because: str, done: str, display: DisplayOptions
 ) -> None:
-    """Tell a mission something, and say whether it has heard it: exit status 1 where not, or not yet.
+    """Send a command to a mission and print its answer; exit status 1 if it does not answer in time.
+
+    Args:
+        name: Name of the mission; None for the one begun last.
+        parent: Folder of all missions; None for the default.
+        command: Command of the operator.
+        because: Reason, for the event log.
+        done: Message that the mission has obeyed.
+        display: Language, and JSON instead of text.
 
     Raises:
-        ExecutionError: It has ended.
+        ExecutionError: The mission has ended.
     """
     import time
 
     from fieldhand import missions
     from fieldhand.cli import show
 
-    folder = missions.find(under or missions.missions_folder(os.environ), name)
+    language = display.language
+    folder = missions.find(parent or missions.missions_folder(os.environ), name)
     until = time.monotonic() + ANSWER_WITHIN_S
 
     def wait() -> bool:
         time.sleep(0.02)
         return time.monotonic() < until
 
-    heard = missions.order(folder, said, because, wait=wait)
-    if json:
-        show.print_json({"mission": folder.name, "order": said, "heard": heard})
+    heard = missions.order(folder, command, because, wait=wait)
+    if display.json:
+        show.print_json({"mission": folder.name, "order": command, "heard": heard})
     elif heard:
         show.out.print(language.say(message("mission {id}: {done}", id=folder.name, done=done)))
     elif missions.is_running(folder):

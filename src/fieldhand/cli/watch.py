@@ -1,4 +1,4 @@
-"""``fieldhand watch``: a mission on a robot elsewhere, followed as it happens or fetched when it is over."""
+"""``fieldhand watch``: print the events of a mission on a robot as they happen."""
 
 from __future__ import annotations
 
@@ -7,15 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fieldhand.cli.links import (
-    CaOption,
-    InsecureOption,
-    MissionOfRobot,
-    PinOption,
-    RetrySeedOption,
-    TokenFileOption,
-    UrlArgument,
-)
+from fieldhand.cli.links import LinkOptions, MissionOfRobot, RetrySeedOption, UrlArgument
+from fieldhand.cli.option_groups import grouped
 from fieldhand.cli.options import JsonOption
 from fieldhand.cli.outputs import to_file
 
@@ -24,17 +17,15 @@ if TYPE_CHECKING:
     from fieldhand.errors import UnreachableError
 
 
+@grouped("url mission once events token_file ca pin insecure seed json")
 def watch(
     url: UrlArgument,
+    link: LinkOptions,
     mission: MissionOfRobot = None,
     once: Annotated[bool, typer.Option("--once", help="Fetch what is there, and wait for nothing.")] = False,
     events: Annotated[
         Path | None, typer.Option("--events", callback=to_file, help="Write the event log (JSON lines) here, whole.")
     ] = None,
-    token_file: TokenFileOption = None,
-    ca: CaOption = None,
-    pin: PinOption = None,
-    insecure: InsecureOption = False,
     seed: RetrySeedOption = None,
     json: JsonOption = False,
 ) -> None:
@@ -47,7 +38,7 @@ def watch(
     from contextlib import ExitStack, closing
 
     from fieldhand.cli import show
-    from fieldhand.cli.links import find_mission, open_robot_client, state_line, trust_of
+    from fieldhand.cli.links import find_mission, state_line
     from fieldhand.delivery.follow_mission import follow
     from fieldhand.delivery.json_models import LONGEST_WAIT_S
     from fieldhand.execution.event_log import EventLog
@@ -57,8 +48,8 @@ def watch(
         time.sleep(wait_s)
 
     with ExitStack() as stack:
-        link = stack.enter_context(closing(open_robot_client(url, token_file, trust_of(ca, pin, insecure=insecure))))
-        found = find_mission(link, mission)
+        client = stack.enter_context(closing(link.open(url)))
+        found = find_mission(client, mission)
         log = None if events is None else stack.enter_context(EventLog(events))
 
         def take(event: EventLine) -> None:
@@ -70,7 +61,7 @@ def watch(
         if not json:
             show.out.print(state_line(found))
         rng = random.Random(seed)  # noqa: S311
-        last = follow(link, found.bundle, take=take, once=once, wait_s=LONGEST_WAIT_S, lost=lost, rng=rng)
+        last = follow(client, found.bundle, take=take, once=once, wait_s=LONGEST_WAIT_S, lost=lost, rng=rng)
     if json:
         show.print_json(last.model_dump())
     else:
@@ -79,18 +70,18 @@ def watch(
 
 
 def _show(event: EventLine) -> None:
-    """An event in a line: its kind, and what it says in short."""
+    """Print an event as one line: number, time, kind and short fields."""
     import json
 
     from fieldhand.cli import show
 
     try:
-        said = json.loads(event.line)
+        fields = json.loads(event.line)
     except ValueError:
-        said = None
-    if not isinstance(said, dict):
+        fields = None
+    if not isinstance(fields, dict):
         show.out.print(f"{event.n:>5}  {event.line[:200]}")
         return
-    kind, t = said.pop("event", "?"), said.pop("t", 0.0)
-    words = [f"{key} {value}" for key, value in said.items() if isinstance(value, str | int | float) and value != ""]
+    kind, t = fields.pop("event", "?"), fields.pop("t", 0.0)
+    words = [f"{key} {value}" for key, value in fields.items() if isinstance(value, str | int | float) and value != ""]
     show.out.print(f"{event.n:>5}  {t:9.1f} s  {kind:<10} {', '.join(words)[:160]}")

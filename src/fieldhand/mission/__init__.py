@@ -3,9 +3,9 @@
 request ──plan──▶ Task ──review──▶ Review ──authorize──▶ ApprovedMission ──carry_out──▶ Run ──report──▶ files
 """
 
-from fieldhand.mission.approve import ApprovedMission, authorize
+from fieldhand.mission.approve import ApprovedMission, approved_earlier, authorize
 from fieldhand.mission.documents import decode_task, open_bundle, read_task
-from fieldhand.mission.execute import carry_out, check_world, simulate
+from fieldhand.mission.execute import carry_out, check_world, read_world, simulate
 from fieldhand.mission.plan_request import Plan, make_planner, plan, transcript_path
 from fieldhand.mission.review_task import Review, review
 from fieldhand.mission.run import Assessment, Run, assess, report
@@ -20,6 +20,7 @@ __all__ = [
     "Run",
     "Simulation",
     "Simulations",
+    "approved_earlier",
     "assess",
     "authorize",
     "build_task",
@@ -31,6 +32,7 @@ __all__ = [
     "open_bundle",
     "plan",
     "read_task",
+    "read_world",
     "report",
     "review",
     "simulate",

@@ -41,6 +41,11 @@ class ApprovedMission:
         return self.authorized.task
 
 
+def approved_earlier(authorized: AuthorizedTask, review: Review) -> ApprovedMission:
+    """Return a mission whose Task was approved before, such as a signed one, with the forecast of a new review."""
+    return ApprovedMission(authorized=authorized, site=review.site, robot=review.robot, estimate=review.estimate)
+
+
 def authorize(
     review: Review,
     *,

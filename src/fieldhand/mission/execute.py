@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from fieldhand.mission.approve import ApprovedMission
@@ -32,6 +33,25 @@ def check_world(world: World, site: Site, robot: RobotProfile) -> None:
     from fieldhand.execution.drivers.simulation.ground_truth import GroundTruth
 
     GroundTruth(world, site, robot, seed=0)
+
+
+def read_world(path: Path | None, site: Site, robot: RobotProfile) -> World:
+    """Read the world of a simulation, and check that it fits the site and the robot.
+
+    Args:
+        path: World file (YAML); None for a world in which nothing fails.
+        site: Site of the mission.
+        robot: Robot of the mission.
+
+    Raises:
+        WorldError: The file cannot be read, or names a tree, a quantity or an action that does not exist.
+    """
+    from fieldhand.execution.drivers.simulation.world import World
+    from fieldhand.execution.drivers.simulation.world_file import load_world
+
+    world = World() if path is None else load_world(path)
+    check_world(world, site, robot)
+    return world
 
 
 def carry_out(

@@ -1,14 +1,16 @@
-"""``fieldhand agent``: on the robot, takes signed missions and carries out what it is told to."""
+"""``fieldhand agent``: a server on the robot that receives signed missions and carries them out on command."""
 
 from __future__ import annotations
 
 import os
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fieldhand.cli.driver_options import DomainOption, DriverOption, NamespaceOption, OnOption, SimTimeOption
+from fieldhand.cli.driver_options import DriverOptions
+from fieldhand.cli.option_groups import grouped
 from fieldhand.errors import InputError
 from fieldhand.hidden_characters import print_error
 
@@ -18,77 +20,92 @@ if TYPE_CHECKING:
     from fieldhand.program.robot_agent import RobotAgent
 
 
-def agent(
-    robot: Annotated[str, typer.Option("--robot", help="Profile of this robot: a built-in one or a YAML file.")],
-    site: Annotated[
-        list[str] | None, typer.Option("--site", help="A site where it may work; repeat it. Else any that was signed.")
-    ] = None,
-    store: Annotated[
-        Path | None, typer.Option("--store", help="Folder of its missions; else in the user's state folder.")
-    ] = None,
-    host: Annotated[
-        str, typer.Option("--host", help="Address to listen on; this machine alone by default.")
-    ] = "127.0.0.1",
-    port: Annotated[int, typer.Option("--port", min=1, max=65535, help="Port to listen on.")] = 8443,
-    cert: Annotated[Path | None, typer.Option("--cert", help="Certificate for TLS (PEM).")] = None,
-    key: Annotated[Path | None, typer.Option("--key", help="Its private key (PEM), mode 0600.")] = None,
+@dataclass(frozen=True, kw_only=True)
+class ListenOptions:
+    """Address of the agent, its certificate and its token."""
+
+    host: Annotated[str, typer.Option("--host", help="Address to listen on; this machine alone by default.")] = (
+        "127.0.0.1"
+    )
+    port: Annotated[int, typer.Option("--port", min=1, max=65535, help="Port to listen on.")] = 8443
+    cert: Annotated[Path | None, typer.Option("--cert", help="Certificate for TLS (PEM).")] = None
+    key: Annotated[Path | None, typer.Option("--key", help="Its private key (PEM), mode 0600.")] = None
     token_file: Annotated[
         Path | None, typer.Option("--token-file", help="File with the token, mode 0600; else FIELDHAND_TOKEN.")
-    ] = None,
+    ] = None
     insecure: Annotated[
         bool, typer.Option("--insecure", help="Let others reach it without token or TLS, if you mean it.")
-    ] = False,
+    ] = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class MissionOptions:
+    """Robot, sites and store of the agent's missions."""
+
+    robot: Annotated[str, typer.Option("--robot", help="Profile of this robot: a built-in one or a YAML file.")]
+    site: Annotated[
+        list[str] | None, typer.Option("--site", help="A site where it may work; repeat it. Else any that was signed.")
+    ] = None
+    lenient: Annotated[bool, typer.Option("--lenient", help="Read --site leniently.")] = False
+    store: Annotated[
+        Path | None, typer.Option("--store", help="Folder of its missions; else in the user's state folder.")
+    ] = None
     resume: Annotated[
         bool, typer.Option("--resume", help="Go on by itself with a mission that a power cut has cut off.")
-    ] = False,
-    world: Annotated[Path | None, typer.Option("--world", help="What sensors read in the simulation.")] = None,
-    seed: Annotated[int, typer.Option("--seed", min=0, help="Of the simulation.")] = 0,
+    ] = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class AgentSimulationOptions:
+    """World, seed and speed of simulated missions."""
+
+    world: Annotated[Path | None, typer.Option("--world", help="What sensors read in the simulation.")] = None
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Of the simulation.")] = 0
     speed: Annotated[
         str | None,
         typer.Option("--speed", help="Of the simulation: max, or simulated seconds in a second; else 1, real time."),
-    ] = None,
-    on: OnOption = None,
-    domain: DomainOption = None,
-    namespace: NamespaceOption = None,
-    sim_time: SimTimeOption = False,
-    driver_option: DriverOption = None,
-    lenient: Annotated[bool, typer.Option("--lenient", help="Read --site leniently.")] = False,
+    ] = None
+
+
+@grouped(
+    "robot site store host port cert key token_file insecure resume world seed speed"
+    " on domain namespace sim_time driver_option lenient"
+)
+def agent(
+    missions: MissionOptions, listen: ListenOptions, simulation: AgentSimulationOptions, driver: DriverOptions
 ) -> None:
     """Wait for signed missions, and carry out, one at a time, what is told to start: in simulation, or on a robot."""
     from fieldhand.api.serving import require_extra, require_free
-    from fieldhand.cli.driver_options import connection_of, refuse_simulation_options
-    from fieldhand.cli.flight import parse_speed
+    from fieldhand.cli.driver_options import connection_of, parse_speed, refuse_simulation_options
     from fieldhand.delivery.agent_token import read_token
     from fieldhand.program.robot_agent import compose_robot_agent
 
     require_extra()
-    pace = parse_speed(speed or "1")
-    connection = connection_of(
-        on, domain, namespace, sim_time=sim_time, environ=os.environ, options=driver_option or ()
-    )
-    refuse_simulation_options(connection, world=world, speed=speed)
-    token = read_token(os.environ, token_file)
-    tls = _tls(cert, key)
-    _require_guarded(host, token=token is not None, tls=tls is not None, insecure=insecure)
-    require_free(host, port)
+    speed = parse_speed(simulation.speed or "1")
+    connection = connection_of(driver, os.environ)
+    refuse_simulation_options(connection, world=simulation.world, speed=simulation.speed)
+    token = read_token(os.environ, listen.token_file)
+    tls = _tls(listen.cert, listen.key)
+    _require_protected(listen.host, token=token is not None, tls=tls is not None, insecure=listen.insecure)
+    require_free(listen.host, listen.port)
     robot_agent = compose_robot_agent(
         os.environ,
-        robot=robot,
-        sites=tuple(site or ()),
-        store=store,
-        world=world,
-        seed=seed,
-        speed=pace,
-        lenient=lenient,
+        robot=missions.robot,
+        sites=tuple(missions.site or ()),
+        store=missions.store,
+        world=simulation.world,
+        seed=simulation.seed,
+        speed=speed,
+        lenient=missions.lenient,
         connection=connection,
-        tell=_tell,
+        warn=_warn,
     )
     try:
-        app = create_app(robot_agent, token=token, host=host)
+        app = create_app(robot_agent, token=token, host=listen.host)
         robot_agent.supervisor.write_missing_report()
-        if resume and (cut := robot_agent.supervisor.continue_interrupted()):
-            print_error(f"going on with mission {cut[:16]}")
-        _serve(app, host, port, tls, token)
+        if missions.resume and (interrupted := robot_agent.supervisor.continue_interrupted()):
+            print_error(f"going on with mission {interrupted[:16]}")
+        _serve(app, listen.host, listen.port, tls, token)
     finally:
         robot_agent.close()
 
@@ -109,16 +126,16 @@ def create_app(robot_agent: RobotAgent, *, token: str | None, host: str) -> Fast
     return create_agent(robot_agent.mission_store, robot_agent.supervisor, who, token=token, hosts=hosts_for(host))
 
 
-def _tell(line: str) -> None:
+def _warn(line: str) -> None:
     print_error(f"warning: {line}")
 
 
 def _tls(cert: Path | None, key: Path | None) -> tuple[Path, Path] | None:
-    """Certificate and key that can be served with.
+    """Return certificate and key of the server, once they were loaded for a test; None if neither is given.
 
     Raises:
-        InputError: One of them is missing or cannot be used.
-        KeyFileError: Others can read the key.
+        InputError: Only one is given, or they cannot be used.
+        KeyFileError: Other users can read the key.
     """
     import ssl
 
@@ -130,7 +147,7 @@ def _tls(cert: Path | None, key: Path | None) -> tuple[Path, Path] | None:
         raise InputError("TLS needs a certificate and its key", advice="give both --cert and --key")
     read_guarded(key, private=True)
     try:
-        # A passphrase would be asked for at a terminal that a robot does not have.
+        # Without a password function, ssl would ask for a passphrase at a terminal, which a robot does not have.
         ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER).load_cert_chain(cert, key, password=lambda: "")
     except (OSError, ValueError) as error:
         raise InputError(
@@ -141,11 +158,11 @@ def _tls(cert: Path | None, key: Path | None) -> tuple[Path, Path] | None:
     return cert, key
 
 
-def _require_guarded(host: str, *, token: bool, tls: bool, insecure: bool) -> None:
-    """Refuse to be reached by others unguarded.
+def _require_protected(host: str, *, token: bool, tls: bool, insecure: bool) -> None:
+    """Require token and TLS if other machines can reach the address.
 
     Raises:
-        InputError: There is no token or no TLS, and the address is not this machine's own.
+        InputError: One is missing, and the address is not a loopback address.
     """
     from fieldhand.api.serving import is_loopback
 

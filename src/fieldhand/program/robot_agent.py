@@ -91,7 +91,7 @@ def compose_robot_agent(
     speed: float | None = None,
     lenient: bool = False,
     connection: Connection | None = None,
-    tell: Callable[[str], None],
+    warn: Callable[[str], None],
 ) -> RobotAgent:
     """Compose the agent of a robot.
 
@@ -103,7 +103,7 @@ def compose_robot_agent(
         seed: Of the simulation, and of the guard.
         lenient: How sites are read.
         connection: How the robot is reached, at each mission anew; None for the simulation.
-        tell: Takes a line about what could not be done at the end of a mission.
+        warn: Prints a warning when the cost of a mission cannot be recorded.
 
     Raises:
         InputError: Robot, site, world, store or trusted keys cannot be used.
@@ -134,7 +134,7 @@ def compose_robot_agent(
         now=_now,
         admit=admit,
     )
-    conclude = partial(_conclude, finished_missions.history_folder(environ), tell)
+    conclude = partial(_conclude, finished_missions.history_folder(environ), warn)
     if connection is None:
         supervisor = MissionSupervisor(
             mission_store,
@@ -176,7 +176,7 @@ def _now() -> datetime:
     return datetime.now(UTC)
 
 
-def _conclude(history: Path, tell: Callable[[str], None], stored: StoredMission) -> None:
+def _conclude(history: Path, warn: Callable[[str], None], stored: StoredMission) -> None:
     """Leave the report of a mission in its folder, and keep what it cost."""
     from fieldhand import finished_missions, mission, missions
 
@@ -192,7 +192,7 @@ def _conclude(history: Path, tell: Callable[[str], None], stored: StoredMission)
         bundle=stored.bundle,
     )
     if done.history_error:
-        tell(done.history_error)
+        warn(done.history_error)
 
 
 def _require_sound(world: World, bundle: Bundle) -> None:
