@@ -1,4 +1,4 @@
-"""Lines that no robot drives across, as thin keep-outs, and the gates that open them."""
+"""Convert fences and other barrier lines into thin keep-outs with openings at the gates."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from fieldhand.site.features import BarrierFeature, PointFeature, gate_width_m
 from fieldhand.site.model import Gate, Place, Zone
 from fieldhand.site.projection import Projection
 
-#: Half the thickness of the keep-out that a line becomes.
+#: Half the thickness in metres of the keep-out along a line.
 HALF_THICK_M = 0.05
-#: A gate this far from a fence still belongs to it: both were drawn by hand or measured without correction.
+#: A gate up to this distance in metres from a fence belongs to it, since both may be drawn by hand.
 _GATE_REACH_M = 2.0
 
 
 def gates_of(points: Sequence[PointFeature], projection: Projection) -> tuple[Gate, ...]:
-    """Return the gates by their names, else as ``gate 1``, ``gate 2`` ...; a name used before gets a number."""
+    """Return the gates with unique names: their own, numbered if used before, else ``gate 1``, ``gate 2`` ..."""
     gates: list[Gate] = []
     used: set[str] = set()
     for number, p in enumerate(points, start=1):
@@ -36,7 +36,7 @@ def gates_of(points: Sequence[PointFeature], projection: Projection) -> tuple[Ga
 def barrier_zones(
     barriers: Sequence[BarrierFeature], gates: Sequence[Gate], projection: Projection
 ) -> tuple[tuple[Zone, ...], list[str]]:
-    """Keep-outs along the lines with an opening at each gate, and what there is to say of gates far from any line."""
+    """Return keep-outs along the lines with an opening at each gate, and notes about gates far from any line."""
     lines = [
         shapely.LineString(projection.metres([lat for _, lat in b.positions], [lon for lon, _ in b.positions]))
         for b in barriers

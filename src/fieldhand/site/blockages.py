@@ -1,4 +1,4 @@
-"""Blocked areas found by a robot on its way, and the drives that avoid them."""
+"""Areas that a robot found blocked during a mission, and drives that avoid them."""
 
 from __future__ import annotations
 
@@ -15,36 +15,36 @@ from fieldhand.site.drives import XY, Drives
 from fieldhand.site.driving.layout import Layout
 from fieldhand.site.model import Zone
 
-#: On open ground a stretch is at first so many clearances wide to either side.
+#: Initial half width of a blocked area on open ground, in clearances.
 _WIDE = 1.5
 
-#: Stretches that are nearer than this to one another are of one obstacle, of which more has been seen.
+#: Blocked areas closer than this to one another, in metres, belong to the same obstacle.
 _SAME_M = 1.0
 
-#: Metres from the robot's middle, where it was stopped, to the stretch: it must be able to turn round there. Where it
-#: was stopped nearer than that to its goal the stretch begins halfway, so that the goal is in it.
+#: Distance in metres from the stopped robot's centre to the blocked area, so that the robot can turn around. If its
+#: goal is nearer than that, the area begins halfway, so that it contains the goal.
 _AHEAD_M = 0.3
 
-#: Metres of the stretch along the way.
+#: Length in metres of a blocked area along the path.
 _LONG_M = 1.0
 
-#: Metres that a stretch ends before a row: the trees themselves are not in it.
+#: Distance in metres between a blocked area and the rows beside it, so that it contains no trees.
 _BEFORE_ROW_M = 0.05
 
-#: A robot stands outside a stretch by at least so much.
+#: Least distance in metres from a robot to a blocked area.
 _BESIDE_M = 1e-3
 
 
 class Blockages:
-    """The blocked areas, and the drives around them.
+    """Blocked areas, and the drives around them.
 
     Args:
         drives: Drives of the site as it was approved.
 
     Attributes:
-        drives: The remaining drives, which treat blocked areas as keep-outs.
+        drives: Remaining drives, which treat blocked areas as keep-outs.
         stretches: Blocked areas in metres east and north.
-        version: Changes whenever the drives do.
+        version: Number that changes whenever the drives do.
     """
 
     def __init__(self, drives: Drives) -> None:
@@ -53,14 +53,18 @@ class Blockages:
         self.version = 0
 
     def add_ahead(self, at: XY, towards: XY) -> Polygon:
-        """A robot was stopped at a point by what is between it and the next.
+        """Add a blocked area ahead of a robot that was stopped on its way to a point.
 
-        Of an obstacle on open ground that turns out to be larger each further stretch is taken twice as wide.
+        Each further area of the same obstacle on open ground is twice as wide as the one before.
+
+        Args:
+            at: Position of the robot.
+            towards: Point that it was driving to.
 
         Returns:
-            What is taken as blocked from now on.
+            The area that is treated as blocked from now on.
         """
-        # Where the robot stands nothing is in the way, whatever was seen there from another side.
+        # The robot's own position is free, even if it was reported blocked from another side.
         self.stretches = tuple(s for s in self.stretches if s.distance(shapely.Point(at)) > _BESIDE_M)
         near = shapely.Point(at).buffer(_SAME_M)
         known = sum(stretch.intersects(near) for stretch in self.stretches)
@@ -81,20 +85,21 @@ def _without(drives: Drives, stretches: Sequence[Polygon]) -> Drives:
         for number, polygon in enumerate(stretches, start=1)
     )
     site = dataclasses.replace(drives.site, zones=(*drives.site.zones, *zones))
-    vars(site)["planting"] = drives.site.planting  # the rows are where they were
+    vars(site)["planting"] = drives.site.planting  # the rows do not change
     return Drives(site, drives.clearance_m, drives.standoff_m)
 
 
 def _blocked_ahead(layout: Layout, at: XY, towards: XY, half_width_m: float) -> Polygon:
-    """Return what is taken as blocked ahead of a robot that was stopped.
+    """Return the area to treat as blocked ahead of a robot that was stopped.
 
-    In an aisle that is all of it from row to row, since the robot itself found no way past; on open ground a square.
+    In an aisle it spans the whole width from row to row, since the robot itself found no way past; on open ground it is
+    a square.
 
     Args:
-        layout: The site as the robot drives on it.
-        at: Where the robot was stopped, in metres.
-        towards: Where it was to drive on to, the end of its way at most.
-        half_width_m: Half the width on open ground.
+        layout: Drivable layout of the site.
+        at: Position of the stopped robot, in metres.
+        towards: Next point of its path, in metres.
+        half_width_m: Half the width of the area on open ground.
     """
     length = math.dist(at, towards)
     gap = min(_AHEAD_M, length / 2.0) if length > 0.0 else _AHEAD_M

@@ -11,7 +11,7 @@ import numpy as np
 import shapely
 from shapely.geometry import Polygon
 
-#: Zones are held in metres only, so their corners are compared to the millimetre.
+#: Zones are stored in metres only; their corners are rounded to the millimetre.
 _DECIMALS = 3
 
 Record = Sequence[Any]
@@ -22,13 +22,13 @@ def content_sha256(
 ) -> str:
     """Return the SHA-256 of one JSON line for each tree, marker, gate and zone.
 
-    Names of the site and of the file, the numbers of the features and notes do not count.
+    The hash ignores the names of the site and of the file, feature numbers and notes.
 
     Args:
         trees: Id, latitude, longitude and sorted properties of each; their order counts.
         markers: Name, latitude and longitude of each, in any order.
         gates: Id, latitude, longitude and width of each, in any order.
-        zones: Kind, name and :func:`rings_of` each, in any order.
+        zones: Kind, name and rings (:func:`rings_of`) of each, in any order.
     """
     digest = hashlib.sha256(b"fieldhand site 1\n")
     for line in _lines(trees, markers, gates, zones):
@@ -38,7 +38,7 @@ def content_sha256(
 
 
 def rings_of(polygon: Polygon) -> list[list[list[float]]]:
-    """Return the rings of a polygon, the same whatever their direction and first corner."""
+    """Return the rings of a polygon in a normal form, independent of their direction and first corner."""
     rounded = shapely.transform(polygon, lambda xy: np.round(xy, _DECIMALS) + 0.0)
     whole = shapely.normalize(rounded)
     return [shapely.get_coordinates(ring).tolist() for ring in (whole.exterior, *whole.interiors)]

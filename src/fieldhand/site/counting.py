@@ -79,12 +79,12 @@ def way_of(block: Block) -> str:
 
 
 def rows_from(site: Site, block: Block, side: CountedFrom) -> tuple[tuple[Row, ...], str]:
-    """The rows of a block as they are counted, and from where.
+    """Return the rows of a block in counting order, and the side that they are counted from.
 
-    The site's own numbers (or letters) say from which side, where they rise from one; else it is the usual side.
+    By default rows are counted from the side where the site's own numbers or letters begin, else from the usual side.
 
     Raises:
-        PlaceError: The rows cannot be counted from that side: they run towards it.
+        PlaceError: The rows cannot be counted from that side, because they run towards it.
     """
     if side == "usual":
         falling = _falls([row.name for row in block.rows if row.known == "file"])
@@ -104,10 +104,11 @@ def rows_from(site: Site, block: Block, side: CountedFrom) -> tuple[tuple[Row, .
 
 
 def trees_from(site: Site, block: Block, side: CountedFrom) -> tuple[int, str]:
-    """Whether the trees of a block's rows count as they are listed (1) or backwards (-1), and from where.
+    """Return 1 if the trees of a block's rows count in list order, -1 if backwards, and the side that they are counted
+    from.
 
     Raises:
-        PlaceError: The rows have no end on that side: they pass it by.
+        PlaceError: The rows have no end on that side.
     """
     axis = along(block)
     if side == "usual":
@@ -136,15 +137,15 @@ def find_block(site: Site, said: str) -> Block | None:
 
 
 def find_row(rows: Sequence[Row], said: str, *, by_number: bool = False) -> int | None:
-    """The position of the row that is called so; None where there is none.
+    """Return the index of the row with a name or number; None if there is none.
 
-    Its name comes first, then the number in its name ("3" is "R03" where all rows are called so), then its place in the
-    count; negative numbers count from the last row.
+    The full name is tried first, then the number in the name ("3" is "R03" if all rows have such names), then the
+    position in counting order; negative numbers count from the last row.
 
     Args:
-        rows: As they are counted.
+        rows: Rows in counting order.
         said: A name or a number.
-        by_number: Numbers are places in the count, whatever the rows are called.
+        by_number: Treat numbers as positions in counting order, regardless of the names.
     """
     number = int(said) if re.fullmatch(r"-?\d{1,9}", said.strip()) else None
     if not by_number or number is None:
@@ -184,7 +185,7 @@ def block_words(block: Block) -> str:
 
 
 def _not_counted(what: str, site: Site, block: Block) -> str:
-    """Return what cannot be done, with the way in which the rows run."""
+    """Return the refusal with the direction in which the rows run."""
     if len(site.planting.blocks) == 1:
         return message("{what}: the rows run {way}", what=what, way=way_of(block))
     return message("{what}: the rows of {block} run {way}", what=what, block=block_words(block), way=way_of(block))
@@ -209,7 +210,7 @@ def _falls(names: Sequence[str]) -> bool:
 
 
 def numbered_by_file(site: Site, row: Row) -> bool:
-    """Return True if the row's planting positions are numbers that the file gives to its trees."""
+    """Return True if the row's planting positions are numbers from the file."""
     first, last = (site.trees[k].properties for k in (row.trees[0], row.trees[-1]))
     names = [n for n, value in first.items() if _same(value, row.slots[0]) and _same(last.get(n), row.slots[-1])]
     return any(

@@ -1,4 +1,4 @@
-"""Makes orchards: GeoJSON of rows of trees with a pond, a boundary, markers and attributes, from a seed.
+"""Generate orchards as GeoJSON: rows of trees with a pond, a boundary, markers and attributes.
 
 The built-in orchard is one of them (``scripts/make_demo_orchard.py`` writes it).
 """
@@ -26,7 +26,7 @@ Points = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True)
 class Variety:
-    """A variety with what its trees are like: mean yield in kg, and planting year's age in years."""
+    """A variety of trees: mean yield in kg, and age in years."""
 
     name: str
     yield_kg: float
@@ -35,13 +35,14 @@ class Variety:
 
 @dataclass(frozen=True, kw_only=True)
 class OrchardShape:
-    """How an orchard is laid out. Rows run along the turned north axis; distances in metres.
+    """Layout parameters of an orchard. Rows run along the rotated north axis; distances in metres.
 
     Attributes:
-        turned_deg: Degrees clockwise from true north that the rows point to.
-        pond: Centre (across rows, along rows, from the orchard's middle) and half axes; trees keep off its bank.
-        missing: Part of the trees that have died and were taken out.
-        jitter_m: Standard deviation of a tree's place about its grid point.
+        turned_deg: Bearing of the rows, in degrees clockwise from true north.
+        pond: Centre (across rows, along rows, from the orchard's middle) and half axes.
+        bank_m: Width of the bank around the pond, which has no trees.
+        missing: Fraction of missing trees.
+        jitter_m: Standard deviation of a tree about its grid point.
     """
 
     rows: int = 10
@@ -57,7 +58,7 @@ class OrchardShape:
 
 
 def demo_orchard(seed: int = _DEMO_SEED) -> dict[str, Any]:
-    """The built-in orchard: almonds of two varieties in the Central Valley of California."""
+    """Return the built-in orchard: almonds of two varieties in the Central Valley of California."""
     return generate_orchard(
         np.random.default_rng(seed),
         name="Demo orchard",
@@ -82,19 +83,19 @@ def generate_orchard(
     shape: OrchardShape,
     varieties: Sequence[Variety],
 ) -> dict[str, Any]:
-    """An orchard as a GeoJSON FeatureCollection.
+    """Generate an orchard as a GeoJSON FeatureCollection.
 
     Varieties alternate row by row, as growers plant them for pollination. Trees near the pond are more often yellow
-    and yield less, so that attributes have a pattern worth asking for.
+    and yield less, so that queries over attributes find a pattern.
 
     Args:
-        rng: Where chance comes from; the same state gives the same orchard.
-        name: Of the collection.
+        rng: Random generator; the same state gives the same orchard.
+        name: Name of the collection.
         tree: ``marker-symbol`` of the trees.
-        latitude: Of the orchard's middle, degrees.
-        longitude: Of the orchard's middle, degrees.
-        shape: Rows, spacing, pond.
-        varieties: At least one.
+        latitude: Latitude of the orchard's middle in degrees.
+        longitude: Longitude of the orchard's middle in degrees.
+        shape: Layout parameters.
+        varieties: Varieties of the rows; at least one.
     """
     frame = _Frame(Projection(latitude, longitude), math.radians(shape.turned_deg))
     across, along = _grid(shape.rows, shape.row_spacing_m), _grid(shape.trees_a_row, shape.tree_spacing_m)
@@ -107,7 +108,7 @@ def generate_orchard(
 
 
 def to_text(collection: dict[str, Any]) -> str:
-    """GeoJSON with a line for each feature: compact, and differences show tree by tree."""
+    """Return compact GeoJSON with one line per feature, so that differences show tree by tree."""
     head = {k: v for k, v in collection.items() if k != "features"}
     lines = ",\n".join(json_text(f, separators=(", ", ": ")) for f in collection["features"])
     return f'{json_text(head)[:-1]}, "features": [\n{lines}\n]}}\n'
@@ -115,13 +116,13 @@ def to_text(collection: dict[str, Any]) -> str:
 
 @dataclass(frozen=True)
 class _Frame:
-    """The orchard's own axes: across the rows and along them, in metres from its middle."""
+    """Axes of the orchard: across the rows and along them, in metres from its middle."""
 
     projection: Projection
     turned: float
 
     def degrees(self, local: Points) -> list[list[float]]:
-        """GeoJSON positions."""
+        """Convert local metres to GeoJSON positions."""
         c, s = math.cos(self.turned), math.sin(self.turned)
         east_north = np.atleast_2d(local) @ np.array([[c, -s], [s, c]])
         return [
@@ -130,7 +131,7 @@ class _Frame:
 
 
 def _grid(count: int, spacing: float) -> Points:
-    """So many points at that spacing about 0."""
+    """Return evenly spaced coordinates centred on 0."""
     return np.array([(k - (count - 1) / 2) * spacing for k in range(count)])
 
 
@@ -152,7 +153,7 @@ def _areas(
 
 
 def _markers(frame: _Frame, shape: OrchardShape, across: Points, along: Points) -> list[Feature]:
-    """The robot starts at the south-east headland, ends and charges at the shed on the south-west one."""
+    """Return the start in the south-east headland, and the end and charger in the south-west one."""
     south = along[0] - shape.headland_m / 2
     at = {"start": (across[-1], south), "end": (across[0], south), "charger": (across[0] + 9.0, south - 0.5)}
     return [_feature("Point", frame.degrees(np.array(p))[0], {"marker-symbol": kind}) for kind, p in at.items()]

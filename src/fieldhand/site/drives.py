@@ -1,8 +1,8 @@
-"""Drives between places: along aisles, over headlands, around keep-outs, the shortest way.
+"""Shortest drives between places: along aisles, over headlands and around keep-outs.
 
-The robot keeps its clearance from tree lines, keep-outs and the boundary. It never crosses the line through the trees
-of a row. A tree is worked on from the aisle beside it. Near a place that itself stands closer than the clearance (a
-marker beside the pond) the clearance gives way; the keep-out itself never does.
+The robot keeps its clearance from tree lines, keep-outs and the boundary, and never crosses the line through the trees
+of a row. It works on a tree from the aisle beside it. Near a place that is itself closer to an obstacle than the
+clearance (a marker beside a pond) the clearance is reduced; keep-outs are never entered.
 """
 
 from __future__ import annotations
@@ -32,11 +32,11 @@ Key = tuple[str, str, XY, XY | None]
 
 @dataclass(frozen=True)
 class Drive:
-    """A way from one place to another.
+    """A path from one place to another.
 
     Attributes:
-        points: Metres east and north, from the first place's stand to the last one's; at least two.
-        length_m: Metres along the points.
+        points: Metres east and north, from the stand of the first place to that of the last; at least two.
+        length_m: Length of the path in metres.
         start, end: The places, each with its stand.
     """
 
@@ -46,7 +46,7 @@ class Drive:
     end: Place
 
     def at(self, metres: float) -> XY:
-        """The point that many metres along the way; its ends for less than nothing and more than its length."""
+        """Return the point at a distance along the path; distances outside the path give its ends."""
         left = metres
         for (x0, y0), (x1, y1) in zip(self.points, self.points[1:], strict=False):
             step = float(np.hypot(x1 - x0, y1 - y0))
@@ -58,12 +58,13 @@ class Drive:
 
 
 class Drives:
-    """Ways between the places of one site, remembered.
+    """Paths between the places of one site, cached.
 
     Args:
-        site: With its rows, keep-outs, boundaries and gates.
-        clearance_m: Metres to keep from tree lines, keep-outs and the boundary: half the robot's width.
-        standoff_m: From a tree to where the robot stands to work on it; less where the aisle's middle is nearer.
+        site: Site with rows, keep-outs, boundaries and gates.
+        clearance_m: Distance to keep from tree lines, keep-outs and the boundary in metres: half the robot's width.
+        standoff_m: Distance in metres from a tree to the robot working on it; less if the middle of the aisle is
+            nearer.
     """
 
     def __init__(self, site: Site, clearance_m: float, standoff_m: float = 0.0) -> None:
@@ -80,12 +81,12 @@ class Drives:
     # --- drives -----------------------------------------------------------------------------------------------
 
     def between(self, a: Place, b: Place) -> Drive:
-        """The shortest way from ``a`` to ``b``; from ``b`` to ``a`` it is the same way back.
+        """Return the shortest path from ``a`` to ``b``; the path from ``b`` to ``a`` is the same, reversed.
 
-        Where the stand of one of them is still open, it is chosen so that this way is short.
+        A stand that is not chosen yet is chosen so that this path is short.
 
         Raises:
-            DriveFault: One of them cannot be driven to, or there is no way.
+            DriveFault: A place cannot be reached, or no path connects them.
         """
         self._check((a, b))
         if a.stand is None and b.stand is None and a.xy == b.xy:
@@ -102,10 +103,10 @@ class Drives:
         return Drive(points, length, replace(a, stand=points[0]), replace(b, stand=points[-1]))
 
     def lengths(self, places: Sequence[Place], to: Sequence[Place] | None = None) -> NDArray[np.float64]:
-        """Metres of the drive from each of the places to each of those in ``to``, shape (n, m).
+        """Return the path lengths in metres from each of the places to each of those in ``to``, shape (n, m).
 
-        Without ``to`` between every two of the places: shape (n, n), symmetric, 0 on the diagonal. Lengths are between
-        stands; those that are still open are chosen as :meth:`stands` does, for all of them together.
+        Without ``to``, return the lengths between all pairs of the places: shape (n, n), symmetric, 0 on the diagonal.
+        Lengths are measured between stands; missing stands are chosen together, as in :meth:`stands`.
 
         Raises:
             DriveFault: As :meth:`between`, for any two of them.
@@ -125,14 +126,14 @@ class Drives:
         return lengths
 
     def are_straight(self, places: Sequence[Place]) -> bool:
-        """Return True if every drive between the places, each with its stand, is a straight line."""
+        """Return True if every path between the stands of the places is a straight line."""
         return not self.layout.open or self.layout.is_one_view(self.layout.spots([p.stand or p.xy for p in places]))
 
     def roadmap(self, places: Sequence[Place]) -> Roadmap:
-        """The ways between the places as a sparse graph, for many places: its size grows with their number.
+        """Return the paths between many places as a sparse graph, whose size grows linearly with their number.
 
-        Between their stands; those that are still open are chosen as :meth:`stands` does. Shortest ways over it are
-        never shorter than :meth:`lengths`, and a little longer where they pass by other places.
+        Paths run between stands; missing stands are chosen as in :meth:`stands`. Shortest paths in the graph are never
+        shorter than :meth:`lengths`, and slightly longer where they pass other places.
 
         Raises:
             DriveFault: As :meth:`between`, for any two of them.
@@ -147,11 +148,11 @@ class Drives:
     # --- stands -----------------------------------------------------------------------------------------------
 
     def stands(self, places: Sequence[Place], here: Place | None = None) -> tuple[Place, ...]:
-        """The places, each with its stand: where it has one already, there.
+        """Return the places with a stand each; existing stands are kept.
 
-        Those of trees are chosen together, so that they can be visited through few aisles: for each row the side that
-        shares an aisle with the next row, and of equally few aisles those nearest to ``here`` (else to the start).
-        A single tree stands where it is driven to shortest from ``here``.
+        The stands of trees are chosen together, so that few aisles are needed to visit them: for each row the side that
+        shares an aisle with the next row, and among equal numbers of aisles the side nearest to ``here`` (else to the
+        start). A single tree gets the stand nearest to ``here``.
         """
         if all(p.stand is not None for p in places):
             return tuple(places)
@@ -176,7 +177,7 @@ class Drives:
 
     @staticmethod
     def _row_of(place: Place, candidates: Sequence[Candidate]) -> tuple[int, int] | None:
-        """Return the group and the line of a tree whose stand is open; None for all else."""
+        """Return the group and the line of a tree whose stand is to be chosen, else None."""
         if place.stand is not None or len(candidates) < 2 or candidates[0].lane is None:
             return None
         group, _, line = candidates[0].lane
@@ -187,7 +188,7 @@ class Drives:
         return None if aisle is None else (aisle.group_number, aisle.position, aisle.position + 1)
 
     def _origin(self, here: Place | None) -> Spot:
-        """From where stands are to be reached."""
+        """Return the spot from which stands must be reachable."""
         place = here or self.site.start
         able = self._able(place) or self._stands.of(place)
         return self.layout.spot(able[0].xy)
@@ -195,8 +196,10 @@ class Drives:
     def _metres(
         self, places: Sequence[Place], options: Sequence[Sequence[Candidate]], origin: Spot
     ) -> list[list[float]]:
-        """Metres in a straight line from the origin to each candidate of each place whose stand is open; inf for one
-        that cannot be driven to."""
+        """Return the straight-line metres from the origin to each candidate of each place; inf if it is unreachable.
+
+        Places that already have a stand get 0.
+        """
         able = [
             c
             for place, option in zip(places, options, strict=True)
@@ -213,11 +216,11 @@ class Drives:
         ]
 
     def _able(self, place: Place) -> list[Candidate]:
-        """The candidates for a place's stand at which the robot can be."""
+        """Return the usable candidates for a place's stand."""
         return self._able_of((place,))[0]
 
     def _able_of(self, places: Sequence[Place]) -> list[list[Candidate]]:
-        """For each of the places the candidates for its stand at which the robot can be; remembered."""
+        """Return the usable candidates for the stand of each place, cached."""
         new = list({_key(p): p for p in places if _key(p) not in self._ables}.values())
         if new:
             options = self._stands.of_all(new)
@@ -228,22 +231,21 @@ class Drives:
         return [self._ables[_key(p)] for p in places]
 
     def network(self) -> DrivableNetwork:
-        """Aisles, headlands, gates and the links between them, as lines."""
+        """Return aisles, headlands, gates and the links between them, as lines."""
         return network_of(self.site, self.layout)
 
-    # --- what cannot be driven --------------------------------------------------------------------------------
+    # --- unreachable places -----------------------------------------------------------------------------------
 
     def problem(self, place: Place) -> str:
-        """Return why a place can never be reached, in words that follow "tree 17 is"; empty if it can be.
+        """Return the reason why a place can never be reached, worded to follow "tree 17 is"; empty if it can.
 
-        "inside the keep-out 'pond'", "outside the boundary", "out of reach: the aisles beside it are 0.5 m wide, the
-        robot is 0.67 m", "out of reach: no way out of its aisle: keep-out 'pond' closes one end and the boundary the
-        other", "cut off from where the robot starts".
+        Examples: "inside the keep-out 'pond'", "outside the boundary", "out of reach: the aisles beside it are 0.5 m
+        wide, the robot is 0.67 m", "cut off from where the robot starts".
         """
         return self.problems((place,))[0]
 
     def problems(self, places: Sequence[Place]) -> tuple[str, ...]:
-        """Return :meth:`problem` for each of the places; much faster than one by one."""
+        """Return :meth:`problem` for each of the places; much faster than separate calls."""
         new = list({_key(p): p for p in places if _key(p) not in self._problems}.values())
         if new:
             reasons = self._impossible(new)
@@ -253,14 +255,14 @@ class Drives:
         return tuple(self._problems[_key(p)] for p in places)
 
     def reachable(self, places: Sequence[Place], here: Place) -> tuple[bool, ...]:
-        """Return for each place whether it can be reached from here, wherever the robot will stand there."""
+        """Return for each place True if at least one of its stands can be reached from here."""
         able = [[] if bad else c for bad, c in zip(self._impossible(places), self._able_of(places), strict=True)]
         spots = self.layout.spots([c.xy for some in able for c in some])
         linked = iter(self.layout.reachable(spots, self._origin(here)))
         return tuple(any([next(linked) for _ in some]) for some in able)  # noqa: C419 - each has its turn
 
     def _impossible(self, places: Sequence[Place]) -> list[str]:
-        """Why a robot can never be at each of the places, wherever it comes from; remembered."""
+        """Return for each place why a robot can never be there, wherever it comes from; empty if it can. Cached."""
         new = list({_key(p): p for p in places if _key(p) not in self._closed}.values())
         if new:
             at = np.array([self._ground_of(p) for p in new])
@@ -276,7 +278,7 @@ class Drives:
         return [self._closed[_key(p)] for p in places]
 
     def _ground_of(self, place: Place) -> XY:
-        """Return the point that has to be inside the boundary: the place, or at a gate, which lies on it, the stand."""
+        """Return the point that must be inside the boundary: the place, or the stand of a gate (on the fence)."""
         is_gate = any(gate.place == place for gate in self.site.gates)
         return self._stands.of(place)[0].xy if is_gate else place.xy
 
@@ -290,7 +292,7 @@ class Drives:
         )
 
     def _cut_off(self, places: Sequence[Place]) -> list[str]:
-        """Why no way leads to each of the places from where the robot starts."""
+        """Return for each place why no path from the robot's start leads to it; empty if one does."""
         if not self.layout.open or self._impossible((self.site.start,))[0]:
             return [""] * len(places)
         start = self._origin(None)

@@ -1,4 +1,4 @@
-"""Where a site lies: what is far from its trees is stray, and the projection stands in their middle."""
+"""Reject features far from the trees, and centre the projection on the trees."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _EARTH_RADIUS_M = 6_371_000.0
 
 
 def drop_strays(features: FeatureSet, faults: Faults) -> FeatureSet:
-    """What lies within 20 km of the middle tree; what is farther is stray, or has its coordinates swapped."""
+    """Return the features within 20 km of the median tree; report the others, which often have swapped coordinates."""
     planted = [(p.lon, p.lat) for p in features.points if p.kind == "tree"]
     if not planted:
         return features
@@ -35,7 +35,7 @@ def drop_strays(features: FeatureSet, faults: Faults) -> FeatureSet:
 
 
 def middle_of(planted: Sequence[PointFeature]) -> Projection:
-    """The projection about the middle of the trees' extent."""
+    """Return the projection centred on the middle of the trees' extent."""
     degrees = _unwrapped(np.array([(p.lon, p.lat) for p in planted]))
     lon, lat = (degrees.min(axis=0) + degrees.max(axis=0)) / 2
     return Projection(lat=float(lat), lon=float((lon + 180.0) % 360.0 - 180.0))
@@ -69,7 +69,7 @@ class _Strays:
 
 
 def _unwrapped(degrees: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Longitudes without the jump from 180 to -180, for sites across the date line."""
+    """Return positions with continuous longitudes for sites across the date line."""
     out = degrees.copy()
     if np.ptp(out[:, 0]) > 180.0:
         out[out[:, 0] < 0.0, 0] += 360.0

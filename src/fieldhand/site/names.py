@@ -1,4 +1,4 @@
-"""Names from a file, made fit for one line of a message."""
+"""Format names from a file for one line of a message."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _LONGEST = 40
 
 
 def listed(names: Sequence[str]) -> str:
-    """The first few, and how many more."""
+    """Return the first few names and the number of the others."""
     shown = joined(", ", (short(n) for n in names[:_MOST]))
     if len(names) <= _MOST:
         return shown
@@ -21,16 +21,16 @@ def listed(names: Sequence[str]) -> str:
 
 
 def short(text: str, longest: int = _LONGEST) -> str:
-    """Text on one line and not too long."""
+    """Return text on one line, cut to a maximum length."""
     text = visible(text)
     return text if len(text) <= longest else text[: longest - 3] + "..."
 
 
 def say_block(block: str) -> str:
-    """A block: "block B"."""
+    """Return a block in words: "block B"."""
     return block if is_named_block(block) else message("block {name}", name=block)
 
 
 def is_named_block(block: str) -> bool:
-    """Return True if its name says already that it is a block."""
+    """Return True if the name already contains the word "block"."""
     return phrase(block).startswith("block ")

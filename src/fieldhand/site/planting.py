@@ -1,7 +1,7 @@
-"""How the trees stand: blocks, their rows, and the trees along each row.
+"""Arrangement of the trees: blocks, their rows, and the trees along each row.
 
-Numbers count from west to east, and from north to south where that is the way of the count; "the usual end" of a row is
-its northern one, or its western one where rows run east-west (a bearing of 45 to 135 degrees).
+Rows are numbered from west to east, or from north to south if they run east-west (a bearing of 45 to 135 degrees). The
+usual end of a row is its northern one, or its western one if rows run east-west.
 """
 
 from __future__ import annotations
@@ -24,14 +24,14 @@ class Row:
     """A row of trees.
 
     Attributes:
-        name: The file's own name, else its number as text.
-        number: Counted within the block from 1, from west, or from north where rows run east-west.
-        block: Position of its block in :attr:`Planting.blocks`.
-        trees: Positions of its trees on the site, from its usual end.
-        slots: For each of the trees its planting position from 1: a gap counts for the trees that are missing in it;
-            the file's own numbers where it has them.
-        known: Whether the file says so.
-        confidence: That these trees are a row and no others are in it, 0 to 1.
+        name: Name in the file, else the number as text.
+        number: Number within the block from 1, from west, or from north if rows run east-west.
+        block: Index of its block in :attr:`Planting.blocks`.
+        trees: Indices of its trees on the site, from its usual end.
+        slots: Planting position of each tree from 1, counting the missing trees in gaps; the file's own numbers if it
+            has them.
+        known: Source of the row: the file, or inference from the positions of the trees.
+        confidence: Confidence that exactly these trees form the row, 0 to 1.
     """
 
     name: str
@@ -45,15 +45,16 @@ class Row:
 
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)
 class Block:
-    """Rows that belong together.
+    """Parallel rows that were planted together.
 
     Attributes:
-        name: The file's own name, else its number as text.
-        rows: In their order; never empty.
-        bearing_deg: Of the rows, clockwise from true north, 0 up to 180.
-        row_spacing_m: From row to row; nan for a single row.
-        tree_spacing_m: From tree to tree along the rows.
-        confidence: That the rows run this way, 0 to 1.
+        name: Name in the file, else the number as text.
+        rows: Rows in numerical order; never empty.
+        bearing_deg: Bearing of the rows, clockwise from true north, 0 up to 180.
+        row_spacing_m: Distance from row to row; nan for a single row.
+        tree_spacing_m: Distance from tree to tree along the rows.
+        known: Source of the block: the file, or inference from the positions of the trees.
+        confidence: Confidence in the direction of the rows, 0 to 1.
     """
 
     name: str
@@ -68,7 +69,7 @@ class Block:
 
     @property
     def runs_east_west(self) -> bool:
-        """Whether its rows run rather east-west than north-south."""
+        """Return True if the rows run closer to east-west than to north-south."""
         return 45.0 < self.bearing_deg < 135.0
 
 
@@ -77,9 +78,9 @@ class Planting:
     """The blocks of a site.
 
     Attributes:
-        blocks: From west to east and from north to south; empty where the trees stand in no rows.
-        tree_count: Trees of the site.
-        why: Where there are no rows, or some trees are in none, the reason in words; else empty.
+        blocks: Blocks from west to east and from north to south; empty if the trees form no rows.
+        tree_count: Number of trees on the site.
+        why: Reason, in words, why there are no rows or some trees are in none; else empty.
     """
 
     blocks: tuple[Block, ...]
@@ -90,12 +91,12 @@ class Planting:
 
     @cached_property
     def rows(self) -> tuple[Row, ...]:
-        """The rows of all blocks, block after block."""
+        """Return the rows of all blocks, block after block."""
         return tuple(row for block in self.blocks for row in block.rows)
 
     @cached_property
     def row_of(self) -> Indices:
-        """For each tree the position of its row in :attr:`rows`; -1 for a tree in no row. Shape (n,)."""
+        """Return for each tree the index of its row in :attr:`rows`; -1 for a tree in no row. Shape (n,)."""
         found = np.full(self.tree_count, -1, dtype=np.intp)
         for k, row in enumerate(self.rows):
             found[row.trees] = k
@@ -103,7 +104,7 @@ class Planting:
 
     @cached_property
     def rank(self) -> Indices:
-        """For each tree which of its row's trees it is, from 0; -1 for a tree in no row. Shape (n,)."""
+        """Return for each tree its index within its row, from 0; -1 for a tree in no row. Shape (n,)."""
         found = np.full(self.tree_count, -1, dtype=np.intp)
         for row in self.rows:
             found[row.trees] = np.arange(len(row.trees))

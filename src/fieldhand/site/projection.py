@@ -1,4 +1,4 @@
-"""One local metric projection per site."""
+"""Local metric projection of a site."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ class Projection:
         return pyproj.Transformer.from_crs("EPSG:4326", local, always_xy=True)
 
     def metres(self, lat: ArrayLike, lon: ArrayLike) -> NDArray[np.float64]:
-        """Degrees to metres east and north, shape (n, 2)."""
+        """Convert degrees to metres east and north, shape (n, 2)."""
         x, y = self._transformer.transform(np.atleast_1d(lon), np.atleast_1d(lat))
         return np.column_stack([x, y]).astype(np.float64)
 
     def degrees(self, xy: ArrayLike) -> NDArray[np.float64]:
-        """Metres east and north, shape (n, 2), to latitude and longitude, shape (n, 2)."""
+        """Convert metres east and north, shape (n, 2), to latitude and longitude, shape (n, 2)."""
         points = np.atleast_2d(np.asarray(xy, dtype=np.float64))
         lon, lat = self._transformer.transform(points[:, 0], points[:, 1], direction="INVERSE")
         return np.column_stack([lat, lon]).astype(np.float64)

@@ -1,7 +1,7 @@
-"""Makes orchards of any kind whose rows are known: blocks, bearings, gaps, uneven planting, with or without names.
+"""Generate random orchards with known rows, for tests and benchmarks.
 
-:mod:`fieldhand.site.demo_orchard` makes one orchard with everything in it, to show; these are to measure and to test
-with.
+Blocks, bearings, gaps, uneven planting and the names in the file vary. :mod:`fieldhand.site.demo_orchard` generates the
+built-in orchard.
 """
 
 from __future__ import annotations
@@ -29,22 +29,22 @@ Named = Literal["none", "rows", "rows and blocks", "everything"]
 
 _ENDS: tuple[Ends, ...] = ("even", "slanted", "ragged")
 _DECIMALS = 8
-#: From the outermost trees to the fence, wider than a pond reaches beyond them, in metres.
+#: Distance in metres from the outermost trees to the fence; a pond never extends that far beyond them.
 _HEADLAND_M = 12.0
 
 
 @dataclass(frozen=True, kw_only=True)
 class BlockShape:
-    """How a block is planted. Its rows run along the bearing; metres, degrees clockwise from true north.
+    """Planting parameters of a block. Rows run along the bearing, in degrees clockwise from true north.
 
     Attributes:
-        ends: Rows end on a line across them, on a slanted line, or each where it likes.
-        lattice: Trees of neighbouring rows stand abreast, or halfway between each other, or without regard to them.
-        bend: How far a row curves away from a straight line at its middle, as a part of its length.
-        missing: Part of the trees that are not there.
-        jitter: Standard deviation of a tree's place about its planting position, along and across, as a part of
-            the tree spacing.
-        lost_rows: Part of the rows that are not there at all (never the outermost).
+        ends: Row ends on a line across the rows, on a slanted line, or irregular.
+        lattice: Trees of neighbouring rows aligned, offset by half a spacing, or at random offsets.
+        bend: Deviation of a row from a straight line at its middle, as a fraction of its length.
+        missing: Fraction of missing trees.
+        jitter: Standard deviation of a tree about its planting position, along and across, as a fraction of the tree
+            spacing.
+        lost_rows: Fraction of missing rows (never the outermost).
     """
 
     rows: int
@@ -62,14 +62,14 @@ class BlockShape:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class GeneratedOrchard:
-    """An orchard and what is true of it.
+    """A generated orchard with its true rows and blocks.
 
     Attributes:
         collection: GeoJSON FeatureCollection; trees in the order of the arrays below.
         xy: Metres east and north of the orchard's middle, shape (n, 2).
         row_of: Row of each tree, counted through all blocks from 0; -1 for a stray tree. Shape (n,).
         block_of: Block of each tree; -1 for a stray tree. Shape (n,).
-        shapes: Of the blocks.
+        shapes: Planting parameters of the blocks.
     """
 
     collection: dict[str, Any]
@@ -79,7 +79,7 @@ class GeneratedOrchard:
     shapes: tuple[BlockShape, ...]
 
     def to_bytes(self) -> bytes:
-        """The file."""
+        """Return the GeoJSON file."""
         return json.dumps(self.collection, separators=(",", ":")).encode()
 
 
@@ -93,10 +93,13 @@ def random_shapes(
     jitter: float | None = None,
     single_rows: float = 0.15,
 ) -> tuple[BlockShape, ...]:
-    """Shapes of blocks that together hold about so many trees; what is None is drawn for each block.
+    """Return shapes of blocks with about that many trees in total; parameters that are None are random per block.
 
     Args:
-        rng: Where chance comes from.
+        rng: Random generator.
+        trees: Approximate number of trees in all blocks.
+        blocks: Number of blocks.
+        bearing_deg, missing, jitter: Values for all blocks, see :class:`BlockShape`; None for random ones.
         single_rows: Probability that a block other than the first is a single row.
     """
     if trees < 1 or blocks < 1:
@@ -139,21 +142,22 @@ def make_orchard(
     fenced: bool = False,
     markers: bool = False,
 ) -> GeneratedOrchard:
-    """Plant these blocks beside each other.
+    """Generate an orchard with these blocks beside each other.
 
     Args:
-        rng: Where chance comes from; the same state gives the same orchard.
-        shapes: One for each block.
-        road_m: Least distance between trees of different blocks; None draws 1.3 to 3 times the wider row spacing.
-        named: What the trees' properties say: nothing, ``row``, ``row`` and ``block``, or ``position`` as well. Rows
-            are counted from 1 in each block.
-        shuffled: Whether the trees stand in the file in no order, else row by row.
-        strays: Trees beside the blocks that belong to no row.
-        latitude: Of the middle, degrees.
-        longitude: Of the middle, degrees.
-        pond_m: Radius of a pond (a keep-out) in the middle of some tree's place; trees there are left out. 0 for none.
-        fenced: Whether a boundary runs around everything, a headland away from the trees.
-        markers: Whether there are a start and an end, in the south-west and the south-east of the headland.
+        rng: Random generator; the same state gives the same orchard.
+        shapes: Planting parameters of each block.
+        road_m: Least distance in metres between trees of different blocks; None draws 1.3 to 3 times the wider row
+            spacing.
+        named: Properties of the trees: none, ``row``, ``row`` and ``block``, or ``position`` as well. Rows are numbered
+            from 1 in each block.
+        shuffled: True for trees in random file order, False for row by row.
+        strays: Number of trees beside the blocks that belong to no row.
+        latitude: Latitude of the middle in degrees.
+        longitude: Longitude of the middle in degrees.
+        pond_m: Radius in metres of a pond (a keep-out) around a random tree; trees in it are left out. 0 for no pond.
+        fenced: Add a boundary around everything, a headland away from the trees.
+        markers: Add a start and an end in the south-west and south-east of the headland.
     """
     if not shapes:
         raise SiteError("an orchard needs a block", advice="give one shape or more")
@@ -197,14 +201,14 @@ def make_orchard(
 
 
 def _degrees(projection: Projection, xy: Points) -> list[list[float]]:
-    """GeoJSON positions."""
+    """Convert metres to GeoJSON positions."""
     return np.round(projection.degrees(xy)[:, ::-1], _DECIMALS).tolist()  # type: ignore[no-any-return]
 
 
 def _around(
     projection: Projection, xy: Points, pond: Points | None, pond_m: float, fenced: bool, markers: bool
 ) -> list[dict[str, Any]]:
-    """Features other than trees."""
+    """Return the features other than trees."""
     (west, south), (east, north) = xy.min(axis=0) - _HEADLAND_M, xy.max(axis=0) + _HEADLAND_M
     features: list[dict[str, Any]] = []
     if fenced:
@@ -241,14 +245,14 @@ def random_orchard(
     shuffled: bool = True,
     strays: int = 0,
 ) -> GeneratedOrchard:
-    """An orchard of about so many trees: :func:`random_shapes`, then :func:`make_orchard`."""
+    """Generate an orchard of about that many trees: :func:`random_shapes`, then :func:`make_orchard`."""
     rng = np.random.default_rng(seed)
     shapes = random_shapes(rng, trees=trees, blocks=blocks, bearing_deg=bearing_deg, missing=missing, jitter=jitter)
     return make_orchard(rng, shapes, road_m=road_m, named=named, shuffled=shuffled, strays=strays)
 
 
 def _plant(rng: np.random.Generator, shape: BlockShape) -> tuple[Points, Indices, Indices]:
-    """A block about 0: places, row from 0, and position from 1 of each tree."""
+    """Return the trees of a block about the origin: positions, rows from 0, and positions in the row from 1."""
     kept = [k for k in range(shape.rows) if k in (0, shape.rows - 1) or rng.random() >= shape.lost_rows]
     slant = rng.uniform(-0.8, 0.8)
     places, rows, slots = [], [], []
@@ -256,7 +260,7 @@ def _plant(rng: np.random.Generator, shape: BlockShape) -> tuple[Points, Indices
         first, last = _ends(rng, shape, k, slant)
         slot = np.arange(first, last)
         there = rng.random(len(slot)) >= shape.missing
-        there[:2] |= ~there.any()  # a row has a tree at least
+        there[:2] |= ~there.any()  # a row has at least one tree
         slot = slot[there]
         shift = {"square": 0.0, "diamond": 0.5 * (k % 2), "free": float(rng.uniform(0, 1))}[shape.lattice]
         v = (slot + shift - (shape.trees_a_row - 1) / 2) * shape.tree_spacing_m
@@ -273,7 +277,7 @@ def _plant(rng: np.random.Generator, shape: BlockShape) -> tuple[Points, Indices
 
 
 def _ends(rng: np.random.Generator, shape: BlockShape, row: int, slant: float) -> tuple[int, int]:
-    """First planting position of a row, and the one after its last."""
+    """Return the first planting position of a row, and the one after its last."""
     n = shape.trees_a_row
     if shape.ends == "slanted":
         moved = round(slant * row * shape.row_spacing_m / shape.tree_spacing_m)
@@ -287,7 +291,7 @@ def _ends(rng: np.random.Generator, shape: BlockShape, row: int, slant: float) -
 def _side_by_side(
     rng: np.random.Generator, blocks: Sequence[Points], shapes: Sequence[BlockShape], road_m: float | None
 ) -> list[Points]:
-    """Each block moved up to those before it, from a side of its own, until only the road is between."""
+    """Move each block towards the earlier ones, from a random side, until only the road is between them."""
     placed: list[Points] = []
     taken: BaseGeometry | None = None
     for points, shape in zip(blocks, shapes, strict=True):
@@ -317,7 +321,7 @@ def _side_by_side(
 
 
 def _strays(rng: np.random.Generator, blocks: Sequence[Points], shapes: Sequence[BlockShape], count: int) -> Points:
-    """Trees that stand alone, three spacings and more from any other."""
+    """Return single trees at least three spacings away from all others."""
     everything = np.vstack(blocks)
     apart = 3.0 * max(max(s.tree_spacing_m, s.row_spacing_m) for s in shapes)
     low, high = everything.min(axis=0) - 3 * apart, everything.max(axis=0) + 3 * apart

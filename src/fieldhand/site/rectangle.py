@@ -1,4 +1,4 @@
-"""The smallest-area rectangle around points, and which of its corners is which."""
+"""Compute the smallest-area rectangle around points, and name its corners by the compass."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from shapely.geometry import MultiPoint, Polygon
 
 from fieldhand.terms import CornerName
 
-#: Anticlockwise, as the rectangle's corners are.
+#: Anticlockwise, like the corners of the rectangle.
 _NAMES: tuple[CornerName, ...] = ("ne", "nw", "sw", "se")
 _COMPASS = np.array([(1, 1), (-1, 1), (-1, -1), (1, -1)], dtype=np.float64)
 
 
 def smallest_rectangle(xy: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Corners of the smallest-area enclosing rectangle, anticlockwise, shape (4, 2).
+    """Return the corners of the smallest-area enclosing rectangle, anticlockwise, shape (4, 2).
 
-    One side of it lies on an edge of the convex hull (Freeman and Shapira 1975), so each edge is tried. The extreme
-    points in each direction are looked up among the sorted edge normals. Fewer than three points, or points on one
-    line, have a rectangle without width.
+    One of its sides lies on an edge of the convex hull (Freeman and Shapira 1975), so each edge is tried. The extreme
+    points in each direction are found by binary search among the sorted edge normals. Fewer than three points, or
+    collinear points, give a rectangle of zero width.
     """
     hull = MultiPoint(_outer(xy)).convex_hull
     points = shapely.get_coordinates(hull)
@@ -38,15 +38,15 @@ def smallest_rectangle(xy: NDArray[np.float64]) -> NDArray[np.float64]:
     along = edges / np.hypot(edges[:, 0], edges[:, 1])[:, None]
     across = np.column_stack([-along[:, 1], along[:, 0]])
     area = _reach(ring, angles, along) * _reach(ring, angles, across)
-    # Rounding may put the area of a hull without width a little below 0.
+    # Rounding may make the area of a hull of zero width slightly negative.
     best = int(np.flatnonzero(area <= area.min() + 1e-9 * abs(area.min()))[0])
     return _rectangle(ring, along[best])
 
 
 def named_corners(rectangle: NDArray[np.float64]) -> Mapping[CornerName, NDArray[np.float64]]:
-    """Each corner by its compass name from the centre; every name goes to one corner, even at 45 degrees.
+    """Return each corner by its compass name as seen from the centre; every name is used once, even at 45 degrees.
 
-    Of the four ways to name the corners in turn, the one that agrees best with the compass.
+    Among the four cyclic assignments of names, the one that agrees best with the compass is chosen.
     """
     offsets = rectangle - rectangle.mean(axis=0)
     agreement = [float((offsets * np.roll(_COMPASS, -turn, axis=0)).sum()) for turn in range(4)]
@@ -57,7 +57,7 @@ def named_corners(rectangle: NDArray[np.float64]) -> Mapping[CornerName, NDArray
 
 
 def _outer(xy: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The points without those well inside, which cannot be on the hull (Akl and Toussaint 1978)."""
+    """Return the points that may lie on the hull, without those well inside (Akl and Toussaint 1978)."""
     if len(xy) < 1000:
         return xy
     x, y = np.ascontiguousarray(xy[:, 0]), np.ascontiguousarray(xy[:, 1])
@@ -74,14 +74,17 @@ def _outer(xy: NDArray[np.float64]) -> NDArray[np.float64]:
 def _reach(
     ring: NDArray[np.float64], angles: NDArray[np.float64], direction: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Extent of the hull along each direction."""
+    """Return the extent of the hull along each direction."""
     high = ring[_farthest_vertex(angles, direction)]
     low = ring[_farthest_vertex(angles, -direction)]
     return np.asarray(((high - low) * direction).sum(axis=1))
 
 
 def _farthest_vertex(angles: NDArray[np.float64], direction: NDArray[np.float64]) -> NDArray[np.intp]:
-    """Vertex farthest along each direction: where the edges turn past the direction's perpendicular."""
+    """Return the index of the vertex farthest along each direction.
+
+    It is where the direction of the edges passes the perpendicular of the direction.
+    """
     turned = np.arctan2(direction[:, 0], -direction[:, 1])  # the direction of travel whose outward side is `direction`
     return np.searchsorted(angles, turned) % len(angles)
 

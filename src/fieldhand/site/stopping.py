@@ -1,4 +1,4 @@
-"""Find where on its way a robot can stop without being in anybody's way."""
+"""Choose safe stopping points along a drive, and describe locations in words."""
 
 from __future__ import annotations
 
@@ -14,26 +14,26 @@ from fieldhand.site.driving.network import aisle_name
 #: Metres to keep from the ends of an aisle, where others cross the headland, and from the opening of a gate.
 CLEAR_M = 2.0
 
-#: Metres within which the robot is at a marker.
+#: Within this distance in metres the robot counts as at a marker.
 _AT_MARKER_M = 3.0
 
-#: Metres between the points of a way that are looked at.
+#: Distance in metres between the points of a path that are examined.
 _STEP_M = 0.5
 
 
 def safe_stop(drives: Drives, way: Drive, within_m: float) -> float | None:
-    """Return how far along a way, at most so many metres, the robot can stand safely; as far as can be.
+    """Return the distance to the farthest safe stopping point within a given distance along a path.
 
-    It stands safely at a marker, such as the start, and inside an aisle between two rows, clear of the aisle's ends and
-    of gates. A way never leads through a keep-out, so no point of it lies in one.
+    Safe points are at a marker, such as the start, or inside an aisle between two rows, clear of the aisle's ends and
+    of gates. Paths never lead through keep-outs.
 
     Args:
-        drives: Of the site and the robot.
-        way: That it drives along.
-        within_m: How far it can drive.
+        drives: Drives of the site and the robot.
+        way: Path of the robot.
+        within_m: Remaining range in metres.
 
     Returns:
-        Metres along the way; None where no point is safe.
+        Metres along the path; None if no point is safe.
     """
     most = min(within_m, way.length_m)
     steps = np.append(np.arange(0.0, max(most, 0.0), _STEP_M), max(most, 0.0))
@@ -50,7 +50,7 @@ def safe_stop(drives: Drives, way: Drive, within_m: float) -> float | None:
 
 
 def location_words(drives: Drives, at: XY) -> str:
-    """Say where a point lies: "the aisle between rows 3 and 4", "the open"."""
+    """Return the location of a point in words: "the aisle between rows 3 and 4", "the open"."""
     aisle = drives.layout.aisle(at)
     if aisle is None:
         return message("the open", context="log")

@@ -1,1 +1,2 @@
-"""Site files in and out: GeoJSON, CSV, and what GDAL reads; each reader gives the same records."""
+"""Readers and writers of site files: GeoJSON, CSV, and the formats that GDAL reads; all readers return the same
+records."""

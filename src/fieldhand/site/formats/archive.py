@@ -1,4 +1,4 @@
-"""Zip files unpacked within bounds: nothing outside the folder, not more than it may be, only what a site can need."""
+"""Unpack zip files safely: only inside the target folder, bounded in size, and only the file types of a site."""
 
 from __future__ import annotations
 
@@ -11,19 +11,20 @@ from fieldhand.errors import SiteError
 
 MAX_UNPACKED = 200_000_000
 MAX_MEMBERS = 2_000
-#: Packed text of coordinates shrinks to a tenth, tables full of blanks to a hundredth; what shrinks more is a bomb.
+#: Coordinates compress to a tenth, sparse tables to a hundredth; a higher ratio indicates a zip bomb.
 MAX_RATIO = 250
 _SMALL = 1_000_000
 _CHUNK = 1 << 18
 
 
 def unpack(data: bytes, endings: Collection[str], folder: Path, at: str) -> list[Path]:
-    """Unpack the members with these endings into an empty folder, in their order; returns their paths.
+    """Unpack the members with these extensions into an empty folder and return their paths, in archive order.
 
-    Members of one folder of the archive stay together in one folder. Archives within the archive are not opened.
+    Members of one folder of the archive stay together in one folder. Nested archives are not opened.
 
     Raises:
-        SiteError: It is no zip file, is damaged or encrypted, names a path outside itself, or is too big unpacked.
+        SiteError: The data is not a zip file, is damaged or encrypted, names a path outside itself, or unpacks to too
+            much.
     """
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
@@ -43,7 +44,7 @@ def unpack(data: bytes, endings: Collection[str], folder: Path, at: str) -> list
 
 
 def _checked(member: zipfile.ZipInfo, at: str) -> bool:
-    """Whether the member is a file of the archive's own; anything that points outside is refused."""
+    """Return True for a regular, visible member; raise an error for an encrypted one or a path outside the archive."""
     if not member.filename:
         raise zipfile.BadZipFile("a file without a name")
     path = PurePosixPath(member.filename)
@@ -60,7 +61,7 @@ def _checked(member: zipfile.ZipInfo, at: str) -> bool:
 
 
 def _write(archive: zipfile.ZipFile, members: list[zipfile.ZipInfo], packed: int, folder: Path, at: str) -> list[Path]:
-    """Counted while unpacking: what the archive says about sizes is the word of whoever made it."""
+    """Unpack the members, counting the bytes actually written: the sizes stated in the archive may be forged."""
     most = min(MAX_UNPACKED, max(_SMALL, packed * MAX_RATIO))
     folders: dict[PurePosixPath, Path] = {}
     written: list[Path] = []

@@ -1,4 +1,4 @@
-"""Collect the unusable features of a site file, to report them together or, if requested, to skip them."""
+"""Collect the unusable features of a site file, to report them together or to skip them."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ class UnusableFeature(Exception):  # never leaves the reader
     """A feature that cannot be used.
 
     Args:
-        what: What is wrong with it, in words that follow "feature 7: ".
-        advice: What to do.
+        what: Problem, worded to follow "feature 7: ".
+        advice: Remedy.
     """
 
     def __init__(self, what: str, advice: str) -> None:
@@ -25,12 +25,12 @@ class UnusableFeature(Exception):  # never leaves the reader
 
 
 class Faults:
-    """The features that cannot be used, each with its reason.
+    """The unusable features of a file, each with its reason.
 
     Args:
-        source: Where the file was read from.
-        unit: What its features are counted in.
-        lenient: Leave them out and go on. What keeps a robot out of somewhere is never left out.
+        source: Path or name of the file.
+        unit: Unit that feature numbers count.
+        lenient: Skip unusable features, except those that keep a robot out of an area.
     """
 
     def __init__(self, source: str, unit: Unit = "feature", *, lenient: bool = False) -> None:
@@ -41,17 +41,17 @@ class Faults:
         self._needed: dict[tuple[str, str], list[int]] = {}
 
     def add(self, number: int, what: str, advice: str, *, needed: bool = False) -> None:
-        """A feature cannot be used; ``needed`` where the site must not be used without it."""
+        """Record an unusable feature; ``needed`` if the site must not be used without it."""
         for faults in (self._found, self._needed) if needed else (self._found,):
             numbers = faults.setdefault((what, advice), [])
             if number not in numbers[-1:]:
                 numbers.append(number)
 
     def check(self) -> None:
-        """Refuse the file if something in it cannot be used and must not be left out.
+        """Raise an error if there are unusable features that must not be skipped.
 
         Raises:
-            SiteError: With the first faults, each with its feature.
+            SiteError: The file is rejected; the message lists the first faults with their features.
         """
         faults = self._needed if self.lenient else self._found
         if not faults:
@@ -76,7 +76,7 @@ class Faults:
         )
 
     def notes(self) -> list[str]:
-        """What was left out and why, a sentence each; the first few."""
+        """Return a sentence for each of the first few reasons for which features were left out."""
         texts = [
             f"left out {numbered(self.unit, numbers)}: {what}"
             for (what, _), numbers in list(self._found.items())[:MOST_REASONS]
@@ -91,7 +91,8 @@ class Faults:
 
 
 def numbered(unit: Unit, numbers: Sequence[int]) -> str:
-    """``feature 3``, ``features 3, 4 and 9``, ``features 3, 4, 9, 12, 14 and 88 more``."""
+    """Return feature numbers as text: ``feature 3``, ``features 3, 4 and 9``, ``features 3, 4, 9, 12, 14 and 88
+    more``."""
     if len(numbers) == 1:
         return f"{unit} {numbers[0]}"
     shown = [str(n) for n in numbers[:_MOST_NUMBERS]]

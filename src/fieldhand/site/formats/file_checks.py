@@ -1,4 +1,4 @@
-"""Check a file before GDAL opens it: no entities, no references to other files, no queries in place of tables."""
+"""Check a file before GDAL opens it: no XML entities, no references to other files, no views instead of tables."""
 
 from __future__ import annotations
 
@@ -14,15 +14,16 @@ from fieldhand.hidden_characters import visible
 MAX_DEPTH = 100
 _VIRTUAL = re.compile(r"\s*CREATE\s+VIRTUAL", re.IGNORECASE)
 _INDEX = re.compile(r"\bUSING\s+[\"'`\[]?(?:rtree|fts[345])\b", re.IGNORECASE)
-#: How files begin that GDAL takes for lists of other files, whatever they are called.
+#: Markers of files that GDAL treats as lists of other files, whatever their names.
 _LISTS = (b"<OGRVRT", b"<VRTDataset", b"<GDALTileIndex", b"<OGRWFS", b"<WFS_Capabilities", b'"gdal_streamed_alg"')
 
 
 def check_kml(path: Path, at: str) -> None:
-    """Refuse what is no plain KML.
+    """Reject a file that is not plain KML.
 
     Raises:
-        SiteError: It is not well-formed, no KML, nested too deeply, or has a document type (with which entities come).
+        SiteError: The file is not well-formed or not KML, is nested too deeply, or has a document type, which could
+            define entities.
     """
     data = path.read_bytes()
     if any(mark in data for mark in _LISTS):
@@ -65,11 +66,11 @@ def check_kml(path: Path, at: str) -> None:
 
 
 def check_geopackage(path: Path, at: str) -> frozenset[str]:
-    """Names of the layers that are views: they are queries that would be run, so they are not read.
+    """Return the names of the layers that are views; they are queries, so they are not read.
 
     Raises:
-        SiteError: It is no GeoPackage, one of its own tables is a view, or a table is virtual (spatial and text indexes
-            are, and are fine; others may stand for any file of this machine).
+        SiteError: The file is not a GeoPackage, one of its system tables is a view, or it has a virtual table other
+            than a spatial or text index, which could refer to any local file.
     """
     try:
         with closing(sqlite3.connect(f"{path.as_uri()}?mode=ro&immutable=1", uri=True)) as database:

@@ -1,4 +1,4 @@
-"""Determine the format of a file from its ending and first bytes, and read its records."""
+"""Determine the format of a file from its extension and first bytes, and read its records."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ _ENDINGS: dict[str, Format] = {
     ".kmz": "zip",
     ".zip": "zip",
 }
-#: Of each built-in format, the ending under which its reader is registered.
+#: Extension under which the reader of a built-in format is registered, if it differs from the name of the format.
 _MAIN_ENDINGS: dict[str, str] = {"table": "csv", "shapefile": "shp", "geopackage": "gpkg"}
-#: How files begin that can be nothing else.
+#: First bytes that identify a format.
 _MAGIC: dict[bytes, Format] = {
     b"SQLite format 3\0": "geopackage",
     b"PK\x03\x04": "zip",
@@ -40,11 +40,11 @@ _MAGIC: dict[bytes, Format] = {
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class SiteFiles:
-    """The files of a site as they were read: whoever has them can read the very same site again.
+    """The raw files of a site, from which the identical site can be read again.
 
     Attributes:
-        parts: Bytes by file name, the main file first; more than one for a Shapefile alone.
-        source: Where they were read from, for messages.
+        parts: Bytes by file name, the main file first; only a Shapefile has more than one.
+        source: Path that they were read from, for messages.
     """
 
     parts: Mapping[str, bytes]
@@ -54,12 +54,12 @@ class SiteFiles:
 
     @property
     def name(self) -> str:
-        """Of the main file."""
+        """Return the name of the main file."""
         return next(iter(self.parts))
 
     @cached_property
     def sha256(self) -> str:
-        """Of the bytes, for a Shapefile of its parts one after the other."""
+        """Return the SHA-256 of the concatenated bytes of all parts."""
         digest = hashlib.sha256()
         for part in self.parts.values():
             digest.update(part)
@@ -67,10 +67,10 @@ class SiteFiles:
 
 
 def read_files(path: Path) -> SiteFiles:
-    """A file, and what belongs to it.
+    """Read a file, and the other parts of a Shapefile.
 
     Raises:
-        SiteError: It is missing, no file, too big, or has no format that can be read.
+        SiteError: The path is missing or not a file, or the file is too big or of no readable format.
     """
     at = visible(str(path))
     data = read_bytes(path, at)
@@ -80,10 +80,10 @@ def read_files(path: Path) -> SiteFiles:
 
 
 def records_of(files: SiteFiles, *, lenient: bool = False) -> SiteRecords:
-    """The records that these files hold.
+    """Return the records of these files.
 
     Raises:
-        SiteError: They have no format that can be read, or not what belongs to it.
+        SiteError: The files are of no readable format, or invalid.
         PluginError: The reader of a plugin cannot be imported.
     """
     form = format_of(files.name, files.parts[files.name], files.source)
@@ -105,19 +105,19 @@ def records_of(files: SiteFiles, *, lenient: bool = False) -> SiteRecords:
 
 
 def is_plain(files: SiteFiles) -> bool:
-    """Return True for a format that is read here: GeoJSON or a table. Others take GDAL, or are unpacked first.
+    """Return True for GeoJSON and tables, which need neither GDAL nor unpacking.
 
     Raises:
-        SiteError: They have no format that can be read.
+        SiteError: The files are of no readable format.
     """
     return format_of(files.name, files.parts[files.name], files.source) in ("geojson", "table")
 
 
 def read_bytes(path: Path, at: str) -> bytes:
-    """The bytes of a file that is not too big.
+    """Return the bytes of a file.
 
     Raises:
-        SiteError: It is missing, no file, too big or cannot be read.
+        SiteError: The path is missing or not a file, or the file is too big or cannot be read.
     """
     try:
         return read_file(path, MAX_BYTES, plain=True)
@@ -138,10 +138,10 @@ def read_bytes(path: Path, at: str) -> bytes:
 
 
 def format_of(name: str, data: bytes, at: str) -> str:
-    """The format of a file; a beginning that can mean only one thing counts more than the ending of the name.
+    """Return the format of a file; first bytes that identify a format take precedence over the extension.
 
     Raises:
-        SiteError: It is none that can be read.
+        SiteError: The file is of no readable format.
     """
     for magic, form in _MAGIC.items():
         if data.startswith(magic):
@@ -179,7 +179,7 @@ def format_of(name: str, data: bytes, at: str) -> str:
 
 
 def _shapefile_parts(path: Path) -> list[Path]:
-    """The parts that lie beside the main file, however their endings are written."""
+    """Return the parts beside the main file, whatever the case of their extensions."""
     try:
         beside = {p.suffix.lower(): p for p in sorted(path.parent.iterdir()) if p.stem == path.stem and p.is_file()}
     except OSError:

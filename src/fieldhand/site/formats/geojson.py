@@ -1,4 +1,4 @@
-"""GeoJSON (RFC 7946) to records."""
+"""Read GeoJSON (RFC 7946) into records."""
 
 from __future__ import annotations
 
@@ -14,15 +14,16 @@ _AGAIN = "export it again as GeoJSON"
 
 
 def geojson_records(data: bytes, at: str, *, lenient: bool = False) -> SiteRecords:
-    """The features of a GeoJSON FeatureCollection in UTF-8.
+    """Return the features of a GeoJSON FeatureCollection in UTF-8.
 
     Args:
         data: The document.
-        at: Where it was read from, for messages.
-        lenient: Read over a ``crs`` member that says WGS 84.
+        at: Path or name of the document, for messages.
+        lenient: Ignore a ``crs`` member that names WGS 84.
 
     Raises:
-        SiteError: It is not JSON, no FeatureCollection, or has a ``crs`` member, which RFC 7946 took out.
+        SiteError: The document is not JSON or not a FeatureCollection, or it has a ``crs`` member, which RFC 7946
+            removed.
     """
     document = _document(data, at)
     features = _features(document, at)
@@ -68,7 +69,10 @@ def _features(document: Mapping[str, Any], at: str) -> Sequence[Any]:
 
 
 def _crs(document: Mapping[str, Any], at: str, *, lenient: bool) -> tuple[str, ...]:
-    """Any ``crs`` member is refused: programs differ in whether they obey it, so a site could lie in two places."""
+    """Return a note if the ``crs`` member was ignored; reject it otherwise.
+
+    Programs differ in whether they obey the member, so the same file could describe two places.
+    """
     if "crs" not in document:
         return ()
     named = document["crs"]

@@ -1,7 +1,7 @@
-"""A site as GeoJSON (RFC 7946), with what was understood of it: rows, aisles, headlands and where a robot drives.
+"""Export a site as GeoJSON (RFC 7946), with the derived rows, aisles, headlands and drivable lines.
 
-Reading the document again gives the same site: trees, markers, gates and zones stand in it as they were read, and rows
-as properties of the trees. The lines are for people and maps; a reader reads over them.
+Reading the document again gives the same site: it contains the trees, markers, gates and zones as they were read, and
+the rows as properties of the trees. The lines are for display; the reader ignores them.
 """
 
 from __future__ import annotations
@@ -22,20 +22,20 @@ if TYPE_CHECKING:
 
 Feature = dict[str, Any]
 
-#: Of a degree, for lines that were computed: a millimetre.
+#: Decimals of a degree for computed lines: about a millimetre.
 _DECIMALS = 8
 _ZONE_WORDS = {"boundary": ("boundary",), "keep_out": ("keep-out",), "zone": ("zone", "named zone")}
 
 
 def site_document(site: Site, network: DrivableNetwork | None = None) -> dict[str, Any]:
-    """The site as a GeoJSON FeatureCollection.
+    """Return the site as a GeoJSON FeatureCollection.
 
-    Trees have ``row``, ``block`` and ``position`` as properties where they stand in a row. Rows, aisles, headlands and
-    the drivable lines are LineStrings whose ``kind`` says what they are; a row has its ``confidence``.
+    Trees in a row have the properties ``row``, ``block`` and ``position``. Rows, aisles, headlands and the drivable
+    lines are LineStrings with a ``kind``; a row also has its ``confidence``.
 
     Args:
-        site: Its rows are inferred where the file does not name them.
-        network: Where the robot drives, if that is to be in it.
+        site: Site to export; rows that the file does not name are inferred.
+        network: Drivable lines to include, if any.
     """
     features = [
         *_trees(site),
@@ -67,14 +67,14 @@ def _trees(site: Site) -> Iterator[Feature]:
 
 
 def _missing_properties(tree: Tree, where: dict[str, Value]) -> dict[str, Value]:
-    """What the file does not say of where the tree stands; what it says stays as it is."""
+    """Return the row, block and position of a tree that its own properties do not give; those are kept unchanged."""
     names = {
         "row": row_of(tree.properties),
         "block": text_of(tree.properties, BLOCK_KEYS),
         "position": text_of(tree.properties, POSITION_KEYS),
     }
     if not names["row"] and text_of(tree.properties, COLUMN_KEYS):
-        names["row"] = names["position"] = "its column"  # beside a row it would mean the position in it
+        names["row"] = names["position"] = "its column"  # next to a row, a column would be read as the position
     return {name: value for name, value in where.items() if not names[name]}
 
 
@@ -120,7 +120,7 @@ def _line(site: Site, points: ArrayLike, properties: dict[str, Any]) -> Feature:
 
 
 def _positions(site: Site, points: ArrayLike | Sequence[Any]) -> list[list[float]]:
-    """Longitude and latitude of points in metres."""
+    """Return longitude and latitude of points in metres."""
     xy = np.asarray(points, dtype=np.float64)[:, :2]
     return [[lon, lat] for lat, lon in site.projection.degrees(xy).tolist()]
 

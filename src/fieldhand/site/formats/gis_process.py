@@ -1,4 +1,4 @@
-"""The process in which GDAL reads a file (:mod:`fieldhand.site.formats.sandbox` starts it)."""
+"""Process in which GDAL reads a file, started by :mod:`fieldhand.site.formats.sandbox`."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from fieldhand.site.formats.sandbox import REQUEST, RESULT, as_json
 
 
 def main(folder: Path) -> int:
-    """Read the files of a folder and write the records, or what is wrong with the files, beside them."""
+    """Read the files of a folder and write the records, or the error, beside them."""
     request = json.loads((folder / REQUEST).read_text())
     _limit(memory=request["memory"], cpu_s=request["cpu_s"], result=max(request["result"], 250_000_000))
     from fieldhand.site.formats.gis import read_in_process
@@ -28,10 +28,10 @@ def main(folder: Path) -> int:
 
 
 def _limit(*, memory: int, cpu_s: int, result: int) -> None:
-    """Take away what a reader of files does not need."""
+    """Limit the memory, processor time and files of this process."""
     try:
         import resource
-    except ImportError:  # no such limits on this system; that of the clock remains
+    except ImportError:  # not available on this system; the wall-clock limit remains
         return
     for kind, most in (
         (resource.RLIMIT_AS, memory),

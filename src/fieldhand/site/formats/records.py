@@ -1,4 +1,4 @@
-"""The result of every reader: features in GeoJSON form, and the position of each in the file."""
+"""Result of every reader: features in GeoJSON form with their numbers in the file."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ MAX_BYTES = 100_000_000
 
 @dataclass(kw_only=True)
 class SiteRecords:
-    """The features of a file, not yet checked, in degrees WGS 84.
+    """The unchecked features of a file, in degrees WGS 84.
 
     Attributes:
-        features: GeoJSON features as ``json`` reads them; a reader may leave anything in here.
-        numbers: For each feature its number in the file; None for 1, 2, 3 ...
-        unit: What the numbers count.
-        name: The name that the file gives itself, else empty.
-        notes: What the reader took otherwise than it stands in the file.
+        features: GeoJSON features as decoded by ``json``; entries may be of any type.
+        numbers: Number of each feature in the file; None for 1, 2, 3 ...
+        unit: Unit that the numbers count.
+        name: Name in the file, else empty.
+        notes: Notes about content that the reader interpreted differently from the file.
     """
 
     features: Sequence[Any]
@@ -37,7 +37,7 @@ class SiteRecords:
 
 
 def too_big(at: str, size: int) -> SiteError:
-    """That a file is too big to be read."""
+    """Return the error for a file that is too big."""
     return SiteError(
         f"the file has {size / 1e6:,.0f} MB, more than {MAX_BYTES / 1e6:,.0f} MB",
         where=at,
@@ -47,7 +47,7 @@ def too_big(at: str, size: int) -> SiteError:
 
 @dataclass(frozen=True)
 class UnusablePart:
-    """In the place of a feature: why it cannot be read, what to do, and what is known of it all the same."""
+    """A placeholder for a feature that cannot be read: the reason, a remedy, and the properties that were read."""
 
     what: str
     advice: str

@@ -1,7 +1,7 @@
-"""Files that only GDAL or an unpacker can read, read in a process of their own with little memory and time.
+"""Read files that need GDAL or unpacking in a separate process with limited memory and time.
 
-A file of 200 kB can make a reader take gigabytes, or never end; and a reader that is written in C can be made to do
-anything by a file that knows its faults. So it runs beside this process (:mod:`fieldhand.site.formats.gis_process`):
+A malicious file of 200 kB can make a reader allocate gigabytes or never finish, and can exploit errors in a reader
+written in C. Therefore the reader runs in its own process (:mod:`fieldhand.site.formats.gis_process`):
 
     files ──▶ folder ──▶ process with limits ──▶ JSON, bounded ──▶ records
 """
@@ -22,7 +22,7 @@ from fieldhand.errors import SiteError
 from fieldhand.site.formats.records import SiteRecords, UnusablePart
 
 RESULT, REQUEST = "result.json", "request.json"
-#: What the process needs of the environment; of GDAL, of proxies and of tokens it sees nothing.
+#: Environment variables passed to the process; settings of GDAL, proxies and tokens are not.
 _PASSED = ("PATH", "PYTHONPATH", "LD_LIBRARY_PATH", "LANG", "LC_ALL", "SYSTEMROOT", "PROJ_DATA", "PROJ_LIB")
 
 
@@ -43,7 +43,7 @@ class ReadLimits:
 
 
 def read_limits(size: int) -> ReadLimits:
-    """Return the limits for files of a given size; a measured site of 100,000 trees needs a third of them."""
+    """Return the limits for files of a given size; a measured site of 100,000 trees uses a third of them."""
     return ReadLimits(
         memory=min(1_000_000_000 + 20 * size, 3_000_000_000),
         result=min(16_000_000 + 20 * size, 300_000_000),
@@ -59,10 +59,10 @@ def read_sandboxed(
 
     Args:
         form, contents, at, lenient: As for :func:`fieldhand.site.formats.gis.gis_records`.
-        allowed: Limits; by default those for the size of the files.
+        allowed: Limits; by default those of :func:`read_limits`.
 
     Raises:
-        SiteError: The files cannot be read, or not within the limits.
+        SiteError: The files cannot be read within the limits.
     """
     allowed = allowed or read_limits(sum(map(len, contents.values())))
     with tempfile.TemporaryDirectory(prefix="fieldhand-") as temporary:
@@ -104,7 +104,7 @@ def read_sandboxed(
 
 
 def as_json(records: SiteRecords) -> str:
-    """Return records as one text."""
+    """Return records as JSON text."""
     features = [
         {"unusable": [f.what, f.advice, dict(f.properties)]} if isinstance(f, UnusablePart) else {"feature": f}
         for f in records.features
@@ -122,7 +122,7 @@ def as_json(records: SiteRecords) -> str:
 
 
 def _plain(value: Any) -> Any:
-    """Return what JSON has for a value of a field; nothing for bytes, which no site needs."""
+    """Return a field value as a JSON type; None for bytes, which no site needs."""
     if isinstance(value, bytes):
         return None
     return value.tolist() if hasattr(value, "tolist") else str(value)

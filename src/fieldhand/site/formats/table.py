@@ -1,4 +1,4 @@
-"""A table (CSV) to records: one tree or marker a line, with a column for latitude and one for longitude."""
+"""Read a table (CSV) into records: one tree or marker per line, with columns for latitude and longitude."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from fieldhand.site.formats.faults import UnusableFeature
 from fieldhand.site.formats.records import SiteRecords, UnusablePart
 
 # fmt: off
-#: Names of the two columns, the surest first; compared without case, hyphens, underscores and what stands in brackets.
+#: Names of the two columns, the most specific first; compared without case, hyphens, underscores and bracketed text.
 LATITUDE = ("latitude", "lat", "gps latitude", "gps lat", "decimal latitude", "decimallatitude", "latitude deg",
             "lat deg", "lat dd", "latitude dd", "lat wgs84", "latitude wgs84", "point y", "coord y", "y coord", "y")
 LONGITUDE = ("longitude", "lon", "lng", "long", "gps longitude", "gps lon", "gps lng", "gps long", "decimal longitude",
@@ -29,20 +29,20 @@ _DELIMITERS = (",", ";", "\t", "|")
 _MISSING = frozenset({"", "nan", "null", "na", "n/a", "#n/a", "-"})
 _NUMBER = re.compile(r"[+-]?(?:0|[1-9]\d{0,17})(?:\.\d+)?(?:[eE][+-]?\d{1,3})?")
 _BRACKETS = re.compile(r"[(\[].*?[)\]]")
-#: Degrees with minutes, and perhaps seconds: their signs (with the typographic ones) and what may stand around them.
+#: Characters of degrees with minutes and optional seconds, including typographic signs.
 _SEXAGESIMAL = re.compile(r"[\d\s.,:dms\u00b0\u00ba'\"\u2019\u2032\u201d\u2033NSEWnsew-]+")
 
 
 def table_records(data: bytes, at: str) -> SiteRecords:
-    """The lines of a table with a header; each line is a point, its other columns are properties.
+    """Return the lines of a table with a header; each line is a point, its other columns are properties.
 
     Args:
-        data: Text in UTF-8 or UTF-16 (or Windows-1252, as older spreadsheets write it), with commas, semicolons, tabs
-            or bars between the columns. Where these are no commas, numbers may have decimal commas.
-        at: Where it was read from, for messages.
+        data: Text in UTF-8, UTF-16 or Windows-1252 (from older spreadsheets), with commas, semicolons, tabs or bars
+            between the columns. If the separator is not a comma, numbers may have decimal commas.
+        at: Path or name of the table, for messages.
 
     Raises:
-        SiteError: It is no such table, or has no columns for latitude and longitude.
+        SiteError: The data is not such a table, or has no columns for latitude and longitude.
     """
     text, notes = _text(data, at)
     head, _, rest = text.partition("\n")
@@ -60,7 +60,7 @@ def table_records(data: bytes, at: str) -> SiteRecords:
 
 @dataclass(frozen=True, kw_only=True)
 class _Columns:
-    """Where latitude and longitude stand, and the properties by the position of their column."""
+    """Column indices of latitude and longitude, and property names by column index."""
 
     names: Sequence[str]
     latitude: int
@@ -87,7 +87,7 @@ def _delimiter(head: str) -> str:
 
 
 def _lines(text: str, delimiter: str, at: str, skipped: int) -> list[tuple[int, list[str]]]:
-    """Each row that is not blank, with the number of the line that it begins on."""
+    """Return the rows that are not blank, each with the number of its first line."""
     reader = csv.reader(io.StringIO(text, newline=""), delimiter=delimiter, strict=True)
     found: list[tuple[int, list[str]]] = []
     begins = 1 + skipped
@@ -135,7 +135,7 @@ def _column(name: str, at: str, line: int) -> str:
     """Return the name of a column, on one line.
 
     Raises:
-        SiteError: It holds a character that nobody sees.
+        SiteError: The name contains an invisible character.
     """
     try:
         return readable(name.strip(), "header")
@@ -148,7 +148,7 @@ def _first(wanted: Sequence[str], words: Sequence[str]) -> int | None:
 
 
 def _feature(row: Sequence[str], columns: _Columns, *, comma: bool) -> dict[str, Any] | UnusablePart:
-    """A GeoJSON feature, or why the row is none."""
+    """Return a GeoJSON feature, or the reason why the row is unusable."""
     width = len(columns.names)
     if len(row) < width or any(map(str.strip, row[width:])):
         return UnusablePart(
@@ -169,9 +169,10 @@ def _feature(row: Sequence[str], columns: _Columns, *, comma: bool) -> dict[str,
 
 
 def value_of(text: str, *, comma: bool = False) -> str | float | bool | None:
-    """What a cell says: a number where it is written as one (007 is a name), yes or no where it says true or false.
+    """Return the value of a cell: a number, a boolean (true, false) or a text.
 
-    None for an empty one, and for what programs write into empty ones. With ``comma``, 3,5 is a number.
+    Numbers with leading zeros stay text, since 007 is a name. Empty cells and the usual markers of missing values give
+    None. With ``comma``, 3,5 is a number.
     """
     text = text.strip()
     lower = text.lower()
