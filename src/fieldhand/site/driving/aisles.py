@@ -19,24 +19,25 @@ from fieldhand.site.driving.rowlines import Frame, Line, RowLine, row_line
 from fieldhand.site.model import Site
 from fieldhand.site.planting import Block
 
-#: Rows of a block that are this many row spacings apart have open ground between them, not an aisle.
+#: Rows of a block that are more than this many row spacings apart have open ground between them, not an aisle.
 _APART = 2.5
 
-#: Rows end to end stand within this part of a row spacing.
+#: Greatest offset between rows end to end in one line, as a fraction of the row spacing.
 _SAME_LINE = 0.35
 
-#: The middle of bent rows is drawn with this tolerance, part of the aisle's width.
+#: Tolerance of the middle line between bent rows, as a fraction of the aisle's width.
 _MIDDLE = 0.05
 
 
 @dataclass(frozen=True, eq=False)
 class RowGroup:
-    """Rows side by side, with an aisle between every two neighbours.
+    """Adjacent rows with an aisle between every two neighbours.
 
     Attributes:
-        block: Position of their block in the planting.
-        lines: In the order of v, at least one.
-        obstacles: Of the lines.
+        block: Index of their block in the planting.
+        frame: Axes of the block.
+        lines: Lines of the rows in the order of v, at least one.
+        obstacles: Obstacle of each line.
     """
 
     block: int
@@ -46,12 +47,12 @@ class RowGroup:
 
     @cached_property
     def start_headland(self) -> Line:
-        """(v, u) along the ends of the rows of least u, in the order of v."""
+        """Return (v, u) along the ends of the rows of least u, in the order of v."""
         return self._headland(0)
 
     @cached_property
     def end_headland(self) -> Line:
-        """(v, u) along the ends of the rows of greatest u, in the order of v."""
+        """Return (v, u) along the ends of the rows of greatest u, in the order of v."""
         return self._headland(1)
 
     def _headland(self, end: int) -> Line:
@@ -65,9 +66,10 @@ class Aisle:
     """The strip between two neighbouring rows.
 
     Attributes:
-        number: Of the aisle on the site.
-        group_number: Position of its group.
-        position: Of the aisle in its group: that of the row below it.
+        number: Number of the aisle on the site, from 0.
+        group_number: Index of its group.
+        group: Group that it belongs to.
+        position: Index of the aisle in its group, equal to that of the row below it.
     """
 
     number: int
@@ -77,22 +79,22 @@ class Aisle:
 
     @property
     def frame(self) -> Frame:
-        """The axes of its rows."""
+        """Return the axes of its rows."""
         return self.group.frame
 
     @property
     def below(self) -> RowLine:
-        """The row of lesser v."""
+        """Return the row of lesser v."""
         return self.group.lines[self.position]
 
     @property
     def above(self) -> RowLine:
-        """The row of greater v."""
+        """Return the row of greater v."""
         return self.group.lines[self.position + 1]
 
     @property
     def is_straight(self) -> bool:
-        """Return True if a robot can drive all along it in a straight line."""
+        """Return True if a robot can drive along the whole aisle in a straight line."""
         return self.below.top <= self.above.bottom
 
     def bounds(self, u: Points) -> tuple[Points, Points]:
@@ -100,7 +102,7 @@ class Aisle:
         return np.interp(u, *self.below.upper), np.interp(u, *self.above.lower)
 
     def width(self, u: Points | float) -> Points:
-        """Return the metres from row to row at each u."""
+        """Return the width from row to row in metres at each u."""
         return np.asarray(np.interp(u, self.above.u, self.above.low) - np.interp(u, self.below.u, self.below.high))
 
     def middle(self, u: Points | float) -> Points:
@@ -110,7 +112,7 @@ class Aisle:
 
     @cached_property
     def middle_line(self) -> Points:
-        """(u, v) halfway between the rows, from headland to headland, with few points; shape (n, 2)."""
+        """Return the simplified line (u, v) halfway between the rows, from headland to headland; shape (n, 2)."""
         ends = self.middle(np.array([-np.inf, np.inf]))
         start = float(np.interp(ends[0], *self.group.start_headland))
         end = float(np.interp(ends[1], *self.group.end_headland))
@@ -122,12 +124,12 @@ class Aisle:
 
     @property
     def entries(self) -> Points:
-        """Its openings onto the headlands, in metres east and north, shape (2, 2)."""
+        """Return its openings onto the headlands, in metres east and north, shape (2, 2)."""
         return self.frame.world(self.middle_line[[0, -1]])
 
     @cached_property
     def polygon(self) -> BaseGeometry:
-        """The strip from row to row, as long as the longer of them, in metres east and north."""
+        """Return the strip from row to row, as long as the longer of them, in metres east and north."""
         below, above = self.below, self.above
         ends = [self.group.obstacles[k].ends for k in (self.position, self.position + 1)]
         first = min(float(self.frame.local(start)[:, 0].min()) for start, _ in ends)
@@ -140,12 +142,12 @@ class Aisle:
 
 
 class Aisles:
-    """The rows of a site in groups, their obstacles, and the aisles between them.
+    """The row groups of a site, their obstacles, and the aisles between them.
 
     Args:
-        site: With its rows.
-        free: Ground without keep-outs.
-        standoff_m: Metres beyond the last trees at which a robot turns, where there is room.
+        site: Site with its rows.
+        free: Ground outside keep-outs.
+        standoff_m: Distance in metres beyond the last trees at which a robot turns, if there is room.
     """
 
     def __init__(self, site: Site, free: FreeSpace, standoff_m: float) -> None:
@@ -177,7 +179,7 @@ class Aisles:
         )
 
     def of(self, group: int, position: int) -> Aisle:
-        """Return the aisle above that line of a group."""
+        """Return the aisle above a line of a group."""
         return self.all[self._first[group] + position]
 
     def at(self, xy: Points) -> list[Aisle | None]:
@@ -193,18 +195,18 @@ class Aisles:
 
 
 def tree_lines(site: Site) -> shapely.STRtree:
-    """Return the lines through the trees of all rows, in the order of the planting; of a single tree a point."""
+    """Return the lines through the trees of all rows, in planting order; a point for a row of a single tree."""
     xy = [site.xy[row.trees] for row in site.planting.rows]
     return shapely.STRtree([LineString(p) if len(p) > 1 else Point(p[0]) for p in xy])
 
 
 def _trees_of(site: Site, line: RowLine) -> Points:
-    """Return the trees of a line from one end to the other, shape (n, 2)."""
+    """Return the trees along a line in metres, shape (n, 2)."""
     return np.concatenate([site.xy[site.planting.rows[row].trees] for row in line.rows])
 
 
 def _groups(site: Site, number: int, block: Block, clearance_m: float) -> Iterator[tuple[Frame, list[RowLine]]]:
-    """Yield the rows of a block that lie side by side, in order across them."""
+    """Yield the groups of adjacent rows of a block, with the rows in order across them."""
     first = sum(len(b.rows) for b in site.planting.blocks[:number])
     frame = _frame(site, block)
     lines = [row_line((first + k,), frame.local(site.xy[row.trees]), clearance_m) for k, row in enumerate(block.rows)]
@@ -225,7 +227,7 @@ def _groups(site: Site, number: int, block: Block, clearance_m: float) -> Iterat
 
 
 def _frame(site: Site, block: Block) -> Frame:
-    """Return the block's axes, along its rows as they really run."""
+    """Return the axes of a block, fitted to the trees of its rows."""
     frame = Frame.of_bearing(block.bearing_deg)
     together, along = 0.0, 0.0
     for row in block.rows:
@@ -237,7 +239,7 @@ def _frame(site: Site, block: Block) -> Frame:
 
 
 def _overlapping(lines: Sequence[RowLine]) -> list[list[RowLine]]:
-    """Return rows in groups that a road across the rows parts from each other."""
+    """Return the rows in groups that are separated by roads across the rows."""
     groups: list[list[RowLine]] = []
     end = -np.inf
     for line in sorted(lines, key=lambda line: float(line.u[0])):
@@ -260,7 +262,7 @@ def _joined(one: RowLine, two: RowLine) -> RowLine:
 
 
 def _in_order(frame: Frame, lines: Sequence[RowLine], trees: shapely.STRtree) -> list[Sequence[RowLine]]:
-    """Return the lines together, or each on its own where a row lies between two others that are neighbours."""
+    """Return the lines as one group, or each separately if another row lies between two neighbours."""
     if len(lines) == 1:
         return [lines]
     strips = []

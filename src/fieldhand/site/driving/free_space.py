@@ -1,4 +1,4 @@
-"""Where a robot may be at all: inside the boundary and outside every keep-out, through fences only at gates."""
+"""Ground where a robot may be: inside the boundary and outside every keep-out, through fences only at gates."""
 
 from __future__ import annotations
 
@@ -20,36 +20,37 @@ from fieldhand.site.model import Gate, Site, Zone
 
 Points = NDArray[np.float64]
 
-#: Half the thickness of the fence that stands where two fenced parts of a site touch.
+#: Half the thickness in metres of the fence between two touching parts of a site.
 _FENCE_M = 0.02
 
-#: Boundaries that overlap in a strip narrower than this were meant to touch.
+#: Boundaries that overlap in a strip narrower than this, in metres, are treated as touching.
 _SLIVER_M = 0.25
 
-#: Ways run along edges, so what reaches less than this past an edge is a touch.
+#: Tolerance in metres: paths run along edges, so a smaller overlap is a touch.
 TOUCH_M = 1e-6
 
-#: The arc around a corner is drawn with this many chords a quarter turn, outside the true arc.
+#: Chords per quarter turn that approximate the arc around a corner, outside the true arc.
 _CHORDS = 2
 
-#: A traced pond may have thousands of corners. More than this are thinned out, by keeping up to so much farther away.
+#: A traced pond may have thousands of corners. If there are more than this, they are simplified by keeping up to this
+#: much more distance, in metres.
 _MANY_CORNERS = 900
 _GIVE_M = (0.05, 0.1, 0.2, 0.4)
 
-#: Where a site has no boundary, the ground ends this far beyond everything.
+#: Extent in metres of the ground beyond all features of a site without a boundary.
 _FAR_M = 50_000.0
 
 
 @dataclass(frozen=True, eq=False)
 class FreeSpace:
-    """The ground of one site for a robot of one width.
+    """The ground of a site that is open to a robot of a given width.
 
     Attributes:
-        clearance_m: That the robot keeps from edges.
-        bounded: Whether anything at all is in the way.
-        hard: Where a robot may be.
-        soft: Hard ground without the band of the clearance along its edges.
-        keep_outs: With their names, for messages.
+        clearance_m: Distance in metres that the robot keeps from edges.
+        bounded: True if the site has a boundary or keep-outs.
+        hard: Ground that the robot may never leave.
+        soft: Hard ground without a margin of the clearance along its edges.
+        keep_outs: Keep-outs with their names, for messages.
     """
 
     clearance_m: float
@@ -59,19 +60,19 @@ class FreeSpace:
     keep_outs: tuple[Zone, ...]
 
     def covers(self, shapes: BaseGeometry | NDArray[np.object_], *, soft: bool) -> NDArray[np.bool_]:
-        """Which of the shapes lie on this ground."""
+        """Return which of the shapes lie on this ground."""
         return self._area(soft).covers(shapes)
 
     def holds(self, xy: Points, *, soft: bool) -> NDArray[np.bool_]:
-        """Which of the points, shape (n, 2), lie on this ground."""
+        """Return which of the points, shape (n, 2), lie on this ground."""
         return self._area(soft).holds(xy)
 
     def sees(self, one: Points, two: Points, *, soft: bool) -> NDArray[np.bool_]:
-        """Which straight lines, from points (n, 2) to points (n, 2), lie on this ground."""
+        """Return which straight lines, from points (n, 2) to points (n, 2), lie on this ground."""
         return self._area(soft).sees(one, two)
 
     def in_the_way(self, shape: BaseGeometry) -> str:
-        """What closes a line or an area: "keep-out 'pond'" or "the boundary"; empty if nothing does."""
+        """Return the obstacle of a line or an area: "keep-out 'pond'" or "the boundary"; empty if there is none."""
         for zone in self.keep_outs:
             if zone.polygon.distance(shape) < self.clearance_m * 1.001:
                 return message("keep-out '{zone}'", zone=zone.name)
@@ -90,8 +91,7 @@ class FreeSpace:
 
 
 class Area:
-    """Ground with its edge, to be asked many questions: what only touches the edge from inside is on it whatever the
-    rounding."""
+    """Ground prepared for many spatial queries. Shapes that touch its edge from inside are on it despite rounding."""
 
     def __init__(self, ground: BaseGeometry) -> None:
         self.edged = ground.buffer(TOUCH_M, join_style="mitre")
@@ -100,29 +100,30 @@ class Area:
         shapely.prepare(self._edge)
 
     def covers(self, shapes: BaseGeometry | NDArray[np.object_]) -> NDArray[np.bool_]:
-        """Which of the shapes lie on the ground."""
+        """Return which of the shapes lie on the ground."""
         return np.atleast_1d(np.asarray(shapely.covers(self.edged, np.atleast_1d(np.asarray(shapes)))))
 
     def holds(self, xy: Points) -> NDArray[np.bool_]:
-        """Which of the points, shape (n, 2), lie on the ground."""
+        """Return which of the points, shape (n, 2), lie on the ground."""
         return np.asarray(shapely.intersects_xy(self.edged, xy[:, 0], xy[:, 1]))
 
     def sees(self, one: Points, two: Points) -> NDArray[np.bool_]:
-        """Which straight lines, from points (n, 2) to points (n, 2), lie on the ground.
+        """Return which straight lines, from points (n, 2) to points (n, 2), lie on the ground.
 
-        Those that begin on it and do not meet its edge: a good deal faster than whether the ground covers them.
+        These lines begin on the ground and do not meet its edge, which is much faster to test than coverage.
         """
         clear = self.clear(one, two)
         clear[clear] = self.holds(one[clear])
         return clear
 
     def clear(self, one: Points, two: Points) -> NDArray[np.bool_]:
-        """Which straight lines, from points (n, 2) to points (n, 2), do not meet the edge of the ground."""
+        """Return which straight lines, from points (n, 2) to points (n, 2), do not meet the edge of the ground."""
         return ~np.asarray(shapely.intersects(self._edge, shapely.linestrings(np.stack([one, two], axis=1))))
 
 
 def free_space(site: Site, clearance_m: float) -> FreeSpace:
-    """Boundary without keep-outs; boundaries that touch are parted by a fence with the site's gates in it."""
+    """Return the ground inside the boundary and outside keep-outs, with fences between touching boundaries, open at
+    gates."""
     keep_outs = site.zones_of("keep_out")
     boundaries = [z.polygon for z in site.zones_of("boundary")]
     taken = unary_union([z.polygon for z in keep_outs])
@@ -138,25 +139,26 @@ def free_space(site: Site, clearance_m: float) -> FreeSpace:
 
 
 def soft_ground(hard: BaseGeometry, clearance_m: float) -> BaseGeometry:
-    """The ground without the band of the clearance. Of very many corners some are given up, with their ground."""
+    """Return the ground without a margin of the clearance; ground with very many corners is simplified, and shrinks a
+    little."""
     soft = _shrunk(hard, clearance_m)
     for give in _GIVE_M:
         if int(shapely.get_num_coordinates(soft)) <= _MANY_CORNERS:
             break
-        # Mitred corners stay one corner each.
+        # Mitred joins keep a single vertex per corner.
         soft = hard.buffer(-give).simplify(0.9 * give).buffer(-clearance_m, join_style="mitre", mitre_limit=2.0)
     return soft
 
 
 def _shrunk(ground: BaseGeometry, by: float) -> BaseGeometry:
-    """The ground without a band along its edges, that is nowhere narrower than ``by``."""
+    """Return the ground without a margin along its edges that is nowhere narrower than ``by``."""
     if by <= 0.0:
         return ground
     return ground.buffer(-by / math.cos(math.pi / (4 * _CHORDS)), quad_segs=_CHORDS)
 
 
 def _endless(site: Site, taken: BaseGeometry) -> BaseGeometry:
-    """A frame that is never in the way."""
+    """Return a rectangle far larger than the site."""
     everything = np.vstack([site.xy, *([p.xy] for p in site.markers.values())])
     (west, south), (east, north) = everything.min(axis=0).tolist(), everything.max(axis=0).tolist()
     if not taken.is_empty:
@@ -166,9 +168,9 @@ def _endless(site: Site, taken: BaseGeometry) -> BaseGeometry:
 
 
 def _fenced(boundaries: Sequence[Polygon], gates: Sequence[Gate]) -> BaseGeometry:
-    """All boundaries together, with a fence where two of them touch, open at the gates.
+    """Return the union of the boundaries, with a fence between touching ones, open at the gates.
 
-    A gate also bridges a gap between two boundaries that were drawn a little apart.
+    A gate also bridges a gap between two boundaries that were drawn slightly apart.
     """
     ground = unary_union(boundaries)
     openings = unary_union([Point(g.place.xy).buffer(g.width_m / 2.0) for g in gates])
@@ -184,7 +186,7 @@ def _fenced(boundaries: Sequence[Polygon], gates: Sequence[Gate]) -> BaseGeometr
 
 
 def _fence(a: Polygon, b: Polygon) -> BaseGeometry | None:
-    """Where two boundaries merely touch, along a line or in a sliver."""
+    """Return the line along which two boundaries touch or barely overlap; None if there is none."""
     if not a.intersects(b):
         return None
     common = a.intersection(b)

@@ -1,4 +1,4 @@
-"""Shortest ways over a sparse graph, from any number of places that are not in it."""
+"""Shortest paths over a sparse graph, from any number of places outside it."""
 
 from __future__ import annotations
 
@@ -14,44 +14,44 @@ from scipy.sparse.csgraph import dijkstra
 Points = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
-#: Two corners may coincide; an edge of no length would be none.
+#: Least length of an edge in metres: corners may coincide, and a sparse matrix drops zeros.
 _SHORTEST_M = 1e-9
 
-#: Rows and columns of a table that are worked on together.
+#: Rows and columns of a matrix processed together.
 _BLOCK = 1024
 
-#: Numbers that are worked on together: few enough for the processor's cache.
+#: Numbers processed together: few enough for the processor's cache.
 _CACHED = 200_000
 
 
 @dataclass(frozen=True, eq=False)
 class Links:
-    """Which nodes a place reaches by itself, and the metres to each."""
+    """The nodes that a place reaches directly, and the metres to each."""
 
     nodes: Indices
     metres: Points
 
     @staticmethod
     def none() -> Links:
-        """Of a place that reaches nothing."""
+        """Return the links of a place that reaches nothing."""
         return Links(np.zeros(0, dtype=np.intp), np.zeros(0))
 
 
 @dataclass(frozen=True, eq=False)
 class ShortestWays:
-    """Metres from each of some places to every node, shape (p, n), and the node before on that way (-1: the place)."""
+    """Metres from each place to every node, shape (p, n), and the preceding node on that path (-1: the place)."""
 
     metres: Points
     before: NDArray[np.int32]
 
 
 class Graph:
-    """Nodes that are joined both ways.
+    """An undirected graph.
 
     Args:
-        count: Of nodes.
-        one, two: Nodes that each edge joins.
-        metres: Of each edge; of two edges between the same nodes the shorter counts.
+        count: Number of nodes.
+        one, two: End nodes of each edge.
+        metres: Length of each edge; of parallel edges the shorter counts.
     """
 
     def __init__(self, count: int, one: Indices, two: Indices, metres: Points) -> None:
@@ -64,7 +64,7 @@ class Graph:
         self._length = length[order][first]
 
     def ways(self, first: int) -> tuple[Indices, Indices, Points]:
-        """Each pair of nodes that an edge joins, once, and its metres; nodes counted on from ``first``."""
+        """Return the end nodes and the length of each edge, once per edge; nodes are numbered from ``first``."""
         once = self._head < self._tail
         return self._head[once] + first, self._tail[once] + first, self._length[once]
 
@@ -73,12 +73,12 @@ class Graph:
         return csr_matrix((self._length, (self._head, self._tail)), shape=(self.count, self.count))
 
     def lengths(self, rows: Sequence[Links], columns: Sequence[Links] | None = None) -> Points:
-        """Metres of the shortest ways by nodes from each of these places to each of those (the same if none are given),
-        shape (p, q); inf where there is none."""
+        """Return the lengths in metres of the shortest paths over nodes between two sets of places, shape (p, q); inf
+        if there is no path. Without ``columns``, both sets are ``rows``."""
         if self.count == 0 or not rows:
             return np.full((len(rows), len(rows if columns is None else columns)), np.inf)
         nodes = np.unique(np.concatenate([a.nodes for a in rows]))
-        if len(nodes) < len(rows):  # then rather from the nodes than from the places
+        if len(nodes) < len(rows):  # searching from the nodes is then faster than from the places
             row_of = np.full(self.count, -1)
             row_of[nodes] = np.arange(len(nodes))
             links = [Links(row_of[a.nodes], a.metres) for a in rows]
@@ -91,7 +91,7 @@ class Graph:
         return found
 
     def rows(self, places: Sequence[Links]) -> ShortestWays:
-        """Shortest ways from places outside the graph; inf where there is none."""
+        """Return the shortest paths from places outside the graph; inf if there is none."""
         n, p = self.count, len(places)
         if n == 0 or p == 0:
             return ShortestWays(np.zeros((p, n)), np.zeros((p, n), dtype=np.int32))
@@ -106,11 +106,12 @@ class Graph:
 
 
 def between(rows: Points, links: Sequence[Links]) -> Points:
-    """Metres from each place of the rows to each place of the links by way of nodes, shape (p, q); inf: no way."""
+    """Return the lengths in metres from each place of the rows to each place of the links over nodes, shape (p, q); inf
+    if there is no path."""
     found = np.full((len(rows), len(links)), np.inf)
     widths = np.array([len(a.nodes) for a in links], dtype=np.intp)
     most_first = np.argsort(-widths, kind="stable")
-    # The k-th links of all places that have as many, one k after the other.
+    # For each k, the k-th link of every place that has one.
     ranked = [most_first[: int((widths > k).sum())].tolist() for k in range(int(widths.max(initial=0)))]
     nodes = [np.array([links[j].nodes[k] for j in which]) for k, which in enumerate(ranked)]
     walked = [np.array([links[j].metres[k] for j in which]) for k, which in enumerate(ranked)]
@@ -126,7 +127,7 @@ def between(rows: Points, links: Sequence[Links]) -> Points:
 
 
 def _make_symmetric(metres: Points) -> None:
-    """Of either direction the shorter, block by block to keep the memory small."""
+    """Set both directions to the shorter one, block by block to bound the memory."""
     for first in range(0, len(metres), _BLOCK):
         for second in range(0, first + 1, _BLOCK):
             one = metres[first : first + _BLOCK, second : second + _BLOCK]
@@ -136,7 +137,7 @@ def _make_symmetric(metres: Points) -> None:
 
 
 def chain(rows: ShortestWays, place: int, node: int) -> list[int]:
-    """The nodes on the way from a place of the rows to this node, which is the last of them."""
+    """Return the nodes on the path from a place of the rows to a node, ending with that node."""
     nodes = [node]
     while (node := int(rows.before[place, node])) >= 0:
         nodes.append(node)

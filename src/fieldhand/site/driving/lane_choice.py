@@ -8,13 +8,13 @@ from dataclasses import dataclass, field
 
 from fieldhand.site.driving.stands import Candidate, Lane
 
-#: What a choice takes: lanes to drive through, then metres to the stands from where the robot is.
+#: Cost of a choice: number of lanes to drive through, then metres from the robot to the stands.
 Cost = tuple[int, float]
 
 
 @dataclass(frozen=True)
 class RowVisits:
-    """The visits of one row: for each its reachable stands by lane, with the metres to them."""
+    """The visits of one row: for each the reachable stands by lane, with the metres to them."""
 
     below: Lane
     above: Lane
@@ -22,15 +22,15 @@ class RowVisits:
 
 
 def choose_lanes(rows: Mapping[tuple[int, int], RowVisits], used: frozenset[Lane]) -> dict[tuple[int, int], Lane]:
-    """For each row, (group, line), the lane that is preferred for it.
+    """Return the preferred lane of each row, by (group, line).
 
-    Row by row across a group: what is best for the rows so far, once with the lane above the last row driven through
-    and once without (dynamic programming). A lane in which the robot already has something to do costs nothing.
+    Dynamic programming over the rows of a group; the state is whether the lane above the last row is driven through.
+    Lanes that are used anyway cost nothing.
     """
     chosen: dict[tuple[int, int], Lane] = {}
     for group in sorted({group for group, _ in rows}):
         lines = sorted(line for g, line in rows if g == group)
-        # What it takes so far, and the lanes chosen so far, by the lanes above the last row that are driven through.
+        # Cost and chosen lanes so far, by the lanes above the last row that are driven through.
         best: dict[frozenset[Lane], tuple[Cost, tuple[Lane, ...]]] = {frozenset(): ((0, 0.0), ())}
         for line in lines:
             row = rows[group, line]
@@ -50,7 +50,7 @@ def choose_lanes(rows: Mapping[tuple[int, int], RowVisits], used: frozenset[Lane
 
 
 def _taken(row: RowVisits, lane: Lane) -> tuple[frozenset[Lane], float]:
-    """Which lanes the row's visits take where this one is preferred, and the metres to their stands."""
+    """Return the lanes that the visits of a row use if this lane is preferred, and the metres to their stands."""
     lanes, metres = set(), 0.0
     for visit in row.visits:
         at = lane if lane in visit else next(iter(visit), None)
@@ -61,7 +61,7 @@ def _taken(row: RowVisits, lane: Lane) -> tuple[frozenset[Lane], float]:
 
 
 def pick_candidate(candidates: Sequence[Candidate], lane: Lane | None, metres: Sequence[float]) -> Candidate:
-    """The candidate in the preferred lane, else the nearest that can be driven to, else the first."""
+    """Return the candidate in the preferred lane, else the nearest reachable one, else the first."""
     able = [k for k, m in enumerate(metres) if math.isfinite(m)]
     if not able:
         return candidates[0]

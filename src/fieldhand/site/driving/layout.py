@@ -1,4 +1,4 @@
-"""The whole site as a robot drives on it: the ground around rows and keep-outs, and the shortest ways over it."""
+"""Drivable layout of a site: the ground around rows and keep-outs, and the shortest paths over it."""
 
 from __future__ import annotations
 
@@ -22,32 +22,33 @@ from fieldhand.site.model import Site
 
 XY = tuple[float, float]
 
-#: Points whose ways to all corners are kept.
+#: Number of points whose paths to all corners are cached.
 _REMEMBERED = 64
 
-#: A place in a band is left straight towards ground within this many times its distance from it.
+#: A place in the margin of an obstacle is left straight towards ground within this many times its distance from it.
 _LEAVE_WITHIN = 8.0
 
-#: Over so many clearances a robot drives straight from one place in a band to another beside it.
+#: Greatest length, in clearances, of a straight path between two places in a margin.
 _HOP = 3.0
 
-#: Up to here a way between two places beside a row is looked at against the trees themselves, not the row's body.
+#: Up to this length in metres, a path between two places beside a row is tested against the trees instead of the row's
+#: obstacle.
 _BESIDE_M = 20.0
 
-#: What a way leaves a place by counts from here on: the place may lie on the line of a row.
+#: Fraction of the first segment that is not tested for obstacles, since the place may lie on the line of a row.
 _FROM = 1e-3
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Spot:
-    """A point of the site, and where it reaches the ground that ways keep to.
+    """A point of the site, and its connection to the drivable ground.
 
     Attributes:
         xy: Metres east and north.
-        foot: The point of that ground that it is left by straight: itself, or beside it for a point that is nearer to
-            something than ways keep; None where there is none.
-        spur: Metres to the foot.
-        part: Of the ground, as a number: no way leads from one part to another. -1 without a foot.
+        foot: Point at which paths enter the drivable ground: the point itself, or one nearby if it lies within the
+            clearance of an obstacle; None if there is none.
+        spur: Metres from the point to the foot.
+        part: Number of the connected part of the ground that contains the foot; -1 without a foot.
     """
 
     xy: XY
@@ -57,12 +58,13 @@ class Spot:
 
 
 class Layout:
-    """Free ground without the obstacles of the rows, aisles, and the graph of the ground's corners.
+    """The free space without the row obstacles, the aisles, and the visibility graph of the ground.
 
     Args:
-        site: With rows, zones and gates.
-        clearance_m: That the robot keeps from tree lines, keep-outs and the boundary.
-        standoff_m: From a tree to where the robot stands; it turns as far beyond the last trees where there is room.
+        site: Site with rows, zones and gates.
+        clearance_m: Distance in metres that the robot keeps from tree lines, keep-outs and the boundary.
+        standoff_m: Distance in metres from a tree to its stand; also the distance beyond the last trees at which the
+            robot turns, if there is room.
     """
 
     def __init__(self, site: Site, clearance_m: float, standoff_m: float) -> None:
@@ -79,14 +81,14 @@ class Layout:
         self._links: dict[XY, Links] = {}
         self._remembered: dict[XY, ShortestWays] = {}
 
-    # --- where a point is -------------------------------------------------------------------------------------
+    # --- points -----------------------------------------------------------------------------------------------
 
     def spot(self, xy: XY) -> Spot:
-        """Return where this point reaches the ground, remembered."""
+        """Return the spot of a point, cached."""
         return self.spots([xy])[0]
 
     def spots(self, places: Sequence[XY]) -> list[Spot]:
-        """Return where these points reach the ground, remembered."""
+        """Return the spots of points, cached."""
         new = [xy for xy in dict.fromkeys(places) if xy not in self._spots]
         if new:
             self._spots.update((spot.xy, spot) for spot in self._locate(new))
@@ -101,26 +103,26 @@ class Layout:
         return self.free.holds(xy, soft=False) if self.free.bounded else np.ones(len(xy), dtype=bool)
 
     def is_clear(self, xy: Points) -> NDArray[np.bool_]:
-        """Return which of the points, shape (n, 2), are clear of keep-outs and the boundary by the clearance."""
+        """Return which of the points, shape (n, 2), keep the clearance from keep-outs and the boundary."""
         return self.free.holds(xy, soft=True) if self.free.bounded else np.ones(len(xy), dtype=bool)
 
     def in_the_way(self, xy: XY) -> str:
-        """Return what keeps a robot from standing at a point, in words; empty if nothing does."""
+        """Return the obstacle that prevents a robot from being at a point, in words; empty if there is none."""
         return self.free.in_the_way(Point(xy)) if self.free.bounded else ""
 
     def reachable(self, spots: Sequence[Spot], origin: Spot) -> list[bool]:
-        """Return which of these spots can be driven to from there."""
+        """Return which of the spots can be reached from the origin."""
         return [
             not self.open or spot.xy == origin.xy or (spot.part == origin.part and spot.part >= 0) for spot in spots
         ]
 
     def is_one_view(self, spots: Sequence[Spot]) -> bool:
-        """Return True if every way between these spots is a straight line: nothing is there to turn at."""
+        """Return True if every path between the spots is a straight line."""
         on_one_part = all(spot.spur == 0.0 and spot.part == spots[0].part >= 0 for spot in spots)
         return not self.open or (not self.graph.count and on_one_part)
 
     def part(self, number: int) -> shapely.Geometry:
-        """Return a part of the ground that ways keep to."""
+        """Return a connected part of the drivable ground."""
         return self._parts[number].edged
 
     @cached_property
@@ -143,7 +145,7 @@ class Layout:
             yield Spot(xy=xy, foot=(x, y) if part >= 0 else None, spur=spur if part >= 0 else 0.0, part=part)
 
     def _foot(self, at: Points) -> Points:
-        """Return the nearest point of the ground to which nothing is in the way; nan where there is none."""
+        """Return the nearest point of the drivable ground with a clear straight line to it; nan if there is none."""
         point = Point(at)
         if self.soft.is_empty:
             return np.full(2, np.nan)
@@ -158,7 +160,7 @@ class Layout:
 
     @cached_property
     def _edges(self) -> shapely.STRtree:
-        """The sides of the ground that ways keep to."""
+        """Return the edges of the drivable ground."""
         rings = shapely.get_parts(shapely.get_rings(shapely.get_parts(self.soft)))
         sides = [np.stack([at[:-1], at[1:]], axis=1) for at in map(shapely.get_coordinates, rings)]
         return shapely.STRtree(np.array(shapely.linestrings(np.concatenate([np.empty((0, 2, 2)), *sides]))))
@@ -170,10 +172,10 @@ class Layout:
         free[self.aisles.row_lines.query(lines, predicate="intersects")[0]] = False
         return free
 
-    # --- ways -------------------------------------------------------------------------------------------------
+    # --- paths ------------------------------------------------------------------------------------------------
 
     def way(self, a: Spot, b: Spot) -> tuple[XY, ...] | None:
-        """Return the points of the shortest way from a spot to another; None if there is none."""
+        """Return the points of the shortest path from a spot to another; None if there is none."""
         if a.foot is None or b.foot is None or a.part != b.part:
             return None
         only = np.zeros(1, dtype=np.intp)
@@ -192,8 +194,8 @@ class Layout:
         return _points([a.xy, a.foot, *corners, b.foot, b.xy])
 
     def lengths(self, rows: Sequence[Spot], columns: Sequence[Spot] | None = None) -> Points:
-        """Return the metres of the shortest way from each of these spots to each of those (the same if none are given),
-        shape (n, m); inf where there is none."""
+        """Return the lengths in metres of the shortest paths between two sets of spots, shape (n, m); inf if there is
+        no path. Without ``columns``, both sets are ``rows``."""
         others = rows if columns is None else columns
         self.links([*rows, *others])
         best = self.graph.lengths(self.links(rows), None if columns is None else self.links(columns))
@@ -210,7 +212,7 @@ class Layout:
         return best
 
     def links(self, spots: Sequence[Spot]) -> list[Links]:
-        """Return the corners that each spot sees from its foot, with the metres from the spot; remembered."""
+        """Return the corners that each spot sees from its foot, with the metres from the spot; cached."""
         new = {s.xy: s for s in spots if s.xy not in self._links}
         seen = {s.xy: s for s in new.values() if s.foot is not None}
         found = self.visibility.links(np.array([s.foot for s in seen.values()]).reshape(-1, 2))
@@ -220,12 +222,12 @@ class Layout:
         return [self._links[s.xy] for s in spots]
 
     def straight(self, spots: Sequence[Spot], i: Indices, j: Indices) -> Points:
-        """Return the metres from spot i to spot j without a turn at a corner, shape (n,); inf where there is none."""
+        """Return the metres from spot i to spot j without turning at a corner, shape (n,); inf if that is blocked."""
         feet = _Feet.of(spots)
         return np.minimum(*self._straight(feet, feet, i, j))
 
     def _rows(self, spot: Spot) -> ShortestWays:
-        """Return the ways from a spot to every corner; those of the last few spots are remembered."""
+        """Return the paths from a spot to every corner; those of the last few spots are cached."""
         if spot.xy not in self._remembered:
             if len(self._remembered) >= _REMEMBERED:
                 self._remembered.pop(next(iter(self._remembered)))
@@ -233,7 +235,7 @@ class Layout:
         return self._remembered[spot.xy]
 
     def _may_see(self, one: _Feet, two: _Feet | None) -> Iterator[tuple[Indices, Indices]]:
-        """Yield the positions of spots that may see each other from their feet, or beside a row from where they are."""
+        """Yield index pairs of spots that may see each other from their feet, or directly beside a row."""
         to = one if two is None else two
         rows, columns = np.flatnonzero(one.part >= 0), np.flatnonzero(to.part >= 0)
         for i, j in self.visibility.pairs(one.foot[rows], None if two is None else two.foot[columns]):
@@ -245,8 +247,8 @@ class Layout:
     def _straight(
         self, one: _Feet, two: _Feet, i: Indices, j: Indices, below: Points | None = None
     ) -> tuple[Points, Points]:
-        """Return the metres from spot i to spot j in a straight line, and those straight from foot to foot; inf where
-        something is in the way, or where it is not less than ``below``."""
+        """Return the metres from spot i to spot j in a straight line, and those by way of both feet; inf if the line is
+        blocked or the length is not less than ``below``."""
         below = np.full(len(i), np.inf) if below is None else below
         spurs = one.spur[i] + two.spur[j]
         by_feet = spurs + np.hypot(*(one.foot[i] - two.foot[j]).T)
@@ -263,8 +265,11 @@ class Layout:
         return straight, by_feet
 
     def _is_beside(self, one: Points, two: Points, metres: Points) -> NDArray[np.bool_]:
-        """Return which straight lines between places in a band can be driven: clear of everything by the clearance, if
-        not of the obstacles of rows; or over a few clearances of free ground."""
+        """Return which straight lines between places in a margin can be driven.
+
+        They keep the clearance from trees, keep-outs and the boundary, but not from row obstacles; or they cross free
+        ground over a few clearances only.
+        """
         clear = self.free.sees(one, two, soft=True) if self.free.bounded else np.ones(len(one), dtype=bool)
         lines = shapely.linestrings(np.stack([one, two], axis=1))
         near = self.aisles.row_lines.query(lines, predicate="dwithin", distance=self.free.clearance_m - 1e-9)[0]
@@ -276,7 +281,7 @@ class Layout:
 
 @dataclass(frozen=True, eq=False)
 class _Feet:
-    """Spots as arrays: where they are, their feet (nan without one), their spurs, and the parts of the ground."""
+    """Spots as arrays: positions, feet (nan if missing), spurs, and parts of the ground."""
 
     at: Points
     foot: Points
@@ -292,8 +297,7 @@ class _Feet:
 
 
 def _beside(one: _Feet, two: _Feet) -> tuple[Indices, Indices]:
-    """Return the positions of spots of ``one`` off the ground, and of spots of ``two`` that may be driven to straight
-    beside a row."""
+    """Return index pairs of spots of ``one`` off the drivable ground and nearby spots of ``two``, beside a row."""
     off = np.flatnonzero(one.spur > 0.0)
     near = cKDTree(one.at[off]).query_ball_tree(cKDTree(two.at), _BESIDE_M)
     found = [(i, j) for i, some in zip(off.tolist(), near, strict=True) for j in some]
@@ -303,7 +307,7 @@ def _beside(one: _Feet, two: _Feet) -> tuple[Indices, Indices]:
 
 
 def _points(way: Sequence[XY]) -> tuple[XY, ...]:
-    """Return a way without repeated points and points on a straight line between others."""
+    """Return a path without repeated and collinear points."""
     found: list[XY] = [way[0]]
     for x, y in way[1:]:
         if math.hypot(x - found[-1][0], y - found[-1][1]) < 1e-9:

@@ -1,4 +1,4 @@
-"""Where a robot drives, as lines with names: for maps and for export."""
+"""Drivable lines of a site with names, for maps and for export."""
 
 from __future__ import annotations
 
@@ -25,23 +25,23 @@ LineKind = Literal["aisle", "headland", "gate", "link"]
 
 _COMPASS = ("north", "north-east", "east", "south-east", "south", "south-west", "west", "north-west")
 
-#: Pieces of a line shorter than this are not drawn.
+#: Pieces of a line shorter than this, in metres, are not drawn.
 _SHORTEST_M = 0.01
 
-#: Lines this near to each other meet.
+#: Lines within this distance in metres of each other meet.
 _MEET_M = 1e-3
 
 
 @dataclass(frozen=True, kw_only=True)
 class NetworkLine:
-    """A line to drive along.
+    """A drivable line.
 
     Attributes:
-        kind: An aisle between two rows; the headland along the ends of the rows of a block; a gate, across its opening;
-            a link over open ground between these.
-        name: "aisle between rows 3 and 4".
+        kind: An aisle between two rows; a headland along the ends of the rows of a block; a gate, across its opening;
+            or a link between these over open ground.
+        name: Name such as "aisle between rows 3 and 4".
         points: Metres east and north, at least two.
-        length_m: Along the points.
+        length_m: Length of the line in metres.
     """
 
     kind: LineKind
@@ -52,20 +52,20 @@ class NetworkLine:
 
 @dataclass(frozen=True, kw_only=True)
 class DrivableNetwork:
-    """The lines of one site for one robot: aisles, headlands, gates, links. Empty where there are no rows or gates.
+    """The drivable lines of a site for a robot: aisles, headlands, gates, links. Empty without rows and gates.
 
-    A drive follows them where it can, and turns in and out of them where that is shorter.
+    The lines are for display: drives take shorter paths where there is room.
     """
 
     lines: tuple[NetworkLine, ...]
 
     def of(self, kind: LineKind) -> tuple[NetworkLine, ...]:
-        """The lines of one kind."""
+        """Return the lines of one kind."""
         return tuple(line for line in self.lines if line.kind == kind)
 
 
 def network_of(site: Site, layout: Layout) -> DrivableNetwork:
-    """Return what a robot can drive along on this site."""
+    """Return the drivable network of a site."""
     driven = [
         *(line for aisle in layout.aisles.all for line in _aisle(site, layout, aisle)),
         *(line for group in layout.aisles.groups for line in _headlands(site, layout, group)),
@@ -75,7 +75,7 @@ def network_of(site: Site, layout: Layout) -> DrivableNetwork:
 
 
 def aisle_name(site: Site, aisle: Aisle) -> str:
-    """ "aisle between rows 3 and 4", with the block where there are several."""
+    """Return the name of an aisle: "aisle between rows 3 and 4", with the block if there are several."""
     rows = [site.planting.rows[line.rows[0]] for line in (aisle.below, aisle.above)]
     names = [row.name for row in sorted(rows, key=lambda row: row.number)]
     rows_said = message("aisle between rows {one} and {two}", context="log", one=names[0], two=names[1])
@@ -91,7 +91,7 @@ def _of_block(site: Site, group: RowGroup) -> str:
 
 
 def _aisle(site: Site, layout: Layout, aisle: Aisle) -> Iterator[NetworkLine]:
-    """Yield its middle line, without the parts where something stands in it or it is too narrow."""
+    """Yield the middle line of an aisle, without the parts that are blocked or too narrow."""
     line = LineString(aisle.frame.world(aisle.middle_line))
     for part in _pieces(line.intersection(layout.visibility.area.edged)):
         yield _line("aisle", aisle_name(site, aisle), part)
@@ -111,7 +111,7 @@ def _headlands(site: Site, layout: Layout, group: RowGroup) -> Iterator[NetworkL
 
 
 def _gate(site: Site, gate: Gate) -> NetworkLine:
-    """Across its opening, along the fence."""
+    """Return the line across the opening of a gate, along the fence."""
     middle = np.array(gate.place.xy)
     fences = [z.polygon.exterior for z in site.zones_of("boundary")]
     fences += [z.polygon.exterior for z in site.zones_of("keep_out")]
@@ -127,7 +127,7 @@ def _gate(site: Site, gate: Gate) -> NetworkLine:
 
 
 def _links(layout: Layout, driven: Sequence[NetworkLine]) -> Iterator[NetworkLine]:
-    """Yield ways over open ground that join aisles and headlands which do not meet, nearest first."""
+    """Yield paths over open ground that connect aisles and headlands which do not meet, nearest first."""
     lines = np.array([LineString(line.points) for line in driven], dtype=object)
     if not len(lines):
         return

@@ -14,12 +14,12 @@ from fieldhand.site.driving.graph import Points
 from fieldhand.site.driving.layout import Layout, Spot
 from fieldhand.site.driving.stands import Candidate
 
-#: Ground that reaches so little out of an aisle lies in it.
+#: Tolerance in metres within which ground counts as inside an aisle.
 _TOUCH_M = 0.01
 
 
 def no_stand(candidates: Sequence[Candidate], robot_m: float) -> str:
-    """Return the reason why a robot of this width can stand at none of the candidates."""
+    """Return the reason why a robot of this width can use none of the candidates."""
     widths = [c.aisle_m for c in candidates]
     if all(width is not None for width in widths):
         return message("out of reach: {reason}", reason=_narrow(widths, robot_m))
@@ -28,7 +28,7 @@ def no_stand(candidates: Sequence[Candidate], robot_m: float) -> str:
 
 
 def cut_off(layout: Layout, spots: Sequence[Spot], start: Spot) -> str:
-    """Return the reason why no way leads from the start to any of the spots."""
+    """Return the reason why no path leads from the start to any of the spots."""
     for spot in spots:
         aisle = layout.aisle(spot.xy)
         if aisle is not None and (spot.part < 0 or aisle.polygon.buffer(_TOUCH_M).covers(layout.part(spot.part))):
@@ -57,7 +57,7 @@ def _metres(value: float) -> str:
 
 
 def _together(parts: Sequence[str]) -> str:
-    """Each of the parts holds."""
+    """Join clauses with "and"."""
     said = parts[0]
     for part in parts[1:]:
         said = message("{clause} and {other}", clause=said, other=part)
@@ -65,7 +65,7 @@ def _together(parts: Sequence[str]) -> str:
 
 
 def _ends(layout: Layout, aisle: Aisle, spot: Spot) -> str:
-    """Return what closes either end of the aisle in which a spot lies."""
+    """Return the obstacles that close the two ends of the aisle around a spot."""
     one, two = _closed_by(layout, aisle, spot, 0), _closed_by(layout, aisle, spot, 1)
     if one == two:
         return message("{obstacle} closes both ends", obstacle=one)

@@ -1,9 +1,9 @@
-"""What can be driven between places as a sparse graph: a handful of ways a place, however many places there are.
+"""Sparse road map of the paths between many places, with a small number of edges per place.
 
-The shortest ways over it are drives that lead by other places' stands and by corners, so they are never shorter than
-the drives that :meth:`fieldhand.site.drives.Drives.lengths` measures, and little longer. Along an aisle and over open
-ground each stand is joined to a few that it can be driven to straight: the nearest in each direction (Yao 1982), which
-leaves ways over them nearly straight.
+Shortest paths over it lead through the stands of other places and through corners, so they are never shorter than the
+drives that :meth:`fieldhand.site.drives.Drives.lengths` measures, and only slightly longer. Along an aisle and over
+open ground each stand is joined to a few stands in a straight line of sight: the nearest in each direction (Yao 1982),
+which keeps paths nearly straight.
 """
 
 from __future__ import annotations
@@ -21,28 +21,28 @@ from fieldhand.site.driving.graph import Indices, Points
 from fieldhand.site.driving.layout import Layout
 from fieldhand.site.model import Place
 
-#: Along an aisle a stand is joined to those that are so many stands away.
+#: Along an aisle a stand is joined to the stands at these offsets in order.
 _STEPS = (1, 2, 3, 4, 5, 7)
 
-#: Over open ground a stand is joined to the nearest in each of so many directions, of so many about it.
+#: On open ground a stand is joined to the nearest one in each of this many directions, among this many neighbours.
 _DIRECTIONS = 16
 _ABOUT = 60
 
-#: No way is shorter, so that none counts as missing.
+#: Least length of an edge in metres, since a sparse matrix drops zeros.
 _SHORTEST_M = 1e-9
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Roadmap:
-    """The ways between some places of a site, as a sparse graph that is driven in both directions.
+    """The paths between places of a site, as a sparse undirected graph.
 
     Attributes:
-        places: In the order in which they were given, each with its stand. Node k is the stand of place k.
+        places: Places in input order, each with its stand. Node k is the stand of place k.
         at: Metres east and north of every node, shape (n, 2): the stands, then corners of the ground, then feet of
-            stands that no way leads through.
-        ways: Pairs of nodes, shape (m, 2).
-        lengths: Metres of each way, shape (m,), greater than 0.
-        straight: Whether all drives between the places are straight lines. Then there are neither ways nor junctions.
+            stands off the drivable ground.
+        ways: End nodes of each edge, shape (m, 2).
+        lengths: Length of each edge in metres, shape (m,), greater than 0.
+        straight: True if all drives between the places are straight lines. The graph then has no edges.
     """
 
     places: tuple[Place, ...]
@@ -52,7 +52,7 @@ class Roadmap:
     straight: bool
 
     def cut_off(self) -> int | None:
-        """The first place to which no way leads from place 0; None if there is none."""
+        """Return the first place that is not connected to place 0; None if there is none."""
         n = len(self.at)
         if self.straight or not self.places:
             return None
@@ -63,14 +63,14 @@ class Roadmap:
 
 
 def roadmap_of(layout: Layout, places: tuple[Place, ...]) -> Roadmap:
-    """Return the roads between places, each with its stand."""
+    """Return the road map of places, each with its stand."""
     stands = [p.stand or p.xy for p in places]
     at = np.array(stands).reshape(-1, 2)
     spots = layout.spots(stands) if layout.open else []
     if not spots or layout.is_one_view(spots):
         none = np.empty((0, 2), dtype=np.int64)
         return Roadmap(places=places, at=at, ways=none, lengths=np.empty(0), straight=True)
-    # A stand off the ground that ways keep to hangs by one way at its foot there: none leads through it.
+    # A stand off the drivable ground is joined to its foot only, so no path leads through it.
     feet = [spot if spot.foot is None or spot.spur == 0.0 else layout.spot(spot.foot) for spot in spots]
     off = np.array([k for k, spot in enumerate(spots) if feet[k] is not spot], dtype=np.intp)
     node = np.arange(len(spots))
@@ -101,7 +101,7 @@ def roadmap_of(layout: Layout, places: tuple[Place, ...]) -> Roadmap:
 
 
 def _neighbours(layout: Layout, at: Points) -> Iterator[tuple[Indices, Indices]]:
-    """Yield pairs of points that may be joined straight: along an aisle, and over open ground."""
+    """Yield pairs of points that may be joined by a straight edge, along an aisle and over open ground."""
     numbers = np.array([len(layout.aisles.all) if a is None else a.number for a in layout.aisles.at(at)])
     order = np.argsort(numbers, kind="stable")
     for inside in np.split(order, np.flatnonzero(np.diff(numbers[order])) + 1):
@@ -115,12 +115,12 @@ def _neighbours(layout: Layout, at: Points) -> Iterator[tuple[Indices, Indices]]
 
 
 def _about(layout: Layout, at: Points, which: Indices) -> tuple[Indices, Indices]:
-    """Return each of these points, on open ground, with the nearest of all points in every direction that it sees."""
+    """Return pairs of each of these points on open ground and the nearest visible point in every direction."""
     near = cKDTree(at).query(at[which], k=min(_ABOUT + 1, len(at)))[1].reshape(len(which), -1)
     i, j = np.repeat(which, near.shape[1]), near.ravel()
     i, j = i[i != j], j[i != j]
     sector = (np.arctan2(*(at[j] - at[i]).T) // (2.0 * np.pi / _DIRECTIONS)).astype(np.intp)
-    # They come from near to far, so the first of each direction is the nearest.
+    # Pairs are sorted by distance, so the first of each direction is the nearest.
     seen = layout.visibility.area.sees(at[i], at[j])
     i, j, sector = i[seen], j[seen], sector[seen]
     _, first = np.unique(i * (4 * _DIRECTIONS) + sector + 2 * _DIRECTIONS, return_index=True)

@@ -1,4 +1,4 @@
-"""The lines along rows that no way crosses, and which pairs of points they part."""
+"""Lines along rows that no path crosses, and the pairs of points that they separate."""
 
 from __future__ import annotations
 
@@ -10,38 +10,38 @@ from numpy.typing import NDArray
 
 from fieldhand.site.driving.graph import Indices, Points
 
-#: Of either end of a line this much is left out: ways along the end of an obstacle only touch the end of its line.
+#: Metres by which each end of a line is shortened, so that paths along the end of an obstacle do not touch it.
 _ENDS_M = 1e-3
 
-#: Of each point so many of the nearest rows are looked at.
+#: Number of nearest rows examined for each point.
 _NEAREST = 8
 
-#: Pairs of points that are worked on together: bounds the memory.
+#: Pairs of points processed together, which bounds the memory.
 _BATCH = 100_000
 
-#: Points as complex numbers: one product turns a point into the frame of a line.
+#: Points as complex numbers: one product rotates a point into the frame of a line.
 Complex = NDArray[np.complex128]
 
-#: Returns which pairs count, from their positions, of shapes (n, 1) and (m,): shape (n, m).
+#: A function from indices of shapes (n, 1) and (m,) to a mask of the pairs to consider, shape (n, m).
 Among = Callable[[Indices, Indices], NDArray[np.bool_]]
 
 
 @dataclass(frozen=True, eq=False)
 class Located:
-    """Points, shape (n,), and the rows nearest to each, the nearest first, shape (n, k)."""
+    """Points, shape (n,), and the indices of the rows nearest to each, nearest first, shape (n, k)."""
 
     at: Complex
     near: Indices
 
 
 class RowAxes:
-    """Lines through obstacles, from end to end, that no way crosses.
+    """Lines through obstacles, from end to end, that no path crosses.
 
-    Among rows most pairs of points are parted by one of the nearest, which is many times cheaper to see than whether a
-    line lies on the ground.
+    Among rows, one of the nearest rows separates most pairs of points, which is much cheaper to test than whether the
+    line between them lies on the ground.
 
     Args:
-        ends: Of each line, shape (m, 2, 2).
+        ends: End points of each line in metres, shape (m, 2, 2).
     """
 
     def __init__(self, ends: Points) -> None:
@@ -53,7 +53,7 @@ class RowAxes:
         self._length = length - 2.0 * _ENDS_M
 
     def locate(self, at: Points) -> Located:
-        """Return these points with the rows nearest to each."""
+        """Return the points with the rows nearest to each."""
         count = min(_NEAREST, len(self._length))
         places = _complex(at)
         nearest = np.empty((len(at), count), dtype=np.intp)
@@ -72,8 +72,9 @@ class RowAxes:
     def unseparated_pairs(
         self, one: Located, two: Located | None = None, among: Among | None = None
     ) -> Iterator[tuple[Indices, Indices]]:
-        """Yield, in batches and in order, the positions of all pairs of a point of ``one`` and one of ``two`` that none
-        of the rows nearest to either parts. Without ``two`` pairs within ``one``, each once.
+        """Yield the indices of all pairs of points that none of their nearest rows separates, in ordered batches.
+
+        Pairs consist of a point of ``one`` and a point of ``two``; without ``two`` of two points of ``one``, each once.
         """
         to = one if two is None else two
         step = max(_BATCH // max(len(to.at), 1), 1)
@@ -83,12 +84,12 @@ class RowAxes:
             kept = some[:, None] < there if two is None else np.ones((len(some), len(there)), dtype=bool)
             if among is not None:
                 kept &= among(some[:, None], there)
-            else:  # most pairs are parted by the rows on either side of ``one``
+            else:  # the rows on either side of ``one`` separate most pairs
                 for axes in one.near[some].T[:2]:
                     kept &= ~self._separates(axes[:, None], one.at[some, None], to.at[there])
             i, j = np.nonzero(kept)
             i, j = some[i], there[j]
-            for ranks in (slice(0, 2), slice(2, None)):  # the rows on either side leave few pairs for the others
+            for ranks in (slice(0, 2), slice(2, None)):  # after the two nearest rows few pairs remain
                 for points, which in ((one, 0), (to, 1)):
                     near = points.near[(i, j)[which], ranks].T
                     clear = ~self._separates(near, one.at[i], to.at[j]).any(axis=0)
@@ -96,11 +97,11 @@ class RowAxes:
             yield i, j
 
     def _separates(self, axes: Indices, one: Complex, two: Complex) -> NDArray[np.bool_]:
-        """Return whether each of these rows parts a point of ``one`` from one of ``two``; they broadcast."""
+        """Return a mask of the rows that separate a point of ``one`` from a point of ``two``; arguments broadcast."""
         start, turn = self._start[axes], self._turn[axes]
         one, two = (one - start) * turn, (two - start) * turn
         far_one, far_two = np.abs(one.imag), np.abs(two.imag)
-        # Where the line between the two crosses that of the row, times the sum of their distances from it.
+        # Coordinate along the row of the crossing, times the sum of both distances from the row.
         crossing = one.real * far_two + two.real * far_one
         between = (crossing > 0.0) & (crossing < self._length[axes] * (far_one + far_two))
         return np.asarray(between & ((one.imag > 0.0) != (two.imag > 0.0)))

@@ -1,4 +1,4 @@
-"""The ground that rows take up: a polygon with few corners around the trees of each row, for the robot's middle."""
+"""Obstacles of the rows: a polygon with few corners around the trees of each row, which the robot's centre avoids."""
 
 from __future__ import annotations
 
@@ -14,29 +14,29 @@ from fieldhand.site.driving.graph import Points
 from fieldhand.site.driving.rowlines import Frame
 from fieldhand.site.planting import Block
 
-#: A row's body may take this part of the room to spare beside it on each side, so that it has few corners.
+#: Fraction of the spare room on each side that an obstacle may take up, so that it has few corners.
 _GIVE = 0.2
 
-#: Rows this many standoffs farther apart than the robot is wide leave room enough.
+#: Distances beyond the robot's width plus this many standoffs are not measured: they leave enough room.
 _FAR = 4.0
 
-#: Trees of a row whose distance from other rows is looked at together.
+#: Steps from tree to tree in each piece of a row whose distance from other rows is measured.
 _PIECE = 6
 
-#: No body is narrower, whatever the robot's width: half of it.
+#: Least half width of an obstacle in metres.
 _THIN_M = 0.01
 
-#: A row of one tree counts as one of this length.
+#: Length in metres assumed for a row of one tree.
 _SHORT_M = 0.02
 
 
 @dataclass(frozen=True, eq=False)
 class RowObstacle:
-    """The ground around a row that the robot's middle keeps off.
+    """The ground around a row that the robot's centre avoids.
 
     Attributes:
-        axis: Along its middle from end to end, shape (n, 2); nothing drives across it.
-        half_m: Metres from the axis to either side.
+        axis: Centre line from end to end, shape (n, 2); no path crosses it.
+        half_m: Half width in metres.
     """
 
     axis: Points
@@ -44,12 +44,12 @@ class RowObstacle:
 
     @property
     def polygon(self) -> Polygon:
-        """Its outline."""
+        """Return its outline."""
         return LineString(self.axis).buffer(self.half_m, cap_style="flat", join_style="mitre")
 
     @property
     def ends(self) -> tuple[Points, Points]:
-        """The corners of its first and of its last end, shape (2, 2) each."""
+        """Return the corners of its first and of its last end, shape (2, 2) each."""
         found = []
         for end, inner in ((0, 1), (-1, -2)):
             along = self.axis[end] - self.axis[inner]
@@ -63,14 +63,14 @@ def row_obstacles(
 ) -> list[RowObstacle]:
     """Return the obstacles of rows.
 
-    A body is straight where its row stands straight enough for the room beside it; else it bends with the row. Beyond
-    the last trees it goes on by the standoff, or as far as leaves room to drive past its end.
+    An obstacle is straight if its row is straight enough for the room beside it; else it follows the row. It extends
+    beyond the last trees by the standoff, or by less where room is needed to drive past its end.
 
     Args:
-        rows: The trees of each from end to end, shape (n, 2).
-        blocks: Of each row the axes and the block.
-        free: Ground without keep-outs.
-        standoff_m: From a tree to where the robot stands to work on it.
+        rows: Trees of each row from end to end, shape (n, 2).
+        blocks: Axes and block of each row.
+        free: Ground outside keep-outs.
+        standoff_m: Distance in metres from a tree to its stand.
     """
     if not rows:
         return []
@@ -95,14 +95,14 @@ def _ordered(xy: Points, frame: Frame) -> LineString:
 
 
 def _room_beside(lines: Sequence[LineString], most_m: float) -> Points:
-    """Return the metres from each line to the next one, or ``most_m`` where that is less."""
+    """Return the distance in metres from each line to the next one, at most ``most_m``."""
     xy = [shapely.get_coordinates(line) for line in lines]
     pieces = [(k, at[i : i + _PIECE + 1]) for k, at in enumerate(xy) for i in range(0, len(at) - 1, _PIECE)]
     of = np.array([k for k, _ in pieces])
     numbers = np.repeat(np.arange(len(pieces)), [len(at) for _, at in pieces])
     shapes = np.array(shapely.linestrings(np.concatenate([at for _, at in pieces]), indices=numbers))
     west, south, east, north = shapely.bounds(shapes).T
-    # Measuring what is near by its box is faster than asking the tree what is within the distance.
+    # Selecting by bounding boxes and then measuring is faster than a distance query of the tree.
     near = shapely.box(west - most_m, south - most_m, east + most_m, north + most_m)
     one, two = shapely.STRtree(shapes).query(near)
     one, two = one[of[one] < of[two]], two[of[one] < of[two]]
@@ -114,7 +114,7 @@ def _room_beside(lines: Sequence[LineString], most_m: float) -> Points:
 
 
 def _room_to_edges(lines: Sequence[LineString], free: FreeSpace) -> Points:
-    """Return the metres from each line to the edge of free ground; where the edge crosses it, from its ends."""
+    """Return the metres from each line to the edge of free ground; if the edge crosses the line, from its ends."""
     if not free.bounded:
         return np.full(len(lines), np.inf)
     edge = free.hard.boundary
@@ -126,7 +126,7 @@ def _room_to_edges(lines: Sequence[LineString], free: FreeSpace) -> Points:
 
 
 def _straightened(xy: Points, frame: Frame, tolerance_m: float) -> tuple[Points, float]:
-    """Return a line with few points through a row, and how far trees stand beside it at most."""
+    """Return a simplified line through a row, and the greatest distance of a tree from it."""
     middle = xy.mean(axis=0)
     along = np.linalg.svd(xy - middle, full_matrices=False)[2][0]
     along = along if along @ frame.along > 0.0 else -along
@@ -143,26 +143,26 @@ def _straightened(xy: Points, frame: Frame, tolerance_m: float) -> tuple[Points,
 def _extended(
     obstacles: Sequence[tuple[Points, float, float]], lines: Sequence[LineString], free: FreeSpace
 ) -> list[RowObstacle]:
-    """Return the obstacles with their ends moved out by the turn, or by less where something is near."""
+    """Return the obstacles with their ends extended by the turning room, or by less near other obstacles."""
     tips = np.array([axis[[0, -1]] for axis, _, _ in obstacles])
     ahead = np.array([[axis[0] - axis[1], axis[-1] - axis[-2]] for axis, _, _ in obstacles])
     ahead /= np.hypot(ahead[..., 0], ahead[..., 1])[..., None]
     half = np.array([half_m for _, half_m, _ in obstacles])[:, None, None]
     beside = half * np.stack([-ahead[..., 1], ahead[..., 0]], axis=2)
     turn = np.repeat([[turn] for _, _, turn in obstacles], 2, axis=1)
-    # From the middle and from both corners of each end.
+    # Rays from the middle and from both corners of each end.
     start = np.stack([tips - beside, tips, tips + beside], axis=2).reshape(-1, 2)
     reach = np.repeat(3.0 * turn[..., None] * ahead, 3, axis=1).reshape(-1, 2)
     rays = np.array(shapely.linestrings(np.stack([start, start + reach], axis=1)))
     points = np.array(shapely.points(start))
     out = np.repeat(turn.ravel(), 3)
-    if free.bounded:  # half the way to an edge is left to drive through
+    if free.bounded:  # half the distance to an edge stays free to drive through
         away = shapely.distance(points, shapely.intersection(rays, free.hard.boundary))
         out = np.fmin(out, np.where(np.isnan(away), np.inf, away) / 2.0)
     which, other = shapely.STRtree(lines).query(rays, predicate="intersects")
     which, other = which[which // 6 != other], other[which // 6 != other]
     meets = shapely.intersection(rays[which], np.array(lines)[other])
-    np.minimum.at(out, which, shapely.distance(points[which], meets) / 3.0)  # the other row may come as near
+    np.minimum.at(out, which, shapely.distance(points[which], meets) / 3.0)  # the other row may extend as far
     out = np.maximum(out, free.clearance_m).reshape(-1, 2, 3).min(axis=2)
     found = []
     for (axis, half_m, _), tip, away, metres in zip(obstacles, tips, ahead, out, strict=True):

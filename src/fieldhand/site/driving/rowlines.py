@@ -1,4 +1,4 @@
-"""Rows as lines in the frame of their block: u metres along the rows, v metres across them."""
+"""Lines of rows in the frame of their block: u metres along the rows, v metres across them."""
 
 from __future__ import annotations
 
@@ -14,32 +14,32 @@ Line = tuple[Points, Points]
 
 @dataclass(frozen=True, eq=False)
 class Frame:
-    """A block's own axes. ``along`` and ``across`` are unit vectors in metres east and north."""
+    """Axes of a block. ``along`` and ``across`` are unit vectors in metres east and north."""
 
     along: Points
     across: Points
 
     @staticmethod
     def of_bearing(bearing_deg: float) -> Frame:
-        """Rows that run this way, clockwise from true north."""
+        """Return the frame of rows with a bearing, clockwise from true north."""
         b = np.radians(bearing_deg)
         return Frame(np.array([np.sin(b), np.cos(b)]), np.array([np.cos(b), -np.sin(b)]))
 
     def turned(self, slope: float) -> Frame:
-        """With the rows' way corrected by so many metres across for each metre along."""
+        """Return the frame rotated by a slope: metres across for each metre along."""
         along = self.along + slope * self.across
         along /= np.hypot(*along)
         return Frame(along, np.array([along[1], -along[0]]))
 
     def local(self, xy: Points) -> Points:
-        """Metres along and across, shape (n, 2)."""
+        """Convert metres east and north to metres along and across, shape (n, 2)."""
         # Term by term: a matrix product may round otherwise for one point than for many.
         x, y = xy[:, 0], xy[:, 1]
         (e, n), (f, m) = self.along, self.across
         return np.column_stack([e * x + n * y, f * x + m * y])
 
     def world(self, uv: Points) -> Points:
-        """Metres east and north, shape (n, 2)."""
+        """Convert metres along and across to metres east and north, shape (n, 2)."""
         return np.asarray(uv[:, :1] * self.along + uv[:, 1:] * self.across)
 
 
@@ -48,11 +48,10 @@ class RowLine:
     """The line through the trees of one row, from its first to its last.
 
     Attributes:
-        rows: Positions in the planting's rows: one, or several that stand end to end.
-        u: Where the line is given, strictly increasing.
-        low, high: The line's least and greatest v there: one number but where the line doubles back (trees entered
-            twice).
-        clearance_m: That a robot keeps from it.
+        rows: Indices of the planting's rows: one, or several end to end.
+        u: Coordinates along the row at which the line is sampled, strictly increasing.
+        low, high: Least and greatest v at each u; they differ only where the line doubles back (trees entered twice).
+        clearance_m: Distance in metres that a robot keeps from the line.
     """
 
     rows: tuple[int, ...]
@@ -63,28 +62,28 @@ class RowLine:
 
     @cached_property
     def upper(self) -> Line:
-        """(u, v) of the line above which a robot is clear of the trees; beyond its ends it goes on level."""
+        """Return (u, v) of the line above which a robot is clear of the trees; it continues level beyond its ends."""
         return _raised(self.u, self.high, self.clearance_m)
 
     @cached_property
     def lower(self) -> Line:
-        """(u, v) of the line below which a robot is clear of the trees."""
+        """Return (u, v) of the line below which a robot is clear of the trees."""
         u, v = _raised(self.u, -self.low, self.clearance_m)
         return u, -v
 
     @cached_property
     def top(self) -> float:
-        """Above this v a robot is clear of the whole line."""
+        """Return the v above which a robot is clear of the whole line."""
         return float(self.high.max()) + self.clearance_m
 
     @cached_property
     def bottom(self) -> float:
-        """Below this v a robot is clear of the whole line."""
+        """Return the v below which a robot is clear of the whole line."""
         return float(self.low.min()) - self.clearance_m
 
 
 def row_line(rows: tuple[int, ...], uv: Points, clearance_m: float) -> RowLine:
-    """The line of a row from its trees in order, shape (n, 2)."""
+    """Return the line of a row from its trees in order, shape (n, 2)."""
     if len(uv) > 1 and uv[0, 0] > uv[-1, 0]:
         uv = uv[::-1]
     u, v = uv[:, 0], uv[:, 1]
@@ -94,7 +93,7 @@ def row_line(rows: tuple[int, ...], uv: Points, clearance_m: float) -> RowLine:
 
 
 def _envelope(u: Points, v: Points) -> tuple[Points, Points, Points]:
-    """Least and greatest v of a line that doubles back, at each of its u."""
+    """Return u, least v and greatest v of a line that doubles back."""
     at = np.unique(u)
     low, high = np.full(len(at), np.inf), np.full(len(at), -np.inf)
     for k in range(len(u) - 1):
@@ -109,9 +108,9 @@ def _envelope(u: Points, v: Points) -> tuple[Points, Points, Points]:
 
 
 def _raised(u: Points, v: Points, by: float) -> Line:
-    """A line that is at least ``by`` above and beside this one: its greatest value within ``by``, and ``by`` more.
+    """Return a line that is at least ``by`` above and beside this one: its maximum within ``by``, plus ``by``.
 
-    Between the points that are returned the exact line is convex, so theirs lies above it.
+    Between the returned points the exact line is convex, so the returned line lies above it.
     """
     at = np.unique(np.concatenate([u - by, u, u + by]))
     most = np.maximum(np.interp(at - by, u, v), np.interp(at + by, u, v))

@@ -1,4 +1,4 @@
-"""Find where a robot stands to work on a tree: in the aisle beside it."""
+"""Candidate positions (stands) from which a robot works on a tree, in the aisle beside it."""
 
 from __future__ import annotations
 
@@ -17,31 +17,32 @@ from fieldhand.site.driving.graph import Indices, Points
 from fieldhand.site.driving.layout import XY, Layout
 from fieldhand.site.model import Gate, Place, Site
 
-#: Stands beside one row on one side, or in one aisle, have the same: (group, line, line) of the aisle, the second line
-#: -1 or one past the last on the outer side of an outer row.
+#: Lane of a stand: (group, line, line) of the aisle that it lies in; on the outer side of an outer row one line is -1
+#: or one past the last.
 Lane = tuple[int, int, int]
 
-#: The direction of a bent row at a tree is that between the trees so many places before and after it.
+#: The direction of a bent row at a tree is measured between the trees this many places before and after it.
 _ALONG = 3
 
-#: A stand that is not clear of what stands about is looked for at so many points nearer to the tree.
+#: Number of points, from the standoff towards the tree, that are tried for a stand clear of obstacles.
 _NEARER = 6
 
-#: A gate that is so many clearances beyond half its width away from open ground is not at this ground.
+#: A gate belongs to open ground within half its width plus this many clearances.
 _FROM_GATE = 2.0
 
-#: Directions from which a tree in no row may be approached.
+#: Number of directions tried for approaching a tree in no row.
 _DIRECTIONS = 16
 
 
 @dataclass(frozen=True, slots=True)
 class Candidate:
-    """A stand for a tree.
+    """A possible stand for a tree.
 
     Attributes:
-        lane: In which it is; None on open ground.
-        why_not: Why the robot cannot stand there; empty if it can.
-        aisle_m: Width of the aisle there, where that is why.
+        xy: Metres east and north.
+        lane: Lane that it lies in; None on open ground.
+        why_not: Reason why the robot cannot be there; empty if it can.
+        aisle_m: Width of the aisle in metres, if it is too narrow.
     """
 
     xy: XY
@@ -55,9 +56,9 @@ class StandCandidates:
 
     Args:
         site: The site.
-        layout: Its open ground and aisles.
+        layout: Drivable layout of the site.
         clearance_m: Half the robot's width.
-        standoff_m: From a tree to its stand, where the aisle is wide enough.
+        standoff_m: Distance in metres from a tree to its stand, if the aisle is wide enough.
     """
 
     def __init__(self, site: Site, layout: Layout, clearance_m: float, standoff_m: float) -> None:
@@ -67,16 +68,15 @@ class StandCandidates:
         self._found: dict[int, tuple[Candidate, ...]] = {}
 
     def of(self, place: Place) -> tuple[Candidate, ...]:
-        """One candidate for either side of a tree in a row; the place's own position for all else.
+        """Return a candidate on either side of a tree in a row, or the position of any other place.
 
-        A gate lies on a fence, which the robot keeps away from: it stands on the open ground nearest to the gate.
-        Where no tree of the site stands in a row there are no aisles, and a tree's own position is its stand. A tree in
-        no row on a site that has rows is approached from its most open side.
+        The stand of a gate, which lies on a fence, is the nearest open ground. On a site without rows the stand of a
+        tree is its own position. On a site with rows, a tree in no row is approached from its most open side.
         """
         return self.of_all((place,))[0]
 
     def of_all(self, places: Sequence[Place]) -> list[tuple[Candidate, ...]]:
-        """The candidates of each of these places, remembered."""
+        """Return the candidates of each of the places, cached."""
         trees = [self._open_tree(p) for p in places]
         new = np.array([k for k in dict.fromkeys(trees) if k is not None and k not in self._found], dtype=np.intp)
         rows = self._site.planting.row_of[new]
@@ -88,7 +88,7 @@ class StandCandidates:
         ]
 
     def _candidate(self, place: Place) -> Candidate:
-        """Return the stand of a place that is no tree in the open: its own, its position, or the ground at a gate."""
+        """Return the only stand of a place other than a tree: its own, its position, or the ground near a gate."""
         gate = self._gates.get(place.xy)
         if place.stand is not None or gate is None or self._layout.soft.is_empty:
             return Candidate(place.stand or place.xy)
@@ -99,24 +99,24 @@ class StandCandidates:
 
     @cached_property
     def _gates(self) -> dict[XY, Gate]:
-        """The gates of the site by their position."""
+        """Return the gates of the site by their position."""
         return {gate.place.xy: gate for gate in self._site.gates}
 
     def _open_tree(self, place: Place) -> int | None:
-        """The position of a tree whose stand is to be chosen; None for all else."""
+        """Return the index of a tree whose stand is to be chosen; None for any other place."""
         if place.stand is not None or place.kind != "tree" or not self._layout.aisles.groups:
             return None
         tree = self._site.by_id.get(place.id)
         return None if tree is None else tree.index
 
     def _find(self, trees: Indices, group: int, line: int) -> None:
-        """The candidates of trees of one row: those below it and those above."""
+        """Compute the candidates of trees of one row, below and above it."""
         sides = [self._beside(trees, group, line, side) for side in (-1, 1)]
         self._found.update(zip(trees.tolist(), zip(*sides, strict=True), strict=True))
 
     @cached_property
     def _line_of(self) -> dict[int, tuple[int, int]]:
-        """For each of the planting's rows its group, and its line there."""
+        """Return for each row of the planting its group and its line in the group."""
         return {
             row: (number, k)
             for number, group in enumerate(self._layout.aisles.groups)
@@ -129,7 +129,7 @@ class StandCandidates:
         return cKDTree(self._site.xy)
 
     def _beside(self, trees: Indices, group: int, line: int, side: int) -> list[Candidate]:
-        """On one side of a row: -1 that of lesser v."""
+        """Return the candidates on one side of a row; side -1 is that of lesser v."""
         within = self._layout.aisles.groups[group]
         other = line + side
         lane = (group, min(line, other), max(line, other))
@@ -150,7 +150,7 @@ class StandCandidates:
         ]
 
     def _stand(self, beside: Points, clear: NDArray[np.bool_], lane: Lane) -> Candidate:
-        """The first of these points that is clear."""
+        """Return a candidate at the first clear point, else one with the reason why there is none."""
         if clear.any():
             return Candidate(_xy(beside[int(np.argmax(clear))]), lane)
         return Candidate(_xy(beside[0]), lane, self._in_the_way(beside[0]))
@@ -163,8 +163,8 @@ class StandCandidates:
         to_middle = np.maximum(side * (aisle.middle(u) - v) / lean, 0.0)
         xy = at + side * np.minimum(self._standoff_m, to_middle)[:, None] * across
         low, high = aisle.bounds(frame.local(xy)[:, 0])
-        # Rows may be uneven or bent: not nearer to either of them than the robot's clearance. Where something stands in
-        # the aisle, nearer to the tree.
+        # Rows may be uneven or bent, so keep the clearance from both. If an obstacle is in the aisle, try points nearer
+        # to the tree.
         beside = xy[:, None] + np.linspace(0.0, 1.0, _NEARER)[:, None] * (at - xy)[:, None]
         uv = frame.local(beside.reshape(-1, 2))
         uv[:, 1] = np.clip(uv[:, 1], np.repeat(low, _NEARER), np.repeat(np.maximum(low, high), _NEARER))
@@ -180,7 +180,7 @@ class StandCandidates:
         ]
 
     def _keep_to(self, aisle: Aisle, beside: Points, clear: NDArray[np.bool_]) -> None:
-        """Strike the clear points, shape (n, m), up to the first of each tree that lies in this aisle."""
+        """Clear the flags, shape (n, m), of each tree's points before the first one that lies in this aisle."""
         open_ = np.flatnonzero(clear.any(axis=1))
         while len(open_):
             first = clear[open_].argmax(axis=1)
@@ -189,8 +189,8 @@ class StandCandidates:
             open_ = open_[elsewhere & clear[open_].any(axis=1)]
 
     def _across(self, trees: Indices, group: int, *, bent: bool) -> Points:
-        """The direction across the row at each tree, towards greater v, shape (n, 2): its block's, or that of the row
-        just there."""
+        """Return the direction across the row at each tree, towards greater v, shape (n, 2): that of the block, or if
+        ``bent`` that of the row at the tree."""
         frame = self._layout.aisles.groups[group].frame
         across = np.tile(frame.across, (len(trees), 1))
         if not bent:
@@ -208,7 +208,7 @@ class StandCandidates:
         return across
 
     def _free_way(self, at: Points, away: Points, own: set[int]) -> Points:
-        """How far a robot may go from each tree of a row before it is nearer to another."""
+        """Return the metres that a robot may move away from each tree of a row before it is nearer to another row."""
         room = np.full(len(at), np.inf)
         rays = shapely.linestrings(np.stack([at, at + 2.0 * self._standoff_m * away], axis=1))
         tree, line = self._layout.aisles.row_lines.query(rays, predicate="intersects")
@@ -224,7 +224,7 @@ class StandCandidates:
         return f"{nearest} is too near" if nearest else "nothing can be driven to beside it"
 
     def _open_sides(self, trees: Indices) -> list[tuple[Candidate, ...]]:
-        """For trees in no row: where other trees are farthest, on ground that can be driven on."""
+        """Return the candidates of trees in no row: on clear ground where other trees are farthest."""
         if len(trees) == 0:
             return []
         turn = 2.0 * np.pi * np.arange(_DIRECTIONS) / _DIRECTIONS

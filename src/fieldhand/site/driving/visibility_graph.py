@@ -1,7 +1,7 @@
-"""Shortest ways over ground with obstacles: its corners, and which points of it see each other.
+"""Visibility graph of ground with obstacles: its corners, and which of its points see each other.
 
-The shortest way in the plane turns only at corners of what is in the way, so it is found in the graph of corners that
-see each other (a visibility graph: Lozano-Pérez and Wesley 1979).
+A shortest path in the plane turns only at corners of obstacles, so it is found in the graph of the corners that see
+each other (Lozano-Pérez and Wesley 1979).
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from fieldhand.site.driving.row_axes import RowAxes
 
 
 class VisibilityGraph:
-    """The corners of a ground, the graph of those that see each other, and what other points see.
+    """The corners of the ground, the graph of those that see each other, and queries for other points.
 
     Args:
-        ground: On which ways keep to.
-        axes: Lines through obstacles, from end to end, shape (m, 2, 2): no way crosses one.
+        ground: Ground that paths stay on.
+        axes: Lines through obstacles, from end to end, shape (m, 2, 2), which no path crosses.
     """
 
     def __init__(self, ground: BaseGeometry, axes: Points) -> None:
@@ -38,8 +38,7 @@ class VisibilityGraph:
         self.graph = Graph(len(self.corners), one, two, np.hypot(*(self.corners[one] - self.corners[two]).T))
 
     def links(self, at: Points) -> list[Links]:
-        """Return the corners at which a way from each of these points of the ground can turn first, with the metres to
-        there."""
+        """Return the corners at which a path from each of these points can turn first, with the metres to them."""
 
         def turns(i: Indices, j: Indices) -> NDArray[np.bool_]:
             return self._touched(j, self.corners[j] - at[i])
@@ -50,13 +49,15 @@ class VisibilityGraph:
         return [Links(j[a:b], metres[a:b]) for a, b in itertools.pairwise(ends)]
 
     def pairs(self, one: Points, two: Points | None = None) -> Iterator[tuple[Indices, Indices]]:
-        """Yield, in batches, the positions of all pairs of a point of ``one`` and one of ``two`` that may see each
-        other: none of the rows nearest to either parts them. Without ``two`` pairs within ``one``, each once.
+        """Yield the indices of all pairs of points that may see each other, in batches: no row nearest to either
+        separates them.
+
+        Pairs consist of a point of ``one`` and a point of ``two``; without ``two`` of two points of ``one``, each once.
         """
         return self._axes.unseparated_pairs(self._axes.locate(one), None if two is None else self._axes.locate(two))
 
     def _edges(self) -> tuple[Indices, Indices]:
-        """Return the pairs of corners that see each other and at both of which a way can turn."""
+        """Return the pairs of corners that see each other and at both of which a path can turn."""
         at = self.corners
 
         def turns(i: Indices, j: Indices) -> NDArray[np.bool_]:
@@ -66,7 +67,7 @@ class VisibilityGraph:
         return self._seen(at, at, self._axes.unseparated_pairs(self._located, among=turns))
 
     def _seen(self, one: Points, two: Points, pairs: Iterator[tuple[Indices, Indices]]) -> tuple[Indices, Indices]:
-        """Return those of the pairs whose points, on the ground, see each other."""
+        """Return those of the pairs whose points see each other."""
         none: Indices = np.zeros(0, dtype=np.intp)
         found = [(none, none)]
         for i, j in pairs:
@@ -76,15 +77,17 @@ class VisibilityGraph:
         return i, j
 
     def _touched(self, which: Indices, towards: Points) -> NDArray[np.bool_]:
-        """Return where a line through a corner in this direction, or against it, only touches the obstacle there: a
-        shortest way has no other lines at its turns."""
+        """Return a mask of the directions whose line through a corner only touches the obstacle there; shortest paths
+        turn only on such lines."""
         before, after = -self._before[which], self._after[which]
         return np.asarray(_cross(towards, before) * _cross(towards, after) >= -1e-9)
 
 
 def _corners(ground: BaseGeometry) -> tuple[Points, Points, Points]:
-    """Return the vertices at which a way can turn, and the edges that meet there: the ground takes more than half a
-    turn there. Shape (n, 2) each."""
+    """Return the vertices at which a path can turn, and the edges before and after them; shape (n, 2) each.
+
+    A path can turn where the ground takes up more than half a turn.
+    """
     found = [np.empty((3, 0, 2))]
     for ring in _rings(ground):
         at = shapely.get_coordinates(ring)[:-1]
@@ -95,7 +98,7 @@ def _corners(ground: BaseGeometry) -> tuple[Points, Points, Points]:
 
 
 def _rings(ground: BaseGeometry) -> Iterator[BaseGeometry]:
-    """Yield the rings of all areas, the ground on their left."""
+    """Yield the rings of all areas, with the ground on their left."""
     for part in getattr(ground, "geoms", [ground]):
         if isinstance(part, Polygon) and not part.is_empty:
             turned = orient(part)
