@@ -99,7 +99,7 @@ def test_how_a_request_was_read_is_said() -> None:
         (
             "take a picture of the first tree if it is below 33 c read the co2 otherwise read the air temperature then go to"
             " another tree and take a picture",
-            "picture @ First = r1; if r1 < 33 degC: [co2] else [air]; go Take(1, of Other); picture",
+            "picture @ First = r1; if r1 < 33 degC: [co2] else [air]; go Take(1, of NotVisited); picture",
         ),
         (
             "go to tree 4 and read the co2 there if it is low go to a nearby tree and take a picture of it from there go to"

@@ -223,16 +223,15 @@ Take pictures of as many vines in the north block as you can without driving mor
 """.strip().splitlines()
 #: What a plan cannot hold, of every kind that growers use; an open list.
 MODIFIERS = """
-slowly; carefully; quickly; gently; tomorrow; daily; hourly; regularly; tonight; yesterday; sometimes; weekly; every
-morning; each week on weekdays; at 6 am; before sunrise; at noon; in the morning; after the rain; during lunch; next
-week; last week; on Monday; in June once a day; every hour; for powdery mildew; for pests; for water stress; for the
-lab; with flash; in colour; from above; from both sides on the left side; facing north; in the shade; without flash;
-weak; sick; healthy; missing; ripe; sprayed; pruned; thirsty; infected flowering; shaded; a few; several; on average; at
-the median; per variety; unless it rains; if the weather is fine weather permitting; avoiding the pond; except the weak
-ones; and wait 10 minutes; and spray; and mow; and count the grapes; and prune and water it; and take a leaf sample; and
-record a video; and call me; the ones you did yesterday; starting at the pond; via the barn along the road; near the
-fence; backwards; diagonally; in a zigzag; clockwise; from 2 m away; at half speed; with the drone; by hand silently;
-urgently; secretly; until dark; for 10 minutes; with two robots; at 0.3 m/s; twice a day; every 10 minutes
+slowly; carefully; quickly; gently; tomorrow; daily; hourly; regularly; tonight; yesterday; sometimes; weekly; every morning; each week
+on weekdays; at 6 am; before sunrise; at noon; in the morning; after the rain; during lunch; next week; last week; on Monday; in June
+once a day; every hour; for powdery mildew; for pests; for water stress; for the lab; with flash; in colour; from above; from both sides
+on the left side; facing north; in the shade; without flash; weak; sick; healthy; missing; ripe; sprayed; pruned; thirsty; infected
+flowering; shaded; a few; several; on average; at the median; per variety; unless it rains; if the weather is fine
+weather permitting; avoiding the pond; except the weak ones; and wait 10 minutes; and spray; and mow; and count the grapes; and prune
+and water it; and take a leaf sample; and record a video; and call me; the ones you did yesterday; starting at the pond; via the barn
+along the road; near the fence; backwards; diagonally; in a zigzag; clockwise; from 2 m away; at half speed; with the drone; by hand
+silently; urgently; secretly; until dark; for 10 minutes; with two robots; at 0.3 m/s; twice a day; every 10 minutes
 """.replace("\n", ";").split(";")
 
 
