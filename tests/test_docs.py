@@ -18,6 +18,7 @@ import pytest
 
 import fieldhand as fh
 from fieldhand import errors
+from fieldhand.places.selectors import SELECTORS
 from fieldhand.plugins import GROUPS
 from ros2.conftest import LOOPBACK
 from support.processes.command import fieldhand, in_background
@@ -141,6 +142,14 @@ def test_the_map_of_the_packages_is_the_one_that_is_enforced() -> None:
     table = page.partition("## The packages")[2].partition("\n## ")[0]
     for room in rooms:
         assert re.search(rf"^\|[^|]*`{room}`", table, re.MULTILINE), room
+
+
+def test_the_page_of_sites_defines_every_selector() -> None:
+    page = (ROOT / "docs" / "site.md").read_text().partition("## What the words mean")[2].partition("\n### ")[0]
+    named = {
+        name for row in re.findall(r"^\|[^|]*\|([^|]*)\|", page, re.MULTILINE) for name in re.findall(r"`(\w+)`", row)
+    }
+    assert named - {"side"} == {selector.__name__ for selector in SELECTORS}
 
 
 #: Files of a user or of a mission, of which the docs speak beside files of the repository.
