@@ -1,10 +1,10 @@
 """Find the rows of a site: those that its file names, else those inferred from the positions of the trees.
 
-- ``named``: what the file says about rows, blocks and positions, and whether that makes sense on the ground.
-- ``infer``: rows from bare points. ``patches`` finds which way rows run in small patches of trees, ``regions`` puts
-  patches that agree together, ``tracing`` follows lines of trees there, ``grouping`` makes blocks of them,
-  ``evidence`` throws out what scattered trees would show as well, ``settle`` gives trees on their own a home.
-- ``combine`` puts both together, and ``assemble`` numbers blocks, rows and planting positions.
+- ``named`` reads rows, blocks and positions from the file and checks them against the positions of the trees.
+- ``infer`` infers rows from the positions alone: ``patches`` finds the direction of rows in small patches of trees,
+  ``regions`` merges patches that agree, ``tracing`` follows lines of trees in them, ``grouping`` and ``roads`` form
+  blocks, ``evidence`` rejects rows that scattered trees would show as well, ``refine`` assigns the remaining trees.
+- ``combine`` merges both results, and ``assemble`` numbers blocks, rows and planting positions.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from fieldhand.site.rows.named import named_rows
 from fieldhand.site.rows.refine import InferredBlock
 from fieldhand.terms import Value
 
-#: Trees nearer to each other than this, in metres, are one tree entered twice.
+#: Trees closer to each other than this, in metres, are one tree entered twice.
 _TWICE_M = 0.2
 
 __all__ = ["planting_of"]
@@ -32,13 +32,13 @@ __all__ = ["planting_of"]
 def planting_of(xy: NDArray[np.float64], rows: Sequence[str], properties: Sequence[Mapping[str, Value]]) -> Planting:
     """Return the blocks and rows of a site, and the trees along each row with their planting positions.
 
-    The file's own rows, blocks and positions win where they make sense; the other trees are in the rows that can be
-    seen in how they stand. Where none can, the planting has no blocks and says why.
+    Consistent rows, blocks and positions of the file take precedence; the other trees are assigned to inferred rows. If
+    there are none, the planting has no blocks and gives the reason.
 
     Args:
         xy: Trees in metres, shape (n, 2).
-        rows: The name of each tree's row, empty where the file gives none.
-        properties: What else the file says of each tree.
+        rows: Name of each tree's row, empty if the file gives none.
+        properties: Properties of each tree in the file.
     """
     named = named_rows(rows, properties, xy)
     seen = _seen(xy) if (named.row_of < 0).any() else []
@@ -46,7 +46,7 @@ def planting_of(xy: NDArray[np.float64], rows: Sequence[str], properties: Sequen
 
 
 def _seen(xy: NDArray[np.float64]) -> list[InferredBlock]:
-    """Rows from the points; trees entered twice are seen once, and stand where the other does."""
+    """Infer rows from the points; duplicates of a tree are left out and join its row afterwards."""
     from fieldhand.site.rows.infer import infer_blocks
 
     first = first_entries(xy)
@@ -63,7 +63,7 @@ def _seen(xy: NDArray[np.float64]) -> list[InferredBlock]:
 
 
 def first_entries(xy: NDArray[np.float64]) -> NDArray[np.intp]:
-    """Of each tree the first of the file that stands in the same place."""
+    """Return for each tree the index of the first tree of the file at the same place."""
     from scipy.spatial import cKDTree
 
     tree = cKDTree(xy)

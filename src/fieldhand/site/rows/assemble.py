@@ -1,4 +1,4 @@
-"""Blocks, rows and planting positions in their order, from which tree stands in which row."""
+"""Order and number blocks, rows and planting positions, given the row of each tree."""
 
 from __future__ import annotations
 
@@ -13,27 +13,27 @@ from fieldhand.site.rows.labels import groups
 
 Floats = NDArray[np.float64]
 
-#: Trees nearer than this part of the tree spacing share a planting position: one of them was entered twice.
+#: Trees closer than this fraction of the tree spacing share a planting position: one was entered twice.
 _SAME_POSITION = 0.3
-#: How far the position that is expected next follows each tree that is found.
+#: Fraction of a tree's offset by which the next expected position is corrected.
 _FOLLOW = 0.35
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class FoundRows:
-    """Rows as they were found, in no order yet.
+    """Rows before they are ordered and numbered.
 
     Attributes:
-        row_of: Of each tree its row, -1 for none. Shape (n,).
-        block_of: Of each row its block. Shape (rows,).
-        names: Of each row, empty where the file has none.
-        known: Of each row.
+        row_of: Row of each tree, -1 for none. Shape (n,).
+        block_of: Block of each row. Shape (rows,).
+        names: Name of each row, empty if the file gives none.
+        known: Source of each row.
         sure: Confidence of each row.
-        block_names: Of each block, empty where the file has none.
-        block_known: Of each block.
+        block_names: Name of each block, empty if the file gives none.
+        block_known: Source of each block.
         block_sure: Confidence of each block.
-        positions: Of each tree the file's own position in its row; nan where it has none. Shape (n,).
-        why: For :attr:`Planting.why`.
+        positions: Position of each tree in its row from the file; nan if it gives none. Shape (n,).
+        why: Text for :attr:`Planting.why`.
     """
 
     row_of: Indices
@@ -49,7 +49,7 @@ class FoundRows:
 
 
 def assemble(xy: Floats, drawn: FoundRows) -> Planting:
-    """Rows numbered and in order, each tree with its planting position."""
+    """Return the planting with rows numbered in order, each tree with its planting position."""
     members = groups(drawn.row_of, len(drawn.block_of))
     blocks = [
         _block(xy, drawn, block, [(k, members[k]) for k in np.flatnonzero(drawn.block_of == block).tolist()])
@@ -67,9 +67,9 @@ def assemble(xy: Floats, drawn: FoundRows) -> Planting:
 
 
 def bearing(xy: Floats, row_of: Indices) -> float:
-    """The direction of rows that share one, in degrees clockwise from north, 0 up to 180.
+    """Return the common direction of rows, in degrees clockwise from north, 0 up to 180.
 
-    It is the main axis of the trees' scatter about the middle of their own row, so long rows count for more.
+    It is the main axis of the trees' scatter about the centre of their own row, so long rows weigh more.
     """
     inside = row_of >= 0
     points, labels = xy[inside], row_of[inside]
@@ -78,14 +78,14 @@ def bearing(xy: Floats, row_of: Indices) -> float:
     count = np.bincount(labels)
     middle = np.column_stack([np.bincount(labels, points[:, k]) for k in (0, 1)]) / np.maximum(count, 1)[:, None]
     off = points - middle[labels]
-    if np.abs(off).max() < 1e-9:  # single trees: rows run across the line through them
+    if np.abs(off).max() < 1e-9:  # single trees: rows run perpendicular to the line through them
         off = (points - points.mean(axis=0)) @ np.array([[0.0, 1.0], [-1.0, 0.0]])
     xx, yy, xy_ = (off[:, 0] ** 2).sum(), (off[:, 1] ** 2).sum(), (off[:, 0] * off[:, 1]).sum()
     return float(np.degrees(0.5 * np.arctan2(2 * xy_, yy - xx)) % 180.0) % 180.0
 
 
 def along_of(bearing_deg: float) -> Floats:
-    """The unit vector along rows, from their usual end."""
+    """Return the unit vector along rows, away from their usual end."""
     turn = np.radians(bearing_deg)
     axis = np.array([np.sin(turn), np.cos(turn)])
     if 45.0 < bearing_deg < 135.0:
@@ -94,9 +94,9 @@ def along_of(bearing_deg: float) -> Floats:
 
 
 def across_of(bearing_deg: float) -> Floats:
-    """The unit vector across rows, in the way in which they are numbered."""
+    """Return the unit vector across rows, towards higher numbers."""
     x, y = along_of(bearing_deg)
-    # Along is south (or east), across is east (or south).
+    # Rows run south (or east) and are numbered towards the east (or south).
     return np.array([y, -x]) if 45.0 < bearing_deg < 135.0 else np.array([-y, x])
 
 
@@ -134,9 +134,10 @@ def _block(xy: Floats, drawn: FoundRows, block: int, rows: list[tuple[int, Indic
 
 
 def tree_spacing(at: Sequence[Floats]) -> float:
-    """The spacing of positions along several rows, each rising, where some are missing; 0 without any pair.
+    """Return the tree spacing of several rows with missing trees, from rising coordinates along each; 0 without any
+    pair.
 
-    Half of the steps or more are single ones, so the middle one says about what one is; all then say it exactly.
+    At least half of the steps are single ones, so the median gives a first estimate, which all steps then refine.
     """
     steps = np.concatenate([np.diff(a) for a in at]) if at else np.empty(0)
     steps = steps[steps > 0.02]
@@ -155,10 +156,10 @@ def tree_spacing(at: Sequence[Floats]) -> float:
 
 
 def _slots(at: Sequence[Floats], spacing: float) -> list[Indices]:
-    """Planting positions along each row, from 1: all rows at once, a tree of each at a time.
+    """Return the planting positions along each row, from 1, computed for all rows at once.
 
-    Each tree moves the place where the next is expected a little, so that neither a tree planted beside its place nor
-    a spacing that changes along the row adds up.
+    Each tree corrects the expected position of the next one a little, so that neither a displaced tree nor a spacing
+    that changes along the row accumulates an error.
     """
     longest = max(map(len, at))
     padded = np.full((len(at), longest), np.nan)
@@ -180,7 +181,7 @@ def _slots(at: Sequence[Floats], spacing: float) -> list[Indices]:
 
 
 def _with_own(slots: Indices, own: Floats) -> Indices:
-    """The file's own positions where every tree of the row has one and they run along it."""
+    """Return the file's own positions if every tree of the row has one and they are monotonic, else ``slots``."""
     if len(own) == 0 or not np.all(np.isfinite(own)) or np.any(own != np.rint(own)) or np.any(own < 1):
         return slots
     steps = np.diff(own)
@@ -190,7 +191,7 @@ def _with_own(slots: Indices, own: Floats) -> Indices:
 
 
 def _in_order(xy: Floats, blocks: list[Block]) -> list[Block]:
-    """Blocks from west to east, and from north to south where one stands above another."""
+    """Return the blocks from west to east, and from north to south where one lies above another."""
     if len(blocks) < 2:
         return blocks
     spans = []

@@ -19,7 +19,7 @@ from fieldhand.site.rows.refine import InferredBlock
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
-#: Rows that run in directions this many degrees apart are in different blocks, where the file does not say.
+#: Rows whose directions differ by more than this, in degrees, are in different blocks unless the file names the block.
 _OTHER_WAY = 8.0
 
 
@@ -52,7 +52,7 @@ def combine(xy: Floats, named: NamedRows, seen: Sequence[InferredBlock]) -> Foun
 
 
 def _by_tree(count: int, seen: Sequence[InferredBlock]) -> tuple[Indices, list[int], list[float]]:
-    """Of each tree the row it was seen in, -1 for none; of each of these rows its block and confidence."""
+    """Return the inferred row of each tree, -1 for none, and the block and confidence of each of these rows."""
     row_of = np.full(count, -1, dtype=np.intp)
     block_of: list[int] = []
     sure: list[float] = []
@@ -67,7 +67,7 @@ def _by_tree(count: int, seen: Sequence[InferredBlock]) -> tuple[Indices, list[i
 def _rows(
     named: NamedRows, seen_row: Indices, sure: Sequence[float]
 ) -> tuple[Indices, list[str], list[Known], list[float]]:
-    """The file's rows first, then those that were seen and hold no tree of these."""
+    """Return the rows of the file, then the inferred rows that contain no tree of these."""
     row_of = named.row_of.copy()
     names: list[str] = list(named.names)
     known: list[Known] = ["file"] * len(names)
@@ -93,7 +93,7 @@ def _rows(
 
 
 def _by_block(trees: Indices, block_names: Sequence[str]) -> list[Indices]:
-    """A row that was seen, parted where the file says that its trees, in their order, go on in another block."""
+    """Split an inferred row where the file assigns its consecutive trees to another block."""
     said = [block_names[k] for k in trees]
     changes = [k for k in range(1, len(said)) if said[k] != said[k - 1]]
     if not changes or len(changes) + 1 > len(set(said)):
@@ -109,11 +109,11 @@ def _block_keys(
     seen_block: Sequence[int],
     seen: list[InferredBlock],
 ) -> list[Hashable]:
-    """Of each row what tells its block from others: the file's name, else a number."""
+    """Return for each row the key of its block: the name in the file, else a number."""
     keys: list[Hashable] = [_named_block(named, trees) for trees in members]
     if all(keys):
         return keys
-    # Rows without a name for their block are in that of the rows they were seen with, ...
+    # Rows without a block name join the block of the rows that they were inferred with ...
     blocks = np.array([*seen_block, -1], dtype=np.intp)[seen_row]
     spoken: dict[int, Counter[str]] = {}
     for key, trees in zip(keys, members, strict=True):
@@ -130,20 +130,20 @@ def _block_keys(
             continue
         block = int(np.bincount(own[own >= 0]).argmax())
         keys[k] = spoken[block].most_common(1)[0][0] if block in spoken else block
-    # ... or beside, where they were not looked for.
+    # ... or, if the file names the row, that of the rows beside them.
     for k, label in zip(beside, _beside(xy, [members[k] for k in beside]), strict=True):
         keys[k] = len(seen) + label
     return keys
 
 
 def _named_block(named: NamedRows, trees: Indices) -> str:
-    """The block that the file says these trees are in; empty where it says none, or several."""
+    """Return the block that the file names for these trees; empty if it names none or several."""
     said = {named.block_names[k] for k in trees}
     return said.pop() if len(said) == 1 else ""
 
 
 def _beside(xy: Floats, rows: Sequence[Indices]) -> list[int]:
-    """Label rows by the block they are in, from where they stand."""
+    """Label rows by their block, from their positions."""
     if not rows:
         return []
     label = np.zeros(len(rows), dtype=np.intp)
@@ -171,7 +171,7 @@ def _median_step(middles: Floats) -> float:
 
 
 def _by_direction(ways: Floats) -> list[Indices]:
-    """Rows by direction; those too short to have one go with the first."""
+    """Group rows by direction; rows too short to have one join the largest group."""
     short = np.flatnonzero(np.isnan(ways))
     long = np.flatnonzero(~np.isnan(ways))
     if not len(long):
@@ -196,7 +196,7 @@ def _block_sure(
     seen_block: Sequence[int],
     seen: list[InferredBlock],
 ) -> list[float]:
-    """As sure as the blocks that were seen there; where the file names rows of it, those run as it says."""
+    """Return the confidence of each block: 1 if the file names some of its rows, else that of the inferred blocks."""
     found = []
     for key in blocks:
         rows = [k for k, own in enumerate(block_key) if own == key]

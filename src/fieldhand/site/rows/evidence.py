@@ -11,22 +11,22 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
-#: Scattered trees in line by chance are spread over this width, and off their planting position by this much, in tree
-#: spacings; and the least spread that is believed.
+#: Spread across and along the row of scattered trees in line by chance, in tree spacings; and the least spread assumed
+#: for rows.
 _LOOSE_ACROSS, _LOOSE_ALONG, _LEAST = 0.9, 1.2, 0.01
-#: For each tree that the lane beside the row is free, and against each that stands in it.
+#: Evidence for each tree beside which the lane is free, and against the row for each tree in the lane.
 _FREE, _IN_THE_LANE = 0.5, 1.5
-#: The lane, from its row, in tree spacings.
+#: Distance of the lane from its row, from and to, in tree spacings.
 _LANE = (0.5, 0.85)
-#: Missing trees, as a part of those that stand, that speak against nothing; and what each further one does.
+#: Fraction of missing trees that is tolerated, and the evidence against the row for each further one.
 _OFTEN_MISSING, _MISSING = 0.3, 0.8
 
 
 def log_likelihood_ratio(xy: Floats, rows: Sequence[Indices], way: Floats, spacing: float) -> float:
     """Return the log-likelihood ratio of trees planted in these rows against scattered trees.
 
-    Four things are evidence of rows: trees close to the row's line, whole numbers of tree spacings between them, few
-    gaps, and a free lane beside them.
+    The evidence for rows is: small distances of the trees from the row's line, whole numbers of tree spacings between
+    them, few gaps, and a free lane beside them.
 
     Args:
         xy: All trees of the site.
@@ -58,12 +58,12 @@ def log_likelihood_ratio(xy: Floats, rows: Sequence[Indices], way: Floats, spaci
 
 
 def required_evidence(trees: int) -> float:
-    """Return the evidence required for rows among a number of trees: more trees line up by chance in more ways."""
+    """Return the evidence required for rows among a number of trees; more trees align by chance more often."""
     return 6.0 + 0.9 * math.log(max(trees, 1))
 
 
 def _about_its_line(across: Floats) -> float:
-    """Sum of squares about the row's line; where the row curves, about the middle of the trees next to each."""
+    """Return the sum of squared distances from the row's line; for a curved row, from the moving average of the row."""
     flat = float(((across - across.mean()) ** 2).sum())
     if len(across) < 12:
         return flat
@@ -75,7 +75,7 @@ def _about_its_line(across: Floats) -> float:
 
 
 def _in_the_lanes(xy: Floats, rows: Sequence[Indices], way: Floats, spacing: float) -> int:
-    """Trees, of the site, that stand in the lane beside a tree of the rows."""
+    """Return the number of trees in the lanes beside trees of the rows."""
     from scipy.spatial import cKDTree
 
     own = np.concatenate(rows)
@@ -92,8 +92,7 @@ def _in_the_lanes(xy: Floats, rows: Sequence[Indices], way: Floats, spacing: flo
 
 
 def bearing_confidence(evidence: float, enough: float, spacing_ratio: float, file_order_share: float) -> float:
-    """Return the confidence, 0 to 1, that rows run this way: that they are rows, and that the lines across them are
-    not.
+    """Return the confidence, 0 to 1, in the direction of rows: that they are rows, and the lines across them are not.
 
     Args:
         evidence: Result of :func:`log_likelihood_ratio`.
@@ -111,11 +110,10 @@ def bearing_confidence(evidence: float, enough: float, spacing_ratio: float, fil
 def row_confidence(
     xy: Floats, trees: Indices, way: Floats, tree_spacing: float, row_spacing: float, off: float
 ) -> float:
-    """That these trees are a row and no others are in it, 0 to 1, where the rows run this way.
+    """Return the confidence, 0 to 1, that exactly these trees form a row, given the direction of the rows.
 
-    Each tree's chance to be nearer to its own row than to the next one, from how far trees stand beside their rows
-    (``off``, metres, one standard deviation) and the row spacing;
-    times, for each gap of k missing trees, ``1 - k^2/200``.
+    It is the probability that each tree is nearer to its own row than to the next one, from the standard deviation of
+    trees about their rows (``off``, metres) and the row spacing, times ``1 - k^2/200`` for each gap of k missing trees.
     """
     each = math.erf(0.5 * row_spacing / max(off, 1e-6) / math.sqrt(2.0)) if math.isfinite(row_spacing) else 1.0
     steps = np.rint(np.diff(np.sort(xy[trees] @ way)) / max(tree_spacing, 1e-9)) - 1.0

@@ -12,29 +12,30 @@ from fieldhand.site.rows.labels import groups, linked
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
-#: Rows up to this many row spacings apart are neighbours; so are rows about two spacings apart: one is missing.
+#: Rows up to this many row spacings apart are neighbours; so are rows two spacings apart within this tolerance, with a
+#: missing row between them.
 _NEXT, _ONE_MISSING = 1.6, 0.2
-#: Rows end this many row spacings or less from where their neighbours begin.
+#: Greatest gap along the rows between neighbours, in row spacings.
 _BESIDE = 1.5
 
 
 @dataclass(frozen=True, eq=False)
 class TracedRow:
-    """A row under construction: its trees from one end, with their coordinates along and across."""
+    """A row being traced: its trees from one end, with their coordinates along and across."""
 
     trees: Indices
     along: Floats
     across: Floats
 
     def across_at(self, along: float) -> float:
-        """Where its middle is, from the trees next to there."""
+        """Return the coordinate across the row at a point along it, averaged over the nearest trees."""
         k = int(np.searchsorted(self.along, along))
         low = max(k - 4, 0)
         return float(np.mean(self.across[low : max(k + 4, low + 1)]))
 
 
 def traced_rows(local: Floats, label: Indices) -> list[TracedRow]:
-    """The rows of these labels (negative ones left out), each along its way."""
+    """Return the rows of these labels (negative ones left out), with their trees sorted along the row."""
     found = []
     for own in groups(label, int(label.max(initial=-1)) + 1):
         if len(own):
@@ -44,14 +45,14 @@ def traced_rows(local: Floats, label: Indices) -> list[TracedRow]:
 
 
 def row_spacing(lines: list[TracedRow], guess: float) -> float:
-    """The middle of the distances from rows to the next one beside them."""
+    """Return the median distance from rows to the next row beside them."""
     ordered = sorted((line for line in lines if len(line.trees) > 1), key=lambda line: float(line.across.mean()))
     middle = np.array([float(line.across.mean()) for line in ordered])
     first, last = (np.array([line.along[k] for line in ordered]) for k in (0, -1))
     until = np.searchsorted(middle, middle + 1.5 * guess)
     steps = []
     for k, end in enumerate(until.tolist()):
-        # Rows of the block beyond a road, or pieces of one row, are not beside it.
+        # Rows beyond a road, or other pieces of the same row, do not overlap with it.
         after = slice(k + 1, end)
         shared = np.minimum(last[k], last[after]) - np.maximum(first[k], first[after])
         half = shared > 0.5 * np.minimum(last[k] - first[k], last[after] - first[after])
@@ -65,12 +66,14 @@ def row_spacing(lines: list[TracedRow], guess: float) -> float:
 def group_rows(
     lines: list[TracedRow], spacing: float, *, trusted: bool = False, sides: NDArray[np.intp] | None = None
 ) -> Indices:
-    """Label rows by the block they are in: those side by side at about the row spacing.
+    """Label rows by their block: adjacent rows at about the row spacing.
 
     Args:
-        trusted: Whether a row of a tree or two is one anywhere beside another, not only where a row is due.
-        sides: Of each road the rows at one side of it, -1, and at the other, 1, which are in different blocks; 0 for
-            those that are not beside it. Shape (roads, rows).
+        lines: Rows to group.
+        spacing: Row spacing in metres.
+        trusted: Accept rows of one or two trees beside any other row, not only at the row spacing.
+        sides: Side of each road that each row lies on, -1 or 1, or 0 if it does not adjoin the road; rows on different
+            sides are in different blocks. Shape (roads, rows).
     """
 
     count = len(lines)
@@ -96,6 +99,6 @@ def _beside(a: TracedRow, b: TracedRow, spacing: float, trusted: bool) -> bool:
     at = 0.5 * (low + high)
     apart = abs(a.across_at(at) - b.across_at(at)) / spacing
     few, more = sorted((len(a.trees), len(b.trees)))
-    if not trusted and few < 3:  # a tree or two are a row only where one is due
+    if not trusted and few < 3:  # one or two trees are a row only at the row spacing
         return bool(abs(apart - 1.0) < (0.3 if more >= 3 else 0.2) and few + more >= 4)
     return bool(0.3 < apart < _NEXT or abs(apart - 2.0) < _ONE_MISSING)

@@ -1,4 +1,4 @@
-"""Rows from bare points."""
+"""Infer blocks and rows from the positions of the trees alone."""
 
 from __future__ import annotations
 
@@ -34,16 +34,16 @@ Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 _ROUNDS = 6
-#: Trees in step that make a patch clear; as many of scattered ones rarely are.
+#: Number of trees in phase with a wave that makes a patch clear; scattered trees rarely reach it.
 _CLEAR = 11.0
-#: Rows run the same way up to this turn between them (its sine), and have trees as far apart up to this part.
+#: Tolerances for similar blocks: sine of the angle between rows, and relative difference of the tree spacing.
 _SAME_WAY, _SAME_SPACING = 0.045, 0.12
 
 
 def infer_blocks(xy: Floats) -> list[InferredBlock]:
-    """Blocks and their rows, as they can be seen in how the trees stand.
+    """Return the blocks and rows that can be inferred from the positions of the trees.
 
-    In rounds: what is not explained yet is looked at again, until nothing is found in it.
+    Unexplained trees are examined again in further rounds, until no more rows are found.
     """
     found: list[InferredBlock] = []
     left = np.arange(len(xy))
@@ -63,7 +63,7 @@ def infer_blocks(xy: Floats) -> list[InferredBlock]:
 
 
 def _similar_blocks(blocks: list[InferredBlock]) -> list[list[InferredBlock]]:
-    """Blocks whose straight rows run the same way, with trees as far apart; the greatest of them first."""
+    """Group blocks with straight rows of the same direction and tree spacing, the largest block of each group first."""
     parts: list[list[InferredBlock]] = []
     for block in sorted(blocks, key=lambda b: -sum(map(len, b.rows))):
         for part in parts:
@@ -79,7 +79,7 @@ def _similar_blocks(blocks: list[InferredBlock]) -> list[list[InferredBlock]]:
 
 
 def _trace_together(xy: Floats, blocks: list[InferredBlock]) -> list[InferredBlock]:
-    """Blocks that were found apart, looked at together: rows that go on in another, and roads between."""
+    """Trace blocks that were found separately as one, joining rows across them and splitting them at roads."""
     first = blocks[0]
     rows = [trees for block in blocks for trees in block.rows]
     trees = np.concatenate(rows)
@@ -92,7 +92,7 @@ def _trace_together(xy: Floats, blocks: list[InferredBlock]) -> list[InferredBlo
 
 
 def _slope(way: Floats, mean: Floats) -> float:
-    """Metres to the right of the mean way for each metre along it."""
+    """Return the metres to the right of the mean direction for each metre along it."""
     way = way if way @ mean > 0 else -way
     return float((way[0] * mean[1] - way[1] * mean[0]) / (way @ mean))
 
@@ -110,7 +110,7 @@ def _blocks_among(xy: Floats, trees: Indices, size: int) -> list[InferredBlock]:
 
 
 def _with_confidence(xy: Floats, block: InferredBlock) -> InferredBlock:
-    """The block with how sure it and its rows are."""
+    """Return the block with the confidence of its direction and of its rows."""
     across = np.array([block.way[1], -block.way[0]])
     count = sum(map(len, block.rows))
     squares = sum(float(((xy[trees] @ across - (xy[trees] @ across).mean()) ** 2).sum()) for trees in block.rows)
@@ -172,14 +172,14 @@ def _slopes(waves: Floats, mean: Floats) -> Floats:
 
 
 def _way(wave: Floats, slope: float) -> Floats:
-    """The unit vector along rows that lean against the wave by that slope."""
+    """Return the unit vector along rows with a slope relative to the wave."""
     across = wave / np.hypot(*wave)
     way = np.array([-across[1], across[0]]) + slope * across
     return np.asarray(way / np.hypot(*way))
 
 
 def _split_into_blocks(trees: Indices, lines: list[TracedRow], like: InferredBlock) -> list[InferredBlock]:
-    """Blocks of these rows, else like that one; a block has a row of three trees."""
+    """Group rows into blocks with the properties of ``like``; a block needs a row of three trees."""
     block_of = group_rows(lines, like.row_spacing)
     return [
         replace(like, rows=[trees[line.trees] for line in rejoin_rows(part, like.tree_spacing)])

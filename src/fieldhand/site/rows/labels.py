@@ -1,4 +1,4 @@
-"""Labels of things that belong together: made from pairs of them, and taken apart again."""
+"""Labels of connected things: computed from pairs, and converted to groups."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ Indices = NDArray[np.intp]
 
 
 def linked(count: int, one: Indices, two: Indices) -> Indices:
-    """Return a label from 0 for each of so many things: the same for those that a chain of these pairs joins."""
+    """Return the label, from 0, of the connected component of each of ``count`` things, given connected pairs."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
 
@@ -18,7 +18,7 @@ def linked(count: int, one: Indices, two: Indices) -> Indices:
 
 
 def groups(labels: Indices, count: int) -> list[Indices]:
-    """Return for each label from 0 the positions that carry it, rising; negative labels are left out."""
+    """Return the indices of each label from 0 in ascending order; negative labels are left out."""
     order = np.argsort(labels, kind="stable")
     ends = np.searchsorted(labels[order], np.arange(count + 1))
     return [order[ends[k] : ends[k + 1]] for k in range(count)]

@@ -1,4 +1,4 @@
-"""Read rows, blocks and positions from the properties of the trees, and check them against the ground."""
+"""Read rows, blocks and positions from the properties of the trees, and check them against their coordinates."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from fieldhand.terms import Value
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
-#: Trees of a row stand this close to its line, as a part of the spacing from row to row or from tree to tree.
+#: Greatest root-mean-square distance of trees from the line of their row, as a fraction of the spacing.
 _ON_LINE = 0.35
-#: Part of the named trees that must stand in rows that are lines, for the names to be those of rows.
+#: Fraction of the named trees that must lie on lines for the names to be accepted as rows.
 _MOST = 0.8
 
 
@@ -39,10 +39,10 @@ class NamedRows:
 
 
 def named_rows(rows: Sequence[str], properties: Sequence[Mapping[str, Value]], xy: Floats) -> NamedRows:
-    """Return rows, blocks and positions of the file, as far as they make sense.
+    """Return the consistent rows, blocks and positions of the file.
 
-    A name is a row's if the trees that share it stand on a line. Trees that share it and stand on several are several
-    rows: those of different blocks.
+    A name is a row's if the trees that share it lie on a line. Trees with the same name on several lines are several
+    rows, in different blocks.
     """
     count = len(xy)
     blocks = [text_of(said, BLOCK_KEYS) for said in properties]
@@ -74,7 +74,7 @@ def _numbers(texts: Sequence[str]) -> Floats:
 
 
 def _restarts(own: Floats, row_of: Indices) -> bool:
-    """Return True if numbers restart in each row, as positions do and tree numbers of the whole file do not."""
+    """Return True if numbers restart in each row, like positions and unlike tree numbers of the whole file."""
     inside = np.isfinite(own) & (row_of >= 0)
     if not inside.any():
         return False
@@ -85,7 +85,7 @@ def _restarts(own: Floats, row_of: Indices) -> bool:
 
 
 def _lines(xy: Floats, names: Sequence[str], within: Sequence[str]) -> tuple[Indices, tuple[str, ...] | None]:
-    """Rows of these names; None in place of their names where most of them are no lines."""
+    """Return the row of each tree by name, and the names; None instead of the names if most rows are not lines."""
     number: dict[tuple[str, str], int] = {}
     label = np.array(
         [number.setdefault(key, len(number)) if key[1] else -1 for key in zip(within, names, strict=True)],
@@ -94,7 +94,7 @@ def _lines(xy: Floats, names: Sequence[str], within: Sequence[str]) -> tuple[Ind
     members = groups(label, len(number))
     named = int((label >= 0).sum())
     if len(number) > max(0.6 * named, 1) and named > 2:
-        return label, None  # nearly every tree has a name of its own
+        return label, None  # nearly every tree has its own name
     spacing = _nearest(xy)
     row_of, kept = np.full(len(xy), -1, dtype=np.intp), list[str]()
     lines = 0
@@ -110,7 +110,7 @@ def _lines(xy: Floats, names: Sequence[str], within: Sequence[str]) -> tuple[Ind
 
 
 def _nearest(xy: Floats) -> float:
-    """The middle of the distances to the nearest tree; 1 where there is none."""
+    """Return the median distance to the nearest tree; 1 without neighbours."""
     from scipy.spatial import cKDTree
 
     if len(xy) < 2:
@@ -140,7 +140,7 @@ def is_line(points: Floats, spacing: float) -> bool:
 
 
 def _pieces(xy: Floats, own: Indices, spacing: float) -> list[Indices]:
-    """Trees of one name on several lines: those that a chain of steps leads to from each other."""
+    """Split the trees of one name into groups connected by steps of a few spacings."""
     from scipy.spatial import cKDTree
 
     points = xy[own]

@@ -1,9 +1,9 @@
-"""Which way rows run in small patches of trees, from their spectrum.
+"""Estimate the direction of rows in small patches of trees from their spatial spectrum.
 
-Trees in rows a distance d apart are in step with a wave of that length across the rows. The power of the wave,
+Trees in rows a distance d apart are in phase with a wave of that length across the rows. The power of the wave,
 ``|sum exp(2 pi i k.x)|^2 / n`` with k pointing across the rows and 1/d long, is about 1 for scattered trees and about n
-for rows, whatever trees are missing; a tree beside its place only weakens it. Of the waves that a lattice of
-trees is in step with, the longest is the one between the lines of trees that stand farthest apart: the rows.
+for rows, even with missing trees; displaced trees only weaken it. Of the waves that fit a lattice of trees, the longest
+one is across the lines of trees that are farthest apart: the rows.
 """
 
 from __future__ import annotations
@@ -16,35 +16,35 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
-#: Trees in a patch: about seven by seven; and where blocks are small.
+#: Number of trees in a patch, about seven by seven; and in a patch of small blocks.
 PATCH, SMALL_PATCH = 44, 14
-#: Trees that are asked whether they stand on one line; how far beside it, in units of the distance to the nearest;
-#: and the length of a wave that stands for it.
+#: Test of a single line of trees: number of trees; greatest spread in nearest-neighbour distances; and the wave length
+#: that represents the line.
 ON_LINE, _BESIDE_LINE, _LINE_WAVE = 9, 0.36, 3.0
-#: Patches at once; more trees than this many patches hold are seen by samples.
+#: Greatest number of patches; larger sites are sampled.
 MOST_PATCHES = 128
-#: Fewer trees are looked at where less than this part of all is in step.
+#: Smaller patch sizes, tried if the power of the whole patch is below this value.
 _FEWER, _IN_STEP = (26, 15), 0.75
 _ANGLES = np.radians(np.arange(0.0, 180.0, 3.0))
-#: Wave lengths in units of the median distance to the nearest tree; trees beside their places make that too short.
+#: Wave lengths in units of the median nearest-neighbour distance, which displaced trees shorten.
 _LENGTHS = np.geomspace(0.8, 5.2, 34)
-#: Part of the strongest wave's contrast that a longer wave needs to be taken for the rows.
+#: Fraction of the strongest wave's contrast that a longer wave needs to be preferred.
 _LONGER = 0.55
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Patches:
-    """Waves that patches of trees are in step with.
+    """Waves that fit patches of trees.
 
     Attributes:
-        centre: Tree in the middle of each patch, shape (p,).
-        members: Its trees by distance, shape (p, k).
-        wave: Across the rows, 1/d long, per metre, shape (p, 2); nan where there is none.
-        second: The next one that is not parallel to it; nan where there is none.
-        power: Of the first, as part of its greatest possible value, 0 to 1.
-        second_power: Of the second.
-        count: Of trees that the waves are of: those nearest to the middle. Shape (p,).
-        line: Across the line that the nearest trees stand on, where they stand on one; else nan. Shape (p, 2).
+        centre: Index of the tree in the middle of each patch, shape (p,).
+        members: Indices of its trees by distance, shape (p, k).
+        wave: Wave vector across the rows, 1/d long, per metre, shape (p, 2); nan if there is none.
+        second: Strongest wave that is not parallel to it; nan if there is none.
+        power: Power of the first wave as a fraction of the greatest possible value, 0 to 1.
+        second_power: Power of the second wave.
+        count: Number of trees, nearest to the middle, that the waves were computed from. Shape (p,).
+        line: Wave vector across the line of the nearest trees if they lie on one; else nan. Shape (p, 2).
     """
 
     centre: Indices
@@ -58,7 +58,7 @@ class Patches:
 
 
 def patches_of(xy: Floats, trees: Indices, most: int = PATCH) -> Patches:
-    """Patches of so many trees at most, spread over these trees (at least two), of these trees only."""
+    """Return patches of at most so many trees, spread over at least two trees, containing only these trees."""
     from scipy.spatial import cKDTree
 
     points = xy[trees]
@@ -71,7 +71,7 @@ def patches_of(xy: Floats, trees: Indices, most: int = PATCH) -> Patches:
     offsets = (points[near] - points[middle][:, None, :]) / unit[:, None, None]
     first, second, power, second_power, count = _clearest(offsets)
     line = _lines(offsets[:, :ON_LINE])
-    # Trees on one line are in step with many waves along it, which are no rows across it.
+    # Trees on one line fit many waves along it, which do not indicate rows across it.
     turn = np.abs(first[:, 0] * line[:, 1] - first[:, 1] * line[:, 0])
     along = turn > np.sin(np.radians(25.0)) * np.hypot(*first.T) * np.hypot(*line.T)
     power = np.where(along, 0.0, power)
@@ -88,7 +88,7 @@ def patches_of(xy: Floats, trees: Indices, most: int = PATCH) -> Patches:
 
 
 def _lines(offsets: Floats) -> Floats:
-    """The direction across the line that patches of few trees stand on, as a wave; nan where they stand on none."""
+    """Return a wave vector across the line of the trees of each patch; nan if they are not on a line."""
     off = offsets - offsets.mean(axis=1, keepdims=True)
     size = offsets.shape[1]
     values, vectors = np.linalg.eigh(np.einsum("pkx,pky->pxy", off, off) / max(size - 2, 1))
@@ -97,7 +97,7 @@ def _lines(offsets: Floats) -> Floats:
 
 
 def _spread(points: Floats, most: int) -> Indices:
-    """About so many of the points, spread evenly: of each square of a raster the point nearest to its middle."""
+    """Return the indices of about ``most`` evenly spread points: the most central point of each cell of a grid."""
     n = len(points)
     if n <= most:
         return np.arange(n)
@@ -117,13 +117,13 @@ def _spread(points: Floats, most: int) -> Indices:
 
 
 def power_at(offsets: Floats, wave: Floats) -> Floats:
-    """Power of waves (p, w, 2) in patches of offsets (p, k, 2), 0 to 1. Shape (p, w)."""
+    """Return the power of waves (p, w, 2) in patches of offsets (p, k, 2), 0 to 1. Shape (p, w)."""
     phase = (2 * np.pi * np.einsum("pkx,pwx->pwk", offsets, wave)).astype(np.float32)
     return np.asarray((np.cos(phase).mean(axis=2) ** 2 + np.sin(phase).mean(axis=2) ** 2).astype(np.float64))
 
 
 def _clearest(offsets: Floats) -> tuple[Floats, Floats, Floats, Floats, Indices]:
-    """Waves of the patches; where the whole patch is not in step, as at the edge of a block, of fewer trees."""
+    """Return the waves of the patches, from fewer trees if the whole patch does not fit, as at a block's edge."""
     size = offsets.shape[1]
     first, second, power, second_power = _waves(offsets)
     count = np.full(len(offsets), size, dtype=np.intp)
@@ -167,15 +167,15 @@ def _waves(offsets: Floats) -> tuple[Floats, Floats, Floats, Floats]:
 
 
 def _on_grid(offsets: Floats, waves: Floats) -> tuple[Floats, Floats]:
-    """Power of the waves, and of those twice as long, in each patch. Shape (p, w)."""
+    """Return the power of the waves, and of waves twice as long, in each patch. Shape (p, w)."""
     across = (np.pi * waves.T).astype(np.float32)
     whole, half = np.empty((len(offsets), len(waves))), np.empty((len(offsets), len(waves)))
-    # One patch at a time: what it needs stays in the processor's cache, which is ten times faster than all at once.
+    # One patch at a time fits in the processor's cache, which is ten times faster than all at once.
     for k, patch in enumerate(offsets.astype(np.float32)):
         phase = patch @ across
         c, s = np.cos(phase), np.sin(phase)
         half[k] = c.mean(axis=0) ** 2 + s.mean(axis=0) ** 2
-        # Twice the angle: cheaper than cosines anew.
+        # Double-angle formulas are cheaper than further cosines.
         s *= c
         c *= c
         whole[k] = (2 * c.mean(axis=0) - 1) ** 2 + (2 * s.mean(axis=0)) ** 2
@@ -183,7 +183,7 @@ def _on_grid(offsets: Floats, waves: Floats) -> tuple[Floats, Floats]:
 
 
 def _is_peak(power: Floats) -> NDArray[np.bool_]:
-    """Whether no neighbour on the raster of angle (which closes) and length has more power."""
+    """Return a mask of the local maxima on the grid of angle (which is periodic) and length."""
     best = np.ones(power.shape, dtype=bool)
     for turn in (-1, 0, 1):
         rolled = np.roll(power, turn, axis=1)
@@ -202,14 +202,14 @@ def _is_peak(power: Floats) -> NDArray[np.bool_]:
 
 
 def _longest(contrast: Floats, length: Floats) -> Indices:
-    """Position of the longest wave among those with nearly the best contrast."""
+    """Return the index of the longest wave among those with nearly the best contrast."""
     flat = contrast.reshape(len(contrast), -1)
     good = flat >= np.maximum(_LONGER * flat.max(axis=1), 1e-9)[:, None]
     return np.asarray(np.argmax(np.where(good, length.ravel()[None, :] + 0.01 * flat, -1.0), axis=1))
 
 
 def _refine(offsets: Floats, wave: Floats) -> Floats:
-    """Climb to the top of the peak by smaller and smaller steps."""
+    """Refine waves to the local maximum of their power by decreasing steps."""
     best = wave.copy()
     step = 0.035
     around = np.array([(a, b) for a in (-1.0, 0.0, 1.0) for b in (-1.0, 0.0, 1.0)])

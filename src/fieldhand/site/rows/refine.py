@@ -1,4 +1,4 @@
-"""Refine rows that were found: join pieces of a row, and assign single trees to rows."""
+"""Refine inferred rows: join pieces of a row, and assign single trees to rows."""
 
 from __future__ import annotations
 
@@ -11,29 +11,29 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
-#: In tree spacings: how far beside a row's line a tree of it may stand, and how far from the next tree of it.
+#: Greatest distance of a tree from the line of its row, and from the next tree of the row, in tree spacings.
 _BESIDE, _BEYOND = 0.42, 2.6
-#: Nearer than this along the row there is room for no other tree, but for one on the very line.
+#: Least distance from the next tree along the row, in tree spacings, unless the tree is this close to the line.
 _ROOM, _ON_IT = 0.5, 0.2
-#: Trees next to the place that say where a row runs there.
+#: Number of nearest trees that determine the line of a row at a place.
 _NEXT_TO = 8
-#: Pieces in line are one row up to this gap, in tree spacings; up to the longer one where one is on its own.
+#: Greatest gap between pieces of one row, in tree spacings; the longer one applies to a block of a single row.
 _JOINED, _JOINED_ALONE = 1.65, 3.6
 _ONE_WAY = np.cos(np.radians(9.0))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class InferredBlock:
-    """A block found in the points.
+    """A block inferred from the positions of the trees.
 
     Attributes:
         rows: Trees of each row.
         row_spacing, tree_spacing: Metres.
-        way: The unit vector along the rows, of all of them together.
-        power: How much in step its trees are, 0 to 1.
+        way: Unit vector along the rows.
+        power: Power of the wave across the rows, 0 to 1.
         spacing_ratio: Row spacing divided by the spacing of the lines of trees across the rows.
-        file_order_share: Part of the file's steps from tree to tree that go along its rows, not across.
-        straight: Whether its rows are.
+        file_order_share: Fraction of the steps from tree to tree in file order that go along rows, not across.
+        straight: True if the rows are straight.
         confidence: Confidence in the direction of the rows, 0 to 1.
         row_confidences: Confidence in each row, 0 to 1.
     """
@@ -51,11 +51,11 @@ class InferredBlock:
 
 
 class RowRefinement:
-    """Rows whose trees are reassigned step by step.
+    """Step-by-step refinement of rows.
 
     Args:
         xy: Trees in metres.
-        blocks: Blocks as they were found.
+        blocks: Inferred blocks.
     """
 
     def __init__(self, xy: Floats, blocks: list[InferredBlock]) -> None:
@@ -73,7 +73,7 @@ class RowRefinement:
             self._row_of[trees] = k
 
     def refined(self) -> list[InferredBlock]:
-        """Return the refined blocks, without those that lost all their rows."""
+        """Return the refined blocks, without those whose rows were all merged into others."""
         self._assign_single_trees()
         self._join_pieces()
         self._fill_gaps()
@@ -89,7 +89,7 @@ class RowRefinement:
         return trees[np.argsort(self._xy[trees] @ way, kind="stable")]
 
     def _fit(self, row: int, tree: int) -> tuple[float, float]:
-        """How far the tree is beside the row's line, and from its nearest other tree along it, in tree spacings."""
+        """Return the distances, in tree spacings, to the row's line and the nearest other tree along it."""
         block = self._blocks[self._block_of[row]]
         others = self._rows[row][self._rows[row] != tree]
         if not len(others):
@@ -103,7 +103,7 @@ class RowRefinement:
         return beside / block.tree_spacing, float(np.abs(off @ way).min()) / block.tree_spacing
 
     def _best_row(self, tree: int, near: Indices) -> int | None:
-        """Return the row that a tree fits best; None where it fits none."""
+        """Return the row that a tree fits best; None if it fits none."""
         found = []
         for row in {int(self._row_of[k]) for k in near} - {-1}:
             if len(self._rows[row]) < 2:
@@ -120,7 +120,7 @@ class RowRefinement:
         return list(np.asarray(cKDTree(self._xy).query(self._xy[trees], k=size)[1]).reshape(len(trees), size))
 
     def _assign_single_trees(self) -> None:
-        """Trees in no row go to the row that they are in line with; those that this makes a way for follow."""
+        """Assign trees in no row to the row that they are in line with, repeating for trees next to them."""
         lone = np.flatnonzero(self._row_of < 0)
         around = self._near(lone) if len(lone) else []
         for _ in range(4):
@@ -135,7 +135,7 @@ class RowRefinement:
                 return
 
     def _join_pieces(self) -> None:
-        """Pieces of rows of different blocks that carry each other on are one row."""
+        """Join pieces of rows of different blocks that continue each other, and merge blocks joined by several rows."""
         from scipy.spatial import cKDTree
 
         ends, ways, rows = self._ends()
@@ -167,7 +167,7 @@ class RowRefinement:
                 self._block_of = [a if k == b else k for k in self._block_of]
 
     def _fill_gaps(self) -> None:
-        """Rows on their own that lie in a gap of another row are a part of it."""
+        """Merge blocks of a single row that lie in a gap of another row into that row."""
         size = Counter(b for r, b in zip(self._rows, self._block_of, strict=True) if len(r))
         for row, trees in enumerate(self._rows):
             if len(trees) < 2 or size[self._block_of[row]] > 1:
@@ -199,7 +199,7 @@ class RowRefinement:
         return row
 
     def _ends(self) -> tuple[Floats, Floats, list[int]]:
-        """Both ends of each row of three trees and more: place on the row's line, way outwards, row."""
+        """Return both ends of each row of at least three trees: point on the row's line, outward direction, row."""
         ends, ways, rows = [], [], []
         for row, trees in enumerate(self._rows):
             if len(trees) < 3:
@@ -216,7 +216,7 @@ class RowRefinement:
 
 
 def _way(points: Floats, like: Floats) -> Floats:
-    """The main axis of points, pointing as the other way does."""
+    """Return the main axis of points, oriented like another vector."""
     off = points - points.mean(axis=0)
     axis = np.linalg.eigh(off.T @ off)[1][:, 1]
     return np.asarray(axis if axis @ like > 0 else -axis)

@@ -1,4 +1,4 @@
-"""Regions of a site in which the rows run the same way, and the trees of each region."""
+"""Regions of a site with a common row direction, and the trees of each region."""
 
 from __future__ import annotations
 
@@ -14,31 +14,31 @@ from fieldhand.site.rows.tracing import spacing_along, turned
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
-#: Waves that differ by no more than this part of their length are the same.
+#: Greatest relative difference between waves that count as equal.
 _SAME_WAVE = 0.075
-#: Rows whose spacing is this much wider than that of the lines of trees across them cannot be mistaken for these.
+#: Ratio of row spacing to the spacing of the lines of trees across them, from which they cannot be confused.
 CLEARLY_WIDER = 1.07
-#: Rows less than this much wider are as far apart as their trees.
+#: Up to this ratio, rows are as far apart as their trees.
 _SQUARE = 1.025
-#: A step from tree to tree stays in its line if it goes no more than this part of the spacing across it.
+#: Greatest sideways part of a step from tree to tree within a line, as a fraction of the spacing.
 _SAME_LINE = 0.35
 _NEARLY_SQUARE = 1.2
-#: Neighbours whose waves say which part a tree belongs to, where it could be in several.
+#: Number of neighbours that decide which region a tree belongs to, if several are possible.
 _VOTERS = 16
-#: A region is a part of a greater one whose rows run its way within so many degrees, with trees that far apart within
-#: this part, where it has no more than this part of its trees.
+#: Limits for merging a region into a larger one: angle between their rows in degrees, relative difference of their tree
+#: spacings, and ratio of their numbers of trees.
 _SAME_WAY, _SAME_SPACING, _PART = 3.0, 0.15, 0.34
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Region:
-    """Patches that agree.
+    """Patches with a common wave.
 
     Attributes:
-        seeds: Trees in the middle of its patches, shape (p,).
-        waves: Of each patch, across the rows, all pointing to the same side, shape (p, 2).
-        wave: Their mean.
-        cross: The wave along the rows, where the trees of neighbouring rows stand in step; else nan.
+        seeds: Indices of the trees in the middle of its patches, shape (p,).
+        waves: Wave vector of each patch across the rows, all pointing to the same side, shape (p, 2).
+        wave: Mean of the waves.
+        cross: Wave along the rows, if the trees of neighbouring rows are aligned; else nan.
         spacing_ratio: Row spacing divided by the spacing of the lines of trees across the rows; inf without such lines.
         power: Median power of the patches.
     """
@@ -52,11 +52,11 @@ class Region:
 
     @property
     def spacing(self) -> float:
-        """From row to row, in metres."""
+        """Return the row spacing in metres."""
         return float(1.0 / np.hypot(*self.wave))
 
     def wave_at(self, xy: Floats, places: Floats) -> Floats:
-        """The wave at each of the places, shape (n, 2): the mean where rows are straight, else that of patches near."""
+        """Return the wave at each place, shape (n, 2): the mean for straight rows, else a mean of nearby patches."""
         turn = np.abs(np.sin(_angle(self.waves) - _angle(self.wave[None, :])))
         if len(self.seeds) < 5 or np.median(turn) < np.sin(np.radians(1.5)):
             return np.broadcast_to(self.wave, places.shape)
@@ -68,14 +68,14 @@ class Region:
 
 
 def regions_of(xy: Floats, patches: Patches, clear: Floats) -> list[Region]:
-    """Patches with that power or more, put together where neighbours agree, the largest region first."""
+    """Return regions of neighbouring patches that agree and have at least that power, the largest region first."""
     good = np.flatnonzero((patches.power >= clear) & np.isfinite(patches.wave[:, 0]))
     second = np.where((patches.second_power[good] >= 0.6 * clear[good])[:, None], patches.second[good], np.nan)
     return _agreeing(xy, patches.centre[good], patches.wave[good], second, patches.power[good])
 
 
 def line_regions(xy: Floats, patches: Patches, clear: Floats) -> list[Region]:
-    """Patches with less power whose trees stand on a line."""
+    """Return regions of patches with less power whose trees lie on a line."""
     good = np.flatnonzero((patches.power < clear) & np.isfinite(patches.line[:, 0]))
     line = patches.line[good]
     line = line * (np.median(np.hypot(*line.T)) / np.hypot(*line.T))[:, None] if len(good) else line
@@ -91,8 +91,8 @@ def _agreeing(xy: Floats, centre: Indices, first: Floats, second: Floats, power:
         return []
     near = np.asarray(cKDTree(xy[centre]).query(xy[centre], k=min(9, len(good)))[1]).reshape(len(good), -1)
     i, j = np.repeat(np.arange(len(good)), near.shape[1]), near.ravel()
-    # A nearly square lattice may be seen with its two waves the other way round. So may a patch across a road, which
-    # sees one wave of each side, so both must be the same, and nearly of one length.
+    # In a nearly square lattice the two waves may be swapped. A patch across a road may have one wave of each side, so
+    # both waves must match, and have nearly the same length.
     swapped = _same(first[i], second[j]) & _same(second[i], first[j])
     ratio = np.hypot(*second.T) / np.hypot(*first.T)
     agree = _same(first[i], first[j]) | (swapped & (np.maximum(ratio[i], ratio[j]) < _NEARLY_SQUARE))
@@ -102,7 +102,7 @@ def _agreeing(xy: Floats, centre: Indices, first: Floats, second: Floats, power:
 
 
 def _region(seeds: Indices, first: Floats, second: Floats, power: Floats) -> Region:
-    """Rows are between the lines of trees that stand farther apart; patches that took the others are corrected."""
+    """Return the region of patches, correcting those with swapped waves; rows are the lines of trees farther apart."""
     main = _similar_waves(first, second, first[int(np.argmax(power))])
     other_start = _cross_wave(first, second, main)
     if other_start is None:
@@ -126,7 +126,7 @@ def _region(seeds: Indices, first: Floats, second: Floats, power: Floats) -> Reg
 
 
 def _similar_waves(first: Floats, second: Floats, start: Floats) -> Floats:
-    """Of each patch the wave that is like the one to start with, followed from near to like; nan where none is."""
+    """Return for each patch the wave similar to the starting one; nan if there is none."""
     found = np.full(first.shape, np.nan)
     reference = start
     for tolerance in (_SAME_WAVE, 2 * _SAME_WAVE):
@@ -135,7 +135,7 @@ def _similar_waves(first: Floats, second: Floats, start: Floats) -> Floats:
             like = np.hypot(*(towards - reference).T) < tolerance * np.hypot(*reference)
             found[like] = towards[like]
         reference = np.nanmean(found, axis=0)
-    # What curves on: take what is like the patches next to it.
+    # Rows that curve further: accept waves of about the same length.
     left = np.isnan(found[:, 0])
     towards = _towards(first, reference)
     like = left & (np.abs(np.hypot(*towards.T) / np.hypot(*reference) - 1) < _SAME_WAVE)
@@ -145,7 +145,7 @@ def _similar_waves(first: Floats, second: Floats, start: Floats) -> Floats:
 
 
 def _cross_wave(first: Floats, second: Floats, main: Floats) -> Floats | None:
-    """A wave of these patches that is another than the main one, the middle of those that there are; else None."""
+    """Return the median of the waves that cross the main one; None if there are too few."""
     mean = _mean(main)
     waves = np.vstack([first, second])
     waves = waves[np.isfinite(waves[:, 0])]
@@ -173,7 +173,7 @@ def _towards(wave: Floats, reference: Floats) -> Floats:
 
 
 def _same(a: Floats, b: Floats) -> NDArray[np.bool_]:
-    """Return a mask of the waves that are the same, whichever way they point."""
+    """Return a mask of the waves that are equal up to their sign."""
     size = np.minimum(np.hypot(*a.T), np.hypot(*b.T))
     apart = np.minimum(np.hypot(*(a - b).T), np.hypot(*(a + b).T))
     return np.asarray(apart < _SAME_WAVE * size)  # false for nan
@@ -184,13 +184,13 @@ def _angle(waves: Floats) -> Floats:
 
 
 def row_direction(xy: Floats, trees: Indices, region: Region) -> tuple[Region, float]:
-    """Which way rows run that are as far apart as their trees: the region, turned if it is the other way.
+    """Return the region with its rows in the most likely direction, if rows are as far apart as their trees.
 
-    It is the way in which the file goes from tree to tree, else the one in which the lines of trees are longer.
+    That is the direction of the steps from tree to tree in file order, else the direction of the longer lines of trees.
 
     Returns:
-        The region, and the part of the steps of the file that go along its rows, of those along or across; 0.5 where
-        there are few such steps.
+        The region, and the fraction of the steps in file order along its rows among those along or across; 0.5 if there
+        are few such steps.
     """
     if not np.isfinite(region.cross[0]):
         return region, 0.5
@@ -222,8 +222,10 @@ def _swapped(region: Region) -> Region:
 
 
 def assign_trees(xy: Floats, trees: Indices, regions: list[Region]) -> Indices:
-    """The region of each of the trees, shape (n,): of the seeds next to it, and where they differ the one whose waves
-    the trees around it are most in step with."""
+    """Return the region of each tree, shape (n,).
+
+    It is the region of the nearest seeds; if these differ, the one whose waves fit the surrounding trees best.
+    """
     from scipy.spatial import cKDTree
 
     points = xy[trees]
@@ -248,16 +250,16 @@ def assign_trees(xy: Floats, trees: Indices, regions: list[Region]) -> Indices:
             offsets = points[around[asked]] - points[contested[asked]][:, None, :]
             scores[asked, k_] = _in_step(offsets, weight[asked], region, xy, points[contested[asked]])
     chosen[contested] = np.argmax(scores, axis=1)
-    # A tree between trees of another region is one of them.
+    # A tree surrounded by trees of another region belongs to it.
     votes = np.stack([(chosen[around[:, :9]] == k_).sum(axis=1) for k_ in range(len(regions))], axis=1)
     chosen[contested] = np.argmax(votes + 2.0 * scores, axis=1)
     return np.asarray(chosen)
 
 
 def merge_small_regions(points: Floats, owner: Indices, regions: list[Region]) -> Indices:
-    """The region of each tree where small ones are parts of the great ones that they lie beside.
+    """Return the region of each tree after merging small regions into larger ones beside them.
 
-    Patches across a road see rows that run as on both sides of it, but as far apart as the road has them.
+    Patches across a road have the row direction of both sides, but the width of the road as row spacing.
     """
     from scipy.spatial import cKDTree
 

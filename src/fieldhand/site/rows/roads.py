@@ -1,10 +1,10 @@
-"""Gaps in rows that are more than missing trees: roads, which part blocks; and ponds, which rows run past.
+"""Detect roads, which separate blocks, and ponds, which rows continue past, from gaps in rows.
 
-A gap in a row is followed to the rows beside it, and on to those beside them, as long as none has a tree there: what
-has been gone through is a strip. One that some row runs through is a hole in the planting, whatever made it. One that
-is open at both sides is a road where it is too unlikely to be missing trees: the part of missing trees, to the power of
-how many are missing there, times the places where it could be. Rows that end at one side of it and rows
-that begin at the other, but not in line with each other, say that it is a road as well.
+A gap in a row is followed to the rows beside it and onwards, as long as none has a tree there; the area covered is a
+strip. A strip that some row runs through is a hole in the planting. A strip open at both sides is a road if it is too
+unlikely to consist of missing trees: the fraction of missing trees, to the power of the number missing there, times the
+number of possible places. Rows that end at one side of it and rows that begin at the other, out of line with each
+other, are further evidence of a road.
 """
 
 from __future__ import annotations
@@ -20,38 +20,39 @@ from fieldhand.site.rows.labels import groups
 
 Floats = NDArray[np.float64]
 
-#: A strip is free of trees for this many tree spacings before and behind its middle; and it is looked for in each gap
-#: at places this far apart.
+#: Half width of a strip along the rows, and distance between the places in a gap at which it is searched for, in tree
+#: spacings.
 _FREE, _EACH = 0.72, 0.5
-#: From row to row a strip moves along them by no more than this many row spacings.
+#: Greatest shift of a strip along the rows from one row to the next, in row spacings.
 _SKEW = 0.5
-#: Rows that end this many row spacings from a strip are not beside it.
+#: Greatest distance from the end of a row to a strip beside it, in row spacings.
 _AT_THE_END = 3.0
-#: Rows beside each other, in row spacings; those at the greater distance where none is nearer.
+#: Greatest distance of neighbouring rows, in row spacings; the larger value applies if there is no nearer row.
 _BESIDE, _ONE_MISSING = 1.6, 2.3
-#: A road is as unlikely as this to be missing trees, and two rows out of line as this to be of one block.
+#: Probability below which a strip is a road and not missing trees; and probability that two rows of one block are out
+#: of line.
 _BY_CHANCE, _OUT_OF_LINE = 0.003, 0.1
-#: Rows of one block are this many row spacings apart or more.
+#: Least distance between rows of one block, in row spacings.
 _LEAST_APART = 0.65
-#: How likely a row of the block ends here, and another begins.
+#: Probability that a row of a block ends at a place where another begins.
 _BOTH_SIDES = 0.4
-#: A row longer than those beside it speaks for a road by its length over this many times how unevenly they end; at most
-#: by so much.
+#: Evidence for a road from a row longer than those beside it: its extra length divided by this many times the
+#: unevenness of the row ends; and the greatest such evidence.
 _PAST, _MOST_PAST = 2.0, 4.0
-#: Rows are in line up to this many tree spacings across.
+#: Greatest offset across the rows, in tree spacings, of rows that are in line.
 _IN_LINE = 0.42
 
 
 @dataclass(eq=False, kw_only=True)
 class Strip:
-    """A strip across rows that has no tree.
+    """A strip across rows without trees.
 
     Attributes:
-        at: Where it is along the rows.
-        gaps: Of each row that has a gap here, the tree before it.
+        at: Coordinate along the rows.
+        gaps: For each row with a gap here, the index of the tree before it.
         before: Rows that end here.
         after: Rows that begin here.
-        closed: Whether a row runs through it.
+        closed: True if a row runs through it.
     """
 
     at: float
@@ -62,7 +63,7 @@ class Strip:
 
 
 def find_roads(lines: Sequence[TracedRow], spacing: float, wide: float) -> list[Strip]:
-    """The roads through these rows, ``spacing`` from tree to tree and ``wide`` from row to row."""
+    """Return the roads through rows, given the tree spacing ``spacing`` and the row spacing ``wide`` in metres."""
     gaps = [np.flatnonzero(np.diff(line.along) > 2 * _FREE * spacing) for line in lines]
     planted = sum(len(line.trees) for line in lines)
     missing = sum(
@@ -87,7 +88,7 @@ def find_roads(lines: Sequence[TracedRow], spacing: float, wide: float) -> list[
 
 
 class _Neighbours:
-    """Rows beside a row."""
+    """Index of the rows beside each row."""
 
     def __init__(self, lines: Sequence[TracedRow], wide: float) -> None:
         self._lines, self._wide = lines, wide
@@ -98,14 +99,15 @@ class _Neighbours:
         self._place = np.argsort(self._order)
 
     def near(self, row: int, reach: float) -> list[int]:
-        """Rows that may be so many row spacings from it, and are no farther anywhere."""
+        """Return the rows within a distance of a row, in row spacings."""
         own = self._middle[self._place[row]]
         far = reach * self._wide + self._bent
         low, high = np.searchsorted(self._middle, [own - far, own + far])
         return [int(k) for k in self._order[low:high] if k != row]
 
     def alone(self, row: int, at: Floats, reach: float) -> NDArray[np.bool_]:
-        """Where along the row no row next to it has a tree so near. Shape of ``at``."""
+        """Return a mask, in the shape of ``at``, of the coordinates at which no neighbouring row has a tree within
+        reach."""
         free = np.ones(len(at), dtype=bool)
         for other in self.near(row, _BESIDE):
             low, high = np.searchsorted(self._lines[other].along, [at - reach, at + reach])
@@ -115,7 +117,7 @@ class _Neighbours:
         return free
 
     def at(self, row: int, along: float) -> Iterator[int]:
-        """Rows next to it on either side, where they were to run on as far as there."""
+        """Yield the neighbouring rows on either side at a coordinate along the row, extended if they end before it."""
         across = self._lines[row].across_at(along)
         apart = [
             (float(self._lines[k].across_at(along) - across) / self._wide, k) for k in self.near(row, _ONE_MISSING)
@@ -130,7 +132,7 @@ class _Neighbours:
 def _open_gaps(
     lines: Sequence[TracedRow], row: int, gaps: NDArray[np.intp], beside: _Neighbours, spacing: float
 ) -> list[tuple[int, float]]:
-    """Gaps of a row, and where in them no row next to it has a tree beside."""
+    """Return the gaps of a row with the coordinates in them at which no neighbouring row has a tree."""
     if not len(gaps):
         return []
     begin, end = lines[row].along[gaps] + _FREE * spacing, lines[row].along[gaps + 1] - _FREE * spacing
@@ -143,7 +145,7 @@ def _open_gaps(
 
 
 def _strip(lines: Sequence[TracedRow], row: int, at: float, beside: _Neighbours, spacing: float, wide: float) -> Strip:
-    """What is free of trees there, from one row on, until a row runs through it."""
+    """Follow a gap from row to row and return the strip without trees, until a row closes it."""
     strip = Strip(at=at, gaps={row: int(np.searchsorted(lines[row].along, at)) - 1})
     visited, ahead = {row}, [(row, at)]
     while ahead and not strip.closed:
@@ -172,7 +174,7 @@ def _strip(lines: Sequence[TracedRow], row: int, at: float, beside: _Neighbours,
 
 
 def _skewed(at: float, first: float, last: float, free: float, reach: float) -> float:
-    """Where a strip passes a row that ends or begins beside it, for one that does not lead straight across."""
+    """Return the coordinate of a strip at the next row, shifted past the end of the row if it runs at an angle."""
     if abs(at - (last + free)) <= reach and at < last + free:
         return last + free
     if abs(at - (first - free)) <= reach and at > first - free:
@@ -192,7 +194,7 @@ def _is_road(
     if len(widths) > 1:
         places = int(max(float(np.ptp(lines[row].along)) for row in strip.gaps) / spacing)
     chance = lost * np.log(part) + np.log(places + 1.0)
-    # Rows that end here across from rows that begin: in one block each pair were a row, or they are out of line.
+    # In one block, rows that end here and rows that begin across from them would be pairs in one line.
     middle = {k: lines[k].across_at(strip.at) for k in (*strip.gaps, *strip.before, *strip.after)}
     pairs = [
         (abs(middle[a] - middle[b]), a, b)
@@ -217,9 +219,10 @@ def _is_road(
 
 
 def _overhang(lines: Sequence[TracedRow], strip: Strip, spacing: float) -> float:
-    """The logarithm of how likely a row runs on past the strip as far as this one, where all beside it end before it.
+    """Return the logarithm of the probability that one row runs on past the strip while all rows beside it end before
+    it.
 
-    The rows beside it say how unevenly rows end.
+    The unevenness of the row ends is estimated from the rows beside it.
     """
     (row, k), *more = strip.gaps.items()
     if more or bool(strip.before) == bool(strip.after):
@@ -237,7 +240,7 @@ def _overhang(lines: Sequence[TracedRow], strip: Strip, spacing: float) -> float
 
 
 def _rows_at_both_sides(lines: Sequence[TracedRow], strip: Strip) -> bool:
-    """Whether each side has a row of three trees or more."""
+    """Return True if each side has a row of at least three trees."""
     before = [k + 1 for k in strip.gaps.values()] + [len(lines[row].trees) for row in strip.before]
     after = [len(lines[row].trees) - k - 1 for row, k in strip.gaps.items()]
     after += [len(lines[row].trees) for row in strip.after]
@@ -245,12 +248,12 @@ def _rows_at_both_sides(lines: Sequence[TracedRow], strip: Strip) -> bool:
 
 
 def _missing_trees(widths: Floats) -> float:
-    """How many trees are missing in gaps of these widths, in tree spacings, at the least."""
+    """Return the least number of trees missing in gaps, given their widths in tree spacings."""
     return float(np.maximum(np.maximum(np.rint(widths - 0.1) - 1.0, widths - 1.3), 0.0).sum())
 
 
 def split_by_roads(lines: list[TracedRow], spacing: float, wide: float) -> list[list[TracedRow]]:
-    """A block's rows, cut where roads lead through; one list of rows for each part."""
+    """Split the rows of a block at roads and return the list of rows of each part."""
     strips = find_roads(lines, spacing, wide)
     if not strips:
         return [lines]
@@ -274,7 +277,7 @@ def split_by_roads(lines: list[TracedRow], spacing: float, wide: float) -> list[
 
 
 def rejoin_rows(lines: list[TracedRow], spacing: float) -> list[TracedRow]:
-    """Rows of a block put together again that a hole parts, a pond say, where rows on both sides of it run past."""
+    """Join rows of a block that are separated by a hole, such as a pond, if rows on both sides of it run past."""
     long = [k for k, line in enumerate(lines) if len(line.trees) > 2]
     first = np.array([lines[k].along[0] for k in long])
     last = np.array([lines[k].along[-1] for k in long])

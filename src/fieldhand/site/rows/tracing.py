@@ -1,4 +1,4 @@
-"""Trace rows from tree to tree where their direction is known."""
+"""Trace rows from tree to tree, given their direction."""
 
 from __future__ import annotations
 
@@ -11,29 +11,29 @@ from fieldhand.site.rows.labels import groups, linked
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
-#: In tree spacings: how far along the row trees say where its middle is, how far they are linked, and from what
-#: distance across.
+#: In tree spacings: range along the row of trees that determine its centre line, range of trees that are linked, and
+#: range across the row.
 _WINDOW, _REACH, _ACROSS = 4.6, 3.6, 0.75
-#: Trees whose rows' middles differ by no more than this part of the tree spacing are in one row.
+#: Greatest distance between the centre lines at two trees of one row, in tree spacings.
 _IN_LINE = 0.3
-#: Width of the kernel that finds the middle of a row, in tree spacings.
+#: Width of the kernel that finds the centre line of a row, in tree spacings.
 _KERNEL = 0.24
-#: Rows of this many trees and more are looked at whether they are two, this many tree spacings apart and more: the
-#: middles of two are farther apart, in standard deviations about them, than any parting of one row gives.
-#: In two rows taken for one many trees stand closer along it than trees do: this part of them and more.
+#: Test for two rows traced as one: least number of trees; least distance in tree spacings; least distance in standard
+#: deviations, larger than any split of one row gives; and least fraction of trees closer along the row than the spacing
+#: allows.
 _TWINS, _TWINS_APART, _TWO_NOT_ONE, _CROWDED = 15, 0.3, 4.2, 0.12
 #: The longest gap in a row, in tree spacings.
 LONGEST_GAP = 10.5
 
 
 def turned(points: Floats, wave: Floats) -> Floats:
-    """Coordinates across and along the rows of a wave, shape (n, 2)."""
+    """Return the coordinates across and along the rows of a wave, shape (n, 2)."""
     across = wave / np.hypot(*wave)
     return np.asarray(points @ np.column_stack([across, [-across[1], across[0]]]))
 
 
 def spacing_along(local: Floats, row_spacing: float) -> float:
-    """About the tree spacing along the rows: the middle of the distances to the nearest tree in line."""
+    """Return the approximate tree spacing along the rows: the median distance to the nearest tree in line."""
     from scipy.spatial import cKDTree
 
     if len(local) < 2:
@@ -46,12 +46,12 @@ def spacing_along(local: Floats, row_spacing: float) -> float:
 
 
 def trace(local: Floats, slope: Floats, spacing: float) -> Indices:
-    """Label trees by the piece of row that they stand in, from 0.
+    """Label trees by the piece of row that they belong to, from 0.
 
     Args:
         local: Trees across and along the rows' mean direction, shape (n, 2).
-        slope: Of the rows at each tree: metres across for each metre along, shape (n,).
-        spacing: From tree to tree along the rows.
+        slope: Slope of the rows at each tree: metres across for each metre along, shape (n,).
+        spacing: Tree spacing along the rows in metres.
     """
     from scipy.spatial import cKDTree
 
@@ -71,7 +71,7 @@ def trace(local: Floats, slope: Floats, spacing: float) -> Indices:
 
 
 def _middles(i: Indices, j: Indices, aside: Floats, n: int, width: float) -> Floats:
-    """How far across the middle of its row is from each tree: the peak of the density of trees in line with it."""
+    """Return the metres from each tree to the centre line of its row: the density peak of the trees in line with it."""
     at, seen = np.concatenate([i, j]), np.concatenate([aside, -aside])
     middle = np.zeros(n)
     for _ in range(4):
@@ -82,14 +82,14 @@ def _middles(i: Indices, j: Indices, aside: Floats, n: int, width: float) -> Flo
 
 
 def pooled_slope(local: Floats, label: Indices) -> float:
-    """The slope that pieces of rows share: metres across for each metre along."""
+    """Return the common slope of pieces of rows: metres across for each metre along."""
     count = np.maximum(np.bincount(label), 1)
     off = local - np.column_stack([np.bincount(label, local[:, k]) / count for k in (0, 1)])[label]
     return float((off[:, 0] * off[:, 1]).sum() / max((off[:, 1] ** 2).sum(), 1e-12))
 
 
 def join_across_gaps(local: Floats, slope: Floats, label: Indices, spacing: float) -> Indices:
-    """Join pieces of rows that continue in line across a gap. Labels from 0."""
+    """Join pieces of rows that continue in line across a gap; return labels from 0."""
     for _ in range(3):
         joined = _joined_once(local, slope, label, spacing)
         if joined.max(initial=-1) == label.max(initial=-1):
@@ -107,7 +107,7 @@ def _joined_once(local: Floats, slope: Floats, label: Indices, spacing: float) -
     for k, own in enumerate(pieces):
         ordered = own[np.argsort(local[own, 1], kind="stable")]
         head[k], tail[k] = _end(local, slope, ordered[:8], first=True), _end(local, slope, ordered[-8:], first=False)
-    # From each tail look ahead along the row for heads.
+    # Search along the row from the tail of each piece for heads of others.
     scale = spacing * np.array([0.5, LONGEST_GAP / 2])
     ahead = tail[:, :2] + np.column_stack([tail[:, 2], np.ones(count)]) * (LONGEST_GAP / 2 * spacing)
     lists: list[list[int]] = list(cKDTree(head[:, :2] / scale).query_ball_point(ahead / scale, 1.0, p=np.inf))  # type: ignore[arg-type]
@@ -117,7 +117,7 @@ def _joined_once(local: Floats, slope: Floats, label: Indices, spacing: float) -
     miss = np.abs(head[b, 0] - tail[a, 0] - gap * 0.5 * (tail[a, 2] + head[b, 2]))
     size = np.array([len(own) for own in pieces])
     small = np.minimum(size[a], size[b])
-    # A long gap needs a piece on both sides: a single tree far out has nothing to say whose it is.
+    # A long gap needs pieces of several trees on both sides: the row of a distant single tree is ambiguous.
     allowed = np.where(small >= 3, LONGEST_GAP, np.where(small == 2, 6.5, 4.5)) * spacing
     fits = (gap > -0.3 * spacing) & (a != b) & (gap < allowed)
     fits &= miss < np.where(small >= 4, 0.33, 0.42) * spacing
@@ -130,7 +130,7 @@ def _joined_once(local: Floats, slope: Floats, label: Indices, spacing: float) -
 
 
 def _end(local: Floats, slope: Floats, trees: Indices, *, first: bool) -> tuple[float, float, float]:
-    """Across and along of a piece's end, its middle taken from the trees next to the end, and the slope there."""
+    """Return the end of a piece: coordinates across (mean of the trees next to it) and along, and the slope there."""
     at = trees[0] if first else trees[-1]
     lean = float(slope[trees].mean())
     across = local[trees, 0] - (local[trees, 1] - local[at, 1]) * lean
@@ -138,7 +138,7 @@ def _end(local: Floats, slope: Floats, trees: Indices, *, first: bool) -> tuple[
 
 
 def split_double_rows(local: Floats, label: Indices, spacing: float) -> Indices:
-    """Split rows that are two parallel ones close together: trees on both sides of a free strip along the whole row.
+    """Split rows that consist of two close parallel rows, with a free strip between them along the whole row.
 
     Args:
         local: Coordinates across and along rows that are straight and parallel here.
@@ -167,5 +167,5 @@ def split_double_rows(local: Floats, label: Indices, spacing: float) -> Indices:
 
 
 def spacing_of(local: Floats, label: Indices) -> float:
-    """The tree spacing along pieces of rows; 0 where none has two trees."""
+    """Return the tree spacing along pieces of rows; 0 if none has two trees."""
     return tree_spacing([np.sort(local[own, 1]) for own in groups(label, int(label.max(initial=-1)) + 1)])
