@@ -1,4 +1,4 @@
-"""Describe a site: in figures for programs, in words for people, in a few lines for a planner."""
+"""Describe a site: in figures for programs, in words for people, and in a few lines for a planner."""
 
 from fieldhand.site.describe.aisles import AisleSummary, aisle_table
 from fieldhand.site.describe.driving import DrivingSummary, Unreachable, describe_driving

@@ -1,4 +1,4 @@
-"""Aisles in figures: how wide the lanes between neighbouring rows are."""
+"""Measure the widths of the aisles between neighbouring rows."""
 
 from __future__ import annotations
 
@@ -18,20 +18,20 @@ from fieldhand.site.planting import Block, Row
 
 Points = NDArray[np.float64]
 
-#: Beside a row there may be several that stand in one line, such as those that a pond cuts: so many rows are looked at.
+#: Number of following rows examined for neighbours: several may lie in one line, such as those cut by a pond.
 _AHEAD = 4
 
 
 @dataclass(frozen=True, kw_only=True)
 class AisleSummary:
-    """The lane between two neighbouring rows.
+    """The aisle between two neighbouring rows.
 
     Attributes:
-        name: As the drivable network calls it.
+        name: Name as in the drivable network.
         block: Name of the block.
         between: Names of the two rows.
-        width_m: From tree line to tree line, as it usually is.
-        narrowest_m: The same where they come nearest to each other.
+        width_m: Median width from tree line to tree line, in metres.
+        narrowest_m: Least width from tree line to tree line, in metres.
     """
 
     name: str
@@ -43,7 +43,7 @@ class AisleSummary:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Lane:
-    """Two rows that stand abreast with nothing between them."""
+    """Two neighbouring rows side by side, with no other row between them."""
 
     block: Block
     one: Row
@@ -51,12 +51,12 @@ class Lane:
 
 
 def aisle_table(site: Site) -> tuple[AisleSummary, ...]:
-    """Every aisle, block after block."""
+    """Return every aisle, block after block."""
     return tuple(aisle_summary(site, lane) for lane in lanes(site))
 
 
 def lanes(site: Site) -> Iterator[Lane]:
-    """The pairs of neighbouring rows, block after block, in the order of the rows."""
+    """Yield the pairs of neighbouring rows, block after block, in the order of the rows."""
     for block in site.planting.blocks:
         turn = math.radians(block.bearing_deg)
         along = np.array([math.sin(turn), math.cos(turn)])
@@ -74,13 +74,13 @@ def lanes(site: Site) -> Iterator[Lane]:
 
 
 def lane_name(site: Site, lane: Lane) -> str:
-    """An aisle by the rows that it lies between, as the drivable network calls it: "aisle between rows 3 and 4"."""
+    """Return the name of an aisle as in the drivable network: "aisle between rows 3 and 4"."""
     where = f" of block {lane.block.name}" if len(site.planting.blocks) > 1 else ""
     return f"aisle between rows {lane.one.name} and {lane.two.name}{where}"
 
 
 def lane_middle(site: Site, lane: Lane) -> Points:
-    """Points half way between the rows, one for each tree of the shorter row. Shape (n, 2)."""
+    """Return points halfway between the rows, one for each tree of the shorter row. Shape (n, 2)."""
     short, long = sorted((lane.one, lane.two), key=lambda row: len(row.trees))
     ways = shapely.shortest_line(shapely.points(site.xy[short.trees]), _line(site, long))
     middle: Points = shapely.get_coordinates(shapely.line_interpolate_point(ways, 0.5, normalized=True))
@@ -88,7 +88,7 @@ def lane_middle(site: Site, lane: Lane) -> Points:
 
 
 def aisle_summary(site: Site, lane: Lane) -> AisleSummary:
-    """One aisle in figures."""
+    """Return the names and widths of an aisle."""
     a, b = _line(site, lane.one), _line(site, lane.two)
     short, other = (lane.one, b) if len(lane.one.trees) <= len(lane.two.trees) else (lane.two, a)
     return AisleSummary(

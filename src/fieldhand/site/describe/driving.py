@@ -1,4 +1,4 @@
-"""Determine where a robot can drive on a site: aisles, headlands, and the trees out of its reach, with the reason."""
+"""Describe where a robot can drive on a site: aisles, headlands, and the unreachable trees with their reasons."""
 
 from __future__ import annotations
 
@@ -16,19 +16,19 @@ from fieldhand.site.drives import Drives
 from fieldhand.site.driving.network import DrivableNetwork
 from fieldhand.site.model import Site
 
-#: On a site of no more trees than this each tree is asked for; on a larger one those near to anything in the way.
+#: Up to this number of trees the reachability of each is checked; on a larger site only that of trees near obstacles.
 _ASK_ALL = 2_000
-#: Reasons that are told each, and names that are told of each.
+#: Number of reasons that are listed, of names listed for each, and of headlands listed by name.
 _MOST_REASONS, _FEW, _MOST_HEADLANDS = 8, 8, 4
 
 
 @dataclass(frozen=True, kw_only=True)
 class Unreachable:
-    """Trees that cannot be driven to for one reason.
+    """Trees that are unreachable for the same reason.
 
     Attributes:
-        why: As :meth:`Drives.problem` says it: "inside the keep-out 'pond'".
-        trees: Their ids, in file order.
+        why: Reason from :meth:`Drives.problem`, such as "inside the keep-out 'pond'".
+        trees: Ids of the trees, in file order.
     """
 
     why: str
@@ -37,20 +37,20 @@ class Unreachable:
 
 @dataclass(frozen=True, kw_only=True)
 class DrivingSummary:
-    """What a robot can do on a site.
+    """Drivable parts of a site for a robot.
 
     Attributes:
-        robot: Its name.
-        width_m: Of the robot.
-        standoff_m: From a trunk to where it works.
-        aisles: Between neighbouring rows.
-        closed: Aisles by name that it cannot drive along: too narrow, or something stands across them.
-        narrow: Other aisles by name that are somewhere narrower than the robot.
-        too_narrow_for: Of other robots, how many aisles are too narrow for each; those for which none is are left out.
-        narrowest_m, widest_m: Usual widths of the narrowest and the widest aisle; None without aisles.
-        headlands: By name; a block has one at either end of its rows where there is room.
-        gates: By name.
-        unreachable: Trees that it cannot reach.
+        robot: Name of the robot.
+        width_m: Width of the robot in metres.
+        standoff_m: Distance in metres from a trunk to the working robot.
+        aisles: Number of aisles between neighbouring rows.
+        closed: Names of aisles that the robot cannot drive along: too narrow, or blocked by an obstacle.
+        narrow: Names of other aisles that are narrower than the robot in places.
+        too_narrow_for: Number of aisles too narrow for each other robot; robots that fit all aisles are left out.
+        narrowest_m, widest_m: Median widths of the narrowest and the widest aisle; None without aisles.
+        headlands: Names of the headlands; a block has one at each end of its rows if there is room.
+        gates: Names of the gates.
+        unreachable: Trees that the robot cannot reach, by reason.
     """
 
     robot: str
@@ -70,13 +70,13 @@ class DrivingSummary:
 def describe_driving(
     site: Site, drives: Drives, *, robot: str, others: Mapping[str, float] | None = None
 ) -> DrivingSummary:
-    """Where this robot can drive.
+    """Return the drivable parts of a site for a robot.
 
     Args:
-        site: With its rows.
-        drives: Of the site for the robot's width and standoff.
-        robot: Its name, for the words.
-        others: Names of other robots with their widths in metres.
+        site: Site with its rows.
+        drives: Drives of the site for the robot's width and standoff.
+        robot: Name of the robot.
+        others: Widths of other robots in metres, by name.
     """
     between = tuple(lanes(site))
     aisles = tuple(aisle_summary(site, lane) for lane in between)
@@ -106,7 +106,7 @@ def describe_driving(
 def _driven(
     site: Site, between: Sequence[Lane], aisles: Sequence[AisleSummary], network: DrivableNetwork
 ) -> list[bool]:
-    """Along which of the aisles a line of the network runs."""
+    """Return for each aisle True if a line of the network runs along it."""
     lines = shapely.STRtree([LineString(line.points) for line in network.of("aisle")])
     return [
         bool(lines.query(MultiPoint(lane_middle(site, lane)), predicate="dwithin", distance=0.4 * aisle.width_m).size)
@@ -117,7 +117,7 @@ def _driven(
 def _unreachable(
     site: Site, drives: Drives, between: Sequence[Lane], aisles: Sequence[AisleSummary]
 ) -> tuple[Unreachable, ...]:
-    """Trees by the reason for which they cannot be reached, the most frequent reason first."""
+    """Return the unreachable trees by reason, the most frequent reason first."""
     why: dict[int, str] = {}
     asked = _doubtful(site, drives, between, aisles)
     for k in np.flatnonzero(asked).tolist():
@@ -133,7 +133,7 @@ def _unreachable(
 
 
 def _doubtful(site: Site, drives: Drives, between: Sequence[Lane], aisles: Sequence[AisleSummary]) -> NDArray[np.bool_]:
-    """Trees with anything near that might be in the way: only these need to be asked for on a large site."""
+    """Return a mask of the trees near obstacles: on a large site only these are checked individually."""
     if len(site.trees) <= _ASK_ALL:
         return np.ones(len(site.trees), dtype=bool)
     doubtful = (site.planting.row_of < 0) | ~_inside(site)
@@ -147,12 +147,12 @@ def _doubtful(site: Site, drives: Drives, between: Sequence[Lane], aisles: Seque
             doubtful[lane.one.trees] = doubtful[lane.two.trees] = True
     for block in site.planting.blocks:
         for outer in {block.rows[0], block.rows[-1]} if len(site.planting.blocks) > 1 else ():
-            doubtful[outer.trees] = True  # another block may stand close
+            doubtful[outer.trees] = True  # another block may be close
     return doubtful
 
 
 def _inside(site: Site) -> NDArray[np.bool_]:
-    """Which trees stand inside the boundary; all of them where there is none."""
+    """Return a mask of the trees inside the boundary; all of them without a boundary."""
     boundaries = [z.polygon for z in site.zones_of("boundary")]
     if not boundaries:
         return np.ones(len(site.trees), dtype=bool)
@@ -162,7 +162,8 @@ def _inside(site: Site) -> NDArray[np.bool_]:
 
 
 def _cut_off(site: Site, drives: Drives, asked: NDArray[np.bool_]) -> dict[int, str]:
-    """On a large site, trees to which there is no way: of those that nothing is near to, one stands for its row."""
+    """Return the reasons of trees that no path leads to; of the unchecked trees of a row, the middle one is checked for
+    all."""
     found: dict[int, str] = {}
     for row in site.planting.rows:
         rest = row.trees[~asked[row.trees]].tolist()
@@ -173,7 +174,7 @@ def _cut_off(site: Site, drives: Drives, asked: NDArray[np.bool_]) -> dict[int, 
 
 
 def driving_lines(driving: DrivingSummary) -> list[str]:
-    """The same in words, a line for each thing that a grower has to know."""
+    """Return the summary in words, a line for each fact."""
     d = driving
     lines = [f"Driving with the {d.robot} ({d.width_m:g} m wide, works {d.standoff_m:g} m from a trunk):"]
     if d.narrowest_m is None or d.widest_m is None:

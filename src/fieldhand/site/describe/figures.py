@@ -1,4 +1,4 @@
-"""Summarize a site in figures whose number does not grow with the site."""
+"""Summarize a site in a bounded number of figures."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ class AttributeSummary:
     """One attribute of the trees.
 
     Attributes:
-        trees: How many trees have it.
-        distinct: How many different values it has.
-        minimum, maximum: Where all its values are numbers.
-        values: The most frequent values as text, the most frequent first (ties in order of the text).
+        trees: Number of trees with the attribute.
+        distinct: Number of different values.
+        minimum, maximum: Range of the values if all are numbers, else None.
+        values: The most frequent values as text, in order of frequency (ties in order of the text).
     """
 
     name: str
@@ -44,7 +44,7 @@ class AttributeSummary:
 
 @dataclass(frozen=True, kw_only=True)
 class ZoneSummary:
-    """All zones of one name and kind. ``trees`` stand inside or on the edge."""
+    """All zones of one name and kind. ``trees`` counts trees inside or on the edge."""
 
     name: str
     kind: ZoneKind
@@ -54,20 +54,20 @@ class ZoneSummary:
 
 @dataclass(frozen=True, kw_only=True)
 class SiteSummary:
-    """A site in figures.
+    """A summary of a site in figures.
 
     Attributes:
         first_id, last_id: Ids of the first and last tree of the file.
         east_west_m, north_south_m: Extent of the trees along true north.
-        area_m2: Of the convex hull of the trees.
-        turned_deg: How far the smallest rectangle around the trees is turned clockwise from true north, -45 to 45.
+        area_m2: Area of the convex hull of the trees.
+        turned_deg: Rotation of the smallest rectangle around the trees, clockwise from true north, -45 to 45.
         spacing_m: Median distance from a tree to its nearest neighbour.
-        rows: How many there are in all blocks; 0 where the trees stand in none.
-        blocks, zones, attributes: The first few; ``blocks_left_out`` and so on say how many more there are.
-        in_no_row: Trees that are in no row; ``in_no_row_ids`` are the first of them.
-        why_no_row: Where there are no rows, or some trees are in none, the reason in words.
-        markers: Name, and metres east and north of the middle of the trees.
-        gates: Name and width in metres.
+        rows: Number of rows in all blocks; 0 if the trees form none.
+        blocks, zones, attributes: The first few; ``blocks_left_out`` and so on count the others.
+        in_no_row: Number of trees in no row; ``in_no_row_ids`` lists the first of them.
+        why_no_row: Reason, in words, why there are no rows or some trees are in none; else empty.
+        markers: Name of each marker, and metres east and north of the middle of the trees.
+        gates: Name and width in metres of each gate.
     """
 
     name: str
@@ -98,7 +98,7 @@ class SiteSummary:
 
 
 def describe(site: Site) -> SiteSummary:
-    """The site in figures; its size does not grow with the site."""
+    """Return a summary of a site in figures, of bounded size."""
     east_west, north_south = np.ptp(site.xy, axis=0).tolist()
     zones = _zones(site)
     planting = site.planting
@@ -166,7 +166,7 @@ def _attribute(site: Site, name: str) -> AttributeSummary:
 
 
 def value_text(value: Value) -> str:
-    """An attribute's value as a person writes it."""
+    """Return an attribute's value as text."""
     if isinstance(value, bool):
         return "yes" if value else "no"
     return number_text(value) if isinstance(value, float) else value

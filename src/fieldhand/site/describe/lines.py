@@ -28,17 +28,17 @@ from fieldhand.site.model import Site
 from fieldhand.site.names import listed
 
 _KINDS: dict[ZoneKind, str] = {"boundary": "boundary", "keep_out": "keep-out", "zone": "zone"}
-#: More rows than this are not listed unless they are asked for.
+#: More rows than this are listed on request only.
 _MOST_ROWS = 30
 
 
 def report_lines(site: Site, driving: DrivingSummary | None = None, *, all_rows: bool = False) -> list[str]:
-    """All that is understood of a site, for people.
+    """Return the description of a site in lines of text.
 
     Args:
-        site: Described.
-        driving: Where a robot can drive on it, if that is to be told.
-        all_rows: List every row, however many there are.
+        site: Site to describe.
+        driving: Drivable parts for a robot, if they are to be included.
+        all_rows: List every row, even if there are many.
     """
     s = describe(site)
     drivable = [] if driving is None else driving_lines(driving)
@@ -46,7 +46,7 @@ def report_lines(site: Site, driving: DrivingSummary | None = None, *, all_rows:
 
 
 def report_record(site: Site, driving: DrivingSummary | None = None) -> dict[str, Any]:
-    """The same facts for programs, with every row and every aisle."""
+    """Return the description of a site for programs, with every row and every aisle."""
     record = asdict(describe(site))
     record["row_table"] = [asdict(row) for row in row_table(site)]
     record["aisle_table"] = [asdict(aisle) for aisle in aisle_table(site)]
@@ -65,7 +65,7 @@ def _site_lines(s: SiteSummary) -> list[str]:
 
 
 def _planting_lines(s: SiteSummary, most: int) -> list[str]:
-    """Blocks, a line each, and the trees in no row."""
+    """Return a line for each block, and one for the trees in no row."""
     if not s.blocks:
         return [f"Rows: none; {s.why_no_row or 'the trees stand in no rows'}."]
     several = len(s.blocks) + s.blocks_left_out > 1
@@ -88,7 +88,7 @@ def _planting_lines(s: SiteSummary, most: int) -> list[str]:
 
 
 def _row_lines(site: Site, s: SiteSummary, *, all_rows: bool) -> list[str]:
-    """The blocks, each with its rows: listed where they are few, else the shortest and the longest."""
+    """Return the blocks with their rows: all rows if there are few, else the shortest and the longest."""
     lines = _planting_lines(s, len(s.blocks))
     if not s.blocks:
         return lines
@@ -112,7 +112,7 @@ def _row_words(row: RowSummary) -> str:
 
 
 def _place_lines(s: SiteSummary) -> list[str]:
-    """Markers, gates, zones, attributes, and what the reader noted."""
+    """Return the markers, gates, zones, attributes and notes."""
     lines = [f"Markers: {'; '.join(marker_words(m) for m in s.markers) or 'none'}."]
     if s.gates:
         lines.append(f"Gates: {', '.join(f'{name!r} {width:.1f} m wide' for name, width in s.gates)}.")
@@ -142,7 +142,7 @@ def _attribute_words(attribute: AttributeSummary, trees: int) -> str:
 
 
 def figure_words(number: float) -> str:
-    """Return a number in four digits, which are enough to say how large it is; a whole number in full."""
+    """Return a number with four significant digits, or a whole number in full."""
     return number_text(number) if number == int(number) and abs(number) < 1e9 else f"{number:.4g}"
 
 
@@ -151,7 +151,7 @@ def _area_words(square_metres: float) -> str:
 
 
 def marker_words(marker: tuple[str, float, float]) -> str:
-    """Return a marker with where it is from the middle of the trees."""
+    """Return the name of a marker and its position relative to the middle of the trees."""
     name, x, y = marker
     sides = [
         f"{abs(y):.0f} m {'north' if y > 0 else 'south'}" if abs(y) >= 0.5 else "",

@@ -1,4 +1,4 @@
-"""Blocks and rows in figures and in words."""
+"""Describe blocks and rows in figures and in words."""
 
 from __future__ import annotations
 
@@ -19,17 +19,18 @@ _OPPOSITE = {"north": "south", "south": "north", "west": "east", "east": "west"}
 
 @dataclass(frozen=True, kw_only=True)
 class RowSummary:
-    """A row.
+    """A summary of a row.
 
     Attributes:
         block: Name of its block.
-        number: In the block, from 1, as they are counted there.
-        trees: That stand in it.
-        missing: Planting positions between its ends at which no tree stands.
-        length_m: From its first tree to its last.
+        name: Name of the row.
+        number: Number in counting order within the block, from 1.
+        trees: Number of trees.
+        missing: Number of empty planting positions between its ends.
+        length_m: Distance in metres from its first tree to its last.
         first, last: Ids of its trees at its usual end and at its other end.
-        known: Whether the file names it.
-        confidence: 0 to 1.
+        known: Source of the row: the file, or inference from the positions of the trees.
+        confidence: Confidence in the row, 0 to 1.
     """
 
     block: str
@@ -46,18 +47,20 @@ class RowSummary:
 
 @dataclass(frozen=True, kw_only=True)
 class BlockSummary:
-    """A block.
+    """A summary of a block.
 
     Attributes:
-        bearing_deg: Of the rows, clockwise from true north, 0 up to 180.
-        row_spacing_m: None for a single row.
-        tree_spacing_m: Along the rows; None where no row has two trees.
-        counted_from: The side from which its rows are numbered.
-        trees: In its rows.
-        missing: Planting positions between the ends of its rows at which no tree stands.
+        name: Name of the block.
+        rows: Number of rows.
+        bearing_deg: Bearing of the rows, clockwise from true north, 0 up to 180.
+        row_spacing_m: Distance from row to row; None for a single row.
+        tree_spacing_m: Distance from tree to tree along the rows; None if no row has two trees.
+        counted_from: Side from which its rows are numbered.
+        trees: Number of trees in its rows.
+        missing: Number of empty planting positions between the ends of its rows.
         shortest, longest: Its rows with the fewest and the most trees.
-        known: Whether the file names its rows.
-        confidence: That its rows run this way, 0 to 1.
+        known: Source of its rows: the file, or inference from the positions of the trees.
+        confidence: Confidence in the direction of its rows, 0 to 1.
     """
 
     name: str
@@ -75,7 +78,7 @@ class BlockSummary:
 
 
 def row_table(site: Site) -> tuple[RowSummary, ...]:
-    """Every row, block after block, in the order in which they are counted: from the side that the site's names say."""
+    """Return every row in counting order, block after block."""
     return tuple(
         _row(site, block, row, number)
         for block in site.planting.blocks
@@ -84,7 +87,7 @@ def row_table(site: Site) -> tuple[RowSummary, ...]:
 
 
 def block_summary(site: Site, block: Block) -> BlockSummary:
-    """One block in figures."""
+    """Return the summary of a block."""
     rows, _ = rows_from(site, block, "usual")
     usual = "north" if block.runs_east_west else "west"
     lengths = [len(row.trees) for row in rows]
@@ -107,7 +110,7 @@ def block_summary(site: Site, block: Block) -> BlockSummary:
 
 
 def block_words(block: BlockSummary, *, several: bool) -> str:
-    """A block in a sentence that a grower can check in the field."""
+    """Return a sentence about a block that a grower can check in the field."""
     count = "a single row" if block.rows == 1 else f"{block.rows:,} rows"
     runs = f"{count} running {direction_words(block.bearing_deg)}"
     parts = [runs]
@@ -123,19 +126,19 @@ def block_words(block: BlockSummary, *, several: bool) -> str:
 
 
 def counting_words(block: BlockSummary) -> str:
-    """From where rows and the trees in them are counted."""
+    """Return the sides from which rows and the trees in them are counted, in words."""
     side = block.counted_from
     trees = "west to east" if side in ("north", "south") else "north to south"
     return f"rows count from {side} to {_OPPOSITE[side]}, trees in a row from {trees}"
 
 
 def block_name(name: str) -> str:
-    """A block by its name, with the word where the name alone does not say what it is."""
+    """Return the name of a block, preceded by "Block" if the name is short or a number."""
     return name if len(name) > 3 and not name.isdigit() else f"Block {name}"
 
 
 def direction_words(bearing_deg: float) -> str:
-    """The way of a row: "north-south (7 degrees east of north)"."""
+    """Return the direction of a row in words: "north-south (7 degrees east of north)"."""
     bearing = bearing_deg % 180.0
     axis = round(bearing / 45.0) % 4
     name = ("north-south", "north-east to south-west", "east-west", "north-west to south-east")[axis]
@@ -147,7 +150,7 @@ def direction_words(bearing_deg: float) -> str:
 
 
 def table_lines(rows: Sequence[RowSummary], *, several: bool) -> list[str]:
-    """Rows as a table, with a head."""
+    """Return rows as a table with a header line."""
     inferred = any(row.known == "inferred" for row in rows)
     head = (
         ["block"] * several + ["row", "trees", "missing", "length", "from tree", "to tree"] + ["confidence"] * inferred
@@ -169,7 +172,7 @@ def table_lines(rows: Sequence[RowSummary], *, several: bool) -> list[str]:
 
 
 def shortened(text: str, longest: int = _LONGEST) -> str:
-    """Text from a file, printable and not longer than that."""
+    """Return text from a file, printable and cut to a maximum length."""
     text = visible(text[: 4 * longest])
     return text if len(text) <= longest else text[: longest - 3] + "..."
 
@@ -191,7 +194,7 @@ def _row(site: Site, block: Block, row: Row, number: int) -> RowSummary:
 
 
 def _missing(row: Row) -> int:
-    """Trees that stand in one position (one entered twice, two planted together) fill it once."""
+    """Return the number of empty planting positions; several trees in one position count once."""
     taken = np.unique(row.slots)
     return int(taken[-1] - taken[0] + 1 - len(taken))
 

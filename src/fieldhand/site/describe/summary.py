@@ -1,8 +1,8 @@
-"""Summarize what can be named on a site, in lines of bounded length: all that a language model is told of it.
+"""Summarize the names on a site in lines of bounded length, for the prompt of a language model.
 
 Names come first and in full: markers, gates, zones, keep-outs, blocks and their rows, attributes with their values or
-ranges. Where they do not fit, what is shown of each kind becomes fewer and fewer examples, with their number and the
-word that any other may be named as well; no kind of name is left out.
+ranges. If they do not fit, each kind is reduced to fewer examples, with the total number and a note that any of them
+may be named; no kind of name is left out.
 """
 
 from __future__ import annotations
@@ -21,13 +21,13 @@ from fieldhand.site.feature_kinds import ZoneKind
 from fieldhand.site.model import Site, Zone
 from fieldhand.terms import Value
 
-#: Names of one kind that are shown, and the characters of each, from the fullest summary to the shortest.
+#: Number of names shown of each kind, and the characters of each, from the longest summary to the shortest.
 _LEVELS = ((60, 40), (30, 40), (16, 32), (10, 24), (6, 20), (4, 16), (3, 12), (2, 10), (1, 8), (0, 8))
-#: Characters of the names of one kind together.
+#: Greatest total length in characters of the names of one kind.
 _LONGEST = 340
-#: Numbers of which there are no more than these are listed; more are a range.
+#: Up to this many numbers are listed; more are given as a range.
 _FEW_NUMBERS = 8
-#: Attributes that have a line of their own; the names of all others share one.
+#: Number of attributes with their own line; the names of all others share one.
 _MOST_ATTRIBUTES = 30
 _MOST_NOTES = 3
 _NUMBERED = re.compile(r"(.*?)(0|[1-9]\d{0,8})")
@@ -35,13 +35,14 @@ _ZONES: dict[ZoneKind, str] = {"zone": "Zones", "keep_out": "Keep-outs", "bounda
 
 
 def summary_lines(site: Site, fits: Callable[[Sequence[str]], bool] | None = None) -> list[str]:
-    """Return the site in a few lines of bounded length, with everything on it that can be named.
+    """Return a summary of the site in a few lines of bounded length, with every kind of name on it.
 
-    A site of 100,000 trees, 10,000 distinct values or names of a megabyte gives no more lines, and no longer ones, than
-    a small site. A language model's prompt holds these lines and nothing else of the site.
+    A site of 100,000 trees, 10,000 distinct values or names of a megabyte gives no more and no longer lines than a
+    small site. The prompt of a language model contains only these lines about the site.
 
     Args:
-        fits: Return True if these lines are short enough; the fullest summary that is short enough is taken, else the
+        site: Site to summarize.
+        fits: Function that returns True if lines are short enough. The longest summary that fits is returned, else the
             shortest one.
     """
     lines: list[str] = []
@@ -54,7 +55,7 @@ def summary_lines(site: Site, fits: Callable[[Sequence[str]], bool] | None = Non
 
 
 class _Summary:
-    """The summary of one site with at most so many names of a kind, none longer than so many characters."""
+    """A summary of a site with a limited number of names of each kind and a limited length of each name."""
 
     def __init__(self, site: Site, figures: SiteSummary, most: int, longest: int) -> None:
         self._site, self._figures, self._most, self._longest = site, figures, most, longest
@@ -81,7 +82,7 @@ class _Summary:
         )
 
     def _blocks(self) -> Iterator[str]:
-        """Yield each block with its rows; the names alone of those that have no line of their own."""
+        """Yield a line for each block with its rows; only the names if there are many blocks."""
         site, s = self._site, self._figures
         blocks = site.planting.blocks
         if not blocks:
@@ -106,7 +107,7 @@ class _Summary:
             yield f"Trees in no row: {s.in_no_row:,}."
 
     def _zones(self) -> Iterator[str]:
-        """Yield a line for each kind of area: the names, each with its trees where they are few."""
+        """Yield a line for each kind of area: the names, with their numbers of trees if there are few."""
         for kind, title in _ZONES.items():
             zones: dict[str, list[Zone]] = {}
             for zone in self._site.zones_of(kind):
@@ -146,7 +147,7 @@ class _Summary:
         return f" (of {held:,} trees)" if held < len(trees) else ""
 
     def _values(self, name: str) -> str:
-        """Return the values of an attribute: all of them, a range, or their number and some of them."""
+        """Return the values of an attribute: all values, a range, or their number with examples."""
         values = self._site.attributes[name]
         if len(values) == len(self._site.trees) > 1 and self._is_id(name):
             return "the id of the tree"
@@ -159,14 +160,14 @@ class _Summary:
         return all(str(value_text(t.properties.get(name, ""))) == t.place.id for t in self._site.trees)
 
     def _by_frequency(self, name: str, values: Sequence[Value]) -> list[str]:
-        """Return the values as text: as they are sorted where all are shown, else the most frequent first."""
+        """Return the values as text: in sorted order if all are shown, else the most frequent first."""
         if len(values) <= self._most:
             return [value_text(v) for v in values]
         held = Counter(value_text(t.properties[name]) for t in self._site.trees if name in t.properties)
         return [text for text, _ in sorted(held.items(), key=lambda item: (-item[1], item[0]))]
 
     def _names(self, names: Sequence[str], kind: str, *, number: bool = True) -> str:
-        """Return names of one kind as a list, runs of numbers as a range; or how many there are, with examples."""
+        """Return names of one kind as a list, with runs of numbers as ranges; or their number with examples."""
         runs = _runs(names) if number else list(names)
         shown = [shortened(text, 2 * self._longest) for text in runs[: self._most]]
         while shown and sum(map(len, shown)) + 2 * len(shown) > _LONGEST:
@@ -191,6 +192,6 @@ def _runs(names: Sequence[str]) -> list[str]:
 
 
 def _follows(one: str, other: str) -> bool:
-    """Return True if a name is the one before it with the next number."""
+    """Return True if the second name is the first one with the next number."""
     a, b = _NUMBERED.fullmatch(one), _NUMBERED.fullmatch(other)
     return a is not None and b is not None and a[1] == b[1] and int(b[2]) == int(a[2]) + 1

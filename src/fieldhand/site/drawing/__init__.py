@@ -1,4 +1,4 @@
-"""Pictures of a site, in local metres: the quiet ground that maps and reports lie on, and the site's own picture."""
+"""Pictures of a site, in local metres: a base map for other drawings, and the picture of the site itself."""
 
 from fieldhand.site.drawing.choices import save_choices_picture
 from fieldhand.site.drawing.ground import TREE_COLOUR, draw_site, site_figure, tree_size

@@ -1,4 +1,4 @@
-"""Blocks on a picture: an outline around the rows of each, and its name beside it."""
+"""Draw the blocks of a site: an outline around the rows of each, and its name beside it."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _FONT = 9.0
 
 
 def draw_blocks(ax: Axes, site: Site) -> None:
-    """Draw an outline around each block, where there are several."""
+    """Draw an outline around each block, if there are several."""
     from matplotlib.collections import PolyCollection
 
     blocks = site.planting.blocks
@@ -36,7 +36,7 @@ def draw_blocks(ax: Axes, site: Site) -> None:
 
 
 def outline_of(site: Site, block: Block) -> Any:
-    """Return the polygon around a block's rows, along the ends of its rows however they curve, half a spacing away."""
+    """Return the polygon around a block's rows, following the row ends at about half a spacing."""
     import shapely
 
     first, last = block.rows[0].trees, block.rows[-1].trees
@@ -54,7 +54,7 @@ def outline_of(site: Site, block: Block) -> Any:
 
 
 def name_blocks(labels: Labels, site: Site) -> None:
-    """Write the name of each block beside it, where there are several."""
+    """Write the name of each block beside it, if there are several."""
     blocks = site.planting.blocks
     if len(blocks) < 2:
         return
@@ -75,12 +75,12 @@ def name_blocks(labels: Labels, site: Site) -> None:
 
 
 def block_words(block: Block) -> str:
-    """A block by its name, with the word where the name alone does not say what it is."""
+    """Return the name of a block, preceded by "block" if the name is short or a number."""
     return short(block.name, 24) if len(block.name) > 3 and not block.name.isdigit() else f"block {block.name}"
 
 
 def _corners(labels: Labels, site: Site, block: Block) -> NDArray[np.float64]:
-    """The ends of the first and of the last row as they are drawn: usual end of both, then other end of both."""
+    """Return the drawn ends of the first and last row: the usual ends of both, then the other ends."""
     first, last = block.rows[0].trees, block.rows[-1].trees
     trees = (first[0], last[0], first[-1], last[-1])
     return np.array([labels.at((float(site.xy[t][0]), float(site.xy[t][1]))) for t in trees])

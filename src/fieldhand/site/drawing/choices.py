@@ -1,4 +1,4 @@
-"""The picture of a question: each choice's places marked with its number."""
+"""Draw the picture of a question: the places of each choice, marked with its number."""
 
 from __future__ import annotations
 
@@ -21,52 +21,52 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: Diameter in points of a disc that holds a number, and what a further digit or number adds to it.
+#: Diameter in points of a disc with a number, and the increase for each further character.
 _DISC, _WIDER = 13.0, 2.4
-#: Letters that an inch of the question and of the choices below it hold.
+#: Letters per inch of the question and of the choices below it.
 _LETTERS_IN = 12.0
 
 
 def save_choices_picture(
     site: Site, question: str, choices: Sequence[str], places: Sequence[Sequence[Place]], path: Path
 ) -> None:
-    """Draw a question into a picture file; the ending says which kind (``.png``, ``.svg``, ``.pdf``).
+    """Draw a question into a picture file; the extension selects the format (``.png``, ``.svg``, ``.pdf``).
 
     Args:
-        site: What it is about.
-        question: Written above.
-        choices: What can be answered, written below with their numbers, counted from 1.
-        places: For each choice what it would mean; none where that is not known.
-        path: Written.
+        site: Site of the places.
+        question: Text above the map.
+        choices: Answers, listed below the map with their numbers from 1.
+        places: Places of each choice; empty if unknown.
+        path: File to write.
 
     Raises:
-        OutputError: The file cannot be written, or its ending is of no kind of picture.
+        OutputError: The file cannot be written, or its extension is not that of a picture format.
     """
     figure = choices_picture(site, question, choices, places)
     save_figure(figure, path)
 
 
 def choices_picture(site: Site, question: str, choices: Sequence[str], places: Sequence[Sequence[Place]]) -> Figure:
-    """The picture as a figure that belongs to no window."""
+    """Return the picture as a figure without a window."""
     figure = site_figure(site)
     ax = figure.axes[0]
     draw_site(ax, site)
     _mark(ax, site, places)
     _write(figure, question, choices, places)
     make_text_visible(figure)
-    figure.draw_without_rendering()  # so that the words have taken their room
+    figure.draw_without_rendering()  # so that the layout accounts for the texts
     figure.set_layout_engine("none")
     name_site(ax, site)
     return figure
 
 
 def colour_of(number: int) -> str:
-    """The colour of a choice by its number, counted from 1."""
+    """Return the colour of a choice by its number, counted from 1."""
     return colours.CHOICES[(number - 1) % len(colours.CHOICES)]
 
 
 def _mark(ax: Axes, site: Site, places: Sequence[Sequence[Place]]) -> None:
-    """A disc for each place, larger where the numbers of its choices are written in it."""
+    """Draw a disc for each place, larger if the numbers of its choices are written in it."""
     marks = choice_marks(places)
     dot = max(math.sqrt(tree_size(ax, site)) * 1.3, 5.0) ** 2
     for number in dict.fromkeys(mark.numbers[0] for mark in marks):
@@ -87,7 +87,7 @@ def _mark(ax: Axes, site: Site, places: Sequence[Sequence[Place]]) -> None:
 
 
 def _write(figure: Figure, question: str, choices: Sequence[str], places: Sequence[Sequence[Place]]) -> None:
-    """The question above the map, the choices below it."""
+    """Write the question above the map and the choices below it."""
     from matplotlib.lines import Line2D
 
     width = max(30, int(figure.get_size_inches()[0] * _LETTERS_IN))

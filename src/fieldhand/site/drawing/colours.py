@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 TREE = "#5b8c5a"
-#: Neighbouring rows stay apart for readers who see red and green, or blue and yellow, alike.
+#: Colours of neighbouring rows, distinguishable with colour blindness.
 ROWS = ("#0072b2", "#e69f00", "#117a65", "#d55e00")
-#: The same for letters, which are thin.
+#: Darker versions for text.
 ROW_INKS = ("#005f96", "#946500", "#0e6453", "#a54800")
-#: Of the choices of a question, on green trees.
+#: Colours of the choices of a question, on green trees.
 CHOICES = ("#005f96", "#a54800", "#6a3d9a", "#2f2f2f")
-#: Of the names of rows whose dots have no colour of their own.
+#: Colour of row names if the dots of the rows are not coloured.
 ROW_INK = "#4d6650"
 NO_ROW = "#a6a6a6"
-#: Around a block.
+#: Outline of a block.
 BLOCK_EDGE = "#8fa08d"
 FAINT_ROW = "#9db79a"
 

@@ -1,4 +1,4 @@
-"""The part of a site where the work is, drawn larger beside the whole."""
+"""Detail of a map: the part of a site with the work, drawn larger beside the whole."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ if TYPE_CHECKING:
 
 XY = tuple[float, float]
 
-#: A window is worth its room where trees stand closer than that many points on the whole map, and it is that many times
-#: as large.
+#: A detail is drawn if the tree spacing on the whole map is less than this many points, and the detail enlarges it by
+#: at least this factor.
 _CLOSE, _GAIN = 12.0, 1.5
-#: Spacings of trees that a window shows at least, from side to side, and around the work.
+#: Least width of a detail, and margin around the work, in tree spacings.
 _LEAST, _AROUND = 14.0, 3.0
 
 
 @dataclass(frozen=True, kw_only=True)
 class Window:
-    """A part of a site, in local metres."""
+    """A rectangular part of a site, in local metres."""
 
     west: float
     south: float
@@ -34,26 +34,26 @@ class Window:
     north: float
 
     def holds(self, xy: XY) -> bool:
-        """Return True for a place inside."""
+        """Return True if a place is inside."""
         return self.west <= xy[0] <= self.east and self.south <= xy[1] <= self.north
 
     def as_tall_as(self, width_in: float, height_in: float) -> Window:
-        """Return the window with more above and below, in the shape of a higher drawing."""
+        """Return the window extended above and below to the aspect ratio of a taller drawing."""
         more = ((self.east - self.west) * height_in / width_in - (self.north - self.south)) / 2
         return Window(west=self.west, south=self.south - more, east=self.east, north=self.north + more)
 
 
 def window_of(ax: Axes, site: Site, work: Sequence[XY], width_in: float, height_in: float) -> Window | None:
-    """Return the part of a site around some places in the shape of a drawing of its own.
+    """Return the part of a site around some places, with the aspect ratio of a separate drawing.
 
     Args:
-        ax: The map of the whole, with its final position and limits.
-        site: Drawn there.
+        ax: Map of the whole site, with its final position and limits.
+        site: Site on the map.
         work: Places in local metres.
-        width_in, height_in: Of the other drawing, in inches.
+        width_in, height_in: Size of the separate drawing in inches.
 
     Returns:
-        None where the whole map shows the trees well enough, or hardly smaller.
+        None if the whole map shows the trees well enough, or the detail would hardly enlarge them.
     """
     whole = points_a_metre(ax)
     if not len(work) or site.spacing_m * whole >= _CLOSE:
@@ -66,14 +66,14 @@ def window_of(ax: Axes, site: Site, work: Sequence[XY], width_in: float, height_
         return None
     (x, y), wide, tall = (low + high) / 2, metres_in * width_in, metres_in * height_in
     (west, east), (south, north) = ax.get_xlim(), ax.get_ylim()
-    # What lies outside of the map of the whole is not worth looking at.
+    # Keep the window inside the map of the whole site.
     x = float(np.clip(x, west + wide / 2, east - wide / 2)) if wide < east - west else (west + east) / 2
     y = float(np.clip(y, south + tall / 2, north - tall / 2)) if tall < north - south else (south + north) / 2
     return Window(west=x - wide / 2, south=y - tall / 2, east=x + wide / 2, north=y + tall / 2)
 
 
 def show_window(ax: Axes, window: Window) -> None:
-    """Draw the frame of a window on the map of the whole."""
+    """Draw the frame of a window on the map of the whole site."""
     from matplotlib.patches import Rectangle
 
     size = (window.east - window.west, window.north - window.south)
@@ -83,7 +83,7 @@ def show_window(ax: Axes, window: Window) -> None:
 
 
 def show_detail(ax: Axes, window: Window) -> None:
-    """Let axes show a window, in a frame; everything outside is cut off."""
+    """Set axes to show a window in a frame; everything outside is cut off."""
     ax.set_xlim(window.west, window.east)
     ax.set_ylim(window.south, window.north)
     ax.set_xticks([])

@@ -1,4 +1,4 @@
-"""Where a robot drives, on a picture: aisles and headlands as bands of its width, and what it cannot reach."""
+"""Draw the drivable network: aisles and headlands as wide as the robot, closed aisles and unreachable trees."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from fieldhand.site.model import Site
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-#: Points: the thinnest band, and the widest; lines of links and of closed aisles.
+#: Points: least and greatest width of a band, and width of the lines of links and of closed aisles.
 _THINNEST, _WIDEST, _LINE = 0.5, 14.0, 0.8
 _BANDS: dict[LineKind, str] = {"aisle": colours.LANE, "headland": colours.HEADLAND}
 
 
 def draw_network(ax: Axes, network: DrivableNetwork, width_m: float) -> None:
-    """The lines of the network: aisles and headlands as wide as the robot, links thin."""
+    """Draw the lines of the network: aisles and headlands as wide as the robot, links thin."""
     from matplotlib.collections import LineCollection
 
     wide = float(np.clip(width_m * points_a_metre(ax), _THINNEST, _WIDEST))
@@ -40,7 +40,7 @@ def draw_network(ax: Axes, network: DrivableNetwork, width_m: float) -> None:
 
 
 def draw_closed(ax: Axes, site: Site, closed: Sequence[str]) -> None:
-    """Aisles that the robot cannot drive along, dashed along their middle."""
+    """Draw a dashed line along aisles that are closed to the robot."""
     from matplotlib.collections import LineCollection
 
     names = set(closed)
@@ -55,7 +55,7 @@ def draw_closed(ax: Axes, site: Site, closed: Sequence[str]) -> None:
 
 
 def draw_unreachable(ax: Axes, site: Site, ids: Sequence[str]) -> None:
-    """A cross over each tree that cannot be reached."""
+    """Draw a cross over each tree that cannot be reached."""
     if not ids:
         return
     xy = np.array([site.by_id[k].place.xy for k in ids])

@@ -1,4 +1,4 @@
-"""The ground: boundary, zones, rows as faint lines, trees and markers, with a scale bar and a north arrow."""
+"""Draw the base map: boundary, zones, rows as faint lines, trees and markers, with a scale bar and a north arrow."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ TREE_COLOUR = colours.TREE
 XY = tuple[float, float]
 
 _MOST_ZONE_LABELS = 20
-#: Points: the least diameter of a disc; which part of the way to the next one it takes.
+#: Least diameter of a disc in points, and its diameter as a fraction of the distance to the next one.
 _LEAST_DISC, _PART = 3.5, 0.9
-#: From as many trees on, a drawing program would be slow with each tree as an object of its own.
+#: Larger sites are drawn as raster images, since vector graphics with so many objects are slow.
 MANY = 5_000
 
 
 def site_figure(site: Site) -> Figure:
-    """An empty figure whose shape fits the site; draw on ``figure.axes[0]``. It belongs to no window."""
+    """Return an empty figure, without a window, whose shape fits the site; draw on ``figure.axes[0]``."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
@@ -42,11 +42,11 @@ def site_figure(site: Site) -> Figure:
 
 
 def draw_site(ax: Axes, site: Site) -> None:
-    """Draw the ground for something else to lie on, without names; axes in metres, equal, without frame.
+    """Draw a base map without names for further drawings; axes in metres, with equal scales, without a frame.
 
     Args:
-        ax: Drawn on; what is added later in local metres lies on top from ``zorder`` 10 on.
-        site: Drawn.
+        ax: Axes to draw on; further drawings in local metres lie on top from ``zorder`` 10 on.
+        site: Site to draw.
     """
     west, south, east, north = bounds_of(site)
     ax.set_aspect("equal")
@@ -58,7 +58,7 @@ def draw_site(ax: Axes, site: Site) -> None:
 
 
 def draw_ground(ax: Axes, site: Site) -> None:
-    """Draw zones, blocks, rows, trees, gates and markers in quiet colours, without names."""
+    """Draw zones, blocks, rows, trees, gates and markers in muted colours, without names."""
     draw_zones(ax, site)
     draw_blocks(ax, site)
     _draw_rows(ax, site)
@@ -68,12 +68,12 @@ def draw_ground(ax: Axes, site: Site) -> None:
 
 
 def tree_size(ax: Axes, site: Site) -> float:
-    """Area of a tree's dot in square points: about a third of the spacing wide, but never too small to see."""
+    """Return the area of a tree's dot in square points: about a third of the spacing wide, with a visible minimum."""
     return float(np.clip((0.36 * site.spacing_m * points_a_metre(ax)) ** 2, 1.5, 130.0))
 
 
 def disc_diameter(ax: Axes, xy: NDArray[np.float64], most: float) -> float:
-    """Return the diameter of discs at some places in points: smaller where they stand close on the map."""
+    """Return the diameter in points of discs at some places, smaller if the places are close on the map."""
     from scipy.spatial import cKDTree
 
     places = np.unique(xy, axis=0)
@@ -85,7 +85,7 @@ def disc_diameter(ax: Axes, xy: NDArray[np.float64], most: float) -> float:
 
 
 def points_a_metre(ax: Axes) -> float:
-    """How large a metre is drawn, from the room that the figure gives."""
+    """Return the scale of the map in points per metre."""
     figure = ax.get_figure(root=True)
     width, height = figure.get_size_inches() if figure is not None else (8.0, 8.0)
     (x0, x1), (y0, y1) = ax.get_xlim(), ax.get_ylim()
@@ -94,7 +94,7 @@ def points_a_metre(ax: Axes) -> float:
 
 
 def bounds_of(site: Site) -> tuple[float, float, float, float]:
-    """West, south, east, north of all there is, with a margin and room for the scale bar below."""
+    """Return west, south, east and north of all features, with a margin and room for the scale bar below."""
     points = [site.xy, *(np.array([p.xy]) for p in (*site.markers.values(), *(g.place for g in site.gates)))]
     points += [np.array(z.polygon.exterior.coords)[:, :2] for z in site.zones]
     everything = np.vstack(points)
@@ -110,7 +110,7 @@ def bounds_of(site: Site) -> tuple[float, float, float, float]:
 
 
 def draw_zones(ax: Axes, site: Site) -> None:
-    """Boundaries, zones and keep-outs, without their names."""
+    """Draw boundaries, zones and keep-outs, without their names."""
     for zone in site.zones_of("boundary"):
         _patch(
             ax, zone, facecolor=colours.GROUND, edgecolor=colours.FENCE, linewidth=1.6, linestyle=(0, (6, 2)), zorder=1
@@ -130,24 +130,24 @@ def draw_zones(ax: Axes, site: Site) -> None:
 
 
 def named_zones(site: Site) -> Sequence[Zone]:
-    """The zones whose names a picture has room for: keep-outs first."""
+    """Return the zones to name on a picture, keep-outs first, up to a maximum number."""
     return [*site.zones_of("keep_out"), *site.zones_of("zone")][:_MOST_ZONE_LABELS]
 
 
 def zone_ink(zone: Zone) -> str:
-    """The colour of a zone's name."""
+    """Return the colour of a zone's name."""
     return colours.KEEP_OUT_EDGE if zone.kind == "keep_out" else colours.ZONE_INK
 
 
 def draw_dots(
     ax: Axes, xy: NDArray[np.float64], size: float, colour: str | NDArray[np.float64], zorder: float = 5
 ) -> None:
-    """Trees as dots of an area in square points."""
+    """Draw trees as dots with an area in square points."""
     ax.scatter(xy[:, 0], xy[:, 1], s=size, c=colour, linewidths=0, zorder=zorder, rasterized=len(xy) > MANY)
 
 
 def draw_gates(ax: Axes, site: Site) -> None:
-    """Gates as open squares on the fence."""
+    """Draw gates as open squares on the fence."""
     for gate in site.gates:
         ax.plot(
             *gate.place.xy, marker="s", markersize=7, color="white", markeredgecolor=colours.GATE,
@@ -156,7 +156,7 @@ def draw_gates(ax: Axes, site: Site) -> None:
 
 
 def draw_markers(ax: Axes, site: Site) -> list[Place]:
-    """Start, end and charger, without their names; returns the places that were drawn."""
+    """Draw start, end and charger without their names; return the places that were drawn."""
     for name, place in site.markers.items():
         shape, colour, _ = marker_look(name)
         ax.scatter(place.x, place.y, s=90, marker=shape, c=colour, edgecolors="white", linewidths=1.2, zorder=8)
@@ -164,12 +164,12 @@ def draw_markers(ax: Axes, site: Site) -> list[Place]:
 
 
 def marker_look(name: str) -> tuple[str, str, str]:
-    """Symbol, colour and word of a marker."""
+    """Return symbol, colour and label of a marker."""
     return colours.MARKERS.get(name, ("o", colours.INK, name))
 
 
 def draw_scale(ax: Axes) -> None:
-    """A scale bar at the lower left, on white."""
+    """Draw a scale bar at the lower left, on white."""
     (west, east), (south, north) = ax.get_xlim(), ax.get_ylim()
     length = _round_length((east - west) / 4)
     height = north - south
@@ -182,7 +182,7 @@ def draw_scale(ax: Axes) -> None:
 
 
 def draw_scale_and_north(ax: Axes) -> None:
-    """A scale bar at the lower left and a north arrow at the lower right."""
+    """Draw a scale bar at the lower left and a north arrow at the lower right."""
     (west, east), (south, north) = ax.get_xlim(), ax.get_ylim()
     length = _round_length((east - west) / 4)
     height = north - south
@@ -216,7 +216,7 @@ def draw_scale_and_north(ax: Axes) -> None:
 
 
 def _draw_rows(ax: Axes, site: Site) -> None:
-    """Each row as a faint line: it says which way the rows run and is never in the way of what lies on top."""
+    """Draw each row as a faint line that shows the direction of the rows."""
     from matplotlib.collections import LineCollection
 
     lines = [site.xy[row.trees] for row in site.planting.rows if len(row.trees) > 1]
@@ -227,7 +227,7 @@ def _draw_rows(ax: Axes, site: Site) -> None:
 
 
 def open_spots(site: Site, zone: Zone) -> list[XY]:
-    """Where a name can stand inside a zone: points of a grid, those farthest from trees, markers and the edge first."""
+    """Return points of a grid inside a zone for its name, those farthest from trees, markers and the edge first."""
     import shapely
     from scipy.spatial import cKDTree
 
@@ -255,6 +255,6 @@ def _patch(ax: Axes, zone: Zone, **style: object) -> None:
 
 
 def _round_length(metres: float) -> float:
-    """The largest of 1, 2, 5, 10, 20, 50 ... that is not longer."""
+    """Return the largest of 1, 2, 5, 10, 20, 50 ... that is not longer."""
     power = 10.0 ** math.floor(math.log10(metres))
     return next(step * power for step in (5.0, 2.0, 1.0) if step * power <= metres)

@@ -1,4 +1,4 @@
-"""Names on a picture: each where it covers no other name, no symbol and no tree, or not at all."""
+"""Place names on a picture where they cover no other name, symbol or tree; names without room are left out."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ _GAP, _STEP = 1.5, 6.0
 
 
 class Labels:
-    """Writes names and remembers where they stand. Sizes are in points, measured from the lower left of the figure.
+    """Placement of names on axes. Coordinates are in points from the lower left of the figure.
 
     Args:
-        ax: Written on; its position and limits must not change any more.
-        dots: Where the trees are, in metres, shape (n, 2).
-        dot_radius: Of a tree's dot.
+        ax: Axes to write on; their position and limits must not change afterwards.
+        dots: Positions of the trees in metres, shape (n, 2).
+        dot_radius: Radius of a tree's dot in points.
     """
 
     def __init__(self, ax: Axes, dots: NDArray[np.float64], dot_radius: float) -> None:
@@ -42,7 +42,7 @@ class Labels:
         self._points_a_pixel = 72.0 / figure.dpi
         self._trees = cKDTree(np.asarray(ax.transData.transform(dots)) * self._points_a_pixel)
         self._radius = dot_radius
-        #: Where the middle of the last name stands.
+        #: Centre of the last name.
         self.last: XY = (0.0, 0.0)
         self._taken = np.empty((0, 4))
         self._sizes: dict[tuple[str, float, bool], XY] = {}
@@ -50,17 +50,17 @@ class Labels:
         self._frame = (*self.at((west, south)), *self.at((east, north)))
 
     def at(self, xy: XY) -> XY:
-        """Where a place in metres is drawn."""
+        """Return the position in points of a place in metres."""
         x, y = self._ax.transData.transform(xy)
         return (float(x) * self._points_a_pixel, float(y) * self._points_a_pixel)
 
     def metres(self, spot: XY) -> XY:
-        """Return the place in metres that is drawn at a spot."""
+        """Return the place in metres of a position in points."""
         x, y = self._ax.transData.inverted().transform(np.array(spot) / self._points_a_pixel)
         return (float(x), float(y))
 
     def avoid(self, ways: Iterable[Sequence[XY]]) -> None:
-        """Let names stand on lines through places in metres, as on trees, only where no other spot is free."""
+        """Treat lines through places in metres like trees: names cover them only if no other spot is free."""
         from scipy.spatial import cKDTree
 
         points = [point for way in ways for point in _along([self.at(xy) for xy in way])]
@@ -68,7 +68,7 @@ class Labels:
             self._trees = cKDTree(np.vstack([self._trees.data, np.array(points)]))
 
     def size(self, text: str, font: float, *, bold: bool = False) -> XY:
-        """Width and height of a text on one line."""
+        """Return width and height of a text on one line."""
         from matplotlib.font_manager import FontProperties
 
         if (known := self._sizes.get((text, font, bold))) is not None:
@@ -81,11 +81,11 @@ class Labels:
         return size
 
     def keep_free(self, at: XY, half: float) -> None:
-        """Let no name stand where a symbol is drawn."""
+        """Reserve the area of a symbol."""
         self._take([(at[0] - half, at[1] - half, at[0] + half, at[1] + half)])
 
     def keep_part_free(self, x0: float, y0: float, x1: float, y1: float) -> None:
-        """Let no name stand in a part of the axes, given in parts of its width and height."""
+        """Reserve a part of the axes, in fractions of its width and height."""
         left, bottom, right, top = self._frame
         wide, tall = right - left, top - bottom
         self._take([(left + x0 * wide, bottom + y0 * tall, left + x1 * wide, bottom + y1 * tall)])
@@ -103,21 +103,21 @@ class Labels:
         zorder: float = 7,
         gid: str = "name",
     ) -> bool:
-        """Write a name about the first of the spots where there is room for it.
+        """Write a name at the first of the spots with room for it.
 
         Args:
-            text: On one line.
-            spots: Where its middle may be, the best first.
-            font: Size of the letters.
-            colour: Of the letters.
-            bold: Their weight.
-            turn_deg: Anticlockwise.
-            over_trees: Whether it may cover trees where no spot is free of them.
-            zorder: Which of what overlaps lies on top.
-            gid: What kind of name it is, for whoever looks for it on the figure.
+            text: Text on one line.
+            spots: Possible centres of the text, best first.
+            font: Font size in points.
+            colour: Colour of the text.
+            bold: True for bold text.
+            turn_deg: Rotation in degrees, anticlockwise.
+            over_trees: Cover trees if no spot is free of them.
+            zorder: Drawing order.
+            gid: Group id of the text in the figure.
 
         Returns:
-            Whether there was room.
+            True if the text was written.
         """
         text = visible(text)
         size = self.size(text, font, bold=bold)
@@ -177,14 +177,14 @@ class Labels:
 
 
 def _along(corners: Sequence[XY]) -> Iterator[XY]:
-    """Points along a line, so close that no name has room between them."""
+    """Yield points along a line, too close for a name to fit between them."""
     for (x0, y0), (x1, y1) in itertools.pairwise(corners):
         count = min(int(math.hypot(x1 - x0, y1 - y0) / _STEP) + 1, 400)
         yield from ((x0 + (x1 - x0) * k / count, y0 + (y1 - y0) * k / count) for k in range(count))
 
 
 def _boxes(spot: XY, size: XY, turn_deg: float) -> list[Box]:
-    """The room that a text takes: one box, or where it is turned a chain of boxes along it."""
+    """Return the boxes that cover a text: one, or a chain along it if it is rotated."""
     (x, y), (width, height) = spot, size
     if turn_deg % 180.0 == 0.0:
         return [(x - width / 2, y - height / 2, x + width / 2, y + height / 2)]

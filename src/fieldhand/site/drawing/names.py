@@ -1,4 +1,4 @@
-"""The names on a picture of a site: markers, zones, gates, blocks and rows, what matters most first."""
+"""Write the names of markers, zones, gates, blocks and rows on a picture, in order of importance."""
 
 from __future__ import annotations
 
@@ -16,19 +16,19 @@ from fieldhand.site.names import short
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-#: Parts of the map (west, south, east, north) that the scale bar and the north arrow take.
+#: Fractions of the map (west, south, east, north) covered by the scale bar and the north arrow.
 _SCALE_PART, _NORTH_PART = (0.0, 0.0, 0.31, 0.065), (0.9, 0.0, 1.0, 0.105)
 
 
 def name_site(ax: Axes, site: Site) -> None:
-    """Write all names of a site that was drawn on axes that keep their place."""
+    """Write all names of a site on axes whose position and limits are final."""
     labels = labels_on(ax, site)
     name_markers(labels, site)
     name_ground(ax, labels, site)
 
 
 def labels_on(ax: Axes, site: Site) -> Labels:
-    """Return what writes names between the trees of a site, off its scale bar, north arrow, markers and gates."""
+    """Return labels that avoid the trees, scale bar, north arrow, markers and gates of a site."""
     labels = Labels(ax, site.xy, math.sqrt(tree_size(ax, site)) / 2)
     labels.keep_part_free(*_SCALE_PART)
     labels.keep_part_free(*_NORTH_PART)
@@ -48,7 +48,7 @@ def name_markers(labels: Labels, site: Site) -> None:
 
 
 def name_ground(ax: Axes, labels: Labels, site: Site, *, row_ink: str | None = colours.ROW_INK) -> None:
-    """Write the names of zones, gates, blocks and rows; without an ink those of rows in the colours of their dots."""
+    """Write the names of zones, gates, blocks and rows; row names are in ``row_ink``, else in the colour of the row."""
     name_zones(labels, site)
     for gate in site.gates:
         words = short(gate.place.id, 24)
@@ -70,7 +70,7 @@ def name_zones(labels: Labels, site: Site) -> None:
 
 
 def _around(at: XY, size: XY) -> list[XY]:
-    """Below, above, right and left of a symbol."""
+    """Return spots below, above, right and left of a symbol."""
     (x, y), (width, height) = at, size
     over, beside = 7.5 + height / 2, 8.0 + width / 2
     return [(x, y - over), (x, y + over), (x + beside, y), (x - beside, y)]

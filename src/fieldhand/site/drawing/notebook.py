@@ -1,4 +1,4 @@
-"""A site as HTML for notebooks: its picture and the facts of it."""
+"""Show a site as HTML in notebooks: its picture and description."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _DPI = 90
 
 
 def html_of_site(site: Site) -> str:
-    """Return the picture of a site and its description."""
+    """Return the picture and the description of a site as HTML."""
     from fieldhand.site.describe.lines import report_lines
     from fieldhand.site.drawing.picture import site_picture
 

@@ -1,4 +1,4 @@
-"""Draw the picture of a site as it was understood, for the grower to check."""
+"""Draw the picture of a site with the derived rows and aisles, for the grower to check."""
 
 from __future__ import annotations
 
@@ -30,39 +30,39 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: Inches: the map's height for an orchard and for a very large one, its least width, and the strips above and below.
+#: Inches: height of the map, also for a very large site, its least width, strips above and below, and margin.
 _HEIGHT_IN, _LARGE_HEIGHT_IN, _LEAST_WIDTH_IN, _HEAD_IN, _FOOT_IN, _MARGIN_IN = 9.0, 13.0, 5.5, 0.62, 0.4, 0.15
 _LARGE = 20_000
-#: Inches that an entry of the legend takes.
+#: Width in inches of an entry of the legend.
 _ENTRY_IN = 1.2
-#: Points beyond the ends of the rows for their names: a letter's width, and the most for all of them.
+#: Room in points for row names beyond the ends of the rows: width of a letter, and the maximum.
 _LETTER, _MOST_FOR_NAMES = 5.6, 90.0
 
 
 def save_site_picture(
     site: Site, path: Path, network: DrivableNetwork | None = None, driving: DrivingSummary | None = None
 ) -> None:
-    """Draw the site into a picture file; the ending says which kind (``.png``, ``.svg``, ``.pdf``).
+    """Draw the site into a picture file; the extension selects the format (``.png``, ``.svg``, ``.pdf``).
 
     Args:
-        site: Drawn.
-        path: Written.
+        site: Site to draw.
+        path: File to write.
         network, driving: As for :func:`site_picture`.
 
     Raises:
-        OutputError: The file cannot be written, or its ending is of no kind of picture.
+        OutputError: The file cannot be written, or its extension is not that of a picture format.
     """
     figure = site_picture(site, network, driving)
     save_figure(figure, path)
 
 
 def site_picture(site: Site, network: DrivableNetwork | None = None, driving: DrivingSummary | None = None) -> Figure:
-    """The picture as a figure that belongs to no window.
+    """Return the picture as a figure without a window.
 
     Args:
-        site: Its rows coloured, with all else that is known of it.
-        network: Where a robot drives, if that is to be in it.
-        driving: The same robot: how wide it is, which aisles it cannot drive along, which trees it cannot reach.
+        site: Site to draw, with coloured rows.
+        network: Drivable lines of a robot, if they are to be drawn.
+        driving: Width, closed aisles and unreachable trees of the same robot.
     """
     figure = _figure(site)
     ax = figure.axes[0]
@@ -84,7 +84,7 @@ def site_picture(site: Site, network: DrivableNetwork | None = None, driving: Dr
 
 
 def _figure(site: Site) -> Figure:
-    """A figure whose axes have exactly the shape of the site, so that names can be measured before it is drawn."""
+    """Return a figure whose axes have exactly the shape of the site, so that names can be measured before drawing."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
@@ -108,14 +108,14 @@ def _figure(site: Site) -> Figure:
 
 
 def _room_for_names(site: Site, metre: float) -> float:
-    """Points that the names of rows need beside the margin that is there anyway."""
+    """Return the points that row names need in addition to the margin."""
     longest = max((len(short(row.name, LONGEST_NAME)) for row in site.planting.rows), default=0)
     margin = 0.05 * float(np.ptp(site.xy, axis=0).max()) * metre
     return max(0.0, min(longest * _LETTER + 10.0, _MOST_FOR_NAMES) - margin)
 
 
 def _write_names(ax: Axes, site: Site) -> None:
-    """What matters most is named first, and keeps its place."""
+    """Write the names, the most important first, so that they get the best places."""
     labels = labels_on(ax, site)
     name_markers(labels, site)
     name_ground(ax, labels, site, row_ink=None)
@@ -131,7 +131,7 @@ def _write_head(figure: Figure, site: Site) -> None:
 
 
 def _in_short(site: Site) -> str:
-    """The site in a line: trees, rows, blocks, and how many trees are in no row."""
+    """Return the numbers of trees, rows, blocks and trees in no row in one line."""
     planting = site.planting
     words = [f"{len(site.trees):,} tree{'s' * (len(site.trees) > 1)}"]
     if planting.rows:
@@ -146,7 +146,7 @@ def _in_short(site: Site) -> str:
 
 
 def _write_legend(figure: Figure, site: Site, network: DrivableNetwork | None, driving: DrivingSummary | None) -> None:
-    """What the marks mean, of those that are there."""
+    """Write the legend of the symbols that occur."""
     from matplotlib.lines import Line2D
 
     planting = site.planting

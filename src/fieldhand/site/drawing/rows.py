@@ -1,4 +1,4 @@
-"""Rows on a picture: coloured so that neighbours tell apart, with their names at both ends."""
+"""Draw rows in alternating colours, with their names at both ends."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ if TYPE_CHECKING:
 
 _STEPS = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
 LONGEST_NAME = 16
-#: Points from the last tree of a row to its name, and more of them where something else is there.
+#: Distance in points from the last tree of a row to its name, and additional distances to try.
 _GAP, _FARTHER = 3.0, (0.0, 7.0, 13.0)
-#: More trees than this are not named; nor are trees so near to each other that no name has room, in points.
+#: Trees are named only up to this number, and from this spacing in points on.
 _MOST_IDS, _LEAST_ROOM = 400, 9.0
 
 
 def draw_rows(ax: Axes, site: Site) -> None:
-    """The trees of each row in its colour with a line through them; trees in no row grey."""
+    """Draw the trees of each row in its colour with a line through them, and trees in no row in grey."""
     from matplotlib.collections import LineCollection
     from matplotlib.colors import to_rgb
 
@@ -55,10 +55,13 @@ def draw_rows(ax: Axes, site: Site) -> None:
 
 
 def name_rows(ax: Axes, labels: Labels, site: Site, *, ink: str | None = None) -> None:
-    """Names at both ends of the rows: of all, or where they stand too close of every second, fifth, tenth ...
+    """Write names at both ends of the rows: of all rows, or of every second, fifth, tenth ... if they are too close.
 
     Args:
-        ink: Their colour; None for that of each row's dots.
+        ax: Axes of the map.
+        labels: Labels of the map.
+        site: Site that is drawn.
+        ink: Colour of the names; None for that of each row's dots.
     """
     for block in site.planting.blocks:
         apart = (block.row_spacing_m if block.row_spacing_m == block.row_spacing_m else 10.0) * points_a_metre(ax)
@@ -67,7 +70,7 @@ def name_rows(ax: Axes, labels: Labels, site: Site, *, ink: str | None = None) -
         turn = math.radians(90.0 - block.bearing_deg)
         sizes = [labels.size(name, font, bold=True) for name in names]
         room = max(abs(math.sin(turn)) * w + abs(math.cos(turn)) * h for w, h in sizes) + 2.0
-        along = room > apart and max(w for w, _ in sizes) > 1.6 * font  # long names run along their rows
+        along = room > apart and max(w for w, _ in sizes) > 1.6 * font  # long names are written along their rows
         if along:
             room = font * 1.05 + 2.0
         step = next((s for s in _STEPS if s * apart >= room), _STEPS[-1])
@@ -82,7 +85,7 @@ def name_rows(ax: Axes, labels: Labels, site: Site, *, ink: str | None = None) -
 
 
 def name_rows_within(ax: Axes, labels: Labels, site: Site) -> None:
-    """Write names at both ends of what the axes show of each row; of every second, fifth ... where they crowd."""
+    """Write names at both ends of the visible part of each row; of every second, fifth ... row if too close."""
     font, near, inside = 8.0, 1.5 * site.spacing_m, _shown(ax, site)
     for block in site.planting.blocks:
         there = [(row, row.trees[inside[row.trees]]) for row in block.rows if inside[row.trees].any()]
@@ -103,21 +106,21 @@ def name_rows_within(ax: Axes, labels: Labels, site: Site) -> None:
 
 
 def _out(site: Site, row: Row, end: int) -> XY:
-    """Return the direction in which a row ends, of length 1."""
+    """Return the unit vector that points outwards at an end of a row."""
     way = (site.xy[row.trees[0]] - site.xy[row.trees[-1]]) * (1.0 if end == 0 else -1.0)
     length = float(np.hypot(*way))
     return (float(way[0]) / length, float(way[1]) / length) if length else (0.0, 1.0)
 
 
 def _shown(ax: Axes, site: Site) -> NDArray[np.bool_]:
-    """Return for each tree whether the axes show it, shape (n,)."""
+    """Return a mask of the trees within the limits of the axes, shape (n,)."""
     (west, east), (south, north) = ax.get_xlim(), ax.get_ylim()
     x, y = site.xy[:, 0], site.xy[:, 1]
     return np.asarray((west < x) & (x < east) & (south < y) & (y < north), dtype=np.bool_)
 
 
 def name_trees(ax: Axes, labels: Labels, site: Site) -> None:
-    """The ids of trees beside them, where few are shown and each has room."""
+    """Write the ids of trees beside them, if few are visible and there is room."""
     room = site.spacing_m * points_a_metre(ax)
     shown = _shown(ax, site)
     if int(shown.sum()) > _MOST_IDS or room < _LEAST_ROOM:
@@ -139,14 +142,14 @@ def name_trees(ax: Axes, labels: Labels, site: Site) -> None:
 
 
 def _worth_naming(block: Block, step: int) -> list[int]:
-    """Positions of the rows to be named, the more important first."""
+    """Return the indices of the rows to be named, the more important first."""
     last = len(block.rows) - 1
     round_ones = [k for k in range(last + 1) if block.rows[k].number % step == 0 or step == 1]
     return list(dict.fromkeys([0, *round_ones, last]))
 
 
 def _beyond(ax: Axes, labels: Labels, site: Site, row: Row, end: int, turn: float, size: XY, along: bool) -> list[XY]:
-    """Spots just beyond the last tree of a row, on its line, the nearest first."""
+    """Return spots just beyond the last tree of a row, in line with it, nearest first."""
     last = site.xy[row.trees[end]]
     way = site.xy[row.trees[0]] - site.xy[row.trees[-1]]
     if len(row.trees) < 2 or not way.any():

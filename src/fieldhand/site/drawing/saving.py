@@ -1,4 +1,4 @@
-"""Pictures into files."""
+"""Save figures as picture files."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-#: Kinds of pictures, by the endings of their names.
+#: Extensions of the picture formats.
 _KINDS = (".png", ".svg", ".pdf", ".jpg", ".jpeg")
 
 
@@ -21,13 +21,15 @@ _PICTURE = message("picture", context="file")
 
 
 def save_figure(figure: Figure, path: Path, *, what: str = _PICTURE) -> None:
-    """Write a figure, making its folder; the ending of the path says as what kind of picture.
+    """Write a figure and create its folder; the extension of the path selects the format.
 
     Args:
-        what: What it is called in an error.
+        figure: Figure to write.
+        path: File to write.
+        what: Name of the file in error messages.
 
     Raises:
-        OutputError: The file cannot be written, or its ending is of no kind of picture.
+        OutputError: The file cannot be written, or its extension is not that of a picture format.
     """
     require_picture(path)
     try:
@@ -43,9 +45,9 @@ def save_figure(figure: Figure, path: Path, *, what: str = _PICTURE) -> None:
 
 
 def make_text_visible(figure: Figure) -> None:
-    """Replace hidden characters in every text of a figure by their code points; no dollar sign begins a formula.
+    """Replace hidden characters in every text of a figure by their code points, and disable formulas.
 
-    To be called before anything of it is drawn or measured.
+    Call it before the figure is drawn or measured.
     """
     from matplotlib.text import Text
 
@@ -56,10 +58,10 @@ def make_text_visible(figure: Figure) -> None:
 
 
 def require_picture(path: Path) -> None:
-    """Refuse an ending that is of no kind of picture.
+    """Check the extension of a picture file.
 
     Raises:
-        OutputError: It is of none.
+        OutputError: The extension is not that of a picture format.
     """
     if path.suffix.lower() not in _KINDS:
         raise OutputError(
