@@ -179,10 +179,10 @@ def _entered_twice(
                 "",
             )
         return again, []
-    said = ", ".join(f"{a} and {b}" for a, b in pairs[:_MOST_PAIRS])
+    listing = ", ".join(f"{a} and {b}" for a, b in pairs[:_MOST_PAIRS])
     more = f" and {len(pairs) - _MOST_PAIRS} more pairs" if len(pairs) > _MOST_PAIRS else ""
     return np.zeros_like(again), [
-        f"trees within {SAME_TREE_M:g} m of one another, probably entered twice: {faults.unit}s {said}{more}"
+        f"trees within {SAME_TREE_M:g} m of one another, probably entered twice: {faults.unit}s {listing}{more}"
     ]
 
 
@@ -276,8 +276,8 @@ def _notes(features: FeatureSet, faults: Faults) -> list[str]:
         notes.append(f"a polygon that was not closed was closed: {numbered(faults.unit, features.closed)}")
     landmarks = Counter(p.word.lower()[:30] for p in features.points if p.kind == "landmark")
     if landmarks:
-        said = ", ".join(f"{n} x {word}" for word, n in landmarks.most_common(5))
-        notes.append(f"points that are no trees were left out: {said}")
+        listing = ", ".join(f"{n} x {word}" for word, n in landmarks.most_common(5))
+        notes.append(f"points that are no trees were left out: {listing}")
     if features.lines:
         notes.append(
             f"{features.lines} line{'s' * (features.lines > 1)} left out: of lines only those are used"

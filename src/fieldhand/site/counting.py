@@ -125,18 +125,18 @@ def trees_from(site: Site, block: Block, side: CountedFrom) -> tuple[int, str]:
     return -way, side
 
 
-def find_block(site: Site, said: str) -> Block | None:
+def find_block(site: Site, name: str) -> Block | None:
     """Return the block of a name, else of a number from 1; None if there is none."""
     blocks = site.planting.blocks
-    exact = [b for b in blocks if b.name == said]
-    alike = exact or [b for b in blocks if bare_name(b.name) == bare_name(said)]
+    exact = [b for b in blocks if b.name == name]
+    alike = exact or [b for b in blocks if bare_name(b.name) == bare_name(name)]
     if alike:
         return alike[0]
-    number = bare_name(said)
+    number = bare_name(name)
     return blocks[int(number) - 1] if number.isdecimal() and 0 < int(number[:9]) <= len(blocks) else None
 
 
-def find_row(rows: Sequence[Row], said: str, *, by_number: bool = False) -> int | None:
+def find_row(rows: Sequence[Row], name: str, *, by_number: bool = False) -> int | None:
     """Return the index of the row with a name or number; None if there is none.
 
     The full name is tried first, then the number in the name ("3" is "R03" if all rows have such names), then the
@@ -144,14 +144,14 @@ def find_row(rows: Sequence[Row], said: str, *, by_number: bool = False) -> int 
 
     Args:
         rows: Rows in counting order.
-        said: A name or a number.
+        name: A name or a number.
         by_number: Treat numbers as positions in counting order, regardless of the names.
     """
-    number = int(said) if re.fullmatch(r"-?\d{1,9}", said.strip()) else None
+    number = int(name) if re.fullmatch(r"-?\d{1,9}", name.strip()) else None
     if not by_number or number is None:
-        exact = [k for k, row in enumerate(rows) if row.name == said]
+        exact = [k for k, row in enumerate(rows) if row.name == name]
         counts_back = number is not None and number < 0
-        alike = exact or [k for k, r in enumerate(rows) if not counts_back and bare_name(r.name) == bare_name(said)]
+        alike = exact or [k for k, r in enumerate(rows) if not counts_back and bare_name(r.name) == bare_name(name)]
         if alike:
             return alike[0]
         own = _own_numbers(tuple(row.name for row in rows))
@@ -175,8 +175,8 @@ def row_words(site: Site, row: Row) -> str:
     """Return a row in words: "row 3", with its block if there are several."""
     name = bare_name(row.name) if phrase(row.name).startswith("row ") else row.name
     blocks = site.planting.blocks
-    said = message("row {name}", name=name)
-    return message("{rows} of {block}", rows=said, block=block_words(blocks[row.block])) if len(blocks) > 1 else said
+    words = message("row {name}", name=name)
+    return message("{rows} of {block}", rows=words, block=block_words(blocks[row.block])) if len(blocks) > 1 else words
 
 
 def block_words(block: Block) -> str:

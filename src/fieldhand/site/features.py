@@ -130,13 +130,13 @@ def gate_width_m(properties: Mapping[str, Value]) -> float:
     Raises:
         UnusableFeature: The width is not a number of metres from 0.1 to 100.
     """
-    said = text_of(properties, _GATE_KEYS)
-    if not said:
+    width_text = text_of(properties, _GATE_KEYS)
+    if not width_text:
         return USUAL_GATE_M
-    match = _METRES.fullmatch(said.replace(",", "."))
+    match = _METRES.fullmatch(width_text.replace(",", "."))
     width = float(match[1]) if match else math.nan
     if not 0.1 <= width <= 100.0:
-        raise UnusableFeature(f"its width is {_shown(said)}", "write it in metres, from 0.1 to 100, as width_m")
+        raise UnusableFeature(f"its width is {_shown(width_text)}", "write it in metres, from 0.1 to 100, as width_m")
     return width
 
 
@@ -146,12 +146,12 @@ def _keeps_out(feature: Any) -> bool:
     properties = feature.get("properties") if known else getattr(feature, "properties", None)
     if not isinstance(properties, Mapping):
         return False
-    said = {k: v for k, v in properties.items() if isinstance(v, str | bool)}
+    texts = {k: v for k, v in properties.items() if isinstance(v, str | bool)}
     geometry = feature.get("geometry") if known else None
     kind = str(geometry.get("type", "")) if isinstance(geometry, dict) else ""
     if "Point" in kind:
         return False
-    return area_kind(said)[0] != "zone" or bool(barrier_name(said))
+    return area_kind(texts)[0] != "zone" or bool(barrier_name(texts))
 
 
 class _FeatureReader:

@@ -2,9 +2,6 @@
 
 Points become trees, markers and gates; polygons become boundary, keep-outs and named zones; fences, ditches and similar
 lines become thin keep-outs.
-
-Points become trees, markers and gates; polygons become boundary, keep-outs and named zones; fences and their
-like become thin keep-outs.
 """
 
 from __future__ import annotations

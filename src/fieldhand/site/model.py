@@ -50,12 +50,12 @@ class Place:
 
     @classmethod
     def of_robot(cls, xy: tuple[float, float], *, lat: float, lon: float, name: str = "on the way") -> Place:
-        """Return the point where a robot is, as a place of its own: by default one between two stops.
+        """Return the position of a robot as a place, by default between two stops.
 
         Args:
             xy: Metres east and north in the site's projection.
-            lat, lon: The same in degrees, WGS 84.
-            name: Its name.
+            lat, lon: The same position in degrees, WGS 84.
+            name: Name of the place.
         """
         return cls(kind="point", id=name, x=xy[0], y=xy[1], lat=lat, lon=lon, stand=xy)
 

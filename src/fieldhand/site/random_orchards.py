@@ -188,8 +188,8 @@ def make_orchard(
         for r, b, s in zip(row_of, block_of, position, strict=True)
     ]
     points = [
-        {"type": "Feature", "properties": said, "geometry": {"type": "Point", "coordinates": place}}
-        for said, place in zip(properties, degrees, strict=True)
+        {"type": "Feature", "properties": tree, "geometry": {"type": "Point", "coordinates": place}}
+        for tree, place in zip(properties, degrees, strict=True)
     ]
     return GeneratedOrchard(
         collection={"type": "FeatureCollection", "name": "made orchard", "features": [*features, *points]},
@@ -339,9 +339,9 @@ def _strays(rng: np.random.Generator, blocks: Sequence[Points], shapes: Sequence
 def _properties(named: Named, row: int, block: int, position: int) -> dict[str, Any]:
     if named == "none" or block < 0:
         return {"kind": "tree"}
-    said: dict[str, Any] = {"kind": "tree", "row": row}
+    properties: dict[str, Any] = {"kind": "tree", "row": row}
     if named != "rows":
-        said["block"] = chr(ord("A") + block % 26) + "A" * (block // 26)
+        properties["block"] = chr(ord("A") + block % 26) + "A" * (block // 26)
     if named == "everything":
-        said["position"] = position
-    return said
+        properties["position"] = position
+    return properties

@@ -200,16 +200,16 @@ def driving_lines(driving: DrivingSummary) -> list[str]:
 
 def _narrow_words(d: DrivingSummary) -> str:
     words = [
-        f"{len(names)} {said}: {_few([name.removeprefix('aisle ') for name in names])}"
-        for names, said in ((d.closed, "cannot be driven along"), (d.narrow, "narrower than the robot in places"))
+        f"{len(names)} {predicate}: {_few([name.removeprefix('aisle ') for name in names])}"
+        for names, predicate in ((d.closed, "cannot be driven along"), (d.narrow, "narrower than the robot in places"))
         if names
     ]
     return "; " + "; ".join(words) if words else ""
 
 
 def _few(names: Sequence[str]) -> str:
-    told = ", ".join(shortened(name) for name in names[:_FEW])
-    return told + (f" and {len(names) - _FEW:,} more" if len(names) > _FEW else "")
+    text = ", ".join(shortened(name) for name in names[:_FEW])
+    return text + (f" and {len(names) - _FEW:,} more" if len(names) > _FEW else "")
 
 
 def _count(count: int, noun: str) -> str:

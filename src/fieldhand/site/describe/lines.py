@@ -82,8 +82,8 @@ def _planting_lines(s: SiteSummary, most: int) -> list[str]:
     )
     if s.in_no_row:
         ids = ", ".join(s.in_no_row_ids) + (" ..." if s.in_no_row > len(s.in_no_row_ids) else "")
-        said = s.why_no_row or f"{s.in_no_row:,} tree{'s' * (s.in_no_row != 1)} in no row"
-        lines.append(f"{_capital(said)}: {ids}.")
+        text = s.why_no_row or f"{s.in_no_row:,} tree{'s' * (s.in_no_row != 1)} in no row"
+        lines.append(f"{_capital(text)}: {ids}.")
     return lines
 
 
@@ -95,8 +95,8 @@ def _row_lines(site: Site, s: SiteSummary, *, all_rows: bool) -> list[str]:
     several = len(s.blocks) > 1
     if all_rows or s.rows <= _MOST_ROWS:
         return [*lines, *(f"  {line}" for line in table_lines(row_table(site), several=several))]
-    told = itertools.chain.from_iterable(_ends_of(b.shortest, b.longest, several) for b in s.blocks)
-    return [*lines, *told, f"  (--rows lists all {s.rows:,} rows)"]
+    row_ends = itertools.chain.from_iterable(_ends_of(b.shortest, b.longest, several) for b in s.blocks)
+    return [*lines, *row_ends, f"  (--rows lists all {s.rows:,} rows)"]
 
 
 def _ends_of(shortest: RowSummary, longest: RowSummary, several: bool) -> Iterator[str]:

@@ -121,8 +121,8 @@ def block_words(block: BlockSummary, *, several: bool) -> str:
     gaps = f", {_positions(block.missing)} empty" if block.missing else ""
     parts.append(f"{block.trees:,} tree{'s' * (block.trees != 1)}{gaps}")
     name = block_name(block.name)
-    said = f"{name}: {', '.join(parts)}" if several else _capital(", ".join(parts))
-    return f"{said}; {_known_words(block.known, block.confidence)}."
+    text = f"{name}: {', '.join(parts)}" if several else _capital(", ".join(parts))
+    return f"{text}; {_known_words(block.known, block.confidence)}."
 
 
 def counting_words(block: BlockSummary) -> str:

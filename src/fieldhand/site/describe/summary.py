@@ -115,13 +115,13 @@ class _Summary:
                     zones.setdefault(zone.name, []).append(zone)
             if not zones:
                 continue
-            said = self._names(list(zones), title.lower())
+            text = self._names(list(zones), title.lower())
             if kind == "zone" and len(zones) <= min(self._most, 12):
                 parts = (
                     f"{shortened(name, self._longest)} ({self._inside(same):,} trees)" for name, same in zones.items()
                 )
-                said = ", ".join(parts)
-            yield f"{title}: {said}."
+                text = ", ".join(parts)
+            yield f"{title}: {text}."
 
     def _inside(self, zones: Sequence[Zone]) -> int:
         import shapely

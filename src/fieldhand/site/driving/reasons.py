@@ -42,12 +42,12 @@ def cut_off(layout: Layout, spots: Sequence[Spot], start: Spot) -> str:
 
 def _narrow(widths: Sequence[float | None], robot_m: float) -> str:
     found = sorted({max(width, 0.0) for width in widths if width is not None})
-    said = _together(tuple(dict.fromkeys(message("{number} m", number=_metres(width)) for width in found)))
+    text = _together(tuple(dict.fromkeys(message("{number} m", number=_metres(width)) for width in found)))
     return counted(
         "the aisle beside it is {width} wide, the robot is {robot} m",
         "the aisles beside it are {width} wide, the robot is {robot} m",
         len(widths),
-        width=said,
+        width=text,
         robot=_metres(robot_m),
     )
 
@@ -58,10 +58,10 @@ def _metres(value: float) -> str:
 
 def _together(parts: Sequence[str]) -> str:
     """Join clauses with "and"."""
-    said = parts[0]
+    text = parts[0]
     for part in parts[1:]:
-        said = message("{clause} and {other}", clause=said, other=part)
-    return said
+        text = message("{clause} and {other}", clause=text, other=part)
+    return text
 
 
 def _ends(layout: Layout, aisle: Aisle, spot: Spot) -> str:

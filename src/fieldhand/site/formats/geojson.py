@@ -76,8 +76,8 @@ def _crs(document: Mapping[str, Any], at: str, *, lenient: bool) -> tuple[str, .
     if "crs" not in document:
         return ()
     named = document["crs"]
-    said = str(named.get("properties", "")).lower() if isinstance(named, dict) else ""
-    if not any(known in said for known in _DEGREES_CRS):
+    crs_text = str(named.get("properties", "")).lower() if isinstance(named, dict) else ""
+    if not any(known in crs_text for known in _DEGREES_CRS):
         raise SiteError(
             'it has a "crs" member that does not say WGS 84, and GeoJSON is always WGS 84 (RFC 7946)',
             where=at,

@@ -1,7 +1,7 @@
 """Readers of the built-in formats, as entry points of the group ``fieldhand.formats``.
 
-The name of an entry point is the ending of a file's name without its dot. Its value is a reader: it takes the files of
-a site (:class:`~fieldhand.site.formats.files.SiteFiles`) and ``lenient``, and returns the features
+The name of an entry point is a file extension without its dot. Its value is a reader: it takes the files of a site
+(:class:`~fieldhand.site.formats.files.SiteFiles`) and ``lenient``, and returns the features
 (:class:`~fieldhand.site.formats.records.SiteRecords`), or raises a :class:`~fieldhand.errors.SiteError`.
 """
 

@@ -36,15 +36,15 @@ def combine(xy: Floats, named: NamedRows, seen: Sequence[InferredBlock]) -> Foun
     members = groups(row_of, len(names))
     block_key = _block_keys(xy, named, members, seen_row, seen_block, list(seen))
     blocks = list(dict.fromkeys(block_key))
-    said = [isinstance(key, str) for key in blocks]
+    is_named = [isinstance(key, str) for key in blocks]
     return FoundRows(
         row_of=row_of,
         block_of=np.array([blocks.index(key) for key in block_key], dtype=np.intp),
         names=names,
         known=known,
         sure=confidence,
-        block_names=[str(key) if own else "" for key, own in zip(blocks, said, strict=True)],
-        block_known=["file" if own else "inferred" for own in said],
+        block_names=[str(key) if own else "" for key, own in zip(blocks, is_named, strict=True)],
+        block_known=["file" if own else "inferred" for own in is_named],
         block_sure=_block_sure(blocks, block_key, known, members, seen_row, seen_block, list(seen)),
         positions=named.positions,
         why=_why(row_of),
@@ -94,9 +94,9 @@ def _rows(
 
 def _by_block(trees: Indices, block_names: Sequence[str]) -> list[Indices]:
     """Split an inferred row where the file assigns its consecutive trees to another block."""
-    said = [block_names[k] for k in trees]
-    changes = [k for k in range(1, len(said)) if said[k] != said[k - 1]]
-    if not changes or len(changes) + 1 > len(set(said)):
+    names = [block_names[k] for k in trees]
+    changes = [k for k in range(1, len(names)) if names[k] != names[k - 1]]
+    if not changes or len(changes) + 1 > len(set(names)):
         return [trees]
     return np.split(trees, changes)
 
@@ -138,8 +138,8 @@ def _block_keys(
 
 def _named_block(named: NamedRows, trees: Indices) -> str:
     """Return the block that the file names for these trees; empty if it names none or several."""
-    said = {named.block_names[k] for k in trees}
-    return said.pop() if len(said) == 1 else ""
+    names = {named.block_names[k] for k in trees}
+    return names.pop() if len(names) == 1 else ""
 
 
 def _beside(xy: Floats, rows: Sequence[Indices]) -> list[int]:

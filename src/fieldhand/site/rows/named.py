@@ -45,9 +45,11 @@ def named_rows(rows: Sequence[str], properties: Sequence[Mapping[str, Value]], x
     rows, in different blocks.
     """
     count = len(xy)
-    blocks = [text_of(said, BLOCK_KEYS) for said in properties]
-    columns = [text_of(said, COLUMN_KEYS) for said in properties]
-    positions = np.array([_number(text_of(said, POSITION_KEYS)) for said in properties], dtype=np.float64)
+    blocks = [text_of(tree_properties, BLOCK_KEYS) for tree_properties in properties]
+    columns = [text_of(tree_properties, COLUMN_KEYS) for tree_properties in properties]
+    positions = np.array(
+        [_number(text_of(tree_properties, POSITION_KEYS)) for tree_properties in properties], dtype=np.float64
+    )
     for names, along in ((rows, columns), (columns, rows)):
         if not any(names):
             continue
