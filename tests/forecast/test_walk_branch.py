@@ -5,6 +5,7 @@ from itertools import pairwise
 import pytest
 
 from fieldhand.errors import PlaceError, TaskError
+from fieldhand.forecast import request_handler
 from fieldhand.forecast.branches import branches
 from fieldhand.forecast.walk_branch import walk_branch
 from fieldhand.places.selectors import Bound, Here, Marker, Nearest, NotVisited, TreeIs, Trees, Where
@@ -179,16 +180,19 @@ def test_a_failing_action_inside_a_try_is_a_branch():
 
 
 @pytest.mark.parametrize("body", [picture(), GoTo(id="", place=Here())], ids=["with captures", "without any step"])
-def test_a_walk_without_end_in_sight_is_refused_with_its_node(body):
+def test_a_walk_without_end_in_sight_is_refused_with_its_node(body, monkeypatch):
+    monkeypatch.setattr(request_handler, "MAX_NODES", 5_000)  # the limit itself takes many seconds to reach
     plan = Repeat(id="", times=1000, body=Repeat(id="", times=1000, body=body))
-    with pytest.raises(TaskError, match="the plan has more than 100,000 steps") as caught:
+    with pytest.raises(TaskError, match="the plan has more than 5,000 steps") as caught:
         walked(plan)
     assert caught.value.where in ("n2", "n3")
     assert caught.value.advice
 
 
-def test_long_walks_are_not_walked_again_and_again():
-    long = Repeat(id="", times=200, body=Repeat(id="", times=300, body=picture()))
+def test_long_walks_are_not_walked_again_and_again(monkeypatch):
+    monkeypatch.setattr("fieldhand.forecast.branches.MAX_STEPS", 2_000)  # a twentieth of the limits that hold
+    monkeypatch.setattr("fieldhand.forecast.branches.MAX_STEPS_ALIKE", 10_000)
+    long = Repeat(id="", times=10, body=Repeat(id="", times=300, body=picture()))
     assert branches(task_for(SITE, long), SITE, ROBOT).complete
     look = picture(reading="r")
     choices = [look, If(id="", condition=LOW, then=picture(at=tree("2")), otherwise=picture(count=2))] * 4
