@@ -1,4 +1,4 @@
-"""Driving among rows: along aisles and headlands, never through a tree line, a keep-out or the boundary."""
+"""Test drives among rows: along aisles and headlands, never through a tree line, a keep-out or the boundary."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ def trees_of(site: Site, *ids: int):
     return [site.trees[k - 1].place for k in ids]
 
 
-# --- the independent check ---------------------------------------------------------------------------------------
+# --- independent check -------------------------------------------------------------------------------------------
 
 
 def wrong(site: Site, way: Drive) -> str:
-    """What a drive does that no drive may do, looked at from the site alone."""
+    """Return the violations of a drive, checked against the site alone."""
     line = LineString(way.points)
     for row in site.planting.rows:
         if len(row.trees) > 1 and line.intersects(LineString(site.xy[row.trees])):
@@ -73,7 +73,7 @@ def test_no_drive_crosses_a_tree_line_a_keep_out_or_the_boundary(seed):
 
 @settings(max_examples=25, deadline=None)
 @given(st.integers(0, 10**6))
-def test_lengths_are_those_of_the_drives_and_a_metric(seed):
+def test_lengths_equal_the_drives_and_form_a_metric(seed):
     site = generated(seed)
     drives = Drives(site, CLEARANCE, STANDOFF)
     assume(not drives.problem(site.start))
@@ -109,7 +109,7 @@ def test_a_tree_is_worked_on_from_beside_it_and_from_its_own_side_of_the_row(see
 
 
 @pytest.mark.parametrize("seed", range(7))
-def test_drives_are_about_as_short_as_a_grid_search_finds(seed):
+def test_drives_are_about_as_short_as_a_grid_search(seed):
     site = generated(1000 + seed)
     drives = Drives(site, CLEARANCE, STANDOFF)
     trees = [t.place for t in site.trees if not drives.problem(t.place)]
@@ -125,7 +125,7 @@ def test_drives_are_about_as_short_as_a_grid_search_finds(seed):
 
 
 class _Grid:
-    """Ways over a raster of 0.5 m, of 16 neighbours, clear of rows, keep-outs and the boundary."""
+    """Return paths over a 16-connected grid of 0.5 m, clear of rows, keep-outs and the boundary."""
 
     def __init__(self, site: Site, cell: float = 0.5) -> None:
         near = 0.9 * CLEARANCE
@@ -193,18 +193,18 @@ def test_along_one_aisle_a_drive_is_the_straight_line():
     assert way.length_m == pytest.approx(math.hypot(22 * 4.0, 3.0))
 
 
-def test_to_the_other_side_of_a_row_the_way_leads_around_its_end():
+def test_the_path_to_the_other_side_of_a_row_leads_around_its_end():
     site = upright(3, 21)
     drives = Drives(site, CLEARANCE, STANDOFF)
     west = replace(site.trees[30].place, stand=(4.5, 36.0))  # the tenth tree of the middle row, from its west
     east = replace(site.trees[30].place, stand=(7.5, 36.0))
     way = drives.between(west, east)
-    # down 36 m and out by the standoff, around the end of the row at the clearance to either side, and back up
+    # down 36 m, around the end of the row at the clearance on either side, and back up
     assert way.length_m == pytest.approx(2 * math.hypot(1.5 - CLEARANCE, 37.5) + 2 * CLEARANCE)
     assert wrong(site, way) == ""
 
 
-def test_missing_trees_are_no_gap_to_drive_through():
+def test_no_drive_passes_through_a_gap_of_missing_trees():
     rows = [[(6.0 * r, 4.0 * k) for k in range(12) if r != 1 or k not in (4, 5, 6, 7)] for r in range(3)]
     site = planted([(0.0, rows)])
     drives = Drives(site, CLEARANCE, STANDOFF)
@@ -221,7 +221,7 @@ def test_the_trees_of_neighbouring_rows_share_the_aisle_between_them():
     assert aisles == {1, 3}  # between rows 2 and 3, and between rows 4 and 5
 
 
-def test_of_equally_few_aisles_the_nearest_are_taken_and_a_stand_that_is_given_stays():
+def test_the_nearest_of_equally_few_aisles_are_chosen_and_existing_stands_are_kept():
     site = upright(5, 5)
     drives = Drives(site, CLEARANCE, STANDOFF)
     third = [t.place for t in site.trees[10:15]]
@@ -232,7 +232,7 @@ def test_of_equally_few_aisles_the_nearest_are_taken_and_a_stand_that_is_given_s
     assert {p.stand[0] for p in standing} == {13.5}  # the robot is in that aisle anyway
 
 
-def test_a_robot_that_has_a_stand_leaves_from_it():
+def test_a_drive_from_a_place_with_a_stand_starts_there():
     site = upright(3, 9)
     drives = Drives(site, CLEARANCE, STANDOFF)
     there = drives.between(site.trees[0].place, site.trees[13].place)
@@ -258,17 +258,17 @@ def replace_zones(site: Site, zones) -> Site:
     return other
 
 
-def test_where_no_tree_stands_in_a_row_trees_are_driven_to_as_they_stand():
+def test_without_rows_the_stand_of_a_tree_is_its_own_position():
     site = planted([], lone=[(0.0, 0.0), (3.0, 4.0)])
     way = Drives(site, CLEARANCE, STANDOFF).between(site.trees[0].place, site.trees[1].place)
     assert way.points == ((0.0, 0.0), (3.0, 4.0))
     assert (way.start.stand, way.end.stand) == ((0.0, 0.0), (3.0, 4.0))
 
 
-# --- what cannot be driven ---------------------------------------------------------------------------------------
+# --- unreachable places ------------------------------------------------------------------------------------------
 
 
-def test_trees_that_cannot_be_reached_are_named_with_the_reason():
+def test_unreachable_trees_are_named_with_the_reason():
     narrow = upright(4, 5, across=0.5)
     says = Drives(narrow, CLEARANCE, STANDOFF).problem(narrow.trees[7].place)
     assert says == "out of reach: the aisles beside it are 0.5 m wide, the robot is 0.7 m"
@@ -313,7 +313,7 @@ def fenced(*gates: tuple[float, float, float], west=WEST, east=EAST) -> Drives:
     return Drives(site, CLEARANCE, STANDOFF)
 
 
-def test_a_fence_between_two_parts_is_passed_at_its_gate_only():
+def test_a_fence_between_two_parts_is_crossed_only_at_its_gate():
     drives = fenced((50.0, 35.0, 3.0))
     way = drives.between(drives.site.trees[0].place, drives.site.trees[1].place)
     crossing = LineString(way.points).intersection(LineString([(50, 0), (50, 40)]))
@@ -322,13 +322,13 @@ def test_a_fence_between_two_parts_is_passed_at_its_gate_only():
 
 
 @pytest.mark.parametrize("gates", [(), ((50.0, 35.0, 0.6),)])
-def test_no_gate_or_one_that_is_too_narrow_is_no_way(gates):
+def test_a_fence_without_a_wide_enough_gate_is_not_crossed(gates):
     drives = fenced(*gates)
     with pytest.raises(DriveFault, match="no way"):
         drives.between(drives.site.trees[0].place, drives.site.trees[1].place)
 
 
-def test_boundaries_that_overlap_are_one_and_a_gate_bridges_a_little_gap():
+def test_overlapping_boundaries_merge_and_a_gate_bridges_a_small_gap():
     overlapping = fenced(east=box(45, 0, 100, 40))
     a, b = (t.place for t in overlapping.site.trees)
     assert overlapping.between(a, b).length_m == pytest.approx(80.0)
@@ -374,10 +374,10 @@ def test_a_site_without_rows_has_no_aisles_to_draw():
     assert drives.network().lines == ()
 
 
-# --- rows in no order --------------------------------------------------------------------------------------------
+# --- irregular rows ----------------------------------------------------------------------------------------------
 
 
-def test_rows_that_a_file_names_across_each_other_are_kept_apart_one_by_one():
+def test_named_rows_that_cross_each_other_form_separate_groups():
     crossing = [[(0.0, 0.0), (30.0, 30.0)], [(0.0, 30.0), (30.0, 0.0)], [(40.0, 0.0), (40.0, 30.0)]]
     site = planted([(0.0, crossing)])
     drives = Drives(site, CLEARANCE, STANDOFF)
@@ -386,7 +386,7 @@ def test_rows_that_a_file_names_across_each_other_are_kept_apart_one_by_one():
     assert way.length_m > 26.0
 
 
-def test_a_lone_row_is_driven_around_at_its_ends():
+def test_a_single_row_is_driven_around_at_its_ends():
     site = planted([(90.0, [[(4.0 * k, 0.0) for k in range(11)]])])
     drives = Drives(site, CLEARANCE, STANDOFF)
     way = drives.between(place_at(30.0, 5.0), place_at(30.0, -5.0))

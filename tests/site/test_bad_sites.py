@@ -1,4 +1,4 @@
-"""Bad site files: every fault is told with its feature, and nothing that keeps a robot out is lost."""
+"""Test bad site files: every fault is reported with its feature, and no keep-out or barrier is lost."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ FAULTS = {
 
 
 @pytest.mark.parametrize("fault", [name for name, (_, says) in FAULTS.items() if says])
-def test_a_fault_is_told_with_its_feature_and_left_out_only_where_that_was_asked_for(fault):
+def test_a_fault_is_reported_with_its_feature_and_skipped_only_if_lenient(fault):
     feature, says = FAULTS[fault]
     message = refused(*TREES, feature)
     assert message.startswith("field.geojson, feature 4: ")
@@ -69,7 +69,7 @@ def test_a_fault_is_told_with_its_feature_and_left_out_only_where_that_was_asked
         assert site.zones == ()
 
 
-def test_an_unclosed_zone_is_closed_where_what_is_sound_was_asked_for():
+def test_a_lenient_reading_closes_an_unclosed_zone():
     site = leniently(*TREES, FAULTS["unclosed zone"][0])
     assert [z.kind for z in site.zones] == ["zone"]
     assert site.notes == ("a polygon that was not closed was closed: feature 4",)
@@ -87,12 +87,12 @@ def test_an_unclosed_zone_is_closed_where_what_is_sound_was_asked_for():
         (geometry("LineString", [[LON + 1, LAT], [LON + 1, LAT + 1e-4]], kind="fence"), "km from the middle"),
     ],
 )
-def test_what_keeps_a_robot_out_is_never_left_out(feature, says):
+def test_features_that_keep_a_robot_out_are_never_skipped(feature, says):
     for lenient in (False, True):
         assert says in refused(*TREES, feature, lenient=lenient)
 
 
-def test_several_faults_are_told_together():
+def test_several_faults_are_reported_together():
     message = refused(
         *TREES,
         {"type": "Feature", "properties": {}},
@@ -113,7 +113,7 @@ def test_several_faults_are_told_together():
     assert "--lenient" in message
 
 
-def test_a_thousand_faults_are_told_in_a_few_words():
+def test_the_report_of_a_thousand_faults_is_short():
     many = [point(LON, LAT + 1e-4, age=float("nan")) for _ in range(500)] + [point(LON, 100.0 + k) for k in range(500)]
     message = refused(*TREES, *many)
     assert "1000 features" in message
@@ -124,7 +124,7 @@ def test_a_thousand_faults_are_told_in_a_few_words():
     assert "left out 491 more features" in site.notes[10]
 
 
-def test_trees_within_20_centimetres_are_told_by_default_and_the_second_left_out_where_asked():
+def test_trees_within_20_centimetres_are_noted_and_the_second_skipped_if_lenient():
     near = point(LON + 1e-6, LAT)  # 9 cm
     apart = point(LON, LAT + 4e-6)  # 44 cm
     features = [*TREES, near, point(LON, LAT), apart]
@@ -138,7 +138,7 @@ def test_trees_within_20_centimetres_are_told_by_default_and_the_second_left_out
     assert "left out features 4 and 5: the tree stands within 0.2 m of that of feature 1" in sound.notes[0]
 
 
-def test_trees_outside_the_boundary_are_refused_by_number():
+def test_trees_outside_the_boundary_are_rejected_by_number():
     fence = area(square(LON, LAT), kind="boundary")
     features = [fence, point(LON, LAT), point(LON + 2e-4, LAT), point(LON + 3e-4, LAT)]
     assert "features 3 and 4 cannot be used: the tree stands outside the boundary" in refused(*features)
@@ -151,14 +151,14 @@ def test_a_tree_on_the_line_of_the_boundary_is_inside():
     assert len(read(area(ends, kind="boundary"), *(point(LON + k * 0.005, LAT) for k in range(5))).trees) == 5
 
 
-def test_trees_in_a_keep_out_stay_and_are_told():
+def test_trees_in_a_keep_out_are_kept_and_noted():
     site = read(*TREES, area(square(LON, LAT, 5e-5), kind="pond", name="pond"))
     assert len(site.trees) == 3
     assert site.notes == ("the tree of feature 1 stands inside the keep-out 'pond' and cannot be visited",)
 
 
 @pytest.mark.parametrize("kind", ["start", "end", "charger"])
-def test_a_marker_where_no_robot_may_stand_is_refused_or_left_out(kind):
+def test_a_marker_on_closed_ground_is_rejected_or_skipped(kind):
     features = [*TREES, point(LON, LAT + 1e-3, kind=kind), area(square(LON, LAT + 1e-3), kind="pond", name="pond")]
     assert f"feature 4: the {kind} marker lies inside the keep-out 'pond'" in refused(*features)
     site = leniently(*features)
@@ -166,13 +166,13 @@ def test_a_marker_where_no_robot_may_stand_is_refused_or_left_out(kind):
     assert [z.name for z in site.zones] == ["pond"]
 
 
-def test_of_two_start_markers_the_first_stays():
+def test_the_first_of_two_start_markers_is_kept():
     features = [*TREES, point(LON, LAT + 1e-4, kind="start"), point(LON, LAT + 2e-4, kind="home")]
     assert "feature 5: it is a second start marker (the first is feature 4)" in refused(*features)
     assert leniently(*features).markers["start"].lat == LAT + 1e-4
 
 
-def test_a_crs_that_says_wgs_84_is_read_over_where_asked_and_any_other_never():
+def test_a_lenient_reading_ignores_only_a_crs_of_wgs_84():
     crs = {"type": "name", "properties": {"name": "urn:ogc:def:crs:OGC:1.3:CRS84"}}
     assert "RFC 7946" in refused(*TREES, crs=crs)
     assert 'the "crs" member was read over' in leniently(*TREES, crs=crs).notes[0]
@@ -181,7 +181,7 @@ def test_a_crs_that_says_wgs_84_is_read_over_where_asked_and_any_other_never():
 
 @pytest.mark.parametrize(("lon", "lat"), [(-120.0, 37.0), (180.0, -17.0), (-180.0, 66.0), (0.0, 0.0)])
 def test_a_site_in_two_utm_zones_or_across_the_antimeridian_has_true_distances(lon, lat):
-    """-120 and 0 degrees are borders of UTM zones; a part of these trees lies on either side."""
+    """The trees lie on both sides of -120 and 0 degrees, which are borders of UTM zones."""
     degrees = [
         ((lon + east * 1e-3 + 180.0) % 360.0 - 180.0, lat + north * 1e-3) for east in (-9, 0, 7) for north in (-3, 4)
     ]
@@ -195,7 +195,7 @@ def test_a_site_in_two_utm_zones_or_across_the_antimeridian_has_true_distances(l
     assert site.zones[0].polygon.area == pytest.approx(np.ptp(site.xy[:, 0]) * np.ptp(site.xy[:, 1]), rel=0.01)
 
 
-def test_mixed_heights_are_read_over_and_told():
+def test_mixed_heights_are_ignored_and_noted():
     site = read(*TREES[:2], geometry("Point", [LON, LAT + 1e-4, 55.5]), area([[*p, 3.0] for p in square(LON, LAT)]))
     assert len(site.trees) == 3
     assert site.notes == ("heights are not used (2 features have them)",)
@@ -231,7 +231,7 @@ def test_a_geometry_collection_counts_as_its_parts():
         ("lat,lon,age\n37.26,-120.42,1e999\n", "property 'age' is not a finite number"),
     ],
 )
-def test_a_bad_table_is_told_with_its_line(tmp_path, text, says):
+def test_a_bad_table_is_reported_with_its_line(tmp_path, text, says):
     path = tmp_path / "field.csv"
     path.write_text(text)
     with pytest.raises(SiteError) as caught:
@@ -240,7 +240,7 @@ def test_a_bad_table_is_told_with_its_line(tmp_path, text, says):
     assert caught.value.advice
 
 
-def test_bad_lines_are_left_out_where_that_was_asked_for(tmp_path):
+def test_bad_lines_are_skipped_if_lenient(tmp_path):
     path = tmp_path / "field.csv"
     path.write_text("lat,lon\n37.26,-120.42\n,\n37.26\n37.26,x\n37.2601,-120.42\n")
     with pytest.raises(SiteError, match=r"2 lines cannot be used: line 4: .* line 5: "):

@@ -1,4 +1,4 @@
-"""The places of several choices: each marked once, with every choice that holds it, so that none hides another."""
+"""Test marks of the places of several choices: each place is marked once, with all choices that contain it."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def test_smaller_sets_are_drawn_over_larger_ones() -> None:
     assert firsts == sorted(firsts, key=[2, 3, 1].index)
 
 
-def test_every_choice_that_has_places_is_numbered_somewhere_a_large_one_once_and_alone_where_it_can_be() -> None:
+def test_every_choice_with_places_is_numbered_and_a_large_one_only_once() -> None:
     marks = choice_marks([ALL, TWO, []])
     assert {n for mark in marks if mark.labelled for n in mark.numbers} == {1, 2}
     assert [mark.numbers for mark in marks if mark.labelled].count((1,)) == 1
@@ -37,11 +37,11 @@ def test_every_choice_that_has_places_is_numbered_somewhere_a_large_one_once_and
     assert all(mark.numbers == (1, 2) for mark in twice)
 
 
-def test_nothing_to_choose_is_nothing_to_mark() -> None:
+def test_no_choices_give_no_marks() -> None:
     assert choice_marks([]) == choice_marks([[], []]) == ()
 
 
-def test_the_picture_says_question_choices_and_numbers_as_text(tmp_path: Path) -> None:
+def test_the_picture_contains_question_choices_and_numbers_as_text(tmp_path: Path) -> None:
     path = tmp_path / "new" / "question.svg"
     save_choices_picture(SITE, "Which $5 <tree>?", ("all of them", "two", "unknown"), (ALL, TWO, []), path)
     drawn = path.read_text()
@@ -49,7 +49,7 @@ def test_the_picture_says_question_choices_and_numbers_as_text(tmp_path: Path) -
         assert words in drawn
 
 
-def test_a_picture_that_cannot_be_written_is_said(tmp_path: Path) -> None:
+def test_a_choices_picture_that_cannot_be_written_is_reported(tmp_path: Path) -> None:
     with pytest.raises(OutputError, match="no kind of picture"):
         save_choices_picture(SITE, "Which?", ("one",), (ONE,), tmp_path / "question.txt")
     (tmp_path / "file").write_text("")

@@ -1,4 +1,4 @@
-"""What is said of a site: right figures in plain words, bounded however large the site, the same facts for programs."""
+"""Test descriptions of a site: correct figures, bounded length, and the same facts for programs."""
 
 from __future__ import annotations
 
@@ -33,20 +33,20 @@ def test_the_figures_of_a_rectangular_orchard_are_the_known_ones():
 
 
 @pytest.mark.parametrize("turned", [-30, -7, 0, 12, 44])
-def test_the_orchards_turn_is_told_clockwise_from_true_north(turned):
+def test_the_rotation_of_the_orchard_is_clockwise_from_true_north(turned):
     angle = math.radians(turned)
     c, s = math.cos(angle), math.sin(angle)
     site = site_of([(x * c + y * s, y * c - x * s) for x, y in grid(3, 12)])
     assert describe(site).turned_deg == pytest.approx(turned, abs=1e-6)
 
 
-def test_the_lines_name_what_a_planner_may_ask_for():
+def test_the_lines_contain_all_names_a_planner_may_use():
     lines = "\n".join(summary_lines(open_site("demo")))
     for word in ("wet corner", "pond", "fence", "leaf_color", "yellow", "Nonpareil", "charger", "ids 1 to", "yield_kg"):
         assert word in lines
 
 
-def test_a_hostile_site_says_no_more_than_a_small_one():
+def test_the_summary_of_a_hostile_site_is_no_longer_than_that_of_a_small_one():
     names = [
         {f"key {k} {'x' * 500}": "y" * 10_000 + str(n) for k in range(30)} | {"v": f"value {n}"} for n in range(300)
     ]
@@ -63,7 +63,7 @@ def test_a_site_of_one_tree_is_described():
     assert summary_lines(site_of([(0.0, 0.0)]))[0].startswith("Site test site: 1 tree,")
 
 
-def test_blocks_and_rows_are_told_with_their_way_and_spacing():
+def test_blocks_and_rows_are_described_with_direction_and_spacing():
     site = orchard(4, 5, row_names=[f"R{k // 5 + 1}" for k in range(20)])
     (block,) = describe(site).blocks
     assert (block.rows, block.trees, block.missing, block.counted_from) == (4, 20, 0, "west")
@@ -101,11 +101,11 @@ def test_the_table_has_each_row_with_its_ends_and_its_empty_positions():
         (135.0, "north-west to south-east (45 degrees west of north)"),
     ],
 )
-def test_the_way_of_rows_is_told_by_the_compass(bearing, words):
+def test_the_direction_of_rows_is_described_by_the_compass(bearing, words):
     assert direction_words(bearing) == words
 
 
-def test_few_rows_are_listed_and_many_only_where_they_are_asked_for():
+def test_few_rows_are_listed_and_many_only_on_request():
     few, many = orchard(20, 5), orchard(60, 5)
     assert len([line for line in report_lines(few) if line.startswith("  ")]) == 21
     short, long = report_lines(many), report_lines(many, all_rows=True)
@@ -123,14 +123,14 @@ def test_trees_in_no_row_are_named_with_the_reason():
     assert site.planting.why[1:] in line
 
 
-def test_a_site_without_rows_says_so_and_why():
+def test_a_site_without_rows_is_described_with_the_reason():
     site = site_of([(0, 0), (40, 3), (11, 29), (33, 41), (7, 60), (64, 13)])
     assert not describe(site).blocks
     (line,) = (line for line in report_lines(site) if line.startswith("Rows"))
     assert line == f"Rows: none; {site.planting.why}."
 
 
-def test_programs_get_the_same_facts_as_json_without_nan():
+def test_the_json_record_has_the_same_facts_and_no_nan():
     site = orchard(2, 5)
     record = json.loads(json.dumps(report_record(site), allow_nan=False))
     assert record["rows"] == len(record["row_table"]) == len(site.planting.rows)

@@ -1,4 +1,4 @@
-"""What is said of driving on a site: aisles, the trees that no robot can reach, and why; however it is found."""
+"""Test descriptions of driving on a site: aisles, and the unreachable trees with their reasons."""
 
 from __future__ import annotations
 
@@ -38,14 +38,14 @@ def test_aisles_are_as_wide_as_the_rows_are_apart():
             assert aisle.narrowest_m == pytest.approx(across)
 
 
-def test_a_tree_that_stands_in_the_aisle_makes_it_narrow_there():
+def test_a_tree_in_the_aisle_narrows_it():
     points = [(x + (2.0 if k == 7 else 0.0), y) for k, (x, y) in enumerate(grid(4, 5))]
     second = aisle_table(site_of(points, **NAMED))[1]
     assert second.width_m == pytest.approx(6.0)
     assert 3.9 < second.narrowest_m <= 4.0
 
 
-def test_what_a_robot_is_too_wide_for_is_named():
+def test_aisles_too_narrow_for_a_robot_are_named():
     points = [(x if x < 10 else x - 5.4, y) for x, y in grid(4, 5)]  # rows 2 and 3 stand 0.6 m apart
     site = site_of(points, **NAMED)
     told = driving_of(site, width=0.8, others={"cart": 0.5, "tractor": 2.0})
@@ -58,7 +58,7 @@ def test_what_a_robot_is_too_wide_for_is_named():
     assert not driving_of(site, width=0.3).closed
 
 
-def test_trees_that_cannot_be_reached_are_named_with_the_reason():
+def test_unreachable_trees_are_named_with_the_reason():
     site = orchard(zones=[pond(-2, -2, 2, 9)], **NAMED)  # over trees 1, 2 and 3
     told = driving_of(site)
     assert ("inside the keep-out 'pond'", ("1", "2", "3")) in [(u.why, u.trees) for u in told.unreachable]
@@ -75,7 +75,7 @@ def test_on_open_ground_every_tree_can_be_reached():
     assert any("Every tree can be reached" in line for line in report_lines(open_site("demo"), told))
 
 
-def test_a_site_without_rows_has_no_aisles_and_its_trees_are_asked_for_all_the_same():
+def test_a_site_without_rows_has_no_aisles_but_its_trees_are_checked():
     site = site_of([(0, 0), (40, 3), (11, 29), (33, 41), (7, 60), (64, 13)], zones=[pond(10, 28, 12, 30)])
     told = driving_of(site)
     assert (told.aisles, told.narrowest_m) == (0, None)
@@ -83,7 +83,7 @@ def test_a_site_without_rows_has_no_aisles_and_its_trees_are_asked_for_all_the_s
     assert any("No aisles" in line for line in report_lines(site, told))
 
 
-def test_trees_behind_a_moat_have_no_way_from_the_start():
+def test_trees_behind_a_moat_are_cut_off_from_the_start():
     moat = Polygon([(-4, -4), (22, -4), (22, 20), (-4, 20)], [[(-3.5, -3.5), (21.5, -3.5), (21.5, 19.5), (-3.5, 19.5)]])
     site = orchard(markers={"start": (0, -10)}, zones=[("moat", "keep_out", moat)], **NAMED)
     told = driving_of(site)
@@ -93,7 +93,7 @@ def test_trees_behind_a_moat_have_no_way_from_the_start():
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
-def test_on_a_large_site_the_same_trees_are_found_as_when_each_is_asked_for(seed, monkeypatch):
+def test_on_a_large_site_the_same_trees_are_unreachable_as_with_individual_checks(seed, monkeypatch):
     made = parse_site(random_orchard(seed, trees=300, blocks=2).to_bytes(), name="made")
     middle, reach = np.median(made.xy, axis=0), 0.2 * float(np.ptp(made.xy, axis=0).min())
     keep_out = shapely.Point(middle).buffer(reach)
@@ -107,7 +107,7 @@ def test_on_a_large_site_the_same_trees_are_found_as_when_each_is_asked_for(seed
     assert driving_of(site).unreachable == each
 
 
-def test_what_is_said_to_be_reachable_is_and_what_is_not_is_not():
+def test_the_summary_agrees_with_the_drives_about_reachable_trees():
     site = orchard(
         5, 6, markers={"start": (-6, -6)}, zones=[pond(3, 5, 8, 13)], row_names=[str(k // 6) for k in range(30)]
     )
@@ -121,7 +121,7 @@ def test_what_is_said_to_be_reachable_is_and_what_is_not_is_not():
             assert drives.between(site.start, tree.place).length_m > 0
 
 
-def test_programs_get_it_as_json():
+def test_the_driving_summary_converts_to_json():
     site = orchard(zones=[pond(-2, -2, 2, 9)], **NAMED)
     record = json.loads(json.dumps(report_record(site, driving_of(site)), allow_nan=False))
     assert record["driving"]["robot"] == "mule"

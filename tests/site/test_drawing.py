@@ -1,4 +1,4 @@
-"""Pictures of sites: all there is is in them, for one tree as for thousands; names never cover each other."""
+"""Test pictures of sites: they are complete for one tree and for thousands, and names never cover each other."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from fieldhand.site.loader import open_site, parse_site
 from fieldhand.site.random_orchards import random_orchard
 from support.sites.points import grid, orchard, site_of, sites
 
-#: Linear RGB as people see it who lack one kind of cone (Machado, Oliveira and Fernandes 2009, severity 1).
+#: Linear RGB as seen with one kind of cone missing (Machado, Oliveira and Fernandes 2009, severity 1).
 CONES = {
     "all": np.eye(3),
     "no red": np.array(
@@ -51,7 +51,7 @@ def drawn_dots(ax):
 
 
 def lightness_and_hue(colour: str, seen: np.ndarray) -> np.ndarray:
-    """CIE L*a*b* of a colour as these cones see it."""
+    """Return the CIE L*a*b* coordinates of a colour as seen with these cones."""
     rgb = np.array(to_rgb(colour))
     linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
     to_xyz = np.array([[0.4125, 0.3576, 0.2004], [0.2127, 0.7152, 0.0722], [0.0193, 0.1192, 0.9503]])
@@ -61,13 +61,13 @@ def lightness_and_hue(colour: str, seen: np.ndarray) -> np.ndarray:
 
 
 def boxes_of(figure, gids=("name", "zone", "block", "row", "tree", "gate", "aisle")):
-    """What each name covers of the drawn picture, in pixels."""
+    """Return the area that each name covers on the drawn picture, in pixels."""
     figure.draw_without_rendering()
     renderer = figure.canvas.get_renderer()
     return [(t, t.get_window_extent(renderer)) for t in figure.axes[0].texts if t.get_gid() in gids]
 
 
-def test_trees_markers_zones_and_scale_are_drawn_where_they_are():
+def test_trees_markers_zones_and_scale_are_drawn_at_their_positions():
     site = open_site("demo")
     figure = site_figure(site)
     ax = figure.axes[0]
@@ -95,7 +95,7 @@ def test_the_picture_names_rows_trees_zones_and_markers():
 
 
 @pytest.mark.parametrize("seen", CONES.values(), ids=CONES.keys())
-def test_neighbouring_rows_tell_apart_for_every_eye(seen):
+def test_neighbouring_rows_are_distinguishable_with_colour_blindness(seen):
     for one, other in [*itertools.pairwise([*ROWS, ROWS[0]]), *((row, NO_ROW) for row in ROWS)]:
         apart = np.linalg.norm(lightness_and_hue(one, seen) - lightness_and_hue(other, seen))
         assert apart > 20, (one, other)  # 2 is just noticed side by side
@@ -135,7 +135,7 @@ def test_zones_with_names_keep_them_apart_from_rows_and_markers():
         assert not a.padded(-1.5).overlaps(b.padded(-1.5)), (one.get_text(), other.get_text())
 
 
-def test_of_many_rows_some_are_named_in_round_numbers():
+def test_among_many_rows_those_with_round_numbers_are_named():
     site = site_of(grid(400, 90), row_names=[str(k // 90 + 1) for k in range(400 * 90)])
     texts = site_picture(site).axes[0].texts
     named = {int(t.get_text()) for t in texts if t.get_gid() == "row"}
@@ -155,7 +155,7 @@ def test_long_row_names_run_along_their_rows():
 
 
 @pytest.mark.parametrize("trees", [1, 2, 20, 5000])
-def test_trees_can_be_seen_and_told_apart_however_many_there_are(trees):
+def test_trees_are_visible_and_separate_at_any_number(trees):
     side = int(np.ceil(np.sqrt(trees)))
     site = site_of([(4.0 * (k % side), 4.0 * (k // side)) for k in range(trees)])
     ax = site_picture(site).axes[0]
@@ -170,7 +170,7 @@ def test_the_picture_is_written_and_shows_rows(tmp_path):
         assert (np.abs(pixels - to_rgb(colour)).max(axis=2) < 0.02).sum() > 500
 
 
-def test_the_ground_is_drawn_in_quiet_colours():
+def test_the_base_map_has_muted_colours():
     site = orchard()
     ax = site_figure(site).axes[0]
     draw_site(ax, site)
@@ -188,7 +188,7 @@ def test_any_site_can_be_drawn_with_each_tree_once(site):
     assert sum(len(c.get_offsets()) for c in dots) == len(site.trees)
 
 
-def test_names_with_signs_that_mean_something_to_the_drawing_program_are_drawn(tmp_path):
+def test_names_with_special_characters_of_matplotlib_are_drawn(tmp_path):
     site = orchard(
         zones=[("$x^{ $", "zone", [(0, 0), (9, 0), (9, 9)])], row_names=[f"$r_{k // 5}$ %" for k in range(20)]
     )
@@ -200,13 +200,13 @@ def test_names_with_signs_that_mean_something_to_the_drawing_program_are_drawn(t
     ("name", "says"),
     [("file/site.png", "cannot be written"), ("site.xyz", "no kind of picture"), ("site", "no ending")],
 )
-def test_a_picture_that_cannot_be_written_is_told(tmp_path, name, says):
+def test_a_site_picture_that_cannot_be_written_is_reported(tmp_path, name, says):
     (tmp_path / "file").touch()
     with pytest.raises(OutputError, match=says):
         save_site_picture(orchard(), tmp_path / name)
 
 
-def test_aisles_headlands_and_what_cannot_be_driven_are_drawn():
+def test_aisles_headlands_and_unreachable_trees_are_drawn():
     points = [(x if x < 10 else x - 5.4, y) for x, y in grid(4, 5)]  # rows 2 and 3 stand 0.6 m apart
     pond = [(-2, -2), (2, -2), (2, 9), (-2, 9)]
     site = site_of(points, zones=[("pond", "keep_out", pond)], row_names=[str(k // 5) for k in range(20)])
@@ -223,6 +223,6 @@ def test_aisles_headlands_and_what_cannot_be_driven_are_drawn():
     assert {"row of trees", "aisle", "closed to the mule", "cannot be reached"} <= legend
 
 
-def test_the_legend_tells_only_what_is_there():
+def test_the_legend_contains_only_symbols_on_the_picture():
     texts = site_picture(orchard(row_names=[str(k // 5) for k in range(20)])).legends[0].get_texts()
     assert [t.get_text() for t in texts] == ["row of trees"]

@@ -1,4 +1,4 @@
-"""Drives: straight where clear, never through a keep-out or over the boundary, and no longer than they must be."""
+"""Test drives: straight on clear ground, never through a keep-out or the boundary, and of minimal length."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from fieldhand.site.drives import Drive, Drives
 from support.sites.points import place_at, site_of
 
 POND = [(-10, -10), (10, -10), (10, 10), (-10, 10)]
-#: A bay that opens to the west.
+#: A keep-out with a bay that opens to the west.
 BAY = Polygon([(-10, -10), (10, -10), (10, 10), (-10, 10), (-10, 6), (6, 6), (6, -6), (-10, -6)])
 
 
@@ -40,25 +40,25 @@ def test_without_obstacles_a_drive_is_the_straight_line():
     assert drives.lengths([spot(0, 0), spot(3, 4), spot(0, 4)]).tolist() == [[0, 5, 4], [5, 0, 3], [4, 3, 0]]
 
 
-def test_a_zone_that_is_only_named_is_in_nobodys_way():
+def test_a_plain_zone_does_not_affect_drives():
     drives = Drives(site_of([(0, 0)], zones=[("wet", "zone", POND)]), 0.5)
     assert drives.between(spot(-20, 0), spot(20, 0)).length_m == 40.0
 
 
-def test_around_a_square_pond_the_way_is_the_known_one():
+def test_the_path_around_a_square_pond_is_the_known_one():
     way = ground(POND, clearance=0.0).between(spot(-20, 0), spot(20, 0))
     assert way.length_m == pytest.approx(2 * math.hypot(10, 10) + 20)
     assert {tuple(round(abs(c), 6) for c in p) for p in way.points[1:-1]} == {(10.0, 10.0)}
 
 
-def test_the_way_keeps_its_clearance_and_costs_at_most_a_little_for_it():
+def test_the_path_keeps_its_clearance_with_little_extra_length():
     bare = ground(POND, clearance=0.0).between(spot(-20, 0), spot(20, 0))
     way = ground(POND, clearance=1.0).between(spot(-20, 0), spot(20, 0))
     assert LineString(way.points).distance(Polygon(POND)) >= 1.0 - 1e-5
     assert bare.length_m < way.length_m < bare.length_m + 4.0
 
 
-def test_both_ways_are_one_way():
+def test_the_path_back_is_the_path_reversed():
     drives = ground(POND)
     there, back = drives.between(spot(-20, 1), spot(20, 2)), drives.between(spot(20, 2), spot(-20, 1))
     assert there.points == back.points[::-1]
@@ -74,7 +74,7 @@ def test_a_place_within_the_clearance_is_reached_and_the_keep_out_never_crossed(
     assert outside.distance(BAY) >= 1.0 - 1e-5
 
 
-def test_two_places_side_by_side_on_the_bank_are_near_each_other():
+def test_two_places_side_by_side_on_the_bank_have_a_short_drive():
     drives = ground(POND, clearance=0.5)
     assert drives.between(spot(10.1, 0), spot(10.1, 1)).length_m == pytest.approx(1.0)
 
@@ -83,7 +83,7 @@ def test_two_places_side_by_side_on_the_bank_are_near_each_other():
     ("a", "says"),
     [((0.0, 0.0), "inside the keep-out 'pond 0'"), ((70.0, 0.0), "outside the boundary")],
 )
-def test_a_place_that_no_robot_may_stand_on_is_named_with_the_reason(a, says):
+def test_a_place_on_closed_ground_is_named_with_the_reason(a, says):
     drives = ground(POND, boundary=box(-50, -50, 50, 50))
     here = place_at(*a, kind="tree", id="17")
     for call in (lambda: drives.between(here, spot(30, 30)), lambda: drives.lengths([spot(30, 30), here])):
@@ -94,7 +94,7 @@ def test_a_place_that_no_robot_may_stand_on_is_named_with_the_reason(a, says):
     assert drives.problem(spot(30, 30)) == ""
 
 
-def test_a_gap_that_is_too_narrow_for_the_robot_is_no_way():
+def test_no_path_leads_through_a_gap_narrower_than_the_robot():
     wall = [box(-1, -50, 1, -0.4), box(-1, 0.4, 1, 50)]
     fence = box(-50, -50, 50, 50)
     slim, wide = ground(*wall, boundary=fence, clearance=0.3), ground(*wall, boundary=fence, clearance=0.6)
@@ -105,14 +105,14 @@ def test_a_gap_that_is_too_narrow_for_the_robot_is_no_way():
         wide.lengths([spot(-20, 0), spot(-10, 0), spot(20, 0)])
 
 
-def test_the_way_stays_inside_a_boundary_with_a_corner_in_it():
+def test_the_path_stays_inside_a_concave_boundary():
     fence = Polygon([(0, 0), (40, 0), (40, 10), (10, 10), (10, 40), (0, 40)])
     way = ground(boundary=fence, clearance=0.0).between(spot(38, 8), spot(8, 38))
     assert way.points[1] == pytest.approx((10, 10))
     assert way.length_m == pytest.approx(2 * math.hypot(28, 2))
 
 
-def test_a_point_along_the_way_is_where_the_robot_is_after_so_many_metres():
+def test_a_point_along_the_path_is_at_its_distance_in_metres():
     drive = Drive(((0.0, 0.0), (3.0, 0.0), (3.0, 4.0)), 7.0, start=spot(0, 0), end=spot(3, 4))
     assert [drive.at(m) for m in (-1, 0, 1.5, 3, 5, 7, 99)] == [
         (0, 0),
@@ -138,7 +138,7 @@ def test_a_pond_traced_with_thousands_of_points_is_rounded_off_outwards(clearanc
 
 
 def star(draw) -> Polygon:
-    """A convex or concave keep-out around the origin."""
+    """Draw a convex or concave keep-out around the origin."""
     n = draw(st.integers(3, 7))
     radii = draw(st.lists(st.floats(3.0, 12.0), min_size=n, max_size=n))
     angles = [2 * math.pi * k / n for k in range(n)]
@@ -147,7 +147,7 @@ def star(draw) -> Polygon:
 
 @st.composite
 def grounds(draw):
-    """One to three keep-outs that may overlap, perhaps a fence, and places on free ground."""
+    """Draw one to three possibly overlapping keep-outs, an optional fence, and places on free ground."""
     shapes = []
     for _ in range(draw(st.integers(1, 3))):
         turned = rotate(star(draw), draw(st.floats(0, 360)), origin=(0, 0))
@@ -162,7 +162,7 @@ def grounds(draw):
 
 @settings(max_examples=60, deadline=None)
 @given(grounds(), st.sampled_from([0.0, 0.4, 1.0]))
-def test_no_way_crosses_a_keep_out_or_leaves_the_boundary_and_lengths_agree(world, clearance):
+def test_no_path_crosses_a_keep_out_or_the_boundary_and_lengths_agree(world, clearance):
     shapes, fence, xy = world
     drives = ground(*shapes, boundary=fence, clearance=clearance)
     places = [spot(*p) for p in xy]
@@ -192,7 +192,7 @@ def test_no_way_crosses_a_keep_out_or_leaves_the_boundary_and_lengths_agree(worl
 
 @settings(max_examples=12, deadline=None)
 @given(grounds())
-def test_lengths_are_those_of_a_dense_grid_search(world):
+def test_lengths_agree_with_a_dense_grid_search(world):
     shapes, _, xy = world
     blocked = shapely.union_all(shapes)
     a, b = xy[0], xy[1]
@@ -203,13 +203,13 @@ def test_lengths_are_those_of_a_dense_grid_search(world):
     except DriveFault:
         assume(False)
     shortest = grid_search(blocked, a, b)
-    # a 16-neighbour grid is at most 2.8 % longer than the plane, and its ends are off by a cell
+    # paths on a 16-connected grid are at most 2.8 % longer than in the plane, and their ends are off by a cell
     assert way.length_m <= shortest + 2.0
     assert shortest <= 1.03 * way.length_m + 4.0
 
 
 def grid_search(blocked, a, b, cell: float = 1.0) -> float:
-    """The shortest way over a dense grid of 16 neighbours, that keeps out of ``blocked``."""
+    """Return the shortest path over a dense 16-connected grid that avoids ``blocked``."""
     side = np.arange(-60, 60 + cell, cell)
     n = len(side)
     x, y = (g.ravel() for g in np.meshgrid(side, side, indexing="ij"))

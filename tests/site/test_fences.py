@@ -1,4 +1,4 @@
-"""Fences and their like are lines that no robot crosses, but at a gate."""
+"""Test fences and other barrier lines, which robots cross only at gates."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ LON, LAT = -120.42, 37.26
 
 
 @pytest.mark.parametrize("kind", ["fence", "Stone wall", "hedge", "drainage ditch", "canal", "water_pipe", "no-go"])
-def test_a_line_that_no_robot_crosses_becomes_a_thin_keep_out(kind):
+def test_a_barrier_line_becomes_a_thin_keep_out(kind):
     site = read(point(LON, LAT), line((-10, 5), (10, 5), kind=kind))
     (zone,) = site.zones
     assert zone.kind == "keep_out"
@@ -53,15 +53,15 @@ def test_a_gate_without_a_width_has_a_usual_one(said, width):
     assert len(site.trees) == 1
 
 
-def test_a_gate_far_from_every_fence_is_told():
+def test_a_gate_far_from_every_fence_is_noted():
     (far,) = degrees((0, 60))
     site = read(point(LON, LAT), line((-10, 5), (10, 5), kind="fence"), point(*far, kind="gate", name="north gate"))
     assert "'north gate' stands at no fence" in site.notes[0]
 
 
 @pytest.mark.parametrize(("width", "through"), [(None, False), (0.5, False), (1.0, True), (4.0, True)])
-def test_a_robot_passes_a_fence_only_at_a_gate_that_is_wide_enough(width, through):
-    """A fence parts the field from one side of the boundary to the other; the robot is 0.7 m wide."""
+def test_a_robot_crosses_a_fence_only_at_a_wide_enough_gate(width, through):
+    """The fence spans the field from boundary to boundary; the robot is 0.7 m wide."""
     field = degrees((-60, -40), (60, -40), (60, 40), (-60, 40), (-60, -40))
     gate = [] if width is None else [point(*degrees((30, 0))[0], kind="gate", width_m=width)]
     site = read(
@@ -83,7 +83,7 @@ def test_a_robot_passes_a_fence_only_at_a_gate_that_is_wide_enough(width, throug
 
 @pytest.mark.parametrize("barrier", ["boundary", "fence"])
 def test_a_robot_drives_to_a_gate_and_keeps_off_the_fence_beside_it(barrier):
-    """A gate lies on its fence: the robot stops at the gate, on ground where it has room."""
+    """The gate lies on its fence; the robot stops at the gate on ground with enough room."""
     (gate,) = degrees((-60, 10) if barrier == "boundary" else (30, 0))
     site = read(
         *(point(*degrees((x, y))[0], row=x) for x in (-6, 0, 6) for y in (-20, -15, -10, 10, 15, 20)),

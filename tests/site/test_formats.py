@@ -1,4 +1,4 @@
-"""The same orchard in every format is the same site."""
+"""Test the file formats: the same orchard gives the same site in every format."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def test_the_same_orchard_as_a_table_and_as_geojson_is_the_same_site(trees, deli
         "POINT_Y,POINT_X",
     ],
 )
-def test_the_columns_of_degrees_are_known_by_many_names(tmp_path, header):
+def test_latitude_and_longitude_columns_have_many_names(tmp_path, header):
     site = table(tmp_path, f"{header}\n{LAT},{LON}\n")
     assert (site.trees[0].place.lat, site.trees[0].place.lon) == (LAT, LON)
     assert dict(site.trees[0].properties) == {}
@@ -103,13 +103,13 @@ def test_separators_decimal_commas_and_encodings(tmp_path, data):
     assert (tree.place.lat, tree.place.lon, dict(tree.properties)) == (LAT, LON, {"age": 3.5})
 
 
-def test_a_table_in_windows_text_is_read_and_the_site_says_so(tmp_path):
+def test_a_table_in_windows_1252_is_read_and_noted(tmp_path):
     site = table(tmp_path, "lat,lon,Größe\n37.26,-120.42,süß\n".encode("cp1252"))
     assert dict(site.trees[0].properties) == {"Größe": "süß"}
     assert "Windows-1252" in site.notes[0]
 
 
-def test_cells_are_numbers_where_they_are_written_as_numbers(tmp_path):
+def test_cells_written_as_numbers_are_numbers(tmp_path):
     site = table(tmp_path, "lat,lon,a,b,c,d,e,f\n37.26,-120.42,007,1e3,-0.5,true,n/a,3 m\n")
     assert dict(site.trees[0].properties) == {"a": "007", "b": 1000.0, "c": -0.5, "d": True, "f": "3 m"}
     assert site.trees[0].properties["d"] is True
@@ -170,7 +170,7 @@ def test_other_formats_may_be_zipped(tmp_path, name):
     assert len(load_site(zipped(tmp_path / "farm.zip", {name: data, "readme.txt": b"x"})).trees) == 1
 
 
-def test_a_shapefile_without_its_index_is_read_all_the_same(tmp_path):
+def test_a_shapefile_without_its_index_is_read(tmp_path):
     path = write_layer(tmp_path / "trees.shp", "trees", [shapely.Point(p) for p in IN_UTM], FIELDS, crs=UTM)
     (tmp_path / "trees.shx").unlink()
     before = sorted(tmp_path.iterdir())
@@ -178,7 +178,7 @@ def test_a_shapefile_without_its_index_is_read_all_the_same(tmp_path):
     assert sorted(tmp_path.iterdir()) == before
 
 
-def test_layers_are_joined_and_their_names_say_what_is_in_them(tmp_path):
+def test_layers_are_joined_and_their_names_give_the_kinds(tmp_path):
     path = tmp_path / "farm.gpkg"
     write_layer(path, "trees", [shapely.Point(LON, LAT), shapely.Point(LON + 1e-4, LAT)], {"id": ["A", "B"]})
     write_layer(path, "keep_outs", [shapely.Polygon(square(LON + 5e-4, LAT))], {"name": ["heap"]}, append=True)
@@ -213,7 +213,7 @@ def test_kml_names_and_extended_data_become_properties(tmp_path):
     assert [(z.kind, z.name) for z in site.zones] == [("keep_out", "North pond")]
 
 
-def test_without_the_extra_the_error_says_which_to_install(tmp_path, monkeypatch):
+def test_without_the_extra_the_error_names_it(tmp_path, monkeypatch):
     path = tmp_path / "farm.kml"
     path.write_bytes(kml(placemark(LON, LAT)))
     monkeypatch.setitem(sys.modules, "pyogrio", None)
@@ -221,7 +221,7 @@ def test_without_the_extra_the_error_says_which_to_install(tmp_path, monkeypatch
         load_site(path)
 
 
-def test_gdal_never_reads_a_file_in_the_process_that_asks(tmp_path):
+def test_gdal_never_reads_a_file_in_the_calling_process(tmp_path):
     path = tmp_path / "farm.kml"
     path.write_bytes(kml(placemark(LON, LAT)))
     script = (
@@ -232,7 +232,7 @@ def test_gdal_never_reads_a_file_in_the_process_that_asks(tmp_path):
     assert done.stdout.split() == ["1", "False"]
 
 
-def test_content_counts_more_than_the_ending(tmp_path):
+def test_content_takes_precedence_over_the_extension(tmp_path):
     path = write_layer(tmp_path / "farm.gpkg", "trees", [shapely.Point(LON, LAT)])
     assert len(load_site(path.rename(tmp_path / "farm.json")).trees) == 1
     for name, data in (

@@ -1,4 +1,4 @@
-"""Made orchards: the same seed gives the same one, every one can be read, and the pond is in the way."""
+"""Test generated orchards: a seed always gives the same one, every one can be read, and the pond obstructs drives."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def test_the_same_seed_gives_the_same_orchard_and_another_seed_another():
     assert to_text(demo_orchard(3)) != to_text(demo_orchard(4))
 
 
-def test_the_pond_is_in_the_way_of_some_drives_and_closes_nothing_off():
+def test_the_pond_obstructs_some_drives_and_cuts_nothing_off():
     site = open_site("demo")
     places = [t.place for t in site.trees] + list(site.markers.values())
     lengths = Drives(site, 0.5).lengths(places)
@@ -59,7 +59,7 @@ def test_every_orchard_can_be_read_back_with_its_spacing_and_rows(seed, rows, tr
 
 @settings(max_examples=10, deadline=None)
 @given(st.integers(0, 2**32), st.integers(1, 4), st.floats(4.0, 15.0))
-def test_a_random_orchard_says_where_each_of_its_trees_stands(seed, blocks, road_m):
+def test_a_random_orchard_records_the_row_of_each_tree(seed, blocks, road_m):
     made = random_orchard(seed, trees=120, blocks=blocks, road_m=road_m, jitter=0.02, named="everything", strays=2)
     assert (
         made.to_bytes()

@@ -1,4 +1,4 @@
-"""What is written out reads back as the same site, whose hash is of its content, and which cannot be changed."""
+"""Test the GeoJSON export: it reads back as the same immutable site with the same content hash."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ orchards = st.builds(
 
 @settings(max_examples=40, deadline=None)
 @given(orchards)
-def test_what_is_written_reads_back_as_the_same_site(features):
+def test_an_exported_site_reads_back_as_the_same_site(features):
     site = read(*features)
     again = parse_site(to_text(site_document(site)).encode(), name="again")
     assert [t.place for t in again.trees] == [t.place for t in site.trees]
@@ -69,7 +69,7 @@ def test_what_is_written_reads_back_as_the_same_site(features):
     assert once_more.content_sha256 == again.content_sha256
 
 
-def test_the_document_holds_rows_with_their_confidence_and_keeps_to_the_standard():
+def test_the_document_contains_rows_with_confidence_and_conforms_to_the_standard():
     document = json.loads(to_text(site_document(DEMO)))
     assert "crs" not in document
     rows = [f for f in document["features"] if f["properties"].get("kind") == "row"]
@@ -104,7 +104,7 @@ def test_the_hash_of_the_content_does_not_depend_on_how_the_file_is_written():
         [point(LON, LAT, age=7, id="a"), point(LON + 1e-4, LAT, id="b")],
     ],
 )
-def test_the_hash_of_the_content_changes_with_anything_that_a_site_holds(other):
+def test_the_hash_of_the_content_changes_with_every_part_of_a_site(other):
     assert read(point(LON, LAT, age=7), point(LON + 1e-4, LAT)).content_sha256 != read(*other).content_sha256
 
 

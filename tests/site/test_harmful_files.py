@@ -1,4 +1,4 @@
-"""Files that could do harm do none: bombs, paths that lead out, references to elsewhere, damage of any kind."""
+"""Test harmful files: zip bombs, paths outside the archive, external references, and damage of any kind."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def bomb() -> str:
         (b"\xff\xfe", "not well-formed"),
     ],
 )  # fmt: skip
-def test_a_kml_file_that_could_do_harm_is_refused(tmp_path, data, says):
+def test_a_harmful_kml_file_is_rejected(tmp_path, data, says):
     assert says in told(tmp_path / "farm.kml", data)
     assert says in told(zipped(tmp_path / "farm.kmz", {"doc.kml": data}))
 
@@ -65,7 +65,7 @@ def test_an_archive_with_paths_outside_itself_is_refused_and_nothing_is_written(
     assert not list(tmp_path.rglob("evil.csv"))
 
 
-def test_archives_that_unpack_to_too_much_are_refused(tmp_path, monkeypatch):
+def test_archives_that_unpack_to_too_much_are_rejected(tmp_path, monkeypatch):
     from fieldhand.site.formats import archive
 
     assert "unpacks to more than" in told(zipped(tmp_path / "bomb.zip", {"a.csv": bytes(30_000_000)}))
@@ -77,7 +77,7 @@ def test_archives_that_unpack_to_too_much_are_refused(tmp_path, monkeypatch):
         archive.unpack(big, {".csv"}, tmp_path, "big.zip")
 
 
-def test_archives_that_hold_no_site_or_are_damaged_are_told(tmp_path):
+def test_damaged_archives_and_archives_without_a_site_are_reported(tmp_path):
     assert "no file of a site" in told(zipped(tmp_path / "a.zip", {"readme.txt": b"x", "inner.zip": b"PK\x03\x04"}))
     assert "2 .csv files" in told(zipped(tmp_path / "b.zip", {"a.csv": b"x", "b.csv": b"x"}))
     assert "archive is damaged" in told(tmp_path / "c.zip", b"PK\x03\x04" + b"x" * 100)
@@ -90,7 +90,7 @@ def test_archives_that_hold_no_site_or_are_damaged_are_told(tmp_path):
     assert "no zip file" in told(tmp_path / "f.zip", b"lat,lon")
 
 
-def test_a_geopackage_is_read_only_where_it_is_plain(tmp_path):
+def test_a_geopackage_with_views_or_virtual_tables_is_rejected(tmp_path):
     path = write_layer(tmp_path / "farm.gpkg", "trees", [shapely.Point(LON, LAT)])
     with sqlite3.connect(path) as database:
         database.execute("CREATE VIEW more AS SELECT * FROM trees, trees AS b, trees AS c")
@@ -134,7 +134,7 @@ def test_a_shapefile_needs_its_coordinate_system_and_its_main_file(tmp_path):
     assert "cannot be read" in told(tmp_path / "alone.shp", b"\x00\x00\x27\x0a")
 
 
-def test_a_feature_of_a_layer_without_geometry_is_told(tmp_path):
+def test_a_feature_without_geometry_is_reported(tmp_path):
     path = tmp_path / "farm.gpkg"
     write_layer(path, "trees", [shapely.Point(LON, LAT), None], {"age": [1, 2]})
     assert "feature 2: it has no geometry" in told(path)
@@ -169,7 +169,7 @@ def good(tmp_path_factory) -> Sequence[tuple[str, bytes]]:
 
 
 def outcome(path: Path, *, lenient: bool) -> str:
-    """How many trees there are, or what is wrong."""
+    """Return the number of trees, or the error."""
     try:
         return f"{len(load_site(path, lenient=lenient).trees)} trees"
     except SiteError as fault:
@@ -180,7 +180,7 @@ def outcome(path: Path, *, lenient: bool) -> str:
     max_examples=examples(15, thorough=300), deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
 @given(data=st.data())
-def test_no_bytes_end_in_anything_but_a_site_or_one_clear_line(data, good, tmp_path):
+def test_any_bytes_give_a_site_or_a_one_line_error(data, good, tmp_path):
     ending, whole = data.draw(st.sampled_from(good) | st.tuples(st.sampled_from(ENDINGS), st.binary(max_size=200)))
     spoilt = bytearray(whole)
     for _ in range(data.draw(st.integers(0, 8)) if spoilt else 0):
@@ -194,8 +194,8 @@ def test_no_bytes_end_in_anything_but_a_site_or_one_clear_line(data, good, tmp_p
         assert str(tmp_path.parent) not in said
 
 
-def test_a_small_file_that_takes_much_memory_or_time_ends_in_one_clear_line(tmp_path):
-    """A packed KML with one placemark of a million corners, and many layers of it."""
+def test_a_small_file_that_needs_much_memory_or_time_gives_a_one_line_error(tmp_path):
+    """The file is a compressed KML with a placemark of a million corners in many layers."""
     ring = " ".join(f"{LON + k * 1e-9},{LAT}" for k in range(200_000))
     body = f"<Placemark><LineString><coordinates>{ring}</coordinates></LineString></Placemark>" * 8
     text = f'<kml xmlns="http://www.opengis.net/kml/2.2"><Document>{body}</Document></kml>'
@@ -210,7 +210,7 @@ def test_a_small_file_that_takes_much_memory_or_time_ends_in_one_clear_line(tmp_
             read_sandboxed("zip", {"bomb.kmz": data}, "bomb.kmz", lenient=False, allowed=allowed)
 
 
-def test_what_a_site_of_its_size_needs_is_allowed(tmp_path):
+def test_the_limits_suffice_for_a_site_of_its_size(tmp_path):
     shapes = [shapely.Point(LON + k % 300 * 1e-5, LAT + k // 300 * 1e-5) for k in range(20_000)]
     path = write_layer(tmp_path / "farm.gpkg", "trees", shapes, {"row": [k // 300 for k in range(20_000)]})
     assert read_limits(path.stat().st_size).memory <= 1_100_000_000

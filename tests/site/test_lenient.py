@@ -1,4 +1,4 @@
-"""Every command that takes a site loads what is sound of it where that is asked for."""
+"""Test lenient reading of sites in every command that takes one."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def geometry(shape: str, coordinates: Any, /, **properties: Any) -> dict[str, An
     return {"type": "Feature", "properties": properties, "geometry": {"type": shape, "coordinates": coordinates}}
 
 
-def test_json_may_hold_nothing_that_ends_in_a_traceback_leniently():
+def test_no_json_ends_in_a_traceback_leniently():
     odd = [None, [], {}, "x", {"type": "Feature", "geometry": {"type": "Point", "coordinates": {}}, "properties": []}]
     odd += [
         geometry(kind, c)
@@ -36,7 +36,7 @@ def test_json_may_hold_nothing_that_ends_in_a_traceback_leniently():
 
 
 @pytest.mark.parametrize("command", ["site", "plan", "check", "run"])
-def test_every_command_that_takes_a_site_reads_leniently_where_asked(tmp_path, command):
+def test_every_command_with_a_site_supports_lenient_reading(tmp_path, command):
     path = tmp_path / "field.geojson"
     path.write_bytes(collection(*TREES, point(float("nan"), LAT)))
     sound = tmp_path / "sound.geojson"
@@ -57,7 +57,7 @@ def test_every_command_that_takes_a_site_reads_leniently_where_asked(tmp_path, c
     assert "left out feature 4: its longitude is not a finite number" in loaded.out + loaded.err
 
 
-def test_the_command_line_tells_all_that_was_left_out(tmp_path):
+def test_the_command_line_lists_all_skipped_features(tmp_path):
     path = tmp_path / "field.geojson"
     path.write_bytes(collection(*TREES, *(point(LON, 91.0 + k) for k in range(9))))
     shown = fieldhand("site", str(path), "--lenient")

@@ -1,4 +1,4 @@
-"""Reading sites: what becomes a tree, what a marker, and one clear line for everything that cannot be used."""
+"""Test the loader of sites: trees, markers and areas, and a one-line error for every unusable file."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ LON, LAT = -120.42, 37.26
         {"kind": "gate tree"},
     ],
 )
-def test_a_point_is_a_tree_unless_it_says_otherwise(properties):
+def test_a_point_without_another_kind_is_a_tree(properties):
     assert len(read(point(LON, LAT, **properties)).trees) == 1
 
 
@@ -49,13 +49,13 @@ def test_a_point_is_a_tree_unless_it_says_otherwise(properties):
         ({"name": "Charger"}, "charger"),
     ],
 )
-def test_markers_are_known_by_any_of_their_words(properties, marker):
+def test_markers_are_recognized_by_any_of_their_words(properties, marker):
     site = read(point(LON, LAT), point(LON, LAT + 1e-4, **properties))
     assert list(site.markers) == [marker]
     assert len(site.trees) == 1
 
 
-def test_landmarks_are_no_trees_and_the_site_says_so():
+def test_landmarks_are_left_out_with_a_note():
     site = read(point(LON, LAT), point(LON, LAT, kind="Pump"), point(LON, LAT, kind="Water Well"))
     assert len(site.trees) == 1
     assert site.markers == {}
@@ -63,7 +63,7 @@ def test_landmarks_are_no_trees_and_the_site_says_so():
     assert "water well" in site.notes[0]
 
 
-def test_lines_are_left_out_and_the_site_says_so():
+def test_lines_are_left_out_with_a_note():
     line = {"type": "Feature", "geometry": {"type": "LineString", "coordinates": [[LON, LAT], [LON, LAT]]}}
     site = read(point(LON, LAT), line)
     assert (len(site.trees), len(site.zones)) == (1, 0)
@@ -88,7 +88,7 @@ def test_feature_ids_count_as_the_files_own():
 
 
 @pytest.mark.parametrize("second", [{"id": 7}, {}, {"id": True}, {"id": "a\nb"}, {"id": [1]}])
-def test_else_trees_are_numbered_from_one_in_file_order(second):
+def test_trees_without_unique_ids_are_numbered_from_one_in_file_order(second):
     site = read(point(LON, LAT, id=7), point(LON, LAT, kind="start"), point(LON + 1e-4, LAT, **second))
     assert [t.place.id for t in site.trees] == ["1", "2"]
     assert [t.feature for t in site.trees] == [1, 3]
@@ -110,7 +110,7 @@ def test_text_that_cannot_be_printed_or_written_to_xml_is_refused():
 
 @pytest.mark.parametrize("key", ["row", "row_id", "Row-Number", "ROW"])
 @pytest.mark.parametrize(("value", "row"), [(3, "3"), ("B2", "B2")])
-def test_rows_are_read_whatever_their_property_is_called(key, value, row):
+def test_rows_are_read_from_any_of_their_property_names(key, value, row):
     assert read(point(LON, LAT, **{key: value})).trees[0].row == row
 
 
@@ -154,7 +154,7 @@ def test_a_site_may_lie_across_the_date_line():
     assert site.spacing_m == pytest.approx(21.3, abs=0.1)
 
 
-def test_a_collections_own_name_comes_before_the_files():
+def test_the_name_of_the_collection_takes_precedence_over_the_file_name():
     assert read(point(LON, LAT), name="West block").name == "West block"
     assert read(point(LON, LAT)).name == "field"
 
@@ -174,7 +174,7 @@ def test_the_built_in_orchard_opens_by_name_and_is_what_the_generator_writes():
     assert [z.name for z in site.zones_of("keep_out")] == ["pond"]
 
 
-def test_a_byte_order_mark_is_no_fault():
+def test_a_byte_order_mark_is_accepted():
     assert len(parse_site(b"\xef\xbb\xbf" + collection(point(LON, LAT)), name="x").trees) == 1
 
 
@@ -253,7 +253,7 @@ TREE = point(LON, LAT)
         (b'{"type":"FeatureCollection","features":' + b"[" * 200_000, "nested too deeply"),
     ],
 )
-def test_what_cannot_be_used_gets_one_line_with_where_and_what_to_do(data, says):
+def test_an_unusable_file_gives_one_line_with_location_and_advice(data, says):
     assert says in fault_of(data)
 
 
@@ -277,7 +277,7 @@ def test_a_file_of_200_megabytes_is_refused_before_it_is_read(tmp_path, monkeypa
         ("x" * 5000, "cannot be read"),
     ],
 )
-def test_a_path_that_holds_no_site_is_told(tmp_path, monkeypatch, path, says):
+def test_a_path_without_a_site_is_reported(tmp_path, monkeypatch, path, says):
     monkeypatch.chdir(tmp_path)
     with pytest.raises(SiteError, match=says) as caught:
         load_site(Path(path))
@@ -310,7 +310,7 @@ json_values = st.recursive(
         max_size=3,
     )
 )
-def test_nothing_that_is_json_ends_in_a_traceback(features):
+def test_no_json_ends_in_a_traceback(features):
     data = json.dumps({"type": "FeatureCollection", "features": [TREE, *features]}).encode()
     with contextlib.suppress(SiteError):
         assert len(parse_site(data, name="x").trees) >= 1

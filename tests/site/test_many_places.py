@@ -1,4 +1,4 @@
-"""Drives among many places: the same as one by one, and as a sparse graph never shorter and hardly longer."""
+"""Test drives among many places: equal to single drives, and hardly longer over the sparse road map."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from support.sites.points import place_at
 
 CLEARANCE, STANDOFF = 0.35, 1.5
 
-#: Rows that a file names, rows that are found, trees in no row; with ponds, fences, gates, markers.
+#: Sites with named rows, inferred rows and trees in no row; with ponds, fences, gates and markers.
 any_site = st.one_of(st.integers(0, 10**6).map(generated), st.integers(0, 10**6).map(scattered), orchard_sites())
 
 
@@ -40,7 +40,7 @@ def places_of(site: Site):
 
 @settings(max_examples=40, deadline=None)
 @given(any_site, st.randoms(use_true_random=False))
-def test_what_is_wrong_with_many_places_is_what_is_wrong_with_each(site, random):
+def test_problems_of_many_places_equal_those_of_each(site, random):
     places = places_of(site)
     together = dict(zip((p.xy for p in places), drives_on(site).problems(places), strict=True))
     drives = drives_on(site)
@@ -53,7 +53,7 @@ def test_what_is_wrong_with_many_places_is_what_is_wrong_with_each(site, random)
 
 @settings(max_examples=30, deadline=None)
 @given(any_site, st.integers(0, 10**6))
-def test_stands_and_lengths_do_not_depend_on_what_was_asked_before(site, seed):
+def test_stands_and_lengths_do_not_depend_on_earlier_queries(site, seed):
     fresh, asked = drives_on(site), drives_on(site)
     assume(not asked.problem(site.start))
     places = [p for p in places_of(site) if not asked.problem(p)]
@@ -72,8 +72,8 @@ def test_stands_and_lengths_do_not_depend_on_what_was_asked_before(site, seed):
             assert asked.between(standing[i], standing[j]).length_m == pytest.approx(lengths[i, j], abs=1e-6)
 
 
-def test_a_straight_way_past_the_end_of_a_row_is_in_the_table_in_both_directions():
-    """One of the two stands in the band beside its row, and from its foot there the end of the row parts them."""
+def test_a_straight_path_past_the_end_of_a_row_is_found_in_both_directions():
+    """One place is in the margin of its row, and from its foot the end of the row separates them."""
     drives = Drives(generated(51), CLEARANCE, 1.0)
     trees = [tree.place for tree in drives.site.trees if not drives.problem(tree.place)]
     standing = drives.stands(trees)
@@ -87,7 +87,7 @@ def test_a_straight_way_past_the_end_of_a_row_is_in_the_table_in_both_directions
 
 @settings(max_examples=15, deadline=None)
 @given(any_site)
-def test_a_table_that_grows_place_by_place_is_the_whole_one(site):
+def test_lengths_computed_place_by_place_equal_those_computed_at_once(site):
     drives = drives_on(site)
     assume(not drives.problem(site.start))
     places = drives.stands([p for p in places_of(site) if not drives.problem(p)][:12])
@@ -99,11 +99,11 @@ def test_a_table_that_grows_place_by_place_is_the_whole_one(site):
     assert whole == pytest.approx(drives.lengths(places), abs=1e-9)
 
 
-# --- roads -------------------------------------------------------------------------------------------------------
+# --- road map ----------------------------------------------------------------------------------------------------
 
 
 def over(roads: Roadmap) -> np.ndarray:
-    """Metres of the shortest way over the roads between every two places."""
+    """Return the metres of the shortest paths over the road map between all pairs of places."""
     n, k = len(roads.at), len(roads.places)
     if roads.straight:
         return np.hypot(*(roads.at[:, None] - roads.at[None]).transpose(2, 0, 1))
@@ -119,7 +119,7 @@ def over(roads: Roadmap) -> np.ndarray:
 @given(any_site)
 @example(generated(38))  # a stand beside a row in an aisle that something else stands in
 @example(generated(210))  # a turn around a short row between two such aisles
-def test_over_the_roads_no_way_is_shorter_than_the_drive_and_hardly_any_is_longer(site):
+def test_paths_over_the_roadmap_are_never_shorter_than_drives_and_hardly_longer(site):
     drives = drives_on(site)
     assume(not drives.problem(site.start))
     places = [p for p in places_of(site) if not drives.problem(p)]
@@ -136,11 +136,11 @@ def test_over_the_roads_no_way_is_shorter_than_the_drive_and_hardly_any_is_longe
     if stretch.size:
         longer = (found - lengths)[apart]
         assert np.median(np.minimum(stretch / 0.01, longer / 0.5)) <= 1.0  # a per cent, or half a metre
-        # Longest for near neighbours, and for a place too close to something for ways to keep their clearance.
+        # The excess is greatest for near neighbours, and for a place within the clearance of an obstacle.
         assert (longer <= 0.15 * lengths[apart] + 16.0 * CLEARANCE).all()
 
 
-def test_on_open_ground_all_drives_are_straight_lines_and_there_are_no_roads():
+def test_on_open_ground_all_drives_are_straight_and_the_roadmap_is_empty():
     boundary = ("fence", "boundary", box(-10.0, -10.0, 90.0, 90.0))
     trees = [(float(x), float(y)) for x, y in np.random.default_rng(1).uniform(0.0, 80.0, (20, 2))]
     for zones in ((), (boundary,)):
@@ -154,14 +154,14 @@ def test_on_open_ground_all_drives_are_straight_lines_and_there_are_no_roads():
     assert not drives_on(site).roadmap([t.place for t in site.trees]).straight
 
 
-def test_roads_between_few_places_or_none():
+def test_the_roadmap_of_few_places_or_none():
     drives = drives_on(upright(3, 5))
     none, one = drives.roadmap([]), drives.roadmap([drives.site.trees[4].place])
     assert (len(none.places), over(none).shape) == (0, (0, 0))
     assert over(one).tolist() == [[0.0]]
 
 
-def test_places_that_no_way_joins_are_named_and_have_no_roads():
+def test_places_without_a_path_between_them_are_named():
     wall = ("wall", "keep_out", box(-5.0, 9.0, 35.0, 9.4))
     fence = ("fence", "boundary", box(-5.0, -10.0, 35.0, 30.0))
     site = planted([], lone=[(3.0, 3.0), (20.0, 4.0), (20.0, 20.0)], zones=[wall, fence])
@@ -169,7 +169,7 @@ def test_places_that_no_way_joins_are_named_and_have_no_roads():
         drives_on(site).roadmap([t.place for t in site.trees])
 
 
-def test_the_size_of_the_roads_grows_with_the_places():
+def test_the_size_of_the_roadmap_grows_with_the_places():
     ways = []
     for trees in (20, 40, 80):
         site = upright(6, trees)
@@ -178,12 +178,12 @@ def test_the_size_of_the_roads_grows_with_the_places():
     assert max(ways) < 12.0
 
 
-# --- what is seen ------------------------------------------------------------------------------------------------
+# --- visibility --------------------------------------------------------------------------------------------------
 
 
 @st.composite
 def holed(draw):
-    """Ground with holes in it, a line along the middle of each, and points about it."""
+    """Draw ground with holes, a line along the middle of each, and points around them."""
     corner, turned = st.floats(5.0, 70.0), st.floats(0.0, 180.0)
     made = st.tuples(corner, corner, st.floats(0.5, 30.0), st.floats(0.5, 6.0), turned)
     holes, lines = [], []
@@ -198,7 +198,7 @@ def holed(draw):
 
 @settings(max_examples=60, deadline=None)
 @given(holed())
-def test_a_line_is_seen_if_the_ground_covers_it_and_no_row_near_by_parts_its_ends(world):
+def test_a_line_is_visible_if_the_ground_covers_it_and_no_near_row_separates_its_ends(world):
     ground, axes, at = world
     area = Area(ground)
     i, j = np.triu_indices(len(at), k=1)
@@ -214,7 +214,7 @@ def test_a_line_is_seen_if_the_ground_covers_it_and_no_row_near_by_parts_its_end
 
 @settings(max_examples=60, deadline=None)
 @given(holed())
-def test_the_corners_seen_from_a_point_are_those_at_which_a_way_may_turn(world):
+def test_the_corners_linked_to_a_point_are_those_at_which_a_path_may_turn(world):
     ground, axes, at = world
     at = at[Area(ground).holds(at)]
     assume(len(at) > 1)
@@ -228,14 +228,14 @@ def pairs_of(batches) -> set[tuple[int, int]]:
     return {(a, b) for one, two in batches for a, b in zip(one.tolist(), two.tolist(), strict=True)}
 
 
-def test_a_line_through_the_middle_of_a_long_row_is_parted_by_its_axis():
+def test_the_axis_of_a_long_row_separates_points_on_both_sides():
     row = box(10.0, 49.0, 90.0, 51.0)
     ground = box(0.0, 0.0, 100.0, 100.0).difference(row)
     visibility = VisibilityGraph(ground, np.array([[(10.0, 50.0), (90.0, 50.0)]]))
     assert not pairs_of(visibility.pairs(np.array([(50.0, 20.0), (55.0, 80.0)])))
 
 
-def test_a_marker_at_a_tree_stands_on_it_whichever_is_asked_for_first():
+def test_a_marker_at_a_tree_keeps_its_position_in_any_order_of_queries():
     site = upright(3, 5, markers={"start": (6.0, 8.0)})
     tree = next(t.place for t in site.trees if t.place.xy == (6.0, 8.0))
     marker = site.markers["start"]

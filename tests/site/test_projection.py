@@ -1,4 +1,4 @@
-"""Metres of a site are those of the earth, to a millimetre within five kilometres of its middle."""
+"""Test the projection: distances are geodesic, to a millimetre within five kilometres of the middle."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ GEOD = pyproj.Geod(ellps="WGS84")
 
 @settings(max_examples=40)
 @given(st.floats(-70, 70), st.floats(-179, 179), st.floats(0, 360), st.floats(0.01, 5000))
-def test_distance_and_bearing_from_the_middle_are_the_geodesics(lat, lon, bearing, metres):
+def test_distance_and_bearing_from_the_middle_are_geodesic(lat, lon, bearing, metres):
     there_lon, there_lat, _ = GEOD.fwd(lon, lat, bearing, metres)
     x, y = Projection(lat, lon).metres(there_lat, there_lon)[0]
     assert (x**2 + y**2) ** 0.5 == pytest.approx(metres, abs=1e-3)
@@ -24,7 +24,7 @@ def test_distance_and_bearing_from_the_middle_are_the_geodesics(lat, lon, bearin
 
 @settings(max_examples=40)
 @given(st.floats(-70, 70), *[st.floats(-2000, 2000)] * 4)
-def test_distance_between_two_places_is_the_geodesics(lat, x0, y0, x1, y1):
+def test_distance_between_two_places_is_geodesic(lat, x0, y0, x1, y1):
     (lat0, lon0), (lat1, lon1) = Projection(lat, 10.0).degrees([[x0, y0], [x1, y1]])
     *_, metres = GEOD.inv(lon0, lat0, lon1, lat1)
     assert ((x1 - x0) ** 2 + (y1 - y0) ** 2) ** 0.5 == pytest.approx(metres, abs=1e-2)

@@ -1,4 +1,4 @@
-"""Rows from bare points: who stands with whom, whichever way rows run; and none where there are none."""
+"""Test the inference of rows: trees grouped correctly in any direction, and no rows where there are none."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ quick = settings(max_examples=25, deadline=None)
 
 
 def wrong(truth: NDArray[np.intp], found: NDArray[np.intp]) -> int:
-    """Trees that are in a row most of whose trees are of another, in none, or in the smaller piece of their row."""
+    """Return the trees in a row mostly of other trees, in no row, or in the smaller piece of their row."""
     own, row = truth[truth >= 0], found[truth >= 0].copy()
     row[row < 0] = row.max(initial=0) + 1 + np.arange((row < 0).sum())
     table = np.zeros((row.max() + 1, own.max() + 1), dtype=int)
@@ -43,7 +43,7 @@ def turned(xy: NDArray[np.float64], degrees: float) -> NDArray[np.float64]:
 
 
 def check(planting: Planting, site: Site) -> None:
-    """What holds of every planting."""
+    """Check the invariants of a planting."""
     assert planting.tree_count == len(site.trees)
     seen = np.concatenate([row.trees for row in planting.rows]) if planting.rows else np.empty(0, dtype=int)
     assert len(np.unique(seen)) == len(seen) == (planting.row_of >= 0).sum()
@@ -68,7 +68,7 @@ def check(planting: Planting, site: Site) -> None:
 
 
 @pytest.mark.parametrize("seed", range(24))
-def test_trees_of_made_orchards_are_in_their_row(seed):
+def test_trees_of_generated_orchards_are_in_their_row(seed):
     made = random_orchard(seed, trees=120 + 25 * seed, blocks=1 + seed % 4)
     site = points_site(made.xy)
     check(site.planting, site)
@@ -84,7 +84,7 @@ def test_small_orchards_with_ponds_have_the_rows_that_were_planted(made):
 
 
 @pytest.mark.parametrize("lattice", ["square", "diamond"])
-def test_the_hardest_that_is_asked_for(lattice):
+def test_rows_of_the_hardest_orchards_are_found(lattice):
     lost = planted = 0
     for seed in range(6):
         shape = BlockShape(
@@ -97,8 +97,8 @@ def test_the_hardest_that_is_asked_for(lattice):
     assert lost <= 0.005 * planted
 
 
-def test_scattered_trees_are_hardly_ever_striped():
-    """Chance makes rows as well, about once in several hundred sites."""
+def test_scattered_trees_rarely_give_rows():
+    """Rows by chance are accepted in about one of several hundred sites."""
     striped = 0
     for seed in range(60):
         rng = np.random.default_rng(seed)
@@ -122,7 +122,7 @@ def test_scattered_trees_beside_rows_are_in_no_row_and_counted():
 
 @quick
 @given(block_shapes(), st.floats(0.0, 360.0), seeds)
-def test_turning_the_site_turns_its_rows_with_it(shape, degrees, seed):
+def test_rotating_the_site_rotates_its_rows(shape, degrees, seed):
     made = make_orchard(np.random.default_rng(seed), [replace(shape, missing=0.0, ends="even")])
     before, after = points_site(made.xy).planting, points_site(turned(made.xy, degrees)).planting
     assert wrong(before.row_of, after.row_of) == 0
@@ -133,27 +133,27 @@ def test_turning_the_site_turns_its_rows_with_it(shape, degrees, seed):
 
 @quick
 @given(made_orchards(surrounded=False), seeds)
-def test_the_order_of_the_file_says_nothing_about_clear_rows(made, seed):
+def test_clear_rows_do_not_depend_on_the_file_order(made, seed):
     order = np.random.default_rng(seed).permutation(len(made.xy))
     before, after = points_site(made.xy).planting, points_site(made.xy[order]).planting
     assert wrong(before.row_of[order], after.row_of) == 0
 
 
-def test_a_square_planting_has_its_rows_where_the_file_goes_from_tree_to_tree():
+def test_rows_of_a_square_planting_follow_the_file_order():
     columns = grid(12, 12, across=4.0, along=4.0)
     rows = [(y, x) for x, y in columns]
     assert site_of(columns).planting.blocks[0].bearing_deg == pytest.approx(0.0, abs=0.5)
     assert site_of(rows).planting.blocks[0].bearing_deg == pytest.approx(90.0, abs=0.5)
 
 
-def test_a_square_planting_in_no_order_has_its_rows_the_longer_way_and_is_less_sure():
+def test_rows_of_a_square_planting_without_order_follow_the_longer_side_with_less_confidence():
     xy = np.random.default_rng(1).permutation(np.array(grid(6, 20, across=4.0, along=4.0)))
     square, clear = points_site(xy).planting, points_site(xy * [1.5, 1.0]).planting
     assert [len(row.trees) for row in square.rows] == [20] * 6
     assert square.blocks[0].confidence < 0.7 < 0.95 < clear.blocks[0].confidence
 
 
-def test_rows_are_less_sure_the_worse_they_are_kept():
+def test_confidence_decreases_with_irregular_planting():
     def sure(jitter: float, missing: float) -> float:
         shape = BlockShape(rows=9, trees_a_row=16, row_spacing_m=4.8, jitter=jitter, missing=missing)
         planting = points_site(make_orchard(np.random.default_rng(3), [shape]).xy).planting
@@ -178,7 +178,7 @@ def test_a_single_line_of_trees_is_a_block_of_one_row(bearing):
     assert block.bearing_deg == pytest.approx(bearing, abs=0.1)
 
 
-def test_five_missing_trees_leave_a_row_one_and_a_road_through_all_parts_the_block():
+def test_five_missing_trees_do_not_split_a_row_but_a_road_through_all_rows_splits_the_block():
     whole = np.array(grid(8, 24))
     gap = ~((whole[:, 0] == 18.0) & (whole[:, 1] >= 40.0) & (whole[:, 1] < 60.0))
     (block,) = points_site(whole[gap]).planting.blocks
@@ -188,7 +188,7 @@ def test_five_missing_trees_leave_a_row_one_and_a_road_through_all_parts_the_blo
     assert len(north.rows) == len(south.rows) == 8
 
 
-def test_blocks_of_other_bearing_and_spacing_stand_side_by_side():
+def test_adjacent_blocks_with_different_bearing_and_spacing_are_separate():
     shapes = [
         BlockShape(rows=8, trees_a_row=14, row_spacing_m=5.0, tree_spacing_m=3.0, bearing_deg=20.0, jitter=0.05),
         BlockShape(rows=6, trees_a_row=10, row_spacing_m=9.0, tree_spacing_m=6.0, bearing_deg=75.0, jitter=0.05),
@@ -208,7 +208,7 @@ def test_rows_may_curve():
     assert wrong(made.row_of, points_site(made.xy).planting.row_of) == 0
 
 
-def test_a_tree_entered_twice_stands_where_the_other_does():
+def test_a_tree_entered_twice_shares_the_row_and_position():
     points = grid(5, 8)
     site = site_of([*points, points[11], points[30]])
     row_of = site.planting.row_of
@@ -218,18 +218,18 @@ def test_a_tree_entered_twice_stands_where_the_other_does():
 
 
 @pytest.mark.parametrize("count", [1, 2])
-def test_a_tree_or_two_are_no_row(count):
+def test_one_or_two_trees_form_no_row(count):
     planting = site_of(grid(1, count)).planting
     assert planting.blocks == ()
     assert "three trees" in planting.why
 
 
-# ---- what the file says
+# ---- names in the file
 
 
 @quick
 @given(made_orchards(named=True))
-def test_the_files_own_rows_blocks_and_positions_win(made):
+def test_rows_blocks_and_positions_of_the_file_take_precedence(made):
     site = site_of_made(made)
     planting = site.planting
     check(planting, site)
@@ -243,7 +243,7 @@ def test_the_files_own_rows_blocks_and_positions_win(made):
             assert planting.blocks[row.block].name == said["block"]
 
 
-def test_rows_that_the_file_names_alike_in_two_blocks_are_two():
+def test_equal_row_names_in_two_blocks_are_two_rows():
     shapes = [BlockShape(rows=5, trees_a_row=8), BlockShape(rows=4, trees_a_row=8, bearing_deg=60.0)]
     made = make_orchard(np.random.default_rng(0), shapes, road_m=25.0, named="rows")
     planting = site_of_made(made).planting
@@ -251,7 +251,7 @@ def test_rows_that_the_file_names_alike_in_two_blocks_are_two():
     assert sorted(len(block.rows) for block in planting.blocks) == [4, 5]
 
 
-def test_names_for_some_trees_go_to_those_between_and_other_rows_are_seen():
+def test_names_of_some_trees_extend_to_their_row_and_other_rows_are_inferred():
     points = grid(6, 10)
     names = [f"R{k // 10}" if k // 10 < 3 and k % 2 == 0 else "" for k in range(60)]
     planting = site_of(points, row_names=names).planting
@@ -262,14 +262,14 @@ def test_names_for_some_trees_go_to_those_between_and_other_rows_are_seen():
     assert len(planting.blocks) == 1
 
 
-def test_a_row_property_whose_trees_stand_anywhere_is_no_row():
+def test_a_row_property_of_scattered_trees_is_no_row():
     names = [str(k * 7 % 5) for k in range(60)]
     shuffled = np.random.default_rng(0).permutation(names).tolist()
     planting = site_of(grid(6, 10), row_names=shuffled).planting
     assert [row.known for row in planting.rows] == ["inferred"] * 6
 
 
-def test_a_column_is_the_position_where_rows_are_named_and_the_row_where_they_are_not():
+def test_a_column_is_the_position_if_rows_are_named_and_else_the_row():
     points = grid(6, 10)
     columns = [{"column": float(k // 10 + 1)} for k in range(60)]
     planting = site_of(points, properties=columns).planting
@@ -279,13 +279,13 @@ def test_a_column_is_the_position_where_rows_are_named_and_the_row_where_they_ar
     assert named.rows[0].slots.tolist() == list(range(12, 2, -1))
 
 
-def test_numbers_of_trees_through_the_whole_file_are_no_positions():
+def test_tree_numbers_of_the_whole_file_are_no_positions():
     numbers = [{"tree_number": float(k + 1)} for k in range(60)]
     planting = site_of(grid(6, 10), properties=numbers, row_names=[f"{k // 10}" for k in range(60)]).planting
     assert all(row.slots.tolist() == list(range(1, 11)) for row in planting.rows)
 
 
-def test_blocks_that_the_file_names_hold_the_rows_that_are_seen():
+def test_named_blocks_contain_the_inferred_rows():
     points = grid(6, 10)
     blocks = [{"block": "home" if k < 30 else "river"} for k in range(60)]
     planting = site_of(points, properties=blocks).planting
@@ -295,7 +295,7 @@ def test_blocks_that_the_file_names_hold_the_rows_that_are_seen():
 # ---- real farms
 
 
-def test_the_demo_has_the_rows_it_names_and_shows_them_without_names():
+def test_rows_of_the_demo_are_the_same_with_and_without_names():
     named = load_demo()
     bare = replace(named, trees=tuple(replace(tree, row="", properties={}) for tree in named.trees))
     check(named.planting, named)
@@ -335,8 +335,8 @@ def test_scattered_farms_have_no_rows(name):
     assert "scattered" in planting.why
 
 
-def test_rows_of_two_blocks_in_line_across_a_road_stay_apart():
-    """Two blocks planted alike, end to end: a road that every row stops at parts them, whatever trees are missing."""
+def test_rows_of_two_blocks_in_line_across_a_road_stay_separate():
+    """Two equal blocks lie end to end; a road at which every row ends separates them, with any missing trees."""
     for seed, road in ((1, 14.0), (2, 18.0), (3, 24.0)):
         rng = np.random.default_rng(seed)
         places = [(6.0 * row, 4.0 * n) for row in range(9) for n in range(14)]
@@ -346,7 +346,7 @@ def test_rows_of_two_blocks_in_line_across_a_road_stay_apart():
         assert len(points_site(xy).planting.blocks) == 2
 
 
-def test_a_pond_leaves_the_rows_that_it_interrupts_whole():
+def test_rows_interrupted_by_a_pond_stay_whole():
     places = np.array([(6.0 * row, 4.0 * n) for row in range(10) for n in range(30)])
     rng = np.random.default_rng(5)
     away = np.hypot(*(places - [27.0, 58.0]).T)
