@@ -144,6 +144,15 @@ def test_the_map_of_the_packages_is_the_one_that_is_enforced() -> None:
         assert re.search(rf"^\|[^|]*`{room}`", table, re.MULTILINE), room
 
 
+def test_the_map_of_the_code_names_what_its_files_define() -> None:
+    table = (ROOT / "docs" / "architecture.md").read_text().partition("## Where is")[2].partition("\n## ")[0]
+    for _, files, names in re.findall(r"^\|(.*)\|(.*)\|(.*)\|$", table, re.MULTILINE)[2:]:
+        named = re.findall(r"`([\w/.]+\.py)`", files)
+        text = "".join((ROOT / "src" / "fieldhand" / file).read_text() for file in named)
+        for name in re.findall(r"`(?:\w+\.)?(\w+)`", names):
+            assert not named or re.search(rf"(def|class) {name}\b|^{name} = ", text, re.MULTILINE), f"{named}: {name}"
+
+
 def test_the_page_of_sites_defines_every_selector() -> None:
     page = (ROOT / "docs" / "site.md").read_text().partition("## What the words mean")[2].partition("\n### ")[0]
     named = {
