@@ -175,7 +175,7 @@ def _entered_twice(
         for before, number in pairs:
             faults.add(
                 number,
-                f"the tree stands within {SAME_TREE_M:g} m of that of {faults.unit} {before}, so is probably the same",
+                f"the tree stands within {SAME_TREE_M:g} m of that of {faults.unit} {before}, probably the same",
                 "",
             )
         return again, []
@@ -277,11 +277,11 @@ def _notes(features: FeatureSet, faults: Faults) -> list[str]:
     landmarks = Counter(p.word.lower()[:30] for p in features.points if p.kind == "landmark")
     if landmarks:
         listing = ", ".join(f"{n} x {word}" for word, n in landmarks.most_common(5))
-        notes.append(f"points that are no trees were left out: {listing}")
+        notes.append(f"points that are not trees were left out: {listing}")
     if features.lines:
         notes.append(
-            f"{features.lines} line{'s' * (features.lines > 1)} left out: of lines only those are used"
-            " that no robot drives across (a fence, a ditch)"
+            f"{features.lines} line{'s' * (features.lines > 1)} left out: the only lines used are barriers"
+            " that no robot crosses (a fence, a ditch)"
         )
     if features.heights:
         notes.append(

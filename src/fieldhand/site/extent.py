@@ -61,9 +61,7 @@ class _Strays:
             number,
             f"it lies {away_m / 1000:,.0f} km from the middle of the trees"
             + (": its latitude and longitude are swapped" if swapped else ""),
-            "write [longitude, latitude]"
-            if swapped
-            else "correct its coordinates [longitude, latitude] or take it out",
+            "write [longitude, latitude]" if swapped else "correct its coordinates [longitude, latitude] or remove it",
             needed=needed,
         )
 

@@ -120,7 +120,7 @@ def readable(text: str, what: str) -> str:
     flat = re.sub(r"[\t\r\n]+", " ", text)
     hidden = find_hidden(flat)
     if hidden is not None:
-        _fail(f"its {what} holds the character {hidden.name}, which nobody can see", "take it out of the file")
+        _fail(f"its {what} holds the character {hidden.name}, which nobody can see", "remove it from the file")
     return flat
 
 
@@ -173,7 +173,7 @@ class _FeatureReader:
             _fail("it is not a GeoJSON Feature", 'every entry of "features" needs "type": "Feature"')
         geometry, raw = feature.get("geometry"), feature.get("properties")
         if not isinstance(geometry, dict):
-            _fail("it has no geometry", "give it a Point or a Polygon, or take it out")
+            _fail("it has no geometry", "give it a Point or a Polygon, or remove it")
         if raw is None:
             raw = {}
         if not isinstance(raw, dict):
@@ -321,7 +321,7 @@ def _number(value: Any, what: str) -> float:
     except OverflowError:
         number = math.inf
     if not math.isfinite(number):
-        _fail(f"{what} is not a finite number (NaN or infinite)", "correct it or take it out")
+        _fail(f"{what} is not a finite number (NaN or infinite)", "correct or remove it")
     return number
 
 

@@ -52,7 +52,7 @@ def _checked(member: zipfile.ZipInfo, at: str) -> bool:
         raise SiteError(
             f"the archive holds a path that leads out of it ({member.filename[:60]!r})",
             where=at,
-            advice="do not trust this file; ask for it again from where it came",
+            advice="do not trust this file; request it again from its source",
         )
     if member.flag_bits & 0x1:
         raise SiteError("the archive is encrypted", where=at, advice="pack it again without a password")

@@ -86,8 +86,8 @@ class Faults:
 
     def _way_out(self) -> str:
         if self.lenient:
-            return "correct them: what keeps a robot out of somewhere is never left out, not even with --lenient"
-        return "correct them or take them out, or load what is sound with --lenient"
+            return "correct them: keep-outs, fences and the boundary are never left out, not even with --lenient"
+        return "correct or remove them, or leave them out with --lenient"
 
 
 def numbered(unit: Unit, numbers: Sequence[int]) -> str:

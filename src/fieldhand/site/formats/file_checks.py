@@ -83,7 +83,7 @@ def check_geopackage(path: Path, at: str) -> frozenset[str]:
     tables = {str(name).lower() for name, kind, _ in found if kind == "table"}
     views = {str(name) for name, kind, _ in found if kind == "view"}
     if any(_VIRTUAL.match(str(sql)) and not _INDEX.search(str(sql)) for _, _, sql in found):
-        raise SiteError("the file has tables that stand for something else", where=at, advice="export the site again")
+        raise SiteError("the file has virtual tables", where=at, advice="export the site again")
     if "gpkg_contents" not in tables or any(name.lower().startswith(("gpkg_", "rtree_")) for name in views):
-        raise SiteError("this is an SQLite database, but no GeoPackage", where=at, advice="export the site again")
+        raise SiteError("this is an SQLite database, but not a GeoPackage", where=at, advice="export the site again")
     return frozenset(views)

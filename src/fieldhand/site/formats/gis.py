@@ -89,7 +89,7 @@ def _packed(paths: Sequence[Path], at: str, *, lenient: bool) -> SiteRecords:
             found = [next((p for p in found if p.name.lower() == "doc.kml"), found[0])]
         if len(found) > 1:
             raise SiteError(
-                f"the archive holds {len(found)} {ending} files", where=at, advice="pack the one that is the site"
+                f"the archive holds {len(found)} {ending} files", where=at, advice="pack only the file of the site"
             )
         if ending in (".geojson", ".json"):
             return geojson_records(found[0].read_bytes(), at, lenient=lenient)
@@ -97,7 +97,7 @@ def _packed(paths: Sequence[Path], at: str, *, lenient: bool) -> SiteRecords:
             return table_records(found[0].read_bytes(), at)
         return _joined([(found[0], "")], at)
     raise SiteError(
-        "the archive holds no file of a site",
+        "the archive contains no site file",
         where=at,
         advice="pack a Shapefile with its parts, a GeoPackage, KML, GeoJSON or CSV file",
     )
@@ -142,7 +142,7 @@ def _layers_of(gdal: Any, path: Path, gathering: _Gathering, at: str) -> list[st
     except Exception as fault:  # noqa: BLE001  # GDAL's errors are of many classes
         raise _unreadable(fault, at) from None
     if not drivers <= _DRIVERS[path.suffix.lower()]:
-        raise SiteError(f"the file is one of {visible(min(drivers))[:40]}", where=at, advice="export it again")
+        raise SiteError(f"GDAL reads the file as {visible(min(drivers))[:40]}", where=at, advice="export it again")
     return names
 
 
@@ -185,7 +185,7 @@ def _read_layer(gdal: Any, path: Path, layer: str, title: str, gathering: _Gathe
         return  # a table without geometry, or an empty folder
     if len(gathering.features) + len(shapes) > MAX_FEATURES:
         raise SiteError(
-            f"it has more than {MAX_FEATURES:,} features", where=at, advice="cut the site into smaller ones"
+            f"it has more than {MAX_FEATURES:,} features", where=at, advice="divide the site into smaller ones"
         )
     first = len(gathering.features) + 1
     gathering.features.extend(_features(meta, shapes, columns, title, at, gathering.notes))
@@ -222,7 +222,7 @@ def _features(
             _kind_from_layer(properties, title, "" if geometry is None else geometry.geom_type)
         if geometry is None or geometry.is_empty:
             what = "it has no geometry" if geometry is None else "its geometry is empty"
-            made.append(UnusablePart(what, "draw it, or take it out", properties))
+            made.append(UnusablePart(what, "draw it, or remove the feature", properties))
             continue
         made.append({"type": "Feature", "properties": properties, "geometry": _mapping(geometry)})
     return made
@@ -258,11 +258,11 @@ def _in_degrees(geometries: Any, crs: str | None, at: str, notes: list[str]) -> 
     if crs is None:
         if xy.size and (np.abs(xy[:, 0]).max() > 180.0 or np.abs(xy[:, 1]).max() > 90.0):
             raise SiteError(
-                "it does not say in which coordinate system it is, and these are no degrees",
+                "it names no coordinate system, and its coordinates are not degrees",
                 where=at,
                 advice="a Shapefile needs its .prj file; or export it as WGS 84 (EPSG:4326)",
             )
-        note = "it does not say in which coordinate system it is, so it was read as WGS 84"
+        note = "it names no coordinate system, so it was read as WGS 84"
         if note not in notes:
             notes.append(note)
         return geometries

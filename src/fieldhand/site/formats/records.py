@@ -41,7 +41,7 @@ def too_big(at: str, size: int) -> SiteError:
     return SiteError(
         f"the file has {size / 1e6:,.0f} MB, more than {MAX_BYTES / 1e6:,.0f} MB",
         where=at,
-        advice="cut the site into smaller ones",
+        advice="divide the site into smaller ones",
     )
 
 

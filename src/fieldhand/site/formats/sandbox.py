@@ -150,8 +150,8 @@ def _records(result: Path, status: int, allowed: ReadLimits, at: str) -> SiteRec
 
 def _too_much(allowed: ReadLimits, at: str) -> SiteError:
     return SiteError(
-        f"the file cannot be read with what a file of its size may take"
-        f" ({allowed.memory / 1e9:.1f} GB of memory, {allowed.cpu_s} s), or broke its reader",
+        f"the file cannot be read within the limits for its size"
+        f" ({allowed.memory / 1e9:.1f} GB of memory, {allowed.cpu_s} s), or its reader crashed",
         where=at,
         advice="do not trust this file; export the site as GeoJSON (WGS 84)",
     )

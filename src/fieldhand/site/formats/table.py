@@ -77,7 +77,7 @@ def _text(data: bytes, at: str) -> tuple[str, tuple[str, ...]]:
         return data.decode("utf-8-sig"), ()
     except UnicodeDecodeError:
         if b"\0" in data[:4096]:
-            raise SiteError("the file is no text", where=at, advice="save the table as CSV in UTF-8") from None
+            raise SiteError("the file is not a text file", where=at, advice="save the table as CSV in UTF-8") from None
         return data.decode("cp1252", errors="replace"), ("the table is not UTF-8, so it was read as Windows-1252",)
 
 
@@ -121,7 +121,7 @@ def _columns(header: Sequence[str], at: str, line: int) -> _Columns:
         raise SiteError(
             f"it has no column for {' or '.join(missing)} (its columns: {shown})",
             where=f"{at}, line {line}",
-            advice="name the columns latitude and longitude; if this is no table, end its name in .geojson",
+            advice="name the columns latitude and longitude; if this is not a table, end its name in .geojson",
         )
     properties: dict[int, str] = {}
     for k, name in enumerate(names):
@@ -153,7 +153,7 @@ def _feature(row: Sequence[str], columns: _Columns, *, comma: bool) -> dict[str,
     if len(row) < width or any(map(str.strip, row[width:])):
         return UnusablePart(
             f"it has {len(row)} columns, the header has {width}",
-            "give every line as many as the header; text with the separator in it needs quotation marks",
+            "give every line as many columns as the header; put text that contains the separator in quotation marks",
         )
     lat = _degrees(row[columns.latitude], "latitude", comma=comma)
     lon = _degrees(row[columns.longitude], "longitude", comma=comma)
@@ -187,7 +187,7 @@ def value_of(text: str, *, comma: bool = False) -> str | float | bool | None:
 def _degrees(text: str, what: str, *, comma: bool) -> float | UnusablePart:
     text = text.strip()
     if text.lower() in _MISSING - {"nan"}:
-        return UnusablePart(f"its {what} is empty", "give it in decimal degrees, or take the line out")
+        return UnusablePart(f"its {what} is empty", "give it in decimal degrees, or remove the line")
     number = text.replace(",", ".", 1) if comma and text.count(",") == 1 and "." not in text else text
     try:
         return float(number) if "_" not in number else _not_degrees(text, what)
