@@ -162,8 +162,7 @@ def _inside(site: Site) -> NDArray[np.bool_]:
 
 
 def _cut_off(site: Site, drives: Drives, asked: NDArray[np.bool_]) -> dict[int, str]:
-    """Return the reasons of trees that no path leads to; of the unchecked trees of a row, the middle one is checked for
-    all."""
+    """Return the reasons of unchecked trees that no path leads to; the middle one of a row is checked for all."""
     found: dict[int, str] = {}
     for row in site.planting.rows:
         rest = row.trees[~asked[row.trees]].tolist()

@@ -122,8 +122,10 @@ class Area:
 
 
 def free_space(site: Site, clearance_m: float) -> FreeSpace:
-    """Return the ground inside the boundary and outside keep-outs, with fences between touching boundaries, open at
-    gates."""
+    """Return the ground inside the boundary and outside keep-outs.
+
+    A fence, open at the gates, separates boundaries that touch.
+    """
     keep_outs = site.zones_of("keep_out")
     boundaries = [z.polygon for z in site.zones_of("boundary")]
     taken = unary_union([z.polygon for z in keep_outs])
@@ -139,8 +141,10 @@ def free_space(site: Site, clearance_m: float) -> FreeSpace:
 
 
 def soft_ground(hard: BaseGeometry, clearance_m: float) -> BaseGeometry:
-    """Return the ground without a margin of the clearance; ground with very many corners is simplified, and shrinks a
-    little."""
+    """Return the ground without a margin of the clearance.
+
+    Ground with very many corners is simplified and shrinks slightly.
+    """
     soft = _shrunk(hard, clearance_m)
     for give in _GIVE_M:
         if int(shapely.get_num_coordinates(soft)) <= _MANY_CORNERS:

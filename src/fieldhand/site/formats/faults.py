@@ -91,8 +91,7 @@ class Faults:
 
 
 def numbered(unit: Unit, numbers: Sequence[int]) -> str:
-    """Return feature numbers as text: ``feature 3``, ``features 3, 4 and 9``, ``features 3, 4, 9, 12, 14 and 88
-    more``."""
+    """Return feature numbers as text: ``features 3, 4, 9, 12, 14 and 8 more``."""
     if len(numbers) == 1:
         return f"{unit} {numbers[0]}"
     shown = [str(n) for n in numbers[:_MOST_NUMBERS]]

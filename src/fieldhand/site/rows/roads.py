@@ -106,8 +106,7 @@ class _Neighbours:
         return [int(k) for k in self._order[low:high] if k != row]
 
     def alone(self, row: int, at: Floats, reach: float) -> NDArray[np.bool_]:
-        """Return a mask, in the shape of ``at``, of the coordinates at which no neighbouring row has a tree within
-        reach."""
+        """Return a mask of the coordinates ``at`` at which no neighbouring row has a tree within reach."""
         free = np.ones(len(at), dtype=bool)
         for other in self.near(row, _BESIDE):
             low, high = np.searchsorted(self._lines[other].along, [at - reach, at + reach])
