@@ -6,6 +6,7 @@ import ast
 import pickle
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import given
 
@@ -83,9 +84,29 @@ def test_no_simulation_has_no_success_rate():
     assert all(value != value for value in none.quantiles("seconds"))
 
 
-def test_a_negative_seed_is_refused():
-    with pytest.raises(InputError, match="the seed -1 is negative"):
-        fh.fly_many(MISSION, (1, -1))
+@pytest.mark.parametrize(("seed", "shown"), [(-1, "-1"), (1.5, "1.5"), ("one", "'one'")])
+def test_a_seed_that_is_none_is_refused(seed, shown):
+    for use in (
+        lambda: fh.fly_many(MISSION, (1, seed)),
+        lambda: fh.simulate(MISSION, seed=seed),
+        lambda: fh.review(MISSION.task, MISSION.site, MISSION.robot, seed=seed),
+    ):
+        with pytest.raises(InputError, match=f"the seed is {shown}, not a whole number from 0"):
+            use()
+
+
+def test_a_numpy_integer_is_a_seed():
+    assert fh.simulate(MISSION, seed=np.int64(3)).events == fh.simulate(MISSION, seed=3).events
+
+
+def test_a_review_reads_in_another_language():
+    review = fh.review(MISSION.task, MISSION.site, MISSION.robot)
+    assert review.words_in("en") == review.words
+    spanish = review.words_in("es")
+    assert len(spanish.splitlines()) == len(review.words.splitlines())
+    assert "árbol" in spanish
+    with pytest.raises(InputError, match="language"):
+        review.words_in("xx")
 
 
 def test_site_and_approved_mission_survive_pickling():

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import hashlib
 import re
+from dataclasses import replace
 from importlib import resources
 from pathlib import Path
 
@@ -13,7 +14,7 @@ import yaml
 
 from fieldhand.errors import ProfileError
 from fieldhand.robot.fields import Keyed
-from fieldhand.robot.loader import MAX_BYTES, load_robot, parse_profile, profile_bytes, robot_names
+from fieldhand.robot.loader import MAX_BYTES, load_changed, load_robot, parse_profile, profile_bytes, robot_names
 from fieldhand.robot.model import LevelThreshold, Parameter
 from support.processes.command import fieldhand
 
@@ -255,3 +256,29 @@ def test_labels_are_read_by_language() -> None:
 def test_a_built_in_profile_is_written_out_as_it_stands(tmp_path: Path) -> None:
     assert fieldhand("robot", "amiga", "--yaml", "mine.yaml", cwd=tmp_path).status == 0
     assert (tmp_path / "mine.yaml").read_bytes() == profile_bytes("amiga")[0]
+
+
+def test_changed_keys_give_a_profile_of_its_own() -> None:
+    husky = load_robot("husky")
+    changed = load_changed("husky", {"energy": {"capacity_j": 500_000.0}, "retries": None})
+    assert changed.energy == replace(husky.energy, capacity_j=500_000.0)
+    assert changed.sha256 != husky.sha256
+    assert changed == replace(
+        husky, energy=changed.energy, sha256=changed.sha256, source=changed.source, retries=changed.retries
+    )
+
+
+@pytest.mark.parametrize(
+    ("changes", "expected"),
+    [
+        ({"energy": {"capacity_j": -1}}, "energy.capacity_j"),
+        ({"energi": {"capacity_j": 1}}, "energi"),
+        ({"energy": 3}, "energy"),
+        ({"energy": {"capacity_j": object()}}, "cannot express"),
+    ],
+)
+def test_changes_are_checked_like_a_file(changes: dict[str, object], expected: str) -> None:
+    with pytest.raises(ProfileError) as caught:
+        load_changed("husky", changes)
+    assert expected in str(caught.value)
+    assert "husky" in str(caught.value)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from fieldhand.mission.approve import ApprovedMission
 from fieldhand.mission.run import Run
+from fieldhand.mission.seeds import checked_seed
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.results import Event
@@ -80,13 +81,15 @@ def carry_out(
         log: Records every external input, so that the mission can be resumed.
 
     Raises:
-        ExecutionError: The Task was approved for another site or robot.
+        NotApprovedError: The Task was approved for another site or robot.
+        InputError: The seed is negative, or not a whole number.
     """
     from fieldhand.evaluation.budget_guard import BudgetGuard
     from fieldhand.evaluation.failsafe import BudgetFailsafe
     from fieldhand.execution.mission_runner import run
     from fieldhand.forecast.visit_order import drives_for
 
+    seed = checked_seed(seed)
     site, robot, task = mission.site, mission.robot, mission.task
     guard = BudgetGuard(task, site, robot, drives_for(site, robot), seed, charge_percent=vehicle.charge_percent)
     result = run(
@@ -130,9 +133,11 @@ def simulate(
 
     Raises:
         WorldError: The world does not fit the site or the robot.
+        InputError: The seed is negative, or not a whole number.
     """
     from fieldhand.execution.drivers.simulation.vehicle import simulation
     from fieldhand.execution.drivers.simulation.world import World
 
+    seed = checked_seed(seed)
     vehicle = simulation(mission.site, mission.robot, world or World(), seed=seed, speed=speed)
     return carry_out(mission, vehicle=vehicle, seed=seed, emit=emit, interrupted=interrupted, watched=watched)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldhand.mission.seeds import checked_seed
 from fieldhand.robot.model import RobotProfile
 from fieldhand.short_repr import short_repr
 from fieldhand.site.model import Site
@@ -70,6 +71,20 @@ class Review:
         """The plan in words, a line each, as an operator reads it; empty if it cannot be walked through."""
         return "" if self.read_back is None else "\n".join(str(line) for line in self.read_back.text_lines())
 
+    def words_in(self, language: str) -> str:
+        """Return :attr:`words` in another language.
+
+        Args:
+            language: Code of the language, such as ``es``.
+
+        Raises:
+            InputError: There is no catalogue for this language.
+        """
+        from fieldhand.language import open_language
+
+        say = open_language(language).say
+        return "" if self.read_back is None else "\n".join(say(line) for line in self.read_back.text_lines())
+
     def _repr_html_(self) -> str:
         """Return map, words and problems for a notebook."""
         from fieldhand.mission.notebook import html_of_review
@@ -95,10 +110,13 @@ def review(
         seed: Seed of the forecast.
         document: The bytes that the Task was read from, if it was read.
         charge_percent: Charge at the beginning, in percent of a full battery.
+
+    Raises:
+        InputError: The seed is negative, or not a whole number.
     """
     from fieldhand.approval.checks import examine
     from fieldhand.approval.readback import read_back
 
-    found = examine(task, site, robot, document=document, seed=seed, charge_percent=charge_percent)
+    found = examine(task, site, robot, document=document, seed=checked_seed(seed), charge_percent=charge_percent)
     words = None if found.estimate is None else read_back(task, site, robot, found.estimate)
     return Review(examination=found, read_back=words)

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from fieldhand.errors import InputError
 from fieldhand.mission.approve import ApprovedMission
 from fieldhand.mission.execute import simulate
 from fieldhand.mission.records import Records
+from fieldhand.mission.seeds import checked_seed
 from fieldhand.task.results import Acted, Ended, MissionStatus
 
 if TYPE_CHECKING:
@@ -98,13 +98,10 @@ def fly_many(
             version of Fieldhand.
 
     Raises:
-        InputError: A seed is negative.
+        InputError: A seed is negative, or not a whole number.
         WorldError: The world does not fit the site or the robot.
     """
-    chosen = range(seeds) if isinstance(seeds, int) else tuple(seeds)
-    for seed in chosen:
-        if seed < 0:
-            raise InputError(f"the seed {seed} is negative", advice="give seeds of 0 and above")
+    chosen = range(seeds) if isinstance(seeds, int) else tuple(map(checked_seed, seeds))
     if client is not None:
         shared = client.scatter(mission, broadcast=True)
         futures = client.map(_simulated, chosen, mission=shared, world=world, pure=False)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -56,6 +56,46 @@ def load_robot(name_or_path: str) -> RobotProfile:
     """
     data, source = profile_bytes(name_or_path)
     return parse_profile(data, source=source)
+
+
+def load_changed(name_or_path: str, changes: Mapping[str, Any]) -> RobotProfile:
+    """Load the profile of a robot with some keys changed.
+
+    Args:
+        name_or_path: As for :func:`load_robot`.
+        changes: Values by key, mappings within mappings; None removes a key.
+
+    Raises:
+        ProfileError: No such robot, or the changed profile is unusable.
+    """
+    import yaml
+
+    data, source = profile_bytes(name_or_path)
+    parse_profile(data, source=source)
+    changed = _merged(_content(data, source), changes)
+    try:
+        text = yaml.safe_dump(changed, sort_keys=False, allow_unicode=True)
+    except yaml.YAMLError:
+        raise ProfileError(
+            message("the changes hold a value that YAML cannot express"),
+            where=source,
+            advice=message("use numbers, texts, lists and mappings"),
+        ) from None
+    return parse_profile(text.encode(), source=f"{source}, changed")
+
+
+def _merged(content: Mapping[Any, Any], changes: Mapping[Any, Any]) -> dict[Any, Any]:
+    """Return a mapping with changes applied, mapping by mapping."""
+    merged = dict(content)
+    for key, value in changes.items():
+        if value is None:
+            merged.pop(key, None)
+        elif isinstance(value, Mapping):
+            inner = merged.get(key)
+            merged[key] = _merged(inner if isinstance(inner, Mapping) else {}, value)
+        else:
+            merged[key] = value
+    return merged
 
 
 def parse_profile(data: bytes, *, source: str = "profile") -> RobotProfile:

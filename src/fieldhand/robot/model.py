@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 from fieldhand.robot.bindings import Ros2Bindings
 from fieldhand.short_repr import short_repr
@@ -233,18 +233,21 @@ class RobotProfile:
     __repr__ = short_repr
 
     @classmethod
-    def load(cls, name_or_path: str | Path) -> RobotProfile:
+    def load(cls, name_or_path: str | Path, *, changes: Mapping[str, Any] | None = None) -> RobotProfile:
         """Load an installed robot by name, such as ``husky``, or a profile from a YAML file.
 
         Args:
             name_or_path: Name of an installed robot, or path of a YAML file; names take precedence.
+            changes: Keys of the YAML file to set before it is checked, mappings within mappings, such as
+                ``{"energy": {"battery_wh": 500}}``; a key set to None is removed. The profile gets a SHA-256 of its
+                own, so a mission approved for the original is not valid for it.
 
         Raises:
             ProfileError: There is no such robot, or its profile is invalid; the message names the key and a remedy.
         """
-        from fieldhand.robot.loader import load_robot
+        from fieldhand.robot.loader import load_changed, load_robot
 
-        return load_robot(str(name_or_path))
+        return load_robot(str(name_or_path)) if changes is None else load_changed(str(name_or_path), changes)
 
     @cached_property
     def action(self) -> Mapping[str, Action]:
