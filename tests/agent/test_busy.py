@@ -158,7 +158,7 @@ def test_an_order_reaches_the_mission_while_its_folder_and_the_store_cannot_be_w
         closing(sqlite3.connect(folder / "orders.sqlite", isolation_level=None)) as disk,
     ):
         disk.execute("BEGIN IMMEDIATE")
-        with robot_agent.mission_store._guard, robot_agent.mission_store._ledger._guard, linked(port) as link:
+        with robot_agent.mission_store._lock, robot_agent.mission_store._database._thread_lock, linked(port) as link:
             heard = link.order_now(said)  # type: ignore[arg-type]
             assert heard is not None
             assert heard.heard

@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fieldhand.api.gates import SECURITY_HEADERS
-from fieldhand.api.problems import Turned
+from fieldhand.api.problems import RefusedRequest
 from fieldhand.api.work import Limits, Workers
 from support.processes.browser import Browser, Says, browser
 from support.processes.patience import LONG_S
@@ -169,7 +169,7 @@ def test_so_much_work_at_once_and_no_more() -> None:
         async def one() -> None:
             try:
                 answers.append(await workers.do(work))
-            except Turned as turned:
+            except RefusedRequest as turned:
                 answers.append(str(turned.status))
                 if answers.count("503") == 4:
                     release.set()

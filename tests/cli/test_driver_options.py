@@ -62,7 +62,7 @@ def test_a_mission_goes_on_on_what_it_was_begun(tmp_path: Path) -> None:
     assert "begun in simulation and cannot be gone on with on a robot" in str(error)
 
     by = Connection(transport="dds", domain=4, namespace="/a", sim_time=True)
-    begun = missions.Departure(by=by, charge_percent=90.0)
+    begun = missions.RobotAtStart(by=by, charge_percent=90.0)
 
     def again(on: str | None = None, domain: int | None = None, namespace: str | None = None) -> Connection | None:
         return connection_again(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import pickle
+import re
 from pathlib import Path
 
 import numpy as np
@@ -173,3 +174,11 @@ def test_a_table_has_a_row_a_record():
     assert len(events) == len(run.events)
     assert len(run.observations.to_pandas()) == 6
     assert Records(()).to_pandas().empty
+
+
+def test_tables_are_shown_by_their_size():
+    run = fh.simulate(MISSION, seed=5)
+    assert repr(fh.fly_many(MISSION, (5, 2))) == "<Simulations: 2 of 2 succeeded>"
+    assert re.fullmatch(r"<Records: (\d+ [A-Z]\w+, ){1,4}(\.\.\.|\d+ [A-Z]\w+)>", repr(run.events))
+    assert len(repr(run.events)) < 120
+    assert repr(Records(())) == "<Records: empty>"

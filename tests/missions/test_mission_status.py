@@ -45,7 +45,7 @@ def test_a_mission_from_its_folder_alone(tmp_path: Path) -> None:
     assert missions.status(folder).now.state == "ended"
     assert missions.find(tmp_path, None) == missions.find(tmp_path, "m1") == missions.find(tmp_path, str(folder))
     with pytest.raises(ExecutionError, match="has ended"):
-        missions.order(folder, "pause", "")
+        missions.send_command(folder, "pause", "")
     with pytest.raises(JournalError, match="of that name already"):
         missions.begin(tmp_path, "m1", inputs())
 
@@ -136,7 +136,7 @@ def test_a_folder_that_cannot_be_written_is_said(tmp_path: Path) -> None:
 
 def test_an_order_to_a_mission_that_is_cut_off_holds_when_it_goes_on(tmp_path: Path) -> None:
     folder = missions.begin(tmp_path, "m1", inputs()).folder
-    assert not missions.order(folder, "return", "rain is coming")
+    assert not missions.send_command(folder, "return", "rain is coming")
     assert missions.status(folder).order == "return"
     result = missions.carry_out(missions.open_mission(folder), speed=None, emit=list[Event]().append)
     assert (result.status, result.reason) == ("aborted", "rain is coming")

@@ -135,7 +135,7 @@ class Robot:
 
 
 def begun(tmp_path: Path, robot: Robot) -> missions.StoredMission:
-    given = replace(inputs(), world=None, departure=missions.departure_on(robot.vehicle))
+    given = replace(inputs(), world=None, started_on=missions.robot_at_start(robot.vehicle))
     return missions.begin(tmp_path, "m1", given)
 
 
@@ -160,7 +160,7 @@ def test_a_mission_that_was_killed_goes_on_where_the_robot_is(tmp_path: Path) ->
     assert len([e for e in result.events if isinstance(e, Acted)]) == 1
     assert len([e for e in result.events if isinstance(e, Resumed)]) == 1
     assert result.spent.percent == pytest.approx(80.0 - robot.driver.charge_percent())
-    assert missions.read_folder(given.folder).departure == missions.Departure(by=BY, charge_percent=80.0)
+    assert missions.read_folder(given.folder).started_on == missions.RobotAtStart(by=BY, charge_percent=80.0)
 
 
 def test_simulation_and_robot_are_not_mistaken_for_each_other(tmp_path: Path) -> None:
@@ -179,7 +179,7 @@ def test_a_folder_says_on_what_it_was_begun_and_older_ones_open(tmp_path: Path) 
     about = json.loads((older / "mission.json").read_bytes())
     assert about["format"] == 1
     assert "departure" not in about
-    assert missions.read_folder(older).departure is None
+    assert missions.read_folder(older).started_on is None
     newer = begun(tmp_path / "on", Robot.at_the_start()).folder
     about = json.loads((newer / "mission.json").read_bytes())
     assert about["format"] == 2
@@ -187,6 +187,6 @@ def test_a_folder_says_on_what_it_was_begun_and_older_ones_open(tmp_path: Path) 
     for bad in (None, {}, {"by": {"transport": "dds", "more": 1}, "charge_percent": 1}, {"by": {}}):
         (newer / "mission.json").write_text(json.dumps(about | {"departure": bad}))
         with pytest.raises(JournalError, match="no mission"):
-            assert missions.read_folder(newer).departure is None
+            assert missions.read_folder(newer).started_on is None
         with pytest.raises(FieldhandError):
             missions.open_mission(newer)

@@ -99,10 +99,10 @@ def test_a_mission_is_carried_out_on_the_robot_that_was_looked_at(agent: Agent) 
     found = agent.tell(good(), "start")
     assert (found.state, found.status) == ("ended", "completed")
     assert (agent.reached, agent.let_go) == (1, 1)
-    departure = missions.read_folder(
+    started_on = missions.read_folder(
         agent.mission_store.folder_of(agent.mission_store.get(sha256_of(good())))
-    ).departure
-    assert departure == missions.Departure(by=BY, charge_percent=90.0)
+    ).started_on
+    assert started_on == missions.RobotAtStart(by=BY, charge_percent=90.0)
 
 
 @pytest.mark.parametrize(("silent", "charge"), [(True, 90.0), (False, 15.0)])
@@ -153,7 +153,7 @@ def test_a_mission_of_the_simulation_does_not_go_on_on_the_robot(agent: Agent) -
     assert "begun in simulation and cannot be gone on with on a robot" in found.fault
     assert agent.reached == 0
     given = missions.open_mission(agent.mission_store.folder_of(agent.mission_store.get(sha256_of(good()))))
-    assert given.departure is None
+    assert given.started_on is None
     fly(given)
     with pytest.raises(ExecutionError, match="has ended"):
         agent.tell(good(), "resume")

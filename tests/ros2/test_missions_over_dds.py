@@ -120,7 +120,7 @@ class Plan:
             robot=load_robot(self.robot),
             files=site_files(self.site),
             profile=profile_bytes(self.robot)[0],
-            departure=missions.departure_on(vehicle),
+            started_on=missions.robot_at_start(vehicle),
             seed=self.seed,
         )
         return missions.begin(under, "m1", inputs)
@@ -201,7 +201,7 @@ def test_the_command_goes_as_in_simulation(tmp_path: Path) -> None:
     said = json.loads(real.out)
     assert (said["status"], said["mission"] != "") == (json.loads(plain.out)["status"], True)
     (folder,) = (tmp_path / "m").iterdir()
-    begun = missions.read_folder(folder).departure
+    begun = missions.read_folder(folder).started_on
     assert begun is not None
     assert begun.by.transport == "dds"
 
@@ -263,17 +263,17 @@ def _pause_and_return(robot: SimRobot, husky: str, folder: Path) -> None:
         match event:
             case Paused():
                 told.append("continue")
-                missions.order(kept, "continue", "lunch is over")
+                missions.send_command(kept, "continue", "lunch is over")
             case Acted():
                 told.append("return")
-                missions.order(kept, "return", "rain")
+                missions.send_command(kept, "return", "rain")
             case _:
                 pass
 
     def pause(kept: Path) -> None:
         if not told:
             told.append("pause")
-            missions.order(kept, "pause", "lunch")
+            missions.send_command(kept, "pause", "lunch")
 
     events = Plan.of("Take a picture at trees 5, 6 and 7.", robot=husky).carried_out(folder, robot, tell, pause)
     assert told == ["pause", "continue", "return"]
@@ -297,7 +297,7 @@ def _abort(robot: SimRobot, husky: str, folder: Path) -> None:
     def abort(kept: Path) -> None:
         if not told:
             told.append(kept)
-            missions.order(kept, "abort", "a child on the field")
+            missions.send_command(kept, "abort", "a child on the field")
 
     events = Plan.of("Take a picture at trees 5 and 40.", robot=husky).carried_out(folder, robot, under_way=abort)
     ended = events[-1]

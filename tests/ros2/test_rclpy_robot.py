@@ -60,7 +60,7 @@ def test_a_mission_that_is_aborted_cancels_its_goal_on_the_robot(over: str, tmp_
     ):
         until(lambda: goals(robot))
         (folder,) = (tmp_path / "m").iterdir()
-        missions.order(folder, "abort", "a test", wait=lambda: bool(threading.Event().wait(0.02)) or True)
+        missions.send_command(folder, "abort", "a test", wait=lambda: bool(threading.Event().wait(0.02)) or True)
         until(lambda: goals(robot)[-1]["end"] == "canceled")
         until(lambda: missions.status(folder).now.state == "ended")
     assert missions.status(folder).now.status == "aborted"

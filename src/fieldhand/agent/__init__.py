@@ -1,1 +1,1 @@
-"""The robot's end of a delivery as HTTP: missions come in, orders are taken, state and events go out."""
+"""The HTTP server of a robot's agent: it receives missions and commands, and sends state and events."""

@@ -19,7 +19,7 @@ from fieldhand.delivery.mission_store import MissionStore
 from fieldhand.delivery.mission_supervisor import MissionSupervisor
 from fieldhand.errors import ExecutionError, OutputError
 
-#: Bytes of a body that is no mission.
+#: Largest body that is not a mission, in bytes.
 SMALL = 64_000
 
 
@@ -35,16 +35,18 @@ def create_agent(
     clock: Callable[[], float] = time.monotonic,
     sleep: Callable[[float], Awaitable[None]] = anyio.sleep,
 ) -> FastAPI:
-    """The agent of one robot.
+    """Create the ASGI application of a robot's agent.
 
     Args:
-        mission_store: Where its missions arrive.
-        supervisor: Who carries them out.
-        who: What robot it is.
-        token: That a caller has to say; None for none.
-        hosts: Names under which it may be called; None for any.
-        uploads, guessing: What it puts up with.
-        clock, sleep: For wrong tokens.
+        mission_store: Missions that were received.
+        supervisor: Supervisor that carries them out.
+        who: Identity of the robot.
+        token: Token that a request must contain; None for none.
+        hosts: Host names that requests may address; None for any.
+        uploads: Limits on uploads.
+        guessing: Limits on wrong tokens.
+        clock: Returns monotonic seconds, for wrong tokens.
+        sleep: Waits a number of seconds, for wrong tokens.
     """
     app = FastAPI(
         title="Fieldhand agent",
@@ -58,7 +60,7 @@ def create_agent(
 
     @app.exception_handler(OutputError)
     async def _unwritable(_: Request, error: OutputError) -> Response:
-        """The robot's own disk: the sender is not at fault, and may try again."""
+        """Respond to errors of the robot's disk, after which the client may try again."""
         return problem(507, error.what, error.where, error.advice)
 
     @app.exception_handler(ExecutionError)
@@ -66,7 +68,7 @@ def create_agent(
         return problem(409, error.what, error.where, error.advice)
 
     app.include_router(router(mission_store, supervisor, who, uploads or UploadLimits()))
-    # The last that is added is the first that a request passes.
+    # A request passes the middleware in the reverse order.
     app.add_middleware(SmallBodyGate, most=SMALL)
     app.add_middleware(TokenGate, token=token, guessing=guessing or WrongTokenLimits(), clock=clock, sleep=sleep)
     app.add_middleware(CallerGate, hosts=hosts)

@@ -1,7 +1,7 @@
-"""Orders that came over the network, on their way to a mission: nothing else that the agent does can hold them up.
+"""Commands from the network to a mission, which no other work of the agent delays.
 
-event loop ──▶ the mission's memory, at once          an order that stops a robot, or brings it home
-          └──▶ threads of their own ──▶ the folder    every order; with a disk that is slow this may take its time
+event loop ──▶ the mission's memory, at once          commands that stop the robot or call it back
+          └──▶ threads of their own ──▶ the folder    all commands; a slow disk delays only this path
 """
 
 from __future__ import annotations
@@ -13,27 +13,27 @@ from functools import partial
 
 import anyio
 
-from fieldhand.api.problems import Turned
+from fieldhand.api.problems import RefusedRequest
 from fieldhand.delivery.json_models import CommandRequest, Heard, mission_summary
 from fieldhand.delivery.mission_store import MissionStore
 from fieldhand.delivery.mission_supervisor import DirectCommand, MissionSupervisor
 from fieldhand.delivery.received_missions import ReceivedMission
 from fieldhand.delivery.received_status import ReceivedStatus
 
-#: Seconds until an order that was not heard is answered, and how much longer the disk may take.
+#: Seconds to wait until the mission receives a command, and further seconds for the disk.
 ANSWER_WITHIN_S, DISK_WITHIN_S = 5.0, 5.0
-#: Orders whose threads may wait for a disk at the same time.
+#: Number of threads for commands that wait for the disk.
 AT_ONCE = 16
 
 
 class CommandHandler:
-    """Takes orders.
+    """Handler of commands to missions.
 
     Args:
-        mission_store: Where missions have arrived.
-        supervisor: Who carries them out.
-        answer_within_s, disk_within_s: Seconds until an order is answered that was not heard, and until one is answered
-            without the disk.
+        mission_store: Missions that were received.
+        supervisor: Supervisor that carries them out.
+        answer_within_s: Seconds to wait until the mission receives a command.
+        disk_within_s: Further seconds to wait for the disk.
     """
 
     def __init__(
@@ -49,14 +49,14 @@ class CommandHandler:
         self._threads = ThreadPoolExecutor(AT_ONCE, thread_name_prefix="order")
 
     async def take(self, order: CommandRequest, bundle: str | None) -> Heard:
-        """Take an order for a mission; for the one under way, or begun last, where none is named.
+        """Pass a command to a mission; by default, to the running one, else to the one begun last.
 
         Raises:
-            Turned: There is no such mission, or its disk does not answer.
-            ExecutionError: It comes too late, or another mission is under way.
+            RefusedRequest: There is no such mission, or the disk does not respond.
+            ExecutionError: The command comes too late, or another mission is running.
         """
         if bundle is None and order.order == "start":
-            raise Turned(422, "no mission is named", "name the one to start")
+            raise RefusedRequest(422, "no mission is named", "name the one to start")
         reason = order.because or f"{order.order} from elsewhere"
         active = self._supervisor.under_way
         direct = None
@@ -64,13 +64,13 @@ class CommandHandler:
             direct = self._supervisor.give_direct_command(active.sha256, order.order, reason)
         with anyio.move_on_after(self._answer_s + self._disk_s):
             return await asyncio.get_running_loop().run_in_executor(
-                self._threads, partial(self._keep, order, reason, bundle, active, direct)
+                self._threads, partial(self._write_command, order, reason, bundle, active, direct)
             )
         if direct is None or active is None:
-            raise Turned(503, "the robot's disk does not answer", "try again in a moment")
+            raise RefusedRequest(503, "the robot's disk does not answer", "try again in a moment")
         return Heard(heard=direct.heard, mission=mission_summary(ReceivedStatus(received=active, state="running")))
 
-    def _keep(
+    def _write_command(
         self,
         order: CommandRequest,
         reason: str,
@@ -78,7 +78,7 @@ class CommandHandler:
         active: ReceivedMission | None,
         direct: DirectCommand | None,
     ) -> Heard:
-        """Tell the mission by its folder, too, and wait until it has heard the order."""
+        """Write the command to the mission's folder, and wait until the mission receives it."""
         until = time.monotonic() + self._answer_s
 
         def wait() -> bool:
@@ -96,5 +96,7 @@ class CommandHandler:
     def _found(self, bundle: str | None) -> ReceivedMission:
         received = self._supervisor.latest if bundle is None else self._mission_store.find(bundle)
         if received is None:
-            raise Turned(404, "no such mission has arrived" if bundle else "no mission was begun", "send it first")
+            raise RefusedRequest(
+                404, "no such mission has arrived" if bundle else "no mission was begun", "send it first"
+            )
         return received

@@ -1,4 +1,4 @@
-"""The addresses of the agent. A mission is known by the SHA-256 of its bundle; no name of a file comes from outside."""
+"""Routes of the agent. A mission is identified by its SHA-256, so that no request contains a file name."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from starlette.concurrency import run_in_threadpool
 from fieldhand import __version__
 from fieldhand.agent.command_handler import CommandHandler
 from fieldhand.agent.uploads import UploadLimits, UploadSlots, receive, size_of
-from fieldhand.api.problems import Turned
+from fieldhand.api.problems import RefusedRequest
 from fieldhand.delivery.json_models import (
     LONGEST_WAIT_S,
     MOST_EVENTS,
@@ -30,9 +30,9 @@ from fieldhand.delivery.mission_supervisor import MissionSupervisor
 from fieldhand.delivery.received_missions import ReceivedMission
 from fieldhand.delivery.received_status import LoggedEvent
 
-#: Missions that are listed.
+#: Number of missions that are listed.
 LISTED = 50
-#: Seconds between two looks at a journal.
+#: Seconds between two reads of a journal.
 LOOK_S = 0.2
 
 Bundle = Annotated[str, Path(pattern=r"^[0-9a-f]{64}$")]
@@ -40,11 +40,14 @@ Bundle = Annotated[str, Path(pattern=r"^[0-9a-f]{64}$")]
 
 @dataclass(frozen=True, kw_only=True)
 class RobotIdentity:
-    """What robot this is, and where it may work; no site where it may work on any.
+    """The identity of a robot, and the sites on which it may work.
 
     Attributes:
-        on: On what it carries missions out.
-        missing: What of the robot does not answer now, in words; nothing where missions are simulated.
+        robot: Name of the robot.
+        robot_sha256: SHA-256 of its profile.
+        sites: Names of the sites; empty for any.
+        on: Driver of its missions.
+        missing: Returns the parts of the robot that do not respond, in words; none in simulation.
     """
 
     robot: str
@@ -57,13 +60,13 @@ class RobotIdentity:
 def router(
     mission_store: MissionStore, supervisor: MissionSupervisor, who: RobotIdentity, uploads: UploadLimits
 ) -> APIRouter:
-    """Every address."""
+    """Return all routes of the agent."""
     routes = APIRouter()
     entrance, orders = UploadSlots(uploads.at_once), CommandHandler(mission_store, supervisor)
 
     @routes.get("/agent")
     def robot() -> RobotState:
-        """The robot, and the missions that arrived last."""
+        """Return the state of the robot, and the missions that it received last."""
         return RobotState(
             robot=who.robot,
             robot_sha256=who.robot_sha256,
@@ -77,11 +80,11 @@ def router(
 
     @routes.put("/agent/missions/{bundle}")
     async def upload(bundle: Bundle, request: Request, response: Response) -> Receipt:
-        """Take a mission: its bytes, whose SHA-256 is in the address. Nothing runs by this."""
+        """Receive a mission, whose SHA-256 is in the address; it does not start by that."""
         size = size_of(request, uploads)
         with entrance.entered():
             receiving = mission_store.receiving()
-            # The disk may be slow: nothing of it is done in the thread that answers everyone.
+            # The disk may be slow, so it is not used in the thread of the event loop.
             incoming = await run_in_threadpool(receiving.__enter__)
             try:
                 await receive(request, incoming, size, uploads)
@@ -98,18 +101,18 @@ def router(
 
     @routes.get("/agent/missions/{bundle}")
     def mission(bundle: Bundle) -> Receipt:
-        """A mission that has arrived: its hashes, and how it stands."""
+        """Return hashes and state of a mission that was received."""
         received = found(bundle)
         return Receipt(hashes=dict(received.hashes), new=False, mission=mission_summary(supervisor.status_of(received)))
 
     @routes.post("/agent/missions/{bundle}/orders")
     async def order(bundle: Bundle, body: CommandRequest) -> Heard:
-        """Tell a mission to start, pause, resume, return or abort."""
+        """Command a mission to start, pause, resume, return or abort."""
         return await orders.take(body, bundle)
 
     @routes.post("/agent/orders")
     async def order_now(body: CommandRequest) -> Heard:
-        """Tell the mission under way, else the one begun last, to pause, resume, return or abort."""
+        """Command the running mission, else the one begun last, to pause, resume, return or abort."""
         return await orders.take(body, None)
 
     @routes.get("/agent/missions/{bundle}/events")
@@ -118,7 +121,7 @@ def router(
         after: Annotated[int, Query(ge=0, le=10**12)] = 0,
         wait: Annotated[float, Query(ge=0, le=LONGEST_WAIT_S, allow_inf_nan=False)] = 0.0,
     ) -> Events:
-        """The events behind number ``after``; where there are none yet, the answer waits so many seconds for one."""
+        """Return the events after number ``after``; if there are none yet, wait some seconds for one."""
         received = await run_in_threadpool(found, bundle)
         lines, idle = await _awaited(supervisor, received, after, wait)
         standing = await run_in_threadpool(supervisor.status_of, received)
@@ -127,7 +130,7 @@ def router(
     def found(bundle: str) -> ReceivedMission:
         received = mission_store.find(bundle)
         if received is None:
-            raise Turned(404, "no such mission has arrived", "send it first")
+            raise RefusedRequest(404, "no such mission has arrived", "send it first")
         return received
 
     return routes
@@ -136,7 +139,7 @@ def router(
 async def _awaited(
     supervisor: MissionSupervisor, received: ReceivedMission, after: int, wait: float
 ) -> tuple[tuple[LoggedEvent, ...], bool]:
-    """The next events, or none after so many seconds, or once none can come."""
+    """Return the next events; none after a number of seconds, or if no further event can follow."""
     until = anyio.current_time() + wait
     while True:
         lines, idle = await run_in_threadpool(supervisor.events_after, received, after, MOST_EVENTS)

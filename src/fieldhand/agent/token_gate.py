@@ -20,13 +20,14 @@ from fieldhand.api.problems import problem
 
 @dataclass(frozen=True, kw_only=True)
 class WrongTokenLimits:
-    """Limits on wrong tokens. A right one passes at any time.
+    """Limits on wrong tokens. The right token is always accepted.
 
     Attributes:
-        delay_s: Before a wrong one is answered.
-        tries: Wrong ones of an address until it is told to wait.
-        lockout_s: For how long; doubled with each further round, up to ``longest_s``.
-        addresses: How many are remembered; the oldest is forgotten.
+        delay_s: Seconds before the response to a wrong token.
+        tries: Number of wrong tokens from an address before it is locked out.
+        lockout_s: Seconds of the first lockout, doubled with each further one.
+        longest_s: Seconds of the longest lockout.
+        addresses: Number of addresses that are remembered; the oldest is removed.
     """
 
     delay_s: float = 0.5
@@ -37,15 +38,16 @@ class WrongTokenLimits:
 
 
 class TokenGate:
-    """Lets through who says the token, before a byte of a body is read.
+    """Middleware that admits requests with the right token, before any byte of a body is read.
 
-    The right token passes whatever came before it from its address, which others may share. So the length of the token
-    (:data:`fieldhand.delivery.agent_token.SHORTEST`) keeps it from being guessed; delays only spare the robot work.
+    The right token is accepted even from a locked out address, which others may share. The length of the token
+    (:data:`fieldhand.delivery.agent_token.SHORTEST`) prevents guessing; delays only save the robot work.
 
     Args:
-        token: None where nobody has to say one.
-        clock: Seconds, never set back.
-        sleep: Waits so many seconds.
+        token: The token; None if none is required.
+        guessing: Limits on wrong tokens.
+        clock: Returns monotonic seconds.
+        sleep: Waits a number of seconds.
     """
 
     def __init__(
@@ -59,26 +61,26 @@ class TokenGate:
     ) -> None:
         self._app, self._guessing, self._clock, self._sleep = app, guessing, clock, sleep
         self._wanted = None if token is None else _digest(token)
-        #: By address: wrong tokens so far, and until when it has to wait.
+        #: Wrong tokens so far, and end of the lockout, by address.
         self._wrong: OrderedDict[str, tuple[int, float]] = OrderedDict()
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return
-        kind, _, said = Headers(scope=scope).get("authorization", "").partition(" ")
-        right = kind.lower() == "bearer" and hmac.compare_digest(_digest(said.strip()), self._wanted or b"")
+        kind, _, given = Headers(scope=scope).get("authorization", "").partition(" ")
+        right = kind.lower() == "bearer" and hmac.compare_digest(_digest(given.strip()), self._wanted or b"")
         if right or self._wanted is None:
             set_rank(scope, Rank.OPERATOR if is_order(scope) else Rank.WORKING)
             await self._app(scope, receive, send)
             return
         set_rank(scope, Rank.WAITING)
-        response = self._refusal((scope.get("client") or ("", 0))[0], said=bool(said))
+        response = self._refusal((scope.get("client") or ("", 0))[0], is_given=bool(given))
         await self._sleep(self._guessing.delay_s)
         await response(scope, receive, send)
 
-    def _refusal(self, client: str, *, said: bool) -> Response:
-        """Count a wrong token, before it is answered: many guesses at once are counted, too."""
+    def _refusal(self, client: str, *, is_given: bool) -> Response:
+        """Count a wrong token before the response, so that simultaneous guesses are counted, too."""
         address = network_of(client)
         wrong, until = self._wrong.get(address, (0, -math.inf))
         left = until - self._clock()
@@ -87,7 +89,7 @@ class TokenGate:
             response.headers["Retry-After"] = str(math.ceil(left))
             return response
         self._note(address, wrong + 1)
-        what = "this is not the robot's token" if said else "the robot's token is missing"
+        what = "this is not the robot's token" if is_given else "the robot's token is missing"
         response = problem(401, what, "Authorization", "give its file with --token-file, or set FIELDHAND_TOKEN")
         response.headers["WWW-Authenticate"] = "Bearer"
         return response
@@ -104,15 +106,15 @@ class TokenGate:
 
 
 def is_order(scope: Scope) -> bool:
-    """Return True for a request that tells a mission something."""
+    """Return True for a request that contains a command to a mission."""
     return bool(scope["method"] == "POST" and scope["path"].endswith("/orders"))
 
 
 class SmallBodyGate:
-    """Turns away a large body of every request but an upload, which counts its own.
+    """Refuses large bodies of all requests but uploads, which have limits of their own.
 
     Args:
-        most: Bytes.
+        most: Largest size of a body, in bytes.
     """
 
     def __init__(self, app: ASGIApp, most: int) -> None:
@@ -123,5 +125,5 @@ class SmallBodyGate:
 
 
 def _digest(text: str) -> bytes:
-    """Of one length for every token, so that comparing tells nothing of it."""
+    """Return a digest of constant length, so that the comparison does not reveal the length of the token."""
     return hashlib.sha256(text.encode("utf-8", "surrogateescape")).digest()

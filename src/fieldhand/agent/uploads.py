@@ -1,4 +1,4 @@
-"""A body that is a bundle, taken into a file: bounded before it begins, and given up when it stands still."""
+"""Uploads of signed missions: limits on their size, time and number."""
 
 from __future__ import annotations
 
@@ -9,20 +9,21 @@ from dataclasses import dataclass
 import anyio
 from starlette.requests import ClientDisconnect, Request
 
-from fieldhand.api.problems import Turned
+from fieldhand.api.problems import RefusedRequest
 from fieldhand.approval.bundle.container import MAX_BYTES
 from fieldhand.delivery.incoming_file import IncomingFile
 
 
 @dataclass(frozen=True, kw_only=True)
 class UploadLimits:
-    """What one upload may take.
+    """Limits on uploads.
 
     Attributes:
-        most: Bytes.
-        at_once: UploadLimits at the same time.
-        idle_s: Seconds without a byte until it is given up.
-        start_s, bytes_s: It has so many seconds, and one more for each so many bytes.
+        most: Largest size of an upload, in bytes.
+        at_once: Largest number of uploads at the same time.
+        idle_s: Seconds without a byte until an upload is aborted.
+        start_s: Seconds for any upload.
+        bytes_s: Bytes for which an upload has one more second.
     """
 
     most: int = MAX_BYTES
@@ -33,10 +34,10 @@ class UploadLimits:
 
 
 class UploadSlots:
-    """Lets so many uploads in at once.
+    """Limits the number of uploads at the same time.
 
     Args:
-        most: How many.
+        most: Largest number of uploads.
     """
 
     def __init__(self, most: int) -> None:
@@ -44,13 +45,13 @@ class UploadSlots:
 
     @contextmanager
     def entered(self) -> Iterator[None]:
-        """While an upload is inside.
+        """Occupy a slot for the duration of the context.
 
         Raises:
-            Turned: So many are inside already (status 503).
+            RefusedRequest: No slot is free (status 503).
         """
         if self._inside >= self._most:
-            raise Turned(503, "other missions are arriving", "try again in a moment")
+            raise RefusedRequest(503, "other missions are arriving", "try again in a moment")
         self._inside += 1
         try:
             yield
@@ -59,24 +60,24 @@ class UploadSlots:
 
 
 def size_of(request: Request, uploads: UploadLimits) -> int:
-    """What the request says of its size, before anything of it is read.
+    """Return the declared size of an upload, before any of it is read.
 
     Raises:
-        Turned: It says nothing, or too much.
+        RefusedRequest: The size is missing or too large.
     """
-    told = request.headers.get("content-length")
-    if told is None or "transfer-encoding" in request.headers:
-        raise Turned(411, "the upload does not say how large it is", "send it with a Content-Length")
-    if not told.isascii() or not told.isdigit() or len(told) > 15 or int(told) > uploads.most:
-        raise Turned(413, "the upload is too large", f"a mission has {uploads.most / 1e6:,.0f} MB at most")
-    return int(told)
+    declared = request.headers.get("content-length")
+    if declared is None or "transfer-encoding" in request.headers:
+        raise RefusedRequest(411, "the upload does not say how large it is", "send it with a Content-Length")
+    if not declared.isascii() or not declared.isdigit() or len(declared) > 15 or int(declared) > uploads.most:
+        raise RefusedRequest(413, "the upload is too large", f"a mission has {uploads.most / 1e6:,.0f} MB at most")
+    return int(declared)
 
 
 async def receive(request: Request, incoming: IncomingFile, size: int, uploads: UploadLimits) -> None:
-    """Write the body to the file, whole.
+    """Write the complete body to the file.
 
     Raises:
-        Turned: It was cut off, is longer than it said, or came too slowly.
+        RefusedRequest: The body is incomplete, longer than declared, or too slow.
         StoreError: The disk is full.
     """
     stream = request.stream()
@@ -84,10 +85,10 @@ async def receive(request: Request, incoming: IncomingFile, size: int, uploads: 
         with anyio.fail_after(uploads.start_s + size / uploads.bytes_s):
             while chunk := await _next(stream, uploads.idle_s):
                 if incoming.size + len(chunk) > size:
-                    raise Turned(400, "the upload is longer than it said", "send it again")
+                    raise RefusedRequest(400, "the upload is longer than it said", "send it again")
                 await anyio.to_thread.run_sync(incoming.write, chunk)
     except TimeoutError:
-        raise Turned(
+        raise RefusedRequest(
             408, f"the upload came too slowly ({incoming.size:,} of {size:,} bytes)", "send it again"
         ) from None
     except ClientDisconnect:
@@ -97,7 +98,7 @@ async def receive(request: Request, incoming: IncomingFile, size: int, uploads: 
 
 
 async def _next(stream: AsyncIterator[bytes], idle_s: float) -> bytes:
-    """The next bytes; none at the end."""
+    """Return the next bytes; empty at the end."""
     with anyio.fail_after(idle_s):
         async for chunk in stream:
             if chunk:
@@ -105,5 +106,5 @@ async def _next(stream: AsyncIterator[bytes], idle_s: float) -> bytes:
     return b""
 
 
-def _cut_off(incoming: IncomingFile, size: int) -> Turned:
-    return Turned(400, f"the upload was cut off ({incoming.size:,} of {size:,} bytes)", "send it again")
+def _cut_off(incoming: IncomingFile, size: int) -> RefusedRequest:
+    return RefusedRequest(400, f"the upload was cut off ({incoming.size:,} of {size:,} bytes)", "send it again")

@@ -1,1 +1,1 @@
-"""The REST API: thin, one router a file; what is served stands in docs/api.md."""
+"""The REST API, one router a file; docs/api.md describes it."""

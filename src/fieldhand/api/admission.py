@@ -1,7 +1,7 @@
-"""Connections of one server: how many there may be, and which is closed when there are too many.
+"""Limits on the number of connections of a server.
 
-A new connection is always admitted: for it the oldest of those that matter least is closed, of the address that has the
-most. So nobody can keep others out by connecting and saying nothing.
+A new connection is always admitted. If there are too many, the one of the lowest rank is closed, first from the address
+with the most connections, and the oldest of these. Idle connections can therefore not block others.
 """
 
 from __future__ import annotations
@@ -18,8 +18,8 @@ from typing import Any
 class Rank(IntEnum):
     """The rank of a connection: one of a lower rank is closed first.
 
-    ``WAITING``: no whole request yet, or a refused one. ``RECEIVING``: a body is arriving. ``WORKING``: an answer is
-    being made. ``OPERATOR``: an order to a robot, from someone who may give it.
+    ``WAITING``: no complete request yet, or a refused one. ``RECEIVING``: a body is being received. ``WORKING``: a
+    response is being computed. ``OPERATOR``: an authorized command to a robot.
     """
 
     WAITING = 0
@@ -28,17 +28,17 @@ class Rank(IntEnum):
     OPERATOR = 3
 
 
-#: Under this key of a request's state the application says of what rank it is.
+#: Key of the rank in a request's state.
 _RANK = "fieldhand.rank"
 
 
 def set_rank(scope: MutableMapping[str, Any], rank: Rank) -> None:
-    """Say of what rank a request is; without that it is ``RECEIVING`` and then ``WORKING``."""
+    """Set the rank of a request; by default it is ``RECEIVING`` and then ``WORKING``."""
     scope.setdefault("state", {})[_RANK] = rank
 
 
 def rank_of(scope: MutableMapping[str, Any]) -> Rank | None:
-    """Return the rank that the application gave a request; None if it gave none."""
+    """Return the rank that was set for a request; None if none was."""
     found = scope.get("state", {}).get(_RANK)
     return found if isinstance(found, Rank) else None
 
@@ -48,10 +48,10 @@ class AdmittedConnection:
     """A connection that was admitted.
 
     Attributes:
-        number: Counted from the first connection on.
-        address: From where it comes; an IPv6 network of 64 bits counts as one address.
-        rank: Of what rank it is now.
-        close: Ends it at once.
+        number: Number of the connection, in the order of admission.
+        address: Address of the client; an IPv6 network of 64 bits counts as one address.
+        rank: Returns the current rank.
+        close: Closes the connection at once.
     """
 
     number: int
@@ -61,11 +61,11 @@ class AdmittedConnection:
 
 
 class Admission:
-    """Admits connections, and closes others for them.
+    """Admits connections, and closes others if there are too many.
 
     Args:
-        total: How many there may be.
-        of_address: How many of one address.
+        total: Largest number of connections.
+        of_address: Largest number of connections from one address.
     """
 
     def __init__(self, *, total: int, of_address: int) -> None:
@@ -81,9 +81,9 @@ class Admission:
         """Admit a connection; close another one if there are too many.
 
         Args:
-            address: From where it comes.
-            rank: Gives its rank at any time.
-            close: Ends it at once.
+            address: Address of the client.
+            rank: Returns the current rank.
+            close: Closes the connection at once.
         """
         place = AdmittedConnection(number=next(self._numbers), address=network_of(address), rank=rank, close=close)
         self._places[place.number] = place
@@ -95,14 +95,14 @@ class Admission:
         return place
 
     def leave(self, place: AdmittedConnection) -> None:
-        """Forget a connection that has ended; nothing happens if it is forgotten already."""
+        """Remove a connection that has ended; do nothing if it was removed already."""
         if self._places.pop(place.number, None) is not None:
             self._counts[place.address] -= 1
             if not self._counts[place.address]:
                 del self._counts[place.address]
 
     def _close_one(self, address: str | None) -> None:
-        """Close the connection that matters least, but not the one that has just come."""
+        """Close the connection of the lowest rank, except the newest one."""
         newest = max(self._places)
         least = min(
             (place for n, place in self._places.items() if n != newest and address in (None, place.address)),
@@ -113,7 +113,7 @@ class Admission:
 
 
 def network_of(address: str) -> str:
-    """Return the address, or of an IPv6 address the network of 64 bits, which one sender has to itself."""
+    """Return an IPv4 address, or the 64-bit network of an IPv6 address, which belongs to one client."""
     try:
         found = ipaddress.ip_address(address)
     except ValueError:

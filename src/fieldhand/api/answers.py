@@ -1,4 +1,4 @@
-"""What the API answers about a plan: its words, its problems, what it takes, its map."""
+"""Responses of the API about a plan: words, problems, forecast and map."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from fieldhand.task.request_coverage import ROLE_NAMES, has_ranges, request_piec
 
 
 def unplanned_answer(outcome: Clarify | Refused, ground: SiteAndRobot) -> dict[str, Any]:
-    """A question, with where its choices lead, or a refusal."""
+    """Return the response of a question, with the places of its choices, or of a refusal."""
     match outcome:
         case Clarify():
             return {
@@ -33,7 +33,7 @@ def unplanned_answer(outcome: Clarify | Refused, ground: SiteAndRobot) -> dict[s
 
 
 def words_answer(task: Task, language: Language = ENGLISH) -> list[dict[str, str]]:
-    """The request in pieces, each with what became of it; empty where the Task does not say it."""
+    """Return the request in pieces with the role of each; empty if the Task does not record them."""
     if not has_ranges(task):
         return []
     return [
@@ -42,7 +42,7 @@ def words_answer(task: Task, language: Language = ENGLISH) -> list[dict[str, str
 
 
 def review_answer(review: Review, ground: SiteAndRobot, language: Language = ENGLISH) -> dict[str, Any]:
-    """A review: may it be approved, what has to be confirmed, what is wrong, what will be done and takes, and where."""
+    """Return the response of a review: problems, warnings to confirm, plan in words, forecast and map."""
     estimate = review.estimate
     return {
         "task": review.task.id,
@@ -70,7 +70,7 @@ def review_answer(review: Review, ground: SiteAndRobot, language: Language = ENG
 
 
 def _headings(review: Review) -> dict[str, str]:
-    """What a page writes over the parts of the read-back."""
+    """Return the headings of a page for the parts of the read-back."""
     totals = message("What it takes")
     if review.read_back is not None and review.read_back.totals.branches > 1:
         totals = message(

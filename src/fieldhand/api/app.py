@@ -1,4 +1,4 @@
-"""The application: its addresses, what every request passes, and how failures are answered."""
+"""The application: routers, middleware and error handlers."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from fieldhand.api.work import Limits, Workers
 
 
 def create_app(planners: Planners, *, hosts: frozenset[str] | None, limits: Limits | None = None) -> FastAPI:
-    """The REST API as an ASGI application.
+    """Create the ASGI application of the REST API.
 
     Args:
-        planners: Gives the planner of a name.
-        hosts: Names under which a browser may call; None for any.
-        limits: What the server takes on; see :class:`Limits`.
+        planners: Returns the planner of a name.
+        hosts: Host names that requests may address; None for any.
+        limits: Limits of the server's work.
     """
     limits = limits or Limits()
     workers = Workers(limits)
-    # The interactive pages of the framework load scripts from elsewhere; the schema alone is served.
+    # FastAPI's interactive pages load scripts from other servers, so only the schema is served.
     app = FastAPI(
         title="Fieldhand",
         version=__version__,
@@ -40,7 +40,7 @@ def create_app(planners: Planners, *, hosts: frozenset[str] | None, limits: Limi
         run.router(workers, planners, limits),
     ):
         app.include_router(router, prefix="/api")
-    # The last that is added is the first that a request passes.
+    # A request passes the middleware in the reverse order.
     app.add_middleware(BodyGate, most=limits.body_bytes)
     app.add_middleware(CallerGate, hosts=hosts)
     app.add_middleware(LastResort)

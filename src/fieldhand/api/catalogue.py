@@ -1,4 +1,4 @@
-"""What is built in: sites and robots by name."""
+"""Built-in sites, robots and languages."""
 
 from __future__ import annotations
 
@@ -18,22 +18,22 @@ def router(workers: Workers) -> APIRouter:
 
     @routes.get("/sites")
     async def sites() -> list[dict[str, Any]]:
-        """The built-in sites."""
+        """List the built-in sites."""
         return await workers.do(_sites)
 
     @routes.get("/robots")
     async def robots() -> list[dict[str, Any]]:
-        """The built-in robots."""
+        """List the built-in robots."""
         return await workers.do(_robots)
 
     @routes.get("/robots/{name}")
     async def robot(name: str) -> dict[str, Any]:
-        """What a robot can do, measure and hold."""
+        """Return the profile of a robot."""
         return await workers.do(lambda: _robot(name))
 
     @routes.get("/languages")
     async def spoken() -> list[dict[str, str]]:
-        """The languages in which a plan can be read back."""
+        """List the languages in which a plan can be read back."""
         return [{"code": code, "name": name} for code, name in languages().items()]
 
     return routes

@@ -1,4 +1,4 @@
-"""Every check on a Task document."""
+"""Check a Task document."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""HTTP connections with limits: uvicorn's own protocol (h11) waits for ever for a header, a body and a reader.
+"""HTTP connections with time limits, as uvicorn's protocol (h11) waits without limit for headers, bodies and readers.
 
-One timer a connection. It runs whenever the connection waits for its other end, and bytes that drip do not set it back:
+Each connection has one timer. It runs while the connection waits for its client, and slow bytes do not restart it:
 
     TLS handshake and header │ body of a request that was answered │ reader of an answer │ next request
 """
@@ -29,11 +29,11 @@ class Connections:
     """Limits on the connections of one server.
 
     Attributes:
-        total: Connections at the same time.
-        of_address: Of one address.
-        header_s: Seconds for the TLS handshake, and again for a whole header.
-        idle_s: Seconds until the next request begins, and for the rest of a body that is not wanted.
-        bytes_s: The other end has one second more for each so many bytes of an answer that it has not read.
+        total: Largest number of connections.
+        of_address: Largest number of connections from one address.
+        header_s: Seconds for the TLS handshake, and again for a complete header.
+        idle_s: Seconds until the next request begins, and for the rest of a body that is not read.
+        bytes_s: Bytes of an unread response for which the client has one more second.
     """
 
     total: int = 256
@@ -44,11 +44,11 @@ class Connections:
 
 
 def protocol_factory(limits: Connections, tls: ssl.SSLContext | None = None) -> Callable[..., asyncio.Protocol]:
-    """Return what uvicorn takes as the protocol of its connections.
+    """Return a factory of protocols for uvicorn's ``http`` setting.
 
     Args:
-        limits: On the connections.
-        tls: The server's certificate. uvicorn must not have it: a handshake has to count as a connection, too.
+        limits: Limits on the connections.
+        tls: The server's certificate; uvicorn itself must not have it, so that a handshake counts as a connection.
     """
     admission = Admission(total=limits.total, of_address=limits.of_address)
 
@@ -65,13 +65,13 @@ def protocol_factory(limits: Connections, tls: ssl.SSLContext | None = None) -> 
 
 
 class BoundedProtocol(H11Protocol):
-    """uvicorn's protocol of one connection, which ends when its other end takes too long.
+    """uvicorn's protocol of one connection, with a time limit for the client.
 
     Args:
-        config, server_state, app_state, loop: As uvicorn gives them.
+        config, server_state, app_state, loop: As passed by uvicorn.
         admission: Admits the connection.
-        limits: How long it may take.
-        place: Of a connection that was admitted before its handshake.
+        limits: Time limits.
+        place: Connection that was admitted before its TLS handshake.
     """
 
     def __init__(
@@ -90,7 +90,7 @@ class BoundedProtocol(H11Protocol):
         self._timer: asyncio.TimerHandle | None = None
         self._idle = False
 
-    # --- what asyncio calls ---------------------------------------------------------------------------------------
+    # --- called by asyncio -----------------------------------------------------------------------------------------
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         super().connection_made(transport)
@@ -126,11 +126,11 @@ class BoundedProtocol(H11Protocol):
         if not self._in_progress():
             self._await_next()
 
-    # --- what uvicorn calls ---------------------------------------------------------------------------------------
+    # --- called by uvicorn -----------------------------------------------------------------------------------------
 
     def on_response_complete(self) -> None:
         super().on_response_complete()
-        # Its own timer is set back by every byte; and it waits for ever for what is not read.
+        # Every byte restarts uvicorn's timer, and it does not limit the time of a reader.
         self._unset_keepalive_if_required()
         if not self._in_progress():
             self._await_next()
@@ -138,7 +138,7 @@ class BoundedProtocol(H11Protocol):
     # --- limits ---------------------------------------------------------------------------------------------------
 
     def rank(self) -> Rank:
-        """Return how much the connection matters now."""
+        """Return the current rank of the connection."""
         if not self._in_progress():
             return Rank.WAITING
         given = rank_of(cast("dict[str, Any]", self.scope))
@@ -150,11 +150,11 @@ class BoundedProtocol(H11Protocol):
         return self.cycle is not None and not self.cycle.response_complete
 
     def _between_requests(self) -> bool:
-        """Return True if the answer was sent and no byte of another request has arrived."""
+        """Return True if the response was sent and no byte of another request was received."""
         return self.conn.their_state is h11.IDLE and not self.conn.trailing_data[0]
 
     def _await_next(self) -> None:
-        """Give the other end time to read what is left of the answer, and to begin another request."""
+        """Start the timer for the rest of the response and the beginning of another request."""
         self._idle = True
         self._await_reader()
 
@@ -172,13 +172,13 @@ class BoundedProtocol(H11Protocol):
 
 
 class _Handshake(asyncio.Protocol):
-    """A connection until its TLS handshake is done; it counts from its first moment on.
+    """A connection during its TLS handshake, which counts as a connection from the start.
 
     Args:
-        http: Makes the protocol behind it.
+        http: Creates the HTTP protocol of the connection.
         tls: The server's certificate.
         admission: Admits the connection.
-        limits: How long the handshake may take.
+        limits: Time limits.
     """
 
     def __init__(
@@ -195,10 +195,10 @@ class _Handshake(asyncio.Protocol):
         self._task = asyncio.get_running_loop().create_task(self._secure(transport, place))
 
     def data_received(self, data: bytes) -> None:
-        # Between the handshake and the protocol behind it.
+        # Bytes between the end of the handshake and the start of the HTTP protocol.
         self._early.append(data)
 
-    def connection_lost(self, exc: Exception | None) -> None:  # noqa: ARG002  # asyncio names it
+    def connection_lost(self, exc: Exception | None) -> None:  # noqa: ARG002  # name given by asyncio
         self._lost = True
 
     async def _secure(self, transport: asyncio.Transport, place: AdmittedConnection) -> None:
@@ -207,7 +207,7 @@ class _Handshake(asyncio.Protocol):
             secured = await loop.start_tls(
                 transport, self, self._tls, server_side=True, ssl_handshake_timeout=self._limits.header_s
             )
-        except (OSError, RuntimeError):  # ssl.SSLError among them: the other end is no TLS client, or has gone
+        except (OSError, RuntimeError):  # includes ssl.SSLError: not a TLS client, or disconnected
             secured = None
         if secured is None or self._lost:
             self._admission.leave(place)

@@ -1,8 +1,8 @@
-"""What every request passes before a route sees it, and what every response carries.
+"""Middleware: host and origin checks, limits on bodies, security headers, and the response to unexpected errors.
 
-Without a login, the browser is the weak point: a page elsewhere must not be able to call this server, be it under its
-own name (DNS rebinding: the Host header tells), be it across origins (the Origin header tells); and a page of this
-server runs only scripts that came from this server (the content security policy).
+The server has no login, so a page of another site must not be able to call it, neither by DNS rebinding (the Host
+header is checked) nor across origins (the Origin header is checked). The content security policy restricts a page of
+this server to scripts of this server.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ SECURITY_HEADERS = {
 
 
 class SecurityHeaders:
-    """Puts the security headers on every response; what a route does not let be kept is kept nowhere."""
+    """Adds the security headers to every response, and forbids caching unless the route allows it."""
 
     def __init__(self, app: ASGIApp) -> None:
         self._app = app
@@ -57,7 +57,7 @@ class SecurityHeaders:
 
 
 class LastResort:
-    """Answers what no handler foresaw, and writes the traceback to the log, where it belongs."""
+    """Responds to unexpected errors with status 500, and logs the traceback."""
 
     def __init__(self, app: ASGIApp) -> None:
         self._app = app
@@ -81,10 +81,10 @@ class LastResort:
 
 
 class CallerGate:
-    """Turns away who calls this server by a name that is not its own, or from a page that is not its own.
+    """Refuses requests to other host names, and requests from pages of other sites.
 
     Args:
-        hosts: Names that are its own, without port; None for any.
+        hosts: Host names of the server, without port; None for any.
     """
 
     def __init__(self, app: ASGIApp, hosts: frozenset[str] | None) -> None:
@@ -107,7 +107,7 @@ class CallerGate:
 
 
 def _origin_host(origin: str) -> str:
-    """The host and port of an ``Origin`` header; empty for one that is none."""
+    """Return host and port of an ``Origin`` header; empty for an invalid one."""
     try:
         return urlsplit(origin).netloc.lower()
     except ValueError:
@@ -116,11 +116,12 @@ def _origin_host(origin: str) -> str:
 
 @dataclass(frozen=True, kw_only=True)
 class BodyTime:
-    """Seconds that the body of a request may take.
+    """Time limits on the body of a request.
 
     Attributes:
-        start_s, bytes_s: It has so many seconds, and one more for each so many bytes that have come.
-        idle_s: Without a byte.
+        start_s: Seconds for any body.
+        bytes_s: Received bytes for which it has one more second.
+        idle_s: Seconds without a byte.
     """
 
     start_s: float = 10.0
@@ -128,19 +129,19 @@ class BodyTime:
     idle_s: float = 10.0
 
 
-#: Bytes of a body that are always taken: a request in words is far smaller.
+#: Size of a body, in bytes, that is always accepted; a request in words is far smaller.
 _SMALL = 64_000
 
 
 class BodyGate:
-    """Turns away a body above a size, by its declared size and by counting; and one that comes too slowly.
+    """Refuses bodies that are too large, by their declared and their counted size, and bodies that are too slow.
 
-    Large bodies together have a bound, too; small ones are taken all the same.
+    The total size of all bodies is limited, too, except for small ones.
 
     Args:
-        most: Bytes of one body.
-        time: What it may take.
-        together: Bytes of all bodies that are being read or worked on; by default of four of the largest.
+        most: Largest size of a body, in bytes.
+        time: Time limits.
+        together: Largest total size of all bodies in memory; by default that of four of the largest.
     """
 
     def __init__(self, app: ASGIApp, most: int, time: BodyTime | None = None, together: int | None = None) -> None:
@@ -152,8 +153,8 @@ class BodyGate:
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return
-        told = Headers(scope=scope).get("content-length", "0")
-        if not told.isascii() or not told.isdigit() or len(told) > 15 or int(told) > self._most:
+        declared = Headers(scope=scope).get("content-length", "0")
+        if not declared.isascii() or not declared.isdigit() or len(declared) > 15 or int(declared) > self._most:
             await too_big()(scope, receive, send)
             return
         taken, whole, begun = 0, False, anyio.current_time()
@@ -161,7 +162,7 @@ class BodyGate:
         async def counted() -> Message:
             nonlocal taken, whole
             if whole:
-                return await receive()  # for the end of the connection
+                return await receive()  # waits for the end of the connection
             now, time = anyio.current_time(), self._time
             try:
                 with anyio.fail_after(min(time.idle_s, begun + time.start_s + taken / time.bytes_s - now)):
@@ -172,7 +173,7 @@ class BodyGate:
                 whole = not message.get("more_body", False)
                 size = len(message.get("body", b""))
                 taken, self._held = taken + size, self._held + size
-                # This type alone passes through the reading of the body as it is.
+                # Starlette lets only exceptions of this type pass through the reading of a body.
                 if taken > self._most:
                     raise HTTPException(413)
                 if taken > _SMALL and self._held > self._together:
@@ -186,7 +187,7 @@ class BodyGate:
 
 
 def _name(url: str) -> str | None:
-    """The host's name in a URL, without port and brackets; None where it is none."""
+    """Return the host name in a URL, without port and brackets; None for an invalid URL."""
     try:
         parts = urlsplit(url)
         _ = parts.port

@@ -1,6 +1,6 @@
-"""What the API takes: the models of its request bodies, and how they become a site, a robot and a world.
+"""Models of request bodies, and the sites, robots and Tasks that they contain.
 
-Nothing here opens a file that a caller names: a site is the built-in one or the data itself, a robot a built-in name.
+No file named by a client is opened: a site is the built-in one or its data, a robot is a built-in name.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, StringConstraints, model_validator
 
+from fieldhand import mission
 from fieldhand.errors import ProfileError, SiteError
 from fieldhand.hidden_characters import find_hidden
 from fieldhand.language import languages
@@ -27,7 +28,7 @@ MAX_XML = 4_000_000
 
 
 def _whole(text: str) -> str:
-    # JSON can hold half a character (a lone surrogate); no file and no answer can.
+    # JSON can contain a lone surrogate; UTF-8 cannot.
     try:
         text.encode()
     except UnicodeEncodeError:
@@ -51,13 +52,13 @@ Name = Annotated[
 
 
 class Body(BaseModel):
-    """A request body: what it does not know it refuses."""
+    """A request body; unknown fields are refused."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
 
 class SiteText(Body):
-    """A GeoJSON file as it stands, with its name; its SHA-256 is that of the file."""
+    """The name and the unchanged text of a GeoJSON file, so that its SHA-256 is that of the file."""
 
     name: Name = "site.geojson"
     text: Text
@@ -83,7 +84,7 @@ Lang = Annotated[Name, AfterValidator(_known_language)]
 
 
 class OnGround(Body):
-    """A site, a robot by its built-in name, and the language of what is read back."""
+    """A site, the name of a built-in robot, and the language of the read-back."""
 
     site: SiteChoice = "demo"
     robot: Name = "husky"
@@ -91,13 +92,13 @@ class OnGround(Body):
 
 
 class SiteBody(Body):
-    """A site to look at."""
+    """A site to describe."""
 
     site: SiteChoice
 
 
 class AnswerBody(Body):
-    """What was answered to a question about the request."""
+    """An answer to a question about the request."""
 
     question: Words
     answer: Words
@@ -108,7 +109,7 @@ Warnings = Annotated[list[Words], Field(max_length=200)]
 
 
 class PlanBody(OnGround):
-    """A request to plan, with what was answered to earlier questions about it."""
+    """A request to plan, with the answers to earlier questions about it."""
 
     request: Words
     answers: Answers = []
@@ -122,7 +123,7 @@ class CheckBody(OnGround):
 
 
 class RunBody(OnGround):
-    """A mission to simulate: a Task document, or a request; who approves it, and which warnings they confirm."""
+    """A mission to simulate: a Task document or a request, the name of the operator, and the confirmed warnings."""
 
     xml: Xml | None = None
     request: Words | None = None
@@ -141,24 +142,24 @@ class RunBody(OnGround):
 
 
 def answers_of(body: PlanBody | RunBody) -> tuple[Answer, ...]:
-    """The answers that came with a request."""
+    """Return the answers in a request body."""
     return tuple(Answer(question=given.question, answer=given.answer) for given in body.answers)
 
 
 def open_ground(body: OnGround) -> SiteAndRobot:
-    """Open both.
+    """Open the site and the robot of a request body.
 
     Raises:
-        SiteError, ProfileError: One of them cannot be used.
+        SiteError, ProfileError: Site or robot cannot be used.
     """
     return SiteAndRobot(site=open_choice(body.site), robot=open_robot(body.robot))
 
 
 def open_choice(choice: Literal["demo"] | SiteText | dict[str, Any]) -> Site:
-    """The site that was chosen or sent.
+    """Return the built-in site, or the one in the request body.
 
     Raises:
-        SiteError: What was sent is no site.
+        SiteError: The data is not a site.
     """
     from fieldhand.site.loader import parse_site
 
@@ -176,17 +177,17 @@ def open_choice(choice: Literal["demo"] | SiteText | dict[str, Any]) -> Site:
 
 @lru_cache(maxsize=1)
 def _demo() -> Site:
-    """The built-in orchard, read once, without the path from which it was read."""
+    """Return the built-in orchard, without its path on the server."""
     from fieldhand.site.loader import load_demo
 
     return replace(load_demo(), source="demo")
 
 
 def open_robot(name: str) -> RobotProfile:
-    """A built-in robot.
+    """Return a built-in robot.
 
     Raises:
-        ProfileError: There is none of that name.
+        ProfileError: There is no such robot.
     """
     from fieldhand.robot.loader import load_robot, robot_names
 
@@ -197,15 +198,10 @@ def open_robot(name: str) -> RobotProfile:
 
 
 def open_task(xml: str, robot: RobotProfile) -> tuple[Task, bytes]:
-    """A Task document that was sent, valid against the robot's schema, with its bytes.
+    """Decode a Task document, and return it with its bytes.
 
     Raises:
-        TaskError: It is not well-formed or fails the schema.
+        TaskError: The document is not well-formed, or not valid against the robot's schema.
     """
-    from fieldhand.robot.capabilities import capabilities_of
-    from fieldhand.task.codec import decode
-    from fieldhand.task.schema import require_valid
-
     document = xml.encode()
-    require_valid(document, capabilities_of(robot), source="xml")
-    return decode(document, source="xml"), document
+    return mission.decode_task(document, robot, source="xml"), document

@@ -1,9 +1,9 @@
 """Sites, plans and driven paths as GeoJSON, in degrees WGS 84, each feature with a ``role``.
 
-``zone``, ``block``, ``row``, ``tree``, ``gate``, ``marker``: the site. ``path``, ``stop``: a plan, the legs with the
-node that drives them, the stops with their number and the nodes that go or act there. ``choice``: a place that an
-answer to a question would mean. ``leg``, ``capture``, ``end``: what was driven, with times in seconds since the mission
-began.
+``zone``, ``block``, ``row``, ``tree``, ``gate``, ``marker``: the site. ``path``, ``stop``: a plan, its legs with the
+node that drives them, and its stops with their number and the nodes that drive or act there. ``choice``: a place that
+an answer to a question would select. ``leg``, ``capture``, ``end``: a mission that was driven, with times in seconds
+since its start.
 """
 
 from __future__ import annotations
@@ -24,12 +24,12 @@ if TYPE_CHECKING:
     from fieldhand.forecast.walk_steps import Walk
 
 Feature = dict[str, Any]
-#: Decimals of a degree: a centimetre.
+#: Decimals of a degree, for a resolution of a centimetre.
 _DECIMALS = 7
 
 
 def site_map(site: Site) -> Feature:
-    """A site: zones, blocks, rows, trees, gates, markers."""
+    """Return the map of a site: zones, blocks, rows, trees, gates and markers."""
     zones = [
         _feature("Polygon", _rings(zone.polygon, site.projection), role="zone", name=zone.name, kind=zone.kind)
         for zone in site.zones
@@ -52,7 +52,7 @@ def site_map(site: Site) -> Feature:
         for row in planting.rows
         if len(row.trees) > 1
     ]
-    names = [row.name for row in planting.rows] + [""]  # the last is that of trees in no row, whose row is -1
+    names = [row.name for row in planting.rows] + [""]  # the last name is for trees without a row, whose index is -1
     trees = [
         _at(tree.place, role="tree", id=tree.place.id, row=names[row], attributes=dict(tree.properties))
         for tree, row in zip(site.trees, planting.row_of.tolist(), strict=True)
@@ -63,9 +63,9 @@ def site_map(site: Site) -> Feature:
 
 
 def plan_map(site: Site, estimate: Estimate) -> Feature:
-    """A plan on its site: the legs of every branch, each once, and the stops in the order in which they are reached.
+    """Return the map of a plan: each leg of every branch once, and the stops in the order in which they are reached.
 
-    The first branch is the one on which every condition holds; ``branch`` is true for what lies on others alone.
+    On the first branch, every condition holds; ``branch`` is true for legs and stops that only other branches have.
     """
     legs: dict[tuple[Any, ...], Feature] = {}
     stops: dict[tuple[str, str], Feature] = {}
@@ -76,7 +76,7 @@ def plan_map(site: Site, estimate: Estimate) -> Feature:
 
 
 def choices_map(site: Site, choices: Sequence[Sequence[Place]]) -> Feature:
-    """A site with the places of several choices: each with the numbers of the choices that hold it."""
+    """Return the map of a site with the places of several choices, each with the numbers of its choices."""
     marks = [
         _at(m.place, role="choice", numbers=list(m.numbers), labelled=m.labelled, place=m.place.id, kind=m.place.kind)
         for m in choice_marks(choices)
@@ -85,7 +85,7 @@ def choices_map(site: Site, choices: Sequence[Sequence[Place]]) -> Feature:
 
 
 def driven_map(events: Iterable[Event]) -> Feature:
-    """What was driven and captured: legs with the time they began and ended, captures with their readings."""
+    """Return the map of an event log: legs with the times of their start and end, and captures with their readings."""
     features: list[Feature] = []
     driving: Driving | None = None
     for event in events:
@@ -112,7 +112,7 @@ def driven_map(events: Iterable[Event]) -> Feature:
                 )
             case Ended():
                 if driving is not None:
-                    # The last drive was cut off: how far it came, no event but this one tells.
+                    # The last drive was interrupted; only this event contains its end.
                     driven = _driven(driving.path, (event.lat, event.lon))
                     features.append(_leg(driving, event.t, to="", path=driven))
                 features.append(_feature("Point", _position(event.lat, event.lon), role="end", t=event.t))
@@ -140,7 +140,7 @@ def _add_legs(legs: dict[tuple[Any, ...], Feature], walk: Walk, projection: Proj
 
 
 def _add_stops(stops: dict[tuple[str, str], Feature], walk: Walk, *, other: bool) -> None:
-    """A stop for each place that a node drives to or acts at; the way home is no stop."""
+    """Add a stop for each place at which a node drives or acts, except for the way home."""
     for step in walk.steps:
         if step.kind not in ("drive", "act"):
             continue
@@ -159,10 +159,10 @@ def _leg(driving: Driving, until: float, *, to: str, path: Sequence[tuple[float,
 
 
 def _driven(path: Sequence[tuple[float, float]], end: tuple[float, float]) -> list[tuple[float, float]]:
-    """The corners of a way that were passed before the robot stood still at ``end``, and then ``end``."""
+    """Return the points of a path that the robot passed before it stopped at ``end``, followed by ``end``."""
     here = np.asarray(end)
     corners = np.asarray(path)
-    # A degree of longitude is shorter than one of latitude.
+    # Longitudes are scaled, as a degree of longitude is shorter than one of latitude.
     scale = np.array([1.0, np.cos(np.radians(end[0]))])
     a, way = corners[:-1] * scale, np.diff(corners, axis=0) * scale
     along = np.clip(((here * scale - a) * way).sum(axis=1) / np.maximum((way**2).sum(axis=1), 1e-30), 0.0, 1.0)

@@ -1,4 +1,4 @@
-"""A request becomes a Task, a question, or a refusal."""
+"""Plan a request: the response is a Task, a question or a refusal."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from fieldhand.api.work import Workers
 from fieldhand.language import open_language
 from fieldhand.planning.planner import Planned, Planner
 
-#: Gives the planner of a name: auto, english or llm.
+#: Returns the planner of a name: auto, english or llm.
 Planners = Callable[[str], Planner]
 
 

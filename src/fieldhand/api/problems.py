@@ -1,15 +1,15 @@
-"""What goes wrong, as JSON: ``{"status", "what", "where", "advice"}``, never a traceback.
+"""Errors as JSON: ``{"status", "what", "where", "advice"}``, without tracebacks.
 
-Where warnings were not confirmed, ``warnings`` holds each of them.
+If warnings were not confirmed, ``warnings`` lists them.
 
-400  what was given cannot be used (every InputError)
-403  a page of another site tries to use this one, or calls it by another name
-404, 405  no such address, no such method
-408  the body came too slowly
-413  the body is too big
-422  the shape of the body is wrong; a mission is not approved; the robot could not do it
-500  a fault of the program; the log of the server says more
-503  too much work at once
+400  the input cannot be used (every InputError)
+403  the request comes from a page of another site, or addresses another host name
+404, 405  unknown address, method not allowed
+408  the body is too slow
+413  the body is too large
+422  the body does not match the model; the mission is not approved; the robot cannot carry it out
+500  fault of the program, described in the log of the server
+503  too much work at the same time
 """
 
 from __future__ import annotations
@@ -28,31 +28,31 @@ from fieldhand.hidden_characters import json_text, visible_json
 
 MEDIA_TYPE = "application/problem+json"
 
-#: Parts of a pydantic location that say which kind of a choice was tried, not where the fault is.
+#: Parts of a pydantic location that name the tried member of a union instead of a field.
 _CHOICES = ("SiteText", "dict[str,any]", "literal['demo']")
 
 
 class VisibleAnswer(JSONResponse):
-    """An answer whose texts a page shows as they stand: hidden characters in them are made visible."""
+    """A response for a web page, in which hidden characters are made visible."""
 
     def render(self, content: Any) -> bytes:
         return visible_json(content, separators=(",", ":"), allow_nan=False).encode()
 
 
 class EscapedAnswer(JSONResponse):
-    """An answer for programs: the same text again, hidden characters as escapes."""
+    """A response for programs, in which hidden characters are escaped."""
 
     def render(self, content: Any) -> bytes:
         return json_text(content, separators=(",", ":"), allow_nan=False).encode()
 
 
-class Turned(Exception):
-    """A request that the server turns away before any room has seen it.
+class RefusedRequest(Exception):
+    """Refusal of a request by the server itself.
 
     Args:
         status: HTTP status.
-        what: What is wrong, in words, without a full stop.
-        advice: What to do.
+        what: Reason in words, without a full stop.
+        advice: Advice to the client.
     """
 
     def __init__(self, status: int, what: str, advice: str = "") -> None:
@@ -63,32 +63,32 @@ class Turned(Exception):
 
 
 def problem(status: int, what: str, where: str = "", advice: str = "", **more: Any) -> Response:
-    """A problem as a response."""
+    """Return the response for an error."""
     body = visible_json({"status": status, "what": what, "where": where, "advice": advice, **more})
     return Response(body, status_code=status, media_type=MEDIA_TYPE)
 
 
 def too_big() -> Response:
-    """The problem of a body that is larger than the server takes."""
+    """Return the response for a body that is too large."""
     return problem(413, "the body is too large", "body", "send a smaller site or a shorter request")
 
 
 def answer_problems(app: FastAPI) -> None:
-    """Have the application answer every failure with a problem."""
+    """Register handlers that turn every error of the application into a response."""
 
     @app.exception_handler(FieldhandError)
     async def _known(_: Request, error: FieldhandError) -> Response:
         more = {"warnings": error.warnings} if isinstance(error, NotConfirmedError) else {}
         return problem(400 if isinstance(error, InputError) else 422, error.what, error.where, error.advice, **more)
 
-    @app.exception_handler(Turned)
-    async def _turned(_: Request, error: Turned) -> Response:
+    @app.exception_handler(RefusedRequest)
+    async def _refused(_: Request, error: RefusedRequest) -> Response:
         return problem(error.status, error.what, advice=error.advice)
 
     @app.exception_handler(RequestValidationError)
     async def _shape(_: Request, error: RequestValidationError) -> Response:
         first = error.errors()[0]
-        return problem(422, _said(first), _place(first["loc"]), "see docs/api.md for what this address takes")
+        return problem(422, _error_text(first), _place(first["loc"]), "see docs/api.md for what this address takes")
 
     @app.exception_handler(HTTPException)
     async def _http(request: Request, error: HTTPException) -> Response:
@@ -108,8 +108,8 @@ def answer_problems(app: FastAPI) -> None:
         return problem(error.status_code, HTTPStatus(error.status_code).phrase.lower())
 
 
-def _said(error: dict[str, Any]) -> str:
-    """What pydantic found, without what was sent and without a full stop."""
+def _error_text(error: dict[str, Any]) -> str:
+    """Return the text of a pydantic error, without the input and without a full stop."""
     match error["type"]:
         case "missing":
             return "this is missing"
@@ -127,6 +127,6 @@ def _said(error: dict[str, Any]) -> str:
 
 
 def _place(location: Sequence[str | int]) -> str:
-    """Where in the body, as ``site.text``."""
+    """Return the location in the body, such as ``site.text``."""
     parts = [str(part) for part in location if part not in _CHOICES]
     return ".".join(parts[1:] if len(parts) > 1 and parts[0] == "body" else parts)

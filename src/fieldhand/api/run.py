@@ -1,4 +1,4 @@
-"""A mission approved by somebody, carried out in simulation and judged."""
+"""Approve a mission, simulate it and judge it."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def router(workers: Workers, planners: Planners, limits: Limits) -> APIRouter:
 
     @routes.post("/run")
     async def run(body: RunBody) -> dict[str, Any]:
-        """Approve a mission in somebody's name, simulate it and judge it; what is not understood is not run."""
+        """Approve a mission in the name of an operator, simulate it and judge it."""
         return await workers.do(lambda: _run(body, planners, limits))
 
     return routes
@@ -70,7 +70,7 @@ def _run(body: RunBody, planners: Planners, limits: Limits) -> dict[str, Any]:
 
 
 def _deadline(seconds: float) -> Callable[[], str | None]:
-    """Asked at every tick: a reason to end, once so many seconds of the real clock have passed."""
+    """Return a function that returns a reason to end the simulation after a number of seconds, else None."""
     until = time.monotonic() + seconds
     return lambda: f"the simulation took longer than {seconds:g} s" if time.monotonic() > until else None
 

@@ -1,4 +1,4 @@
-"""Serve an application until it is stopped."""
+"""Serve an application over HTTP."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ if TYPE_CHECKING:
 
 
 def require_extra() -> None:
-    """Check that the optional packages are installed.
+    """Require that the optional packages for serving are installed.
 
     Raises:
-        InputError: They are not.
+        InputError: One is missing.
     """
     for package in ("fastapi", "uvicorn"):
         if find_spec(package) is None:
@@ -37,7 +37,7 @@ def require_extra() -> None:
 
 
 def is_loopback(host: str) -> bool:
-    """Whether an address to listen on is reached from this machine alone."""
+    """Return True if only this machine can reach an address."""
     if host == "localhost":
         return True
     try:
@@ -47,15 +47,15 @@ def is_loopback(host: str) -> bool:
 
 
 def hosts_for(host: str) -> frozenset[str] | None:
-    """Names under which a browser may call a server that listens on ``host``; None for any, if others may reach it."""
+    """Return the host names of a server that listens on ``host``; None for any, if other machines can reach it."""
     return frozenset({"localhost", "127.0.0.1", "::1", host}) if is_loopback(host) else None
 
 
 def serve_forever(app: FastAPI, host: str, port: int) -> None:
-    """Serve on that address until Ctrl-C, saying where, and warning where others can reach it.
+    """Print the address and serve until Ctrl-C; warn if other machines can reach the address.
 
     Raises:
-        InputError: The address cannot be listened on.
+        InputError: The address cannot be used.
     """
     log_visibly()
     require_free(host, port)
@@ -79,9 +79,10 @@ def make_server(
 
     Args:
         app: The application.
-        host, port: Where to listen.
-        tls: Certificate and key (PEM), if it has them.
-        limits: On the connections; fewer where the system allows this process few files.
+        host: Address to listen on.
+        port: Port to listen on; 0 for a free one.
+        tls: Files of certificate and key (PEM); None for HTTP.
+        limits: Limits on the connections, reduced if the system limits the open files of the process.
     """
     import ssl
     from dataclasses import replace
@@ -100,14 +101,14 @@ def make_server(
         app,
         host=host,
         port=port,
-        log_level="error",  # what strangers send is no warning to anyone
+        log_level="error",  # malformed requests are not logged as warnings
         http=protocol_factory(limits, context),  # type: ignore[arg-type]
         ws="none",
         server_header=False,
         date_header=False,
-        # A header says of itself from where it comes; only the connection is believed.
+        # Headers that name the client can be forged; only the address of the connection counts.
         proxy_headers=False,
-        # asyncio accepts so many at a time before it closes any.
+        # Number of connections that asyncio accepts before any is closed.
         backlog=64,
         timeout_graceful_shutdown=5,
     )
@@ -115,7 +116,7 @@ def make_server(
 
 
 def _most_connections() -> int:
-    """Return how many connections leave enough open files for everything else."""
+    """Return the number of connections that leaves enough open files for the rest of the process."""
     try:
         import resource
     except ImportError:
@@ -125,27 +126,27 @@ def _most_connections() -> int:
 
 
 def log_visibly() -> None:
-    """Have every log record of the process on one line, hidden characters in it made visible."""
+    """Make hidden characters visible in all log records of the process, and put each on one line."""
     logging.setLogRecordFactory(_VisibleRecord)
 
 
 class _VisibleRecord(logging.LogRecord):
-    """A log record whose text, whoever sent it, cannot steer the terminal that shows the log."""
+    """A log record without control characters, so that its text cannot control a terminal."""
 
     def __init__(self, *args: Any, **more: Any) -> None:
         super().__init__(*args, **more)
         if self.exc_info and self.exc_info[0] is not None:
             self.exc_text = visible("".join(traceback.format_exception(*self.exc_info)), lines=True)
 
-    def getMessage(self) -> str:  # noqa: N802  a name of the standard library
+    def getMessage(self) -> str:  # noqa: N802  name of the standard library
         return visible(super().getMessage())
 
 
 def require_free(host: str, port: int) -> None:
-    """Try the address first: a server that cannot listen says so in one line, not in a log.
+    """Require that an address can be listened on, so that the error is one line instead of a log.
 
     Raises:
-        InputError: It cannot be listened on.
+        InputError: It cannot.
     """
     import socket
 
@@ -154,7 +155,7 @@ def require_free(host: str, port: int) -> None:
         with socket.socket(family, kind, protocol) as tried:
             tried.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
             tried.bind(address)
-    except (OSError, UnicodeError) as error:  # the latter of a name that no network can have
+    except (OSError, UnicodeError) as error:  # UnicodeError: invalid host name
         why = (error.strerror if isinstance(error, OSError) else None) or error
         raise InputError(
             f"cannot listen: {why}",

@@ -1,4 +1,4 @@
-"""What is understood of a site, before anything is planned on it."""
+"""Describe a site."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def router(workers: Workers) -> APIRouter:
 
     @routes.post("/site")
     async def site(body: SiteBody) -> dict[str, Any]:
-        """Trees, markers and zones of a site, its attributes, and what the reader left out or took otherwise."""
+        """Return trees, markers, zones and attributes of a site, and the notes of its reader."""
         return await workers.do(lambda: _site(body))
 
     return routes

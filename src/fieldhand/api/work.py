@@ -1,4 +1,4 @@
-"""Work that takes the processor, done in threads beside the server's own, so much at once and no more."""
+"""Threads for CPU-bound work, with a limit on their number and on the waiting requests."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import TypeVar
 
 from anyio import CapacityLimiter, to_thread
 
-from fieldhand.api.problems import Turned
+from fieldhand.api.problems import RefusedRequest
 
 T = TypeVar("T")
 
@@ -20,13 +20,13 @@ def _at_once() -> int:
 
 @dataclass(frozen=True, kw_only=True)
 class Limits:
-    """What one server takes on.
+    """Limits of a server's work.
 
     Attributes:
-        body_bytes: Of one request.
-        at_once: Plans, checks and runs at the same time; as many as there are processors, at most 4.
-        waiting: How many more may wait.
-        run_s: Seconds (of the real clock) after which a simulation is ended in order.
+        body_bytes: Largest body of a request, in bytes.
+        at_once: Largest number of plans, checks and runs at the same time; by default one per processor, at most 4.
+        waiting: Largest number of further requests that wait.
+        run_s: Seconds of real time after which a simulation is ended in order.
     """
 
     body_bytes: int = 16_000_000
@@ -36,10 +36,10 @@ class Limits:
 
 
 class Workers:
-    """Runs work in threads.
+    """Runs functions in threads.
 
     Args:
-        limits: How much at once, and how much may wait.
+        limits: Number of threads, and of waiting requests.
     """
 
     def __init__(self, limits: Limits) -> None:
@@ -48,13 +48,13 @@ class Workers:
         self._inside = 0
 
     async def do(self, work: Callable[[], T]) -> T:
-        """Do the work in a thread and give its result.
+        """Call a function in a thread and return its result.
 
         Raises:
-            Turned: Too many wait already (status 503).
+            RefusedRequest: Too many requests are waiting (status 503).
         """
         if self._inside >= self._most:
-            raise Turned(503, "too many requests at once", "try again in a moment")
+            raise RefusedRequest(503, "too many requests at once", "try again in a moment")
         self._inside += 1
         try:
             return await to_thread.run_sync(work, limiter=self._limiter)

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from fieldhand.execution.vehicle import Connection, Vehicle
     from fieldhand.mission import Review
     from fieldhand.mission.documents import SiteAndRobot
-    from fieldhand.missions import Departure
+    from fieldhand.missions import RobotAtStart
     from fieldhand.task.frames import Task
 
 SIMULATION = "simulation"
@@ -137,7 +137,7 @@ def _named_values(options: Sequence[str]) -> dict[str, str]:
 
 
 def connection_again(
-    name: str, begun: Departure | None, options: DriverOptions, environ: Mapping[str, str]
+    name: str, begun: RobotAtStart | None, options: DriverOptions, environ: Mapping[str, str]
 ) -> Connection | None:
     """Return the connection for resuming a mission: the one it was begun with, overridden by the given options.
 

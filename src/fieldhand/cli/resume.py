@@ -41,15 +41,15 @@ def resume(
         tell(str(folder), folder.parent, "continue", "the operator", message("goes on"), display)
         return
     contents = stored_missions.read_folder(folder)
-    connection = connection_again(folder.name, contents.departure, driver, os.environ)
+    connection = connection_again(folder.name, contents.started_on, driver, os.environ)
     refuse_simulation_options(connection, world=None, speed=speed)
     if contents.signed is None:
         require_unsigned_allowed(os.environ, asked=store.production)
     stored = contents.mission(verify)
     if stored.bundle is not None and not display.json:
         show.out.print(language.say(approval_line(stored.bundle)))
-    if stored_missions.last_order(folder) == "pause":
-        stored_missions.order(folder, "continue", "resumed by the operator")
+    if stored_missions.last_command(folder) == "pause":
+        stored_missions.send_command(folder, "continue", "resumed by the operator")
     settings = RunSettings(
         approval=ApprovalOptions(yes=True),
         display=display,

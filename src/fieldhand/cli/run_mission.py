@@ -137,7 +137,7 @@ def _begin(
         seed=settings.seed,
         planner=draft.planner,
         bundle=draft.bundle,
-        departure=missions.departure_on(settings.vehicle),
+        started_on=missions.robot_at_start(settings.vehicle),
     )
     stored = missions.begin(folder.parent, missions.new_id(datetime.now(UTC)), inputs)
     if not settings.display.json:

@@ -82,7 +82,7 @@ def tell(
         time.sleep(0.02)
         return time.monotonic() < until
 
-    heard = missions.order(folder, command, because, wait=wait)
+    heard = missions.send_command(folder, command, because, wait=wait)
     if display.json:
         show.print_json({"mission": folder.name, "order": command, "heard": heard})
     elif heard:

@@ -1,4 +1,4 @@
-"""The token by which a robot knows who may send to it: from the environment or a guarded file, never an argument."""
+"""The token that authorizes senders on a robot, read from the environment or a private file, never an argument."""
 
 from __future__ import annotations
 
@@ -7,18 +7,18 @@ from pathlib import Path
 
 from fieldhand.errors import InputError
 
-#: The environment variable that holds it.
+#: Environment variable with the token.
 VARIABLE = "FIELDHAND_TOKEN"
-#: Characters; so many of a random one cannot be guessed.
+#: Number of characters; a random token of the shortest length cannot be guessed.
 SHORTEST, LONGEST = 24, 1000
 
 
 def read_token(environ: Mapping[str, str], file: Path | None) -> str | None:
-    """The token of a file, else of the environment; None where there is neither.
+    """Return the token in a file, else the one in the environment; None if there is neither.
 
     Raises:
-        KeyFileError: The file cannot be read, or others can read it.
-        InputError: It is too short to be safe, or holds what no header can.
+        KeyFileError: The file cannot be read, or other users can read it.
+        InputError: The token is too short to be safe, or contains a character that an HTTP header cannot.
     """
     if file is not None:
         from fieldhand.approval.keys.rights import read_guarded

@@ -1,4 +1,4 @@
-"""What must hold of a bundle before it is sent, and before a robot takes it."""
+"""Checks of a signed mission before it is sent, and before a robot accepts it."""
 
 from __future__ import annotations
 
@@ -17,20 +17,20 @@ if TYPE_CHECKING:
     from fieldhand.robot.model import RobotProfile
     from fieldhand.site.model import Site
 
-#: A SHA-256 as it stands in an address and in a receipt.
+#: SHA-256 in an address or a receipt.
 SHA256 = re.compile(r"[0-9a-f]{64}")
 
-#: Reads a bundle, and refuses what may not run on this robot.
+#: Opens a signed mission, and raises an error if it may not run on this robot.
 Accept = Callable[[bytes, str], "Bundle"]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Sendable:
-    """A bundle that is whole, as whoever sends it sees it.
+    """A complete signed mission, ready to be sent.
 
     Attributes:
-        hashes: SHA-256 of the whole (``bundle``) and of each file.
-        request: What was asked.
+        hashes: SHA-256 of the file (``bundle``) and of each of its members.
+        request: Request that the mission was planned from.
     """
 
     hashes: Mapping[str, str]
@@ -38,21 +38,21 @@ class Sendable:
 
     @property
     def sha256(self) -> str:
-        """Of the whole: by this the robot knows the mission."""
+        """SHA-256 of the file, by which the robot identifies the mission."""
         return self.hashes["bundle"]
 
 
 def acceptance(
     *, robot: RobotProfile, sites: tuple[Site, ...], trusted: TrustStore, now: Callable[[], datetime]
 ) -> Accept:
-    """What one robot takes: missions that somebody trusted has signed for this robot and, if sites are given, for one of them.
+    """Return a function that accepts missions for one robot, signed with a trusted key, on one of its sites.
 
     Args:
-        robot: Of this robot, byte by byte what has to be in the bundle.
-        sites: On which it may work; empty for every site that was signed.
-        trusted: The keys that it trusts; read anew each time, so that a revoked one is revoked at once.
-        now: With time zone.
-    """  # noqa: E501
+        robot: Profile of the robot; the signed one must have the same SHA-256.
+        sites: Sites on which it may work; empty for every site that was signed.
+        trusted: Trusted keys, read again for each mission, so that a revocation takes effect at once.
+        now: Returns the current time, with time zone.
+    """
 
     def accept(data: bytes, source: str) -> Bundle:
         from fieldhand import mission
@@ -70,19 +70,19 @@ def acceptance(
 
 
 def require_sendable(data: bytes, *, source: str, known: Mapping[str, KnownKey], now: datetime) -> Sendable:
-    """See whether a bundle is whole and signed; whether its signer is trusted is for the robot to say.
+    """Require that a signed mission is complete and signed; the robot decides if it trusts the key.
 
     Args:
-        data: The file.
-        source: What to call it in messages.
-        known: The keys that this machine knows: one that it knows to be revoked is not sent.
-        now: With time zone.
+        data: Bytes of the file.
+        source: Name of the file, for messages.
+        known: Keys that this machine knows; a mission signed with a revoked one is not sent.
+        now: Current time, with time zone.
 
     Raises:
-        BundleError: It is no bundle, or was damaged or changed.
+        BundleError: The file is not a signed mission, or is damaged.
         NotTrustedError: Its key was revoked here.
-        NotApprovedError: Its approval has run out.
-        SiteError, ProfileError, TaskError: What was signed cannot be read.
+        NotApprovedError: Its approval has expired.
+        SiteError, ProfileError, TaskError: A member cannot be read.
     """
     from fieldhand.approval.bundle.opening import content_of, manifest_of, require_trusted, unseal
     from fieldhand.approval.memory import require_unexpired
@@ -95,14 +95,14 @@ def require_sendable(data: bytes, *, source: str, known: Mapping[str, KnownKey],
     except NotTrustedError:
         if sealed.signature.public.fingerprint in known:
             raise
-        # The robot reads what is in it, if it trusts the signer. Here nobody vouches for it.
+        # The key is unknown here, so the contents are not parsed; the robot does that if it trusts the key.
         return Sendable(hashes=sealed.hashes, request=manifest.task.request)
     content = content_of(sealed, now=now)
     return Sendable(hashes=sealed.hashes, request=content.task.command.request)
 
 
 def sha256_of(data: bytes) -> str:
-    """As it stands in addresses and receipts."""
+    """Return the SHA-256 as in addresses and receipts: hexadecimal, in lower case."""
     return hashlib.sha256(data).hexdigest()
 
 

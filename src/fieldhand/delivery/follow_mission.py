@@ -1,4 +1,4 @@
-"""A mission followed from elsewhere: its events in order and without a gap, however often the link is lost."""
+"""Follow a mission on a robot: receive its events in order and without gaps, across lost connections."""
 
 from __future__ import annotations
 
@@ -24,24 +24,24 @@ def follow(
     rng: random.Random,
     after: int = 0,
 ) -> MissionSummary:
-    """Take every event of a mission, until nobody carries it out.
+    """Receive every event of a mission, until no process carries it out.
 
     Args:
-        link: To the robot.
-        sha256: Of the bundle.
-        take: Takes each event, once.
-        once: Take what is there, and wait for nothing.
-        wait_s: How long the robot may wait for the next event before it answers.
-        lost: Told that the link is lost, and waits so many seconds.
-        rng: Draws how long that is.
-        after: Number of the last event that is known already.
+        link: Client of the robot's agent.
+        sha256: SHA-256 of the signed mission.
+        take: Called once with each event.
+        once: Receive the events that are there, without waiting for further ones.
+        wait_s: Seconds that the robot may wait for the next event before it responds.
+        lost: Called when the connection is lost, with the error and the seconds that it has to wait.
+        rng: Random generator of the waiting times.
+        after: Number of the last event that was received before.
 
     Returns:
-        How the mission stands.
+        State of the mission.
 
     Raises:
-        UnreachableError: There is no link, and ``once``.
-        DeliveryError: The robot refuses, or an event is missing.
+        UnreachableError: The robot cannot be reached, and ``once`` is set.
+        DeliveryError: The robot refuses the request, or an event is missing.
     """
     failed = 0
     while True:

@@ -1,6 +1,6 @@
-"""What passes between robot and sender as JSON: models that one writes and the other reads.
+"""Models of the JSON that agent and sender exchange.
 
-A sender does not know what a later agent says beside this, and passes over it; an agent refuses what it does not know.
+A sender ignores fields that it does not know, so that later agents may add some; an agent refuses unknown fields.
 """
 
 from __future__ import annotations
@@ -12,9 +12,9 @@ from pydantic import BaseModel, ConfigDict, Field
 from fieldhand.delivery.received_status import LoggedEvent, ReceivedStatus, State
 from fieldhand.execution.operator_commands import AgentCommand
 
-#: Events in one answer.
+#: Largest number of events in a response.
 MOST_EVENTS = 500
-#: Seconds that an answer may wait for the next event.
+#: Seconds for which a response may wait for the next event.
 LONGEST_WAIT_S = 25.0
 
 Sha256 = Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")]
@@ -25,7 +25,7 @@ class _Answer(BaseModel):
 
 
 class MissionSummary(_Answer):
-    """A mission, and how it stands."""
+    """A mission and its state."""
 
     bundle: Sha256
     mission: str
@@ -44,11 +44,11 @@ class MissionSummary(_Answer):
     travelled_m: float
     events: int
     fault: str
-    report: str = ""  # agents before it wrote none
+    report: str = ""  # older agents do not send it
 
 
 class Receipt(_Answer):
-    """What has arrived: the hashes of every byte, as the robot verified them."""
+    """The receipt of a mission: the hashes that the robot verified."""
 
     hashes: dict[str, Sha256]
     new: bool
@@ -59,8 +59,8 @@ class RobotState(_Answer):
     """The robot, and the missions that arrived last.
 
     Attributes:
-        on: On what it carries missions out; empty where an older agent does not say.
-        missing: What of the robot does not answer now, in words.
+        on: Driver of its missions; empty for older agents.
+        missing: Parts of the robot that do not respond, in words.
     """
 
     robot: str
@@ -74,7 +74,7 @@ class RobotState(_Answer):
 
 
 class EventLine(_Answer):
-    """An event as the log of its mission has it."""
+    """An event in the log of a mission."""
 
     n: int
     at: str
@@ -82,10 +82,10 @@ class EventLine(_Answer):
 
 
 class Events(_Answer):
-    """Events in their order, without a gap behind what was asked for.
+    """Events in order, without a gap after the requested number.
 
     Attributes:
-        idle: Nobody carries the mission out, and no event comes behind these.
+        idle: True if no process carries the mission out and these events are the last ones.
     """
 
     events: list[EventLine]
@@ -94,7 +94,7 @@ class Events(_Answer):
 
 
 class CommandRequest(BaseModel):
-    """What a mission is told."""
+    """A command to a mission."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
@@ -103,14 +103,14 @@ class CommandRequest(BaseModel):
 
 
 class Heard(_Answer):
-    """Whether the mission has heard the order, and how it stands."""
+    """The response to a command: True if the mission has received it, and the state of the mission."""
 
     heard: bool
     mission: MissionSummary
 
 
 def mission_summary(standing: ReceivedStatus) -> MissionSummary:
-    """A mission as it is told to others."""
+    """Return the model of a mission's state."""
     received = standing.received
     return MissionSummary(
         bundle=received.sha256,
@@ -135,5 +135,5 @@ def mission_summary(standing: ReceivedStatus) -> MissionSummary:
 
 
 def event_lines(lines: tuple[LoggedEvent, ...]) -> list[EventLine]:
-    """Events as they are told to others."""
+    """Return the models of events."""
     return [EventLine(n=line.n, at=line.at, line=line.line) for line in lines]

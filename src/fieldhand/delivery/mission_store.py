@@ -1,12 +1,11 @@
 """The store of the missions that a robot has received: each is complete and verified, or absent.
 
-    depot.sqlite            what arrived, and when; one process at a time holds it
-    bundles/SHA256.mission  the bundles, under names that are computed here
-    incoming/               what is still arriving; emptied at every start
-    missions/               the folders of those that were begun
+    depot.sqlite            missions that were received; one process at a time has it open
+    bundles/SHA256.mission  signed missions, under names that are computed here
+    incoming/               incomplete uploads; removed at every start
+    missions/               folders of the missions that were begun
 
-A bundle counts once its line is in the database, and that is written after the bundle is safe on the disk. So a power
-cut at any instant leaves a mission that is there or one that is not.
+A mission is added to the database after its file is on disk, so that a power cut leaves either all of it or nothing.
 """
 
 from __future__ import annotations
@@ -36,13 +35,13 @@ class MissionStore:
     """The missions of one robot; one process at a time has it open.
 
     Args:
-        folder: It is made if it is not there.
-        accept: Reads a bundle, and refuses what may not run here.
-        now: With time zone; for the record only, nothing is decided by it.
-        admit: Refuses a mission whose approval has run out or was superseded, when it arrives and when it begins.
+        folder: Folder of the store; made if it does not exist.
+        accept: Opens a signed mission, and raises an error if it may not run here.
+        now: Returns the current time, with time zone; recorded only, no decision depends on it.
+        admit: Raises an error if the approval has expired or was superseded; called on receipt and at the start.
 
     Raises:
-        StoreError: Another process has it open, it is damaged, or it cannot be written.
+        StoreError: Another process has the store open, it is damaged, or it cannot be written.
     """
 
     def __init__(
@@ -56,7 +55,7 @@ class MissionStore:
         self.missions = folder / "missions"
         self._folder, self._accept, self._now, self._admit = folder, accept, now, admit
         self._bundles, self._incoming = folder / "bundles", folder / "incoming"
-        self._guard = threading.Lock()
+        self._lock = threading.Lock()
         try:
             for one in (folder, self.missions, self._bundles, self._incoming):
                 one.mkdir(mode=0o700, parents=True, exist_ok=True)
@@ -67,21 +66,21 @@ class MissionStore:
             ) from None
         except OSError as error:
             raise unwritable(folder, error) from None
-        self._ledger = ReceivedMissions(folder / "depot.sqlite")
-        self._sweep()
+        self._database = ReceivedMissions(folder / "depot.sqlite")
+        self._recover()
 
     def close(self) -> None:
         """Close the database and release the lock."""
-        self._ledger.close()
+        self._database.close()
 
     # --- arrive --------------------------------------------------------------------------------------------------
 
     @contextmanager
     def receiving(self) -> Iterator[IncomingFile]:
-        """A place for what arrives. It is gone at the end, unless :meth:`take` has taken it.
+        """Open a temporary file for an upload, which is removed at the end unless :meth:`take` stored it.
 
         Raises:
-            StoreError: Nothing can be written.
+            StoreError: The disk cannot be written.
         """
         try:
             descriptor, name = tempfile.mkstemp(dir=self._incoming)
@@ -93,26 +92,26 @@ class MissionStore:
         finally:
             incoming.drop()
 
-    def take(self, incoming: IncomingFile, told: str) -> tuple[ReceivedMission, bool]:
-        """Verify what has arrived and keep it; from then on it may be begun.
+    def take(self, incoming: IncomingFile, expected: str) -> tuple[ReceivedMission, bool]:
+        """Verify and store an upload, so that its mission may be begun.
 
         Args:
-            incoming: All that has arrived.
-            told: The SHA-256 that the sender gave.
+            incoming: The complete upload.
+            expected: SHA-256 that the sender computed.
 
         Returns:
-            The mission, and whether it is new here.
+            The mission, and True if it was not received before.
 
         Raises:
-            BundleError: It is not what was sent, or no mission for this robot.
-            NotTrustedError: Nobody who is trusted here has signed it.
-            ExecutionError: The same mission is here with a later approval.
-            StoreError: It cannot be written.
+            BundleError: The upload has another SHA-256, or is not a mission for this robot.
+            NotTrustedError: Its key is not trusted here.
+            ExecutionError: The same mission was received with a later approval.
+            StoreError: The disk cannot be written.
         """
         sha256 = incoming.settle()
-        if sha256 != told:
+        if sha256 != expected:
             raise BundleError(
-                f"what arrived has SHA-256 {sha256}, what was sent {told}",
+                f"what arrived has SHA-256 {sha256}, what was sent {expected}",
                 where="upload",
                 advice="send it again",
             )
@@ -121,7 +120,7 @@ class MissionStore:
         except OSError as error:
             raise unwritable(incoming.path, error) from None
         bundle = self._verified(data, sha256)
-        with self._guard:
+        with self._lock:
             known = self.find(sha256)
             if known is None:
                 self._require_latest(bundle)
@@ -146,7 +145,7 @@ class MissionStore:
 
     def _note(self, bundle: Bundle) -> None:
         task = bundle.authorized.task
-        self._ledger.note(
+        self._database.note(
             ReceivedMission(
                 sha256=bundle.hashes["bundle"],
                 task=task.id,
@@ -160,21 +159,21 @@ class MissionStore:
         )
 
     def _require_latest(self, bundle: Bundle) -> None:
-        later = self._ledger.later(bundle.authorized.task.id, _seconds(bundle))
+        later = self._database.later(bundle.authorized.task.id, _seconds(bundle))
         if later is not None:
             raise _superseded(later)
 
     # --- look ----------------------------------------------------------------------------------------------------
 
     def find(self, sha256: str) -> ReceivedMission | None:
-        """The mission of that bundle, if it has arrived."""
-        return self._ledger.find(sha256)
+        """Return the mission of a SHA-256; None if it was not received."""
+        return self._database.find(sha256)
 
     def get(self, sha256: str) -> ReceivedMission:
-        """The mission of that bundle.
+        """Return the mission of a SHA-256.
 
         Raises:
-            StoreError: It has not arrived.
+            StoreError: It was not received.
         """
         found = self.find(sha256)
         if found is None:
@@ -182,42 +181,43 @@ class MissionStore:
         return found
 
     def latest(self, most: int) -> tuple[ReceivedMission, ...]:
-        """Those that arrived last, in the order in which they came."""
-        return self._ledger.latest(most)
+        """Return the missions that were received last, in the order in which they arrived."""
+        return self._database.latest(most)
 
     def last_begun(self) -> ReceivedMission | None:
-        """The one that was begun last."""
-        return self._ledger.last_begun()
+        """Return the mission that was begun last; None if there is none."""
+        return self._database.last_begun()
 
     def folder_of(self, received: ReceivedMission) -> Path:
-        """Where a mission is kept once it was begun."""
+        """Return the folder of a mission, which exists once it was begun."""
         return self.missions / received.name
 
     def verify(self, data: bytes, source: str) -> Bundle:
-        """A bundle that may run here now, verified.
+        """Open a signed mission, and verify that it may run here now.
 
         Raises:
-            BundleError: It is broken, or is of another robot or site.
-            NotTrustedError: Nobody who is trusted now has signed it.
+            BundleError: It is damaged, or for another robot or site.
+            NotTrustedError: Its key is not trusted now.
         """
         return self._accept(data, source)
 
     # --- begin ---------------------------------------------------------------------------------------------------
 
     def open(self, sha256: str) -> Bundle:
-        """The bundle of a mission that may be begun now, verified again.
+        """Open a mission that may be begun now, and verify it again.
 
         Raises:
-            ExecutionError: It was begun before, or the same mission is here with a later approval.
-            BundleError, StoreError: It is not what arrived any more, or has not arrived.
-            NotTrustedError: Its key was revoked since.
+            ExecutionError: It was begun before, or was received with a later approval.
+            BundleError: It is damaged.
+            StoreError: It was not received, or its file was changed.
+            NotTrustedError: Its key was revoked meanwhile.
         """
         received = self.get(sha256)
         if received.begun_at is not None:
             raise ExecutionError(
                 f"this mission was begun at {received.begun_at}; it does not run twice", where=received.name
             )
-        later = self._ledger.later(received.task, received.approved_at)
+        later = self._database.later(received.task, received.approved_at)
         if later is not None:
             raise _superseded(later)
         path = self._path(sha256)
@@ -234,19 +234,19 @@ class MissionStore:
         return bundle
 
     def note_begun(self, sha256: str) -> None:
-        """Keep that a mission was begun: it is never begun again, whatever becomes of its folder.
+        """Record that a mission was begun, so that it never begins again, even if its folder is removed.
 
         Raises:
-            StoreError: That cannot be written.
+            StoreError: The database cannot be written.
         """
-        self._ledger.note_begun(sha256, self._now().isoformat(timespec="seconds"))
+        self._database.note_begun(sha256, self._now().isoformat(timespec="seconds"))
 
     def _path(self, sha256: str) -> Path:
         return self._bundles / f"{sha256}.mission"
 
-    def _sweep(self) -> None:
-        """Leave nothing of what did not arrive, and know of each mission that was begun that it was."""
-        known = self._ledger.all()
+    def _recover(self) -> None:
+        """Remove incomplete uploads, and record each mission as begun that has a folder."""
+        known = self._database.all()
         names = {f"{received.sha256}.mission" for received in known}
         for received in known:
             if received.begun_at is None and missions.exists(self.folder_of(received)):
@@ -268,5 +268,5 @@ def _superseded(later: ReceivedMission) -> ExecutionError:
 
 
 def _seconds(bundle: Bundle) -> float:
-    """When it was approved, in seconds since 1970: the dates of two time zones can be compared."""
+    """Return the time of the approval in seconds since 1970, which can be compared across time zones."""
     return datetime.fromisoformat(bundle.manifest.approved.at).timestamp()

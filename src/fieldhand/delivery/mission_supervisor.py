@@ -1,6 +1,6 @@
 """Execution of the missions that a robot has received: one at a time, and each at most once.
 
-Nothing here starts by itself, with one exception that has to be asked for: going on with a mission after a power cut.
+No mission starts by itself; a resumption after a power cut has to be requested (``--resume``).
 """
 
 from __future__ import annotations
@@ -26,9 +26,9 @@ if TYPE_CHECKING:
 
 log = logging.getLogger("fieldhand.agent")
 
-#: Carries a mission out to its end, in the thread that calls it: the simulation, or the driver of a robot.
+#: Carries a mission out to its end in the calling thread, in simulation or on a robot.
 Carry = Callable[[missions.StoredMission], object]
-#: Seconds for which the next mission waits until the report of the one before is written.
+#: Seconds for which a mission waits for the report of the previous one.
 REPORTED_WITHIN_S = 60.0
 
 
@@ -38,31 +38,33 @@ class DirectCommand:
 
     orders: missions.DirectCommands
     order: OperatorCommand
-    said: StoppingCommand
+    command: StoppingCommand
 
     @property
     def heard(self) -> bool:
-        """Return True if the mission has taken it."""
+        """Return True if the mission has received the command."""
         return self.orders.taken(self.order)
 
     def follow(self, folder: Path, wait: Callable[[], bool]) -> bool:
-        """Keep the order in the mission's folder, too, so that it stands after a power cut.
+        """Write the command to the mission's folder, too, so that it survives a power cut.
 
         Args:
-            folder: The mission's.
+            folder: Folder of the mission.
             wait: As for :meth:`MissionSupervisor.give_command`.
 
         Returns:
-            Whether the mission has heard it.
+            True if the mission has received the command.
 
         Raises:
-            ExecutionError: The mission has ended, or was told otherwise before.
-            JournalError: It cannot be kept, and the mission has not heard it.
+            ExecutionError: The mission has ended, or has to return or to stop already.
+            JournalError: The command cannot be written, and the mission has not received it.
         """
         try:
-            heard = missions.order(folder, self.said, self.order.reason, wait=lambda: not self.heard and wait())
+            heard = missions.send_command(
+                folder, self.command, self.order.reason, wait=lambda: not self.heard and wait()
+            )
         except FieldhandError as error:
-            # A disk that is full, slow or locked keeps the order from nothing but its folder.
+            # With a full, slow or locked disk, the command still reaches the mission in memory.
             while not self.heard and isinstance(error, JournalError) and wait():
                 pass
             if not self.heard:
@@ -74,15 +76,15 @@ class DirectCommand:
 
 
 class MissionSupervisor:
-    """Carries missions out, one at a time, each in a thread of its own. Safe for several threads.
+    """Supervisor that carries out missions, one at a time, each in a thread of its own. Thread-safe.
 
     Args:
-        mission_store: Where they have arrived.
-        carry: Who carries one out.
-        world: Of a simulation.
-        check: Refuses a mission that this world, or this robot, does not fit; says on which robot it begins.
+        mission_store: Missions that were received.
+        carry: Carries out a mission.
+        world: World of the simulation.
+        check: Raises an error if a mission cannot begin; returns the robot on which it begins, None in simulation.
         conclude: Judges and reports a mission that has ended.
-        seed: Of the simulation and of the guard.
+        seed: Seed of the simulation and of the budget guard.
     """
 
     def __init__(
@@ -91,7 +93,7 @@ class MissionSupervisor:
         *,
         carry: Carry,
         world: World | None = None,
-        check: Callable[[Bundle], missions.Departure | None] = lambda _: None,
+        check: Callable[[Bundle], missions.RobotAtStart | None] = lambda _: None,
         conclude: Callable[[missions.StoredMission], object] = lambda _: None,
         seed: int = 0,
     ) -> None:
@@ -103,34 +105,34 @@ class MissionSupervisor:
             seed,
         )
         self._conclude = conclude
-        self._guard = threading.Lock()
+        self._lock = threading.Lock()
         self._active: ReceivedMission | None = None
         self._direct = missions.DirectCommands()
         self._thread: threading.Thread | None = None
         self._faults: dict[str, str] = {}
-        #: What has ended stays as it is, and need not be read again each time somebody looks.
+        #: Status of ended missions, which does not change any more.
         self._ended: dict[str, ReceivedStatus] = {}
 
     # --- look ----------------------------------------------------------------------------------------------------
 
     @property
     def active(self) -> str | None:
-        """SHA-256 of the mission that is under way."""
+        """SHA-256 of the running mission; None if none is running."""
         received = self.under_way
         return None if received is None else received.sha256
 
     @property
     def under_way(self) -> ReceivedMission | None:
-        """The mission that is under way, from memory: no disk is read."""
+        """The running mission, without reading the disk; None if none is running."""
         return self._active if self._thread is not None and self._thread.is_alive() else None
 
     @property
     def latest(self) -> ReceivedMission | None:
-        """The mission that is under way, else the one that was begun last."""
+        """The running mission, else the one that was begun last."""
         return self.under_way or self._mission_store.last_begun()
 
     def status_of(self, received: ReceivedMission) -> ReceivedStatus:
-        """How a mission stands."""
+        """Return the status of a mission."""
         if received.sha256 in self._ended:
             return self._ended[received.sha256]
         folder, fault = self._mission_store.folder_of(received), self._faults.get(received.sha256, "")
@@ -163,17 +165,17 @@ class MissionSupervisor:
         return standing
 
     def events_after(self, received: ReceivedMission, after: int, most: int) -> tuple[tuple[LoggedEvent, ...], bool]:
-        """The events behind number ``after``, and whether nothing comes behind these for now.
+        """Return the events after number ``after``, and True if no event follows them for now.
 
-        Nothing comes while nobody carries the mission out, be it that it has ended, waits or was cut off.
+        No event follows while no process carries the mission out: it has ended, waits, or was interrupted.
 
         Raises:
-            JournalError: Its journal cannot be read.
+            JournalError: The journal cannot be read.
         """
         folder = self._mission_store.folder_of(received)
         if not missions.exists(folder):
             return (), True
-        # Asked before the events are read: what is written in between is told the next time.
+        # Checked before the events are read: events logged in between are returned by the next call.
         over = self.active != received.sha256 and not missions.is_running(folder)
         found = missions.lines_after(folder, after, most)
         return tuple(LoggedEvent(n=n, at=at, line=line) for n, at, line in found), over and len(found) < most
@@ -181,72 +183,72 @@ class MissionSupervisor:
     # --- tell ----------------------------------------------------------------------------------------------------
 
     def give_command(
-        self, received: ReceivedMission, said: AgentCommand, reason: str, *, wait: Callable[[], bool] = lambda: False
+        self, received: ReceivedMission, command: AgentCommand, reason: str, *, wait: Callable[[], bool] = lambda: False
     ) -> bool:
-        """Tell a mission something. What is so already stays so: an order may be sent twice.
+        """Send a command to a mission; a command without effect is accepted, so that it may be sent twice.
 
         Args:
             received: The mission.
-            said: What to do.
-            reason: Who wants it, or why.
-            wait: Waits a moment, and says whether to wait longer for the mission to hear it.
+            command: The command.
+            reason: Reason, or name of the operator, for the event log.
+            wait: Waits a moment, and returns True to wait longer for the mission.
 
         Returns:
-            Whether the mission has heard it.
+            True if the mission has received the command.
 
         Raises:
-            ExecutionError: It comes too late, or another mission is under way.
-            BundleError, NotTrustedError, StoreError: It may not be begun.
+            ExecutionError: The command comes too late, or another mission is running.
+            BundleError, NotTrustedError, StoreError: The mission may not begin.
             JournalError: Its folder cannot be used.
         """
         folder = self._mission_store.folder_of(received)
-        direct = self.give_direct_command(received.sha256, said, reason)
+        direct = self.give_direct_command(received.sha256, command, reason)
         if direct is not None:
             return self.follow(received, direct, wait=wait)
-        with self._guard:
+        with self._lock:
             known = missions.exists(folder)
-            if said == "start":
-                # One that was begun is not begun again, whatever became of it.
+            if command == "start":
+                # A mission never begins twice.
                 if not known and self.active != received.sha256:
                     self._begin(received)
                 return True
             if not known:
                 raise ExecutionError("the mission was not begun", where=received.name, advice="start it first")
             if self.active != received.sha256 and not missions.is_running(folder):
-                return self._go_on(received, folder, said, reason)
-        if said == "resume":
+                return self._go_on(received, folder, command, reason)
+        if command == "resume":
             self._direct.drop()
-            if missions.last_order(folder) != "pause":
+            if missions.last_command(folder) != "pause":
                 return True
-        return missions.order(folder, "continue" if said == "resume" else said, reason, wait=wait)
+        return missions.send_command(folder, "continue" if command == "resume" else command, reason, wait=wait)
 
     def follow(self, received: ReceivedMission, direct: DirectCommand, *, wait: Callable[[], bool]) -> bool:
-        """Keep an order that was given in memory in the mission's folder, too; see :meth:`give_command`."""
+        """Write a command that was given in memory to the mission's folder, too; see :meth:`give_command`."""
         return direct.follow(self._mission_store.folder_of(received), wait)
 
-    def give_direct_command(self, sha256: str, said: AgentCommand, reason: str) -> DirectCommand | None:
-        """Give an order to the mission under way in memory: it waits for no disk, no lock and no other order.
+    def give_direct_command(self, sha256: str, command: AgentCommand, reason: str) -> DirectCommand | None:
+        """Send a command to the running mission in memory, without waiting for disk, locks or other commands.
 
         Returns:
-            The order, which is still to be kept in the mission's folder; None if this mission is not under way here,
-            the order is none that makes a robot stop or come home, or comes too late.
+            The command, which has yet to be written to the mission's folder; None if the mission is not running here,
+            the command neither stops the robot nor calls it back, or comes too late.
         """
-        if self.active != sha256 or said == "start" or said == "resume":
+        if self.active != sha256 or command == "start" or command == "resume":
             return None
         orders = self._direct
-        order = orders.give(said, reason)
-        return None if order is None else DirectCommand(orders=orders, order=order, said=said)
+        order = orders.give(command, reason)
+        return None if order is None else DirectCommand(orders=orders, order=order, command=command)
 
     def continue_interrupted(self) -> str | None:
-        """Go on with the mission that a power cut has cut off, if there is one; a paused one stays paused.
+        """Resume the mission that a power cut interrupted, if there is one; a paused mission stays paused.
 
         Returns:
-            Its SHA-256; None also where it may not go on: its key was revoked since, or its folder was changed.
+            Its SHA-256; None if there is none, or if its key was revoked or its folder was changed.
         """
-        cut = self._cut_off()
+        cut = self._interrupted()
         if cut is None:
             return None
-        with self._guard:
+        with self._lock:
             try:
                 self._run(cut, self._read(cut))
             except FieldhandError as error:
@@ -255,9 +257,9 @@ class MissionSupervisor:
         return cut.sha256
 
     def write_missing_report(self) -> None:
-        """Report the mission that was begun last, if it has ended and the power went before its report was written.
+        """Write the report of the last mission, if it has ended and a power cut prevented its report.
 
-        It goes on in a thread of its own, as a mission does: the agent answers meanwhile.
+        The report is written in a thread of its own, while the agent responds to requests.
         """
         received = self._mission_store.last_begun()
         standing = None if received is None else self.status_of(received)
@@ -272,7 +274,7 @@ class MissionSupervisor:
         self._begin_thread(standing.received, lambda: self._conclude(stored))
 
     def pause_for_exit(self, wait: Callable[[], bool]) -> None:
-        """Let the mission under way stand still, because the program ends; ``resume`` goes on with it."""
+        """Pause the running mission because the program ends; ``resume`` continues it."""
         active = self.active
         if active is None:
             return
@@ -282,32 +284,32 @@ class MissionSupervisor:
                 self.give_command(received, "pause", "the agent ends", wait=wait)
         except FieldhandError as error:
             log.warning("%s", error)
-        # An order is heard a moment before the pause is on the disk; and one that has ended only writes its report.
+        # A command is received a moment before the pause is on disk; an ended mission only writes its report.
         while self.active is not None and not self._at_rest(received) and wait():
             pass
 
     def _at_rest(self, received: ReceivedMission) -> bool:
-        """Whether it is paused, and the robot has broken off what it was at."""
+        """Return True if the mission is paused and the robot has no goal."""
         return self.status_of(received).state == "paused" and missions.stands_still(
             self._mission_store.folder_of(received)
         )
 
     def join(self, timeout_s: float | None = None) -> None:
-        """Wait until no mission is under way."""
+        """Wait until no mission is running."""
         if self._thread is not None:
             self._thread.join(timeout_s)
 
     def _begin(self, received: ReceivedMission) -> None:
         self._require_free(received)
         bundle = self._mission_store.open(received.sha256)
-        departure = self._check(bundle)
-        inputs = missions.signed_inputs(bundle, world=self._world, seed=self._seed, departure=departure)
+        started_on = self._check(bundle)
+        inputs = missions.signed_inputs(bundle, world=self._world, seed=self._seed, started_on=started_on)
         stored = missions.begin(self._mission_store.missions, received.name, inputs)
         self._mission_store.note_begun(received.sha256)
         self._run(received, stored)
 
     def _read(self, received: ReceivedMission) -> missions.StoredMission:
-        """A mission as it lies in its folder, its signature, the trust in it and every byte verified again."""
+        """Read a mission from its folder, and verify its signature, its key and every file again."""
         folder = self._mission_store.folder_of(received)
         try:
             contents = missions.read_folder(folder)
@@ -317,31 +319,31 @@ class MissionSupervisor:
                 )
             return contents.mission(self._mission_store.verify)
         except FieldhandError as error:
-            # What may not go on shall not keep the robot from working.
+            # A mission that may not be resumed must not block other missions.
             self._faults[received.sha256] = str(error)
             raise
 
-    def _go_on(self, received: ReceivedMission, folder: Path, said: AgentCommand, reason: str) -> bool:
-        """Go on with a mission that nobody carries out; what it is told holds from its first tick."""
+    def _go_on(self, received: ReceivedMission, folder: Path, command: AgentCommand, reason: str) -> bool:
+        """Resume a mission that no process carries out; the command takes effect at its first tick."""
         if missions.status(folder).now.state == "ended":
             raise ExecutionError("the mission has ended", where=received.name)
-        if said == "start" or said == "pause":
+        if command == "start" or command == "pause":
             return True
         self._require_free(received)
         stored = self._read(received)
-        if said != "resume":
-            missions.order(folder, said, reason)
-        elif missions.last_order(folder) == "pause":
-            missions.order(folder, "continue", reason)
+        if command != "resume":
+            missions.send_command(folder, command, reason)
+        elif missions.last_command(folder) == "pause":
+            missions.send_command(folder, "continue", reason)
         self._run(received, stored)
         return True
 
     def _require_free(self, received: ReceivedMission) -> None:
         under_way = self.active
         if under_way is not None and self.status_of(self._mission_store.get(under_way)).state == "ended":
-            self.join(REPORTED_WITHIN_S)  # it only writes its report
+            self.join(REPORTED_WITHIN_S)  # the mission is only writing its report
             under_way = self.active
-        other = self._cut_off() if under_way is None else self._mission_store.get(under_way)
+        other = self._interrupted() if under_way is None else self._mission_store.get(under_way)
         if other is not None and other.sha256 != received.sha256:
             how = "was cut off" if under_way is None else "is under way"
             raise ExecutionError(
@@ -350,8 +352,8 @@ class MissionSupervisor:
                 advice="let it end first, or tell it to return or abort",
             )
 
-    def _cut_off(self) -> ReceivedMission | None:
-        # No mission begins while another is cut off, so it can only be the last one.
+    def _interrupted(self) -> ReceivedMission | None:
+        # No mission begins while another is interrupted, so it can only be the last one.
         received = self._mission_store.last_begun()
         if (
             received is None
@@ -362,17 +364,17 @@ class MissionSupervisor:
         try:
             return None if missions.status(self._mission_store.folder_of(received)).now.state == "ended" else received
         except FieldhandError as error:
-            # What cannot be read cannot be gone on with; it shall not keep the robot from working.
+            # An unreadable mission cannot be resumed, and must not block other missions.
             log.warning("mission %s: %s", received.name, error)
             return None
 
     def _run(self, received: ReceivedMission, stored: missions.StoredMission) -> None:
         self._faults.pop(received.sha256, None)
-        self._direct = missions.DirectCommands(missions.last_order(stored.folder))
-        told = replace(stored, told=self._direct.standing)
+        self._direct = missions.DirectCommands(missions.last_command(stored.folder))
+        commanded = replace(stored, direct_command=self._direct.standing)
 
         def carry() -> None:
-            self._carry(told)
+            self._carry(commanded)
             if missions.status(stored.folder).now.state == "ended":
                 self._conclude(stored)
 
@@ -386,7 +388,7 @@ class MissionSupervisor:
                 self._faults[received.sha256] = str(error)
                 log.warning("mission %s: %s", received.name, error)
             except Exception as error:
-                # A fault of the program: the mission stands as it is, and the agent answers on.
+                # A fault of the program: the mission stays as it is, and the agent keeps running.
                 self._faults[received.sha256] = f"a fault of the program: {type(error).__name__}"
                 log.exception("mission %s", received.name)
 

@@ -1,6 +1,6 @@
-"""What could not be sent yet, kept until the robot is back: a database, and the bundles beside it.
+"""The outbox: signed missions that wait until their robot can be reached, as files beside a database.
 
-A mission is in here before the first try to send it, so that it is not lost with the program that sends it.
+A mission is stored before the first attempt to send it, so that it survives the end of the sending program.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from typing import Literal
 from fieldhand.errors import StoreError
 from fieldhand.files import named_folder, state_folder
 
-#: Of the database; a program that writes another one refuses this.
+#: Format of the database; other versions refuse it.
 FORMAT = 1
 
 State = Literal["waiting", "delivered", "refused"]
@@ -32,19 +32,21 @@ _TABLES = (
 
 @dataclass(frozen=True, kw_only=True)
 class OutboxEntry:
-    """A mission for a robot.
+    """A mission in the outbox.
 
     Attributes:
-        n: Its number; 0 for one that is not in the outbox yet.
-        sha256: Of the bundle.
-        url: Of the robot.
-        name: Of the file that was sent.
-        start: Start it once it has arrived.
-        ca, pin, plain: As :class:`fieldhand.delivery.server_certificate.ServerTrust`.
-        token_file: Where the token is; empty for the environment. The token itself is not kept.
-        queued_at, next_at: When it was given, and when to try next; seconds since 1970.
-        tries: So far.
-        said: What the robot said, or why it could not be asked.
+        n: Number of the entry; 0 for one that is not in the outbox yet.
+        sha256: SHA-256 of the signed mission.
+        url: Address of the robot.
+        name: Name of the file.
+        start: True to start the mission once it has arrived.
+        ca, pin, plain: As for :class:`fieldhand.delivery.server_certificate.ServerTrust`.
+        token_file: File with the token; empty for the environment. The token itself is not stored.
+        queued_at: Time at which it was added, in seconds since 1970.
+        tries: Number of attempts.
+        next_at: Time of the next attempt, in seconds since 1970.
+        state: ``waiting``, ``delivered`` or ``refused``.
+        said: Response of the robot, or the reason why it could not be reached.
     """
 
     n: int = 0
@@ -68,32 +70,31 @@ _NEW = _COLUMNS.removeprefix("n, ")
 
 
 def outbox_folder(environ: Mapping[str, str]) -> Path:
-    """Where it is unless the user says otherwise: ``FIELDHAND_OUTBOX``, else in the user's state folder.
+    """Return the default folder of the outbox: ``FIELDHAND_OUTBOX``, else one in the user's state folder.
 
     Raises:
-        InputError: What is named there is a file.
+        InputError: The environment variable names a file.
     """
     return named_folder(environ, "FIELDHAND_OUTBOX") or state_folder(environ) / "outbox"
 
 
 class Outbox:
-    """Missions that wait for their robot. Several processes may use it at once.
+    """Missions that wait for their robot. Several processes may use it at the same time.
 
     Args:
-        folder: It is made if it is not there.
+        folder: Folder of the outbox; made if it does not exist.
     """
 
     def __init__(self, folder: Path) -> None:
         self._folder, self._path = folder, folder / "outbox.sqlite"
 
     def put(self, entry: OutboxEntry, data: bytes) -> OutboxEntry:
-        """Keep a mission until it is delivered; one that was here before is sent anew.
+        """Store a mission until it is delivered; one that is stored already is sent again.
 
-        A mission that is to be started takes the place of those that wait to be started on the same robot: these are
-        delivered, and no more.
+        If the mission is to be started, others that wait to be started on the same robot are only delivered.
 
         Raises:
-            StoreError: It cannot be written, or is damaged.
+            StoreError: The outbox cannot be written, or is damaged.
         """
         from fieldhand.approval.keys.rights import make_folder, replace
 
@@ -109,17 +110,18 @@ class Outbox:
             return _entry(db.execute(f"SELECT {_COLUMNS} FROM entries WHERE n = ?", [number]).fetchone())  # noqa: S608
 
     def note(self, entry: OutboxEntry) -> None:
-        """Keep what became of a try. What was put in anew meanwhile stays as it is.
+        """Record the result of an attempt. An entry that was replaced meanwhile stays unchanged.
 
         Raises:
-            StoreError: It cannot be written.
+            StoreError: The outbox cannot be written.
         """
         with self._db() as db:
             db.execute(
                 "UPDATE entries SET tries = ?, next_at = ?, state = ?, said = ? WHERE n = ?",
                 [entry.tries, entry.next_at, entry.state, entry.said, entry.n],
             )
-        # Only once that is on the disk: what waits has its bundle. Under the lock again, for it may be put in anew.
+        # Files are removed once that is on disk, so that each waiting entry has its file; and under the lock, as a
+        # mission may be stored again meanwhile.
         with self._db() as db:
             waiting = db.execute("SELECT DISTINCT sha256 FROM entries WHERE state = 'waiting'")
             needed = {self._bundle(sha256) for (sha256,) in waiting}
@@ -128,10 +130,10 @@ class Outbox:
                     path.unlink()
 
     def entries(self) -> tuple[OutboxEntry, ...]:
-        """All, in the order in which they were given.
+        """Return all entries in the order in which they were added.
 
         Raises:
-            StoreError: It is damaged.
+            StoreError: The outbox is damaged.
         """
         if not self._path.exists():
             return ()
@@ -140,14 +142,14 @@ class Outbox:
             return tuple(_entry(row) for row in rows)
 
     def waiting(self) -> tuple[OutboxEntry, ...]:
-        """Those that are not delivered."""
+        """Return the entries that are not delivered."""
         return tuple(entry for entry in self.entries() if entry.state == "waiting")
 
     def bundle(self, entry: OutboxEntry) -> bytes:
-        """What is to be sent.
+        """Return the bytes of a signed mission.
 
         Raises:
-            StoreError: It is gone, or not what was put in.
+            StoreError: The file is missing or was changed.
         """
         path = self._bundle(entry.sha256)
         try:
@@ -165,7 +167,7 @@ class Outbox:
 
     @contextmanager
     def _db(self) -> Iterator[sqlite3.Connection]:
-        """The database in a transaction."""
+        """Open the database in a transaction."""
         try:
             with closing(sqlite3.connect(self._path, isolation_level=None, timeout=5.0)) as db:
                 db.execute("PRAGMA synchronous=EXTRA")  # the removal of the rollback journal is synced, too

@@ -1,4 +1,4 @@
-"""What is in the outbox, handed to its robots: at once, or when they are back."""
+"""Send the missions of the outbox to their robots, now or when they can be reached again."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from fieldhand.delivery.outbox import Outbox, OutboxEntry
 from fieldhand.delivery.robot_client import RobotClient
 from fieldhand.errors import FieldhandError, UnreachableError
 
-#: Seconds until the second try, doubled with each further one up to the longest; each is drawn between half and all.
+#: Seconds before the second attempt, and the maximum; doubled with each attempt, times a random factor of 0.5 to 1.
 FIRST_S, LONGEST_S = 4.0, 300.0
-#: Seconds after which a mission that waited is delivered, but not started any more: nobody expects it.
+#: Seconds after which a waiting mission is delivered but not started, as nobody expects its start any more.
 START_WITHIN_S = 12 * 3600.0
 
 Connect = Callable[[OutboxEntry], RobotClient]
@@ -24,14 +24,14 @@ Check = Callable[[bytes, str], Sendable]
 
 @dataclass(frozen=True, kw_only=True)
 class OutboxSender:
-    """Hands missions over.
+    """Sender of the missions in an outbox.
 
     Attributes:
-        outbox: Where they wait.
-        connect: Opens the link to a robot.
-        check: Sees whether a bundle is whole; see :func:`fieldhand.delivery.bundle_checks.require_sendable`.
-        clock: Seconds since 1970.
-        rng: Draws how long to wait, so that many senders do not come back at once.
+        outbox: The outbox.
+        connect: Returns a client of the robot of an entry.
+        check: Checks a signed mission (:func:`fieldhand.delivery.bundle_checks.require_sendable`).
+        clock: Returns the time in seconds since 1970.
+        rng: Random generator of the waiting times, so that many senders do not try again at once.
     """
 
     outbox: Outbox
@@ -41,10 +41,10 @@ class OutboxSender:
     rng: random.Random
 
     def post(self, entry: OutboxEntry) -> OutboxEntry:
-        """Try to deliver one.
+        """Try to deliver a mission.
 
         Returns:
-            What became of it, as it is kept: ``waiting`` if it may succeed later.
+            The updated entry; ``waiting`` if a later attempt may succeed.
 
         Raises:
             StoreError: The outbox cannot be used.
@@ -61,22 +61,22 @@ class OutboxSender:
         return done
 
     def post_due(self, *, all_of_them: bool = False) -> tuple[OutboxEntry, ...]:
-        """Try to deliver those whose time has come, or all that wait."""
+        """Try to deliver the missions that are due, or all that wait."""
         now = self.clock()
-        # A clock that was set back would let them wait for as long as it was set back.
+        # After the clock was set back, times beyond the longest wait are due at once.
         due = [e for e in self.outbox.waiting() if all_of_them or e.next_at <= now or e.next_at > now + LONGEST_S]
         return tuple(self.post(entry) for entry in due)
 
     def next_s(self) -> float | None:
-        """Seconds until the next try; None if nothing waits."""
+        """Return the seconds until the next attempt; None if no mission waits."""
         waits = [min(LONGEST_S, max(0.0, e.next_at - self.clock())) for e in self.outbox.waiting()]
         return min(waits, default=None)
 
     def _deliver(self, entry: OutboxEntry) -> str:
-        """Hand one over, and start it if that was asked for and is still expected.
+        """Deliver a mission, and start it if that was requested recently enough.
 
         Returns:
-            What to say of it.
+            Result in words.
         """
         data = self.outbox.bundle(entry)
         hashes = self.check(data, entry.name).hashes

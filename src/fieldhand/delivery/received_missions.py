@@ -13,7 +13,7 @@ from pathlib import Path
 from fieldhand.errors import StoreError
 from fieldhand.folders import FolderLock, FolderTaken
 
-#: Of the database; a program that writes another one refuses this.
+#: Format of the database; other versions refuse it.
 FORMAT = 1
 
 _TABLES = (
@@ -30,14 +30,14 @@ class ReceivedMission:
     """A mission that the robot has received.
 
     Attributes:
-        sha256: Of the bundle.
-        task: Id of its Task: the same for the same request, plan, site and robot, whenever it was approved.
-        request: What was asked.
-        signer: Whose key signed it, as this robot knows that person.
-        approved_at: Seconds since 1970.
-        received_at: ISO 8601.
-        hashes: What was verified: SHA-256 of the whole (``bundle``) and of each file.
-        begun_at: When it was told to run, ISO 8601; None if it never was.
+        sha256: SHA-256 of the signed mission.
+        task: Id of its Task, which is the same for the same request, plan, site and robot, whenever it was approved.
+        request: Request that it was planned from.
+        signer: Name of the key that signed it, as this robot knows it.
+        approved_at: Time of the approval, in seconds since 1970.
+        received_at: Time at which it was received, ISO 8601.
+        hashes: Verified SHA-256 of the file (``bundle``) and of each of its members.
+        begun_at: Time at which it was begun, ISO 8601; None if it never was.
     """
 
     sha256: str
@@ -51,25 +51,25 @@ class ReceivedMission:
 
     @property
     def name(self) -> str:
-        """Of its folder among the missions."""
+        """Name of its folder."""
         return self.sha256[:16]
 
 
 class ReceivedMissions:
-    """The database of a mission store. Safe for several threads.
+    """The database of a mission store. Thread-safe.
 
     Args:
-        path: It is made if it is not there.
+        path: File of the database; made if it does not exist.
 
     Raises:
-        StoreError: Another process has it open, it is damaged, or it cannot be written.
+        StoreError: Another process has the database open, it is damaged, or it cannot be written.
     """
 
     def __init__(self, path: Path) -> None:
         self._path = path
-        self._guard = threading.RLock()
-        with self._said():
-            # The lock lies on the folder: a database that was deleted would take its own lock along.
+        self._thread_lock = threading.RLock()
+        with self._store_errors():
+            # The folder is locked instead of the database, whose lock would vanish with it if it were deleted.
             self._lock = FolderLock(path.parent)
         try:
             self._db = self._open()
@@ -80,13 +80,13 @@ class ReceivedMissions:
         self._file = found.st_dev, found.st_ino
 
     def close(self) -> None:
-        """Let go of it."""
-        with self._guard:
+        """Close the database and release the lock."""
+        with self._thread_lock:
             self._db.close()
             self._lock.close()
 
     def note(self, held: ReceivedMission) -> None:
-        """Keep that a mission has arrived."""
+        """Add a mission that was received."""
         row = [
             held.sha256,
             held.task,
@@ -97,14 +97,14 @@ class ReceivedMissions:
             json.dumps(dict(held.hashes)),
             held.begun_at,
         ]
-        with self._guard, self._said():
+        with self._thread_lock, self._store_errors():
             self._require_in_place()
             self._db.execute(f"INSERT INTO held ({_COLUMNS}) VALUES (?, ?, ?, ?, ?, ?, ?, ?)", row)  # noqa: S608
 
     def note_begun(self, sha256: str, at: str) -> None:
-        """Keep that a mission was begun."""
+        """Record that a mission was begun."""
         turn = "(SELECT coalesce(max(turn), 0) + 1 FROM held)"
-        with self._guard, self._said():
+        with self._thread_lock, self._store_errors():
             self._require_in_place()
             self._db.execute(
                 f"UPDATE held SET begun_at = ?, turn = {turn} WHERE sha256 = ? AND begun_at IS NULL",  # noqa: S608
@@ -112,35 +112,35 @@ class ReceivedMissions:
             )
 
     def find(self, sha256: str) -> ReceivedMission | None:
-        """The mission of that bundle, if it has arrived."""
+        """Return the mission of a SHA-256; None if it was not received."""
         found = self._rows("WHERE sha256 = ?", sha256)
         return found[0] if found else None
 
     def later(self, task: str, approved_at: float) -> ReceivedMission | None:
-        """A mission of the same Task that was approved later, if one has arrived."""
+        """Return a received mission of the same Task with a later approval; None if there is none."""
         found = self._rows("WHERE task = ? AND approved_at > ? ORDER BY approved_at DESC LIMIT 1", task, approved_at)
         return found[0] if found else None
 
     def latest(self, most: int) -> tuple[ReceivedMission, ...]:
-        """Those that arrived last, in the order in which they came."""
+        """Return the missions that were received last, in the order in which they arrived."""
         return self._rows("ORDER BY n DESC LIMIT ?", most)[::-1]
 
     def last_begun(self) -> ReceivedMission | None:
-        """The one that was begun last, whatever the clock said."""
+        """Return the mission that was begun last, independent of the clock."""
         found = self._rows("WHERE turn IS NOT NULL ORDER BY turn DESC LIMIT 1")
         return found[0] if found else None
 
     def all(self) -> tuple[ReceivedMission, ...]:
-        """Every mission that has arrived."""
+        """Return every mission that was received."""
         return self._rows("ORDER BY n")
 
     def _rows(self, where: str, *values: object) -> tuple[ReceivedMission, ...]:
-        with self._guard, self._said():
+        with self._thread_lock, self._store_errors():
             rows = self._db.execute(f"SELECT {_COLUMNS} FROM held {where}", values).fetchall()  # noqa: S608
             return tuple(_received_mission(row) for row in rows)
 
     def _require_in_place(self) -> None:
-        """Refuse to write to a database that was deleted or replaced: what it says then nobody would find again.
+        """Require that the database was not deleted or replaced, since what is written to it would be lost.
 
         Raises:
             StoreError: It was.
@@ -159,10 +159,10 @@ class ReceivedMissions:
 
     def _open(self) -> sqlite3.Connection:
         path = self._path
-        with self._said():
+        with self._store_errors():
             db = sqlite3.connect(path, isolation_level=None, timeout=0.5, check_same_thread=False)
             try:
-                # Whoever has it open keeps it until the end, so that two agents never hold one store.
+                # The lock is kept until the database is closed, so that two agents never use one store.
                 db.execute("PRAGMA locking_mode=EXCLUSIVE")
                 db.execute("PRAGMA synchronous=EXTRA")  # the removal of the rollback journal is synced, too
                 db.execute("BEGIN EXCLUSIVE")
@@ -187,8 +187,8 @@ class ReceivedMissions:
         return db
 
     @contextmanager
-    def _said(self) -> Iterator[None]:
-        """What SQLite complains of, in words."""
+    def _store_errors(self) -> Iterator[None]:
+        """Turn errors of SQLite and of the file system into a StoreError."""
         try:
             yield
         except OSError as error:

@@ -7,8 +7,7 @@ from typing import Literal
 
 from fieldhand.delivery.received_missions import ReceivedMission
 
-#: ``waiting``: it has arrived and was never begun. ``lost``: it was begun, and its folder is gone
-#: or cannot be read.
+#: ``waiting``: received, and never begun. ``lost``: begun, and its folder is missing or unreadable.
 State = Literal["waiting", "running", "paused", "interrupted", "ended", "lost"]
 
 
@@ -17,12 +16,18 @@ class ReceivedStatus:
     """The status of a received mission.
 
     Attributes:
-        status: How it ended (``completed``, ...); empty before.
-        reason: Why.
-        doing: What it does, in words; empty before it was begun.
-        events: How many are safe on the disk.
-        fault: Why it could not be gone on with, or not reported, if that was so.
-        report: Where its report lies on this machine; empty before it was written.
+        received: The mission.
+        state: State of the mission.
+        status: Final status (``completed``, ...); empty before the end.
+        reason: Reason of the final status.
+        doing: Current action in words; empty before it was begun.
+        lat: Latitude of the robot, in degrees.
+        lon: Longitude of the robot, in degrees.
+        charge_percent: Charge of the battery, in percent.
+        travelled_m: Distance driven, in metres.
+        events: Number of events on disk.
+        fault: Reason why it could not be resumed or reported; empty if there is none.
+        report: Path of its report on the robot; empty before it is written.
     """
 
     received: ReceivedMission
@@ -44,9 +49,9 @@ class LoggedEvent:
     """An event from the log of a mission.
 
     Attributes:
-        n: Its number, from 1, without a gap.
-        at: When it was written, ISO 8601.
-        line: JSON.
+        n: Number of the event, from 1, without gaps.
+        at: Time at which it was logged, ISO 8601.
+        line: The event as JSON.
     """
 
     n: int

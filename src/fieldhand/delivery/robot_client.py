@@ -1,4 +1,4 @@
-"""The link from a sender to a robot: every answer is checked, every failure says whether trying again may help."""
+"""Client of a robot's agent: each response is validated, each error tells if a later attempt may succeed."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 
 A = TypeVar("A", bound=BaseModel)
 
-#: Bytes of an answer; 500 events are far less.
+#: Largest size of a response, in bytes; 500 events are far smaller.
 MOST_ANSWER = 16_000_000
-#: What a later try may not meet any more: a token that was not at hand, too slow, too many at once, a full disk.
+#: Statuses after which a later attempt may succeed: missing token, timeout, too many requests, full disk.
 _LATER = frozenset({401, 408, 429, 500, 502, 503, 504, 507})
 _CHUNK = 65_536
 
@@ -40,7 +40,7 @@ def require_httpx() -> None:
 
 
 def open_client(url: str, token: str | None, context: ssl.SSLContext | None) -> httpx.Client:
-    """A client that talks to this robot alone: no proxy of the environment, no redirection."""
+    """Return an HTTP client of one robot, without proxies of the environment and without redirects."""
     import httpx
 
     return httpx.Client(
@@ -54,10 +54,10 @@ def open_client(url: str, token: str | None, context: ssl.SSLContext | None) -> 
 
 
 class RobotClient:
-    """A robot's agent, as its sender sees it.
+    """Client of a robot's agent.
 
     Args:
-        client: From :func:`open_client`.
+        client: HTTP client from :func:`open_client`.
     """
 
     def __init__(self, client: httpx.Client) -> None:
@@ -65,23 +65,23 @@ class RobotClient:
         self._at = str(client.base_url).rstrip("/")
 
     def close(self) -> None:
-        """Let go of the connection."""
+        """Close the connection."""
         self._client.close()
 
     def robot(self) -> RobotState:
-        """The robot, and the missions that arrived last."""
+        """Return the state of the robot, and the missions that it received last."""
         return self._ask(RobotState, "GET", "/agent")
 
     def deliver(self, data: bytes, hashes: Mapping[str, str]) -> Receipt:
-        """Hand a mission over; one that the robot has already is not sent again.
+        """Upload a signed mission, unless the robot has it already.
 
         Args:
-            data: The bundle.
-            hashes: That were computed of it here: the robot has to have found the same.
+            data: Bytes of the file.
+            hashes: SHA-256 of the file and its members; those of the receipt must be the same.
 
         Raises:
-            UnreachableError: Not now.
-            DeliveryError: The robot refuses it, or says that something else has arrived.
+            UnreachableError: The robot cannot be reached now.
+            DeliveryError: The robot refuses the mission, or its receipt has other hashes.
         """
         sha256 = sha256_of(data)
         receipt = self.mission(sha256)
@@ -99,30 +99,33 @@ class RobotClient:
         return receipt
 
     def mission(self, sha256: str) -> Receipt | None:
-        """A mission that has arrived, with its hashes; None if it has not."""
+        """Return the receipt of a mission; None if the robot has not received it."""
         answer = self._send("GET", f"/agent/missions/{sha256}")
         return None if answer[0] == 404 else self._read(Receipt, *answer)
 
-    def order(self, sha256: str, said: AgentCommand, because: str = "") -> Heard:
-        """Tell a mission something; the same order may be sent again."""
-        body = {"order": said, "because": because}
+    def order(self, sha256: str, command: AgentCommand, because: str = "") -> Heard:
+        """Send a command to a mission; the same command may be sent again."""
+        body = {"order": command, "because": because}
         return self._ask(Heard, "POST", f"/agent/missions/{sha256}/orders", json=body)
 
-    def order_now(self, said: AgentCommand, because: str = "") -> Heard | None:
-        """Tell the mission under way, else the one begun last; None if this agent has to be told which one.
+    def order_now(self, command: AgentCommand, because: str = "") -> Heard | None:
+        """Send a command to the running mission, else to the one begun last.
+
+        Returns:
+            The response; None if the agent requires the name of a mission, as earlier versions do.
 
         Raises:
-            DeliveryError: There is none, or it has ended.
+            DeliveryError: There is no mission, or it has ended.
         """
-        status, body = self._send("POST", "/agent/orders", json={"order": said, "because": because})
-        # An agent of an earlier version has no such address, and says so as of any other.
+        status, body = self._send("POST", "/agent/orders", json={"order": command, "because": because})
+        # An agent of an earlier version does not have this address.
         return None if status in (404, 405) and b"there is nothing here" in body else self._read(Heard, status, body)
 
     def events(self, sha256: str, after: int, wait_s: float) -> Events:
-        """The events behind number ``after``.
+        """Return the events after number ``after``.
 
         Raises:
-            DeliveryError: One is missing.
+            DeliveryError: An event is missing.
         """
         found = self._ask(
             Events, "GET", f"/agent/missions/{sha256}/events", params={"after": after, "wait": wait_s}
@@ -135,7 +138,7 @@ class RobotClient:
         return self._read(model, *self._send(method, path, **more))
 
     def _send(self, method: str, path: str, **more: object) -> tuple[int, bytes]:
-        """Status and body of an answer."""
+        """Return status and body of the response to a request."""
         import httpx
 
         try:
@@ -174,14 +177,14 @@ class RobotClient:
             ) from None
 
     def _problem(self, status: int, body: bytes) -> DeliveryError:
-        """What the robot says is wrong."""
+        """Return the error that a response describes."""
         try:
-            said = _Problem.model_validate_json(body)
+            problem = _Problem.model_validate_json(body)
         except ValidationError:
-            said = _Problem(what=f"answers with HTTP status {status}")
+            problem = _Problem(what=f"answers with HTTP status {status}")
         kind = UnreachableError if status in _LATER else DeliveryError
-        where = f"{self._at}, {said.where}" if said.where else self._at
-        return kind(said.what, where=where, advice=said.advice)
+        where = f"{self._at}, {problem.where}" if problem.where else self._at
+        return kind(problem.what, where=where, advice=problem.advice)
 
 
 class _Problem(BaseModel):
@@ -191,7 +194,7 @@ class _Problem(BaseModel):
 
 
 def _is_mistrust(error: BaseException | None) -> bool:
-    """Whether a certificate was refused: trying again would not help, and may not be right."""
+    """Return True if the certificate was refused, after which another attempt neither helps nor is safe."""
     while error is not None:
         if isinstance(error, ssl.SSLCertVerificationError):
             return True

@@ -18,9 +18,9 @@ class ServerTrust:
     """The certificates that a sender accepts from a robot.
 
     Attributes:
-        ca: PEM file of the authority that signed its certificate; empty for those that the system knows.
-        pin: SHA-256 of the very certificate, 64 hexadecimal digits; empty for none.
-        plain: Send without TLS to another machine, too.
+        ca: PEM file of the authority that signed the certificate; empty for the authorities of the system.
+        pin: SHA-256 of the certificate, 64 hexadecimal digits; empty for none.
+        plain: True to send without TLS, even to another machine.
     """
 
     ca: str = ""
@@ -29,10 +29,10 @@ class ServerTrust:
 
 
 def parse_pin(text: str) -> str:
-    """The SHA-256 of a certificate, written with or without colons.
+    """Parse the SHA-256 of a certificate, written with or without colons.
 
     Raises:
-        InputError: It is none.
+        InputError: The text is not a SHA-256.
     """
     pin = text.strip().lower().removeprefix("sha256 fingerprint=").removeprefix("sha256:").replace(":", "")
     if len(pin) != 64 or set(pin) - set("0123456789abcdef"):
@@ -45,10 +45,10 @@ def parse_pin(text: str) -> str:
 
 
 def require_address(url: str, trust: ServerTrust) -> str:
-    """The address of a robot, without a slash at its end.
+    """Return the address of a robot without a trailing slash.
 
     Raises:
-        InputError: It is none, or would send the token in the clear.
+        InputError: The address is invalid, or the token would be sent unencrypted.
     """
     try:
         parts = urlsplit(url)
@@ -69,15 +69,15 @@ def require_address(url: str, trust: ServerTrust) -> str:
 
 
 def context_for(url: str, trust: ServerTrust) -> ssl.SSLContext:
-    """What checks the robot's certificate.
+    """Return the TLS context that verifies the robot's certificate.
 
-    With a pin the certificate is fetched, compared, and then trusted alone: nothing is sent before that, and whoever
-    shows it has to hold its key.
+    With a pin, the certificate is fetched and compared before anything is sent, and is then the only trusted one; the
+    server must have its private key.
 
     Raises:
         InputError: The authority's file cannot be read.
-        DeliveryError: The robot shows another certificate than the pinned one.
-        UnreachableError: It shows none, because it does not answer.
+        DeliveryError: The robot's certificate is not the pinned one.
+        UnreachableError: The robot does not respond.
     """
     if trust.pin and url.startswith("https:"):
         return _pinned(url, trust.pin)
@@ -92,10 +92,10 @@ def context_for(url: str, trust: ServerTrust) -> ssl.SSLContext:
 
 
 def pin_of(certificate: Path) -> str:
-    """The pin of a certificate in a PEM file.
+    """Return the pin of a certificate in a PEM file.
 
     Raises:
-        InputError: It cannot be read.
+        InputError: The file cannot be read.
     """
     try:
         text = certificate.read_text(encoding="ascii")
@@ -121,7 +121,7 @@ def _pinned(url: str, pin: str) -> ssl.SSLContext:
         )
     context = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
     context.check_hostname = False
-    # The certificate itself is believed, whoever signed it and whatever it says of itself.
+    # The certificate itself is trusted, independent of its issuer and its extensions.
     context.verify_flags = (context.verify_flags | ssl.VERIFY_X509_PARTIAL_CHAIN) & ~ssl.VERIFY_X509_STRICT
     context.load_verify_locations(cadata=pem)
     return context

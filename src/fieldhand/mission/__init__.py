@@ -1,4 +1,4 @@
-"""The way of a mission: one function a step. The command line, the API, the page and Python programs call these.
+"""The steps of a mission, one function each, for the command line, the API, the web page and Python programs.
 
 request ──plan──▶ Task ──review──▶ Review ──authorize──▶ ApprovedMission ──carry_out──▶ Run ──report──▶ files
 """

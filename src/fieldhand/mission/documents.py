@@ -1,4 +1,4 @@
-"""Read what was written before: Task documents and signed missions."""
+"""Read Task documents and signed missions."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class SiteAndRobot:
-    """The site and the robot that a command or a call is about."""
+    """A site and a robot."""
 
     site: Site
     robot: RobotProfile
@@ -52,7 +52,7 @@ def decode_task(document: bytes, robot: RobotProfile, *, source: str = "") -> Ta
 
 
 def open_bundle(data: bytes, *, source: str, trusted: TrustStore, now: datetime) -> Bundle:
-    """Verify a signed mission and return what it holds.
+    """Verify a signed mission and return its contents.
 
     Args:
         data: Bytes of the file.
@@ -61,8 +61,8 @@ def open_bundle(data: bytes, *, source: str, trusted: TrustStore, now: datetime)
         now: Current time, with time zone.
 
     Raises:
-        BundleError: It is no bundle, was damaged or changed, or is of another format.
-        NotTrustedError: No key that is trusted here has signed it.
+        BundleError: The file is not a signed mission, is damaged, or has an unknown format.
+        NotTrustedError: The key that signed it is not trusted here.
         KeyFileError: The trusted keys cannot be read.
     """
     from fieldhand.approval.bundle.opening import open_bundle

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def _ignore(_: Event) -> None:
-    """Leave an event to whoever reads the run afterwards."""
+    """Do nothing with an event; the run contains it."""
 
 
 def check_world(world: World, site: Site, robot: RobotProfile) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -16,6 +17,8 @@ T_co = TypeVar("T_co", covariant=True)
 
 #: Rows of a table in a notebook, and characters of a cell.
 _MOST_ROWS, _LONGEST = 20, 60
+#: Types of records that a representation counts.
+_MOST_KINDS = 4
 
 
 class Records(tuple[T_co, ...]):
@@ -52,6 +55,11 @@ class Records(tuple[T_co, ...]):
         return geopandas.GeoDataFrame(
             table, geometry=geopandas.points_from_xy(table["lon"], table["lat"]), crs="EPSG:4326"
         )
+
+    def __repr__(self) -> str:
+        kinds = Counter(type(record).__name__ for record in self).most_common()
+        shown = ", ".join(f"{count} {kind}" for kind, count in kinds[:_MOST_KINDS])
+        return f"<{type(self).__name__}: {shown or 'empty'}{', ...' if len(kinds) > _MOST_KINDS else ''}>"
 
     def _repr_html_(self) -> str:
         """Return the first rows as a table for a notebook."""

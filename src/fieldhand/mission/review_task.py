@@ -23,7 +23,7 @@ class Review:
 
     Attributes:
         examination: Problems and forecast, for one Task, site and robot.
-        read_back: The plan in words; None if a problem stops the mission from being walked through.
+        read_back: The plan in words; None if the mission cannot be forecast.
     """
 
     examination: Examination
@@ -53,7 +53,7 @@ class Review:
 
     @property
     def estimate(self) -> Estimate | None:
-        """Forecast of distance, time and energy on every branch; None if the mission cannot be walked through."""
+        """Forecast of distance, time and energy on every branch; None if the mission cannot be forecast."""
         return self.examination.estimate
 
     @property
@@ -68,7 +68,7 @@ class Review:
 
     @property
     def words(self) -> str:
-        """The plan in words, a line each, as an operator reads it; empty if it cannot be walked through."""
+        """The plan in words, a line each, as an operator reads it; empty if the mission cannot be forecast."""
         return "" if self.read_back is None else "\n".join(str(line) for line in self.read_back.text_lines())
 
     def words_in(self, language: str) -> str:

@@ -1,4 +1,4 @@
-"""A mission that was carried out: its events, its observations and what came of each goal."""
+"""A mission that was carried out: its events, its observations and the outcome of each goal."""
 
 from __future__ import annotations
 
@@ -32,8 +32,8 @@ class Assessment:
     Attributes:
         outcomes: Outcome of each goal.
         exceeded: Limits that were exceeded.
-        status: How it ended; None where the log was cut off. A log of an earlier version may call a mission that
-            exceeded a limit ``completed``; this does not.
+        status: Final status; None if the log is incomplete. Logs of earlier versions call a mission that exceeded a
+            limit ``completed``; here it is not.
         reason: Why it did not complete, in words.
     """
 
@@ -91,7 +91,7 @@ class Run:
 
     @property
     def status(self) -> MissionStatus:
-        """How the mission ended."""
+        """Final status of the mission."""
         return self.result.status
 
     @property
@@ -113,15 +113,15 @@ class Run:
         Raises:
             OutputError: The folder cannot be written.
         """
-        given = self.mission
+        mission = self.mission
         return report(
             Path(folder),
-            given.authorized,
-            given.site,
-            given.robot,
+            mission.authorized,
+            mission.site,
+            mission.robot,
             self.result.events,
             self.assessment,
-            given.estimate,
+            mission.estimate,
         )
 
     def _repr_html_(self) -> str:

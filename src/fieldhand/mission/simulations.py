@@ -28,7 +28,8 @@ class Simulation:
 
     Attributes:
         seed: Seed of the simulation.
-        status, success: How it ended, and whether every goal was met within every limit.
+        status: Final status of the mission.
+        success: True if every goal was met within every limit.
         goals_met, goals: Number of goals met, of all goals.
         exceeded: Names of the limits that were exceeded.
         captures: Number of captures that succeeded.
@@ -71,6 +72,9 @@ class Simulations(Records[Simulation]):
         """
         values = [float(getattr(run, quantity)) for run in self]
         return tuple(float(q) for q in np.quantile(values, levels)) if values else (float("nan"),) * len(levels)
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__}: {sum(run.success for run in self)} of {len(self)} succeeded>"
 
     def _repr_html_(self) -> str:
         """Return success rate and figures for a notebook."""

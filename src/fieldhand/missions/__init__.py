@@ -1,68 +1,66 @@
-"""Missions that outlast a power cut: each has a folder with all that it needs, and the journal of what it did.
+"""Stored missions: each has a folder with its inputs and a journal, so that it survives a power cut.
 
-begin ──▶ folder ──carry_out──▶ events          status and order: from any other process, at any moment
+begin ──▶ folder ──carry_out──▶ events          status and send_command: from any other process, at any time
                      ▲    │ power cut
                      └────┘
 
-    task.xml, site/…, robot.yaml, world.yaml, mission.json    what the mission is
-    journal.sqlite, journal.mark, events.jsonl                what was done
-    report.html, observations.csv, observations.geojson       what came of it, where a robot's agent carried it out
-    orders.sqlite                                             what people want
+    task.xml, site/…, robot.yaml, world.yaml, mission.json    inputs
+    journal.sqlite, journal.mark, events.jsonl                journal and event log
+    report.html, observations.csv, observations.geojson       report, if a robot's agent carried the mission out
+    orders.sqlite                                             commands of operators
 """
 
+from fieldhand.missions.carry_out import carry_out, require_vehicle
 from fieldhand.missions.direct_commands import DirectCommands
 from fieldhand.missions.find_mission import all_missions, exists, find, missions_folder
 from fieldhand.missions.folder import (
-    Departure,
     FolderContents,
     Inputs,
+    RobotAtStart,
     StoredMission,
     begin,
-    departure_on,
     new_id,
     open_mission,
     read_folder,
+    robot_at_start,
     signed_inputs,
 )
 from fieldhand.missions.mission_status import (
     Status,
-    carry_out,
     events_of,
     is_running,
-    last_order,
     lines_after,
-    order,
-    require_vehicle,
     stands_still,
     status,
 )
+from fieldhand.missions.send_command import last_command, send_command
 from fieldhand.missions.start_checks import require_charged, require_in_place
 
 __all__ = [
-    "Departure",
     "DirectCommands",
     "FolderContents",
     "Inputs",
+    "RobotAtStart",
     "Status",
     "StoredMission",
     "all_missions",
     "begin",
     "carry_out",
-    "departure_on",
     "events_of",
     "exists",
     "find",
     "is_running",
-    "last_order",
+    "last_command",
     "lines_after",
     "missions_folder",
     "new_id",
     "open_mission",
-    "order",
     "read_folder",
     "require_charged",
     "require_in_place",
     "require_vehicle",
+    "robot_at_start",
+    "send_command",
     "signed_inputs",
     "stands_still",
     "status",

@@ -1,4 +1,4 @@
-"""Where missions lie, and which of them is meant."""
+"""Find the folder of a stored mission by its name or its path."""
 
 from __future__ import annotations
 
@@ -13,19 +13,23 @@ from fieldhand.missions.folder import ABOUT
 
 
 def missions_folder(environ: Mapping[str, str]) -> Path:
-    """Where missions lie unless the user says otherwise: ``FIELDHAND_MISSIONS``, else in the user's state folder.
+    """Return the default folder of all missions: ``FIELDHAND_MISSIONS``, else one in the user's state folder.
 
     Raises:
-        InputError: What is named there is a file.
+        InputError: The environment variable names a file.
     """
     return named_folder(environ, "FIELDHAND_MISSIONS") or state_folder(environ) / "missions"
 
 
 def find(under: Path, name: str | None) -> Path:
-    """The folder of a mission: by its name, by its path, or without either the one begun last.
+    """Return the folder of a mission.
+
+    Args:
+        under: Folder of all missions.
+        name: Name or path of the mission; None for the one begun last.
 
     Raises:
-        JournalError: There is none.
+        JournalError: There is no such mission.
     """
     if name is not None:
         for folder in (under / name, Path(name)):
@@ -41,10 +45,10 @@ def find(under: Path, name: str | None) -> Path:
 
 
 def exists(folder: Path) -> bool:
-    """Whether this is the folder of a mission that was begun.
+    """Return True if this is the folder of a mission that was begun.
 
     Raises:
-        JournalError: It may not be looked into.
+        JournalError: The folder may not be read.
     """
     try:
         return (folder / ABOUT).is_file()
@@ -53,10 +57,10 @@ def exists(folder: Path) -> bool:
 
 
 def all_missions(under: Path) -> tuple[Path, ...]:
-    """Every mission that was begun there, the one begun last at the end.
+    """Return the folders of all missions below a folder, in the order in which they were begun.
 
     Raises:
-        JournalError: The folder may not be looked into, or is none.
+        JournalError: The folder may not be read, or is a file.
     """
     try:
         found = [folder for folder in under.iterdir() if exists(folder)]
@@ -68,7 +72,7 @@ def all_missions(under: Path) -> tuple[Path, ...]:
 
 
 def begun_at(folder: Path) -> datetime:
-    """When a mission was begun."""
+    """Return the time at which a mission was begun."""
     return datetime.fromtimestamp((folder / ABOUT).stat().st_mtime, UTC)
 
 

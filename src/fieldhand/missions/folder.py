@@ -1,4 +1,4 @@
-"""The folder of a mission: every byte that it needs, so that it depends on no other file from then on."""
+"""The folder of a stored mission: copies of all its inputs, so that it depends on no other file."""
 
 from __future__ import annotations
 
@@ -32,25 +32,25 @@ if TYPE_CHECKING:
     from fieldhand.site.formats.files import SiteFiles
     from fieldhand.site.model import Site
 
-#: Of mission.json: of one that is carried out in simulation, and of one on a robot. A program that knows no robots
-#: shall not go on with the latter.
+#: Formats of mission.json: of a simulated mission, and of one on a robot. They differ so that versions without support
+#: for robots do not resume the latter.
 FORMAT, ON_ROBOT = 1, 2
 
 JOURNAL, ORDERS, LOG, ABOUT = "journal.sqlite", "orders.sqlite", "events.jsonl", "mission.json"
-#: The page of its report, once one was written here.
+#: Report, if one was written to the folder.
 REPORT = "report.html"
 _SIGNED = "signed.mission"
-#: Of any of its files: a site of 100 MB, and a bundle around it.
+#: Largest file in bytes: a signed mission with a site of 100 MB.
 _MOST_BYTES = 128_000_000
 
 
 @dataclass(frozen=True, kw_only=True)
-class Departure:
-    """On which robot a mission was begun.
+class RobotAtStart:
+    """The robot on which a mission was begun.
 
     Attributes:
-        by: How it was reached.
-        charge_percent: Of its battery then: the guard reckons from it.
+        by: Connection to the robot.
+        charge_percent: Charge of its battery at the start, on which the guard bases its budget.
     """
 
     by: Connection
@@ -59,21 +59,23 @@ class Departure:
 
 @dataclass(frozen=True, kw_only=True)
 class Inputs:
-    """A mission that is to begin, with the bytes from which each part of it was read.
+    """The inputs of a new mission, with the files that they were read from.
 
     Attributes:
-        authorized: The Task, as it was approved.
-        site, robot: For which it was approved.
-        files, profile: The bytes from which these two were read.
-        lenient: Whether the site was read leniently.
-        world: Of the simulation; None for a world without surprises.
-        seed: Of every random thing in the simulation, and of the guard.
-        planner: Who planned it.
-        bundle: The signed mission that all but the world and the seed came from; None where nobody has signed.
-        departure: Of a mission on a robot; None in simulation.
+        authorized: Task with its approval.
+        site: Site of the approval.
+        robot: Robot of the approval.
+        files: Files of the site.
+        profile: Bytes of the robot profile.
+        lenient: True if the site was read leniently.
+        world: World of the simulation; None for a world in which nothing fails.
+        seed: Seed of the simulation and of the budget guard.
+        planner: Name of the planner of the Task.
+        bundle: Signed mission that everything but world and seed came from; None for an unsigned mission.
+        started_on: Robot on which the mission begins; None for the simulation.
 
     Raises:
-        NotApprovedError: These bytes are not the ones that were approved.
+        NotApprovedError: A file is not the approved one.
     """
 
     authorized: AuthorizedTask
@@ -86,7 +88,7 @@ class Inputs:
     seed: int = 0
     planner: str = ""
     bundle: Bundle | None = None
-    departure: Departure | None = None
+    started_on: RobotAtStart | None = None
 
     def __post_init__(self) -> None:
         approved = self.authorized.authorization
@@ -119,9 +121,9 @@ class Inputs:
 
 
 def signed_inputs(
-    bundle: Bundle, *, world: World | None = None, seed: int = 0, departure: Departure | None = None
+    bundle: Bundle, *, world: World | None = None, seed: int = 0, started_on: RobotAtStart | None = None
 ) -> Inputs:
-    """Return what a signed mission begins with."""
+    """Return the inputs of a signed mission."""
     return Inputs(
         authorized=bundle.authorized,
         site=bundle.site,
@@ -133,18 +135,26 @@ def signed_inputs(
         seed=seed,
         planner=bundle.manifest.task.planner,
         bundle=bundle,
-        departure=departure,
+        started_on=started_on,
     )
 
 
 @dataclass(frozen=True, kw_only=True)
 class StoredMission:
-    """A mission that was begun. What is carried out is this; nothing of its folder but the journal is read again.
+    """A mission that was begun; of its folder, only the journal is read again when it is carried out.
 
     Attributes:
-        bundle: The signed mission that it is, where it is one and that was verified.
-        departure: Of a mission on a robot; None in simulation.
-        told: Gives the order that stands in the memory of this process, beside those in the folder.
+        folder: Folder of the mission.
+        authorized: Task with its approval.
+        site: Site of the mission.
+        robot: Robot of the mission.
+        world: World of the simulation.
+        seed: Seed of the simulation and of the budget guard.
+        planner: Name of the planner of the Task.
+        sha256: SHA-256 of mission.json, which the journal contains, too.
+        bundle: The verified signed mission; None for an unsigned one.
+        started_on: Robot on which it was begun; None for the simulation.
+        direct_command: Returns the command in the memory of this process, beside those in the folder.
     """
 
     folder: Path
@@ -156,32 +166,37 @@ class StoredMission:
     planner: str
     sha256: str
     bundle: Bundle | None = None
-    departure: Departure | None = None
-    told: Callable[[], OperatorCommand | None] = no_command
+    started_on: RobotAtStart | None = None
+    direct_command: Callable[[], OperatorCommand | None] = no_command
 
     @property
     def id(self) -> str:
-        """Its name: that of the folder."""
+        """Name of the mission: the name of its folder."""
         return self.folder.name
 
 
-def departure_on(vehicle: Vehicle | None) -> Departure | None:
-    """The departure of a mission that begins now on this robot; None for the simulation."""
+def robot_at_start(vehicle: Vehicle | None) -> RobotAtStart | None:
+    """Return the robot on which a mission begins now; None for the simulation."""
     if vehicle is None or vehicle.by is None:
         return None
-    return Departure(by=vehicle.by, charge_percent=vehicle.charge_percent)
+    return RobotAtStart(by=vehicle.by, charge_percent=vehicle.charge_percent)
 
 
 def new_id(at: datetime) -> str:
-    """A name for a mission that begins now."""
+    """Return a unique name for a mission that begins at a time."""
     return f"{at:%Y%m%d-%H%M%S}-{secrets.token_hex(3)}"
 
 
 def begin(under: Path, name: str, inputs: Inputs) -> StoredMission:
-    """Make the folder of a mission. Nothing is done yet; a folder that was not finished is no mission.
+    """Create the folder of a mission; mission.json is written last, so that an incomplete folder is no mission.
+
+    Args:
+        under: Folder of all missions.
+        name: Name of the mission.
+        inputs: Its inputs.
 
     Returns:
-        The mission, from what was given: the folder is not read.
+        The mission, made from the inputs without reading the folder.
 
     Raises:
         JournalError: There is a mission of that name, or the folder cannot be written.
@@ -198,7 +213,7 @@ def begin(under: Path, name: str, inputs: Inputs) -> StoredMission:
     if inputs.bundle is not None:
         files[_SIGNED] = inputs.bundle.data
     about = {
-        "format": FORMAT if inputs.departure is None else ON_ROBOT,
+        "format": FORMAT if inputs.started_on is None else ON_ROBOT,
         "site": f"site/{Path(inputs.files.name).name}",
         "lenient": inputs.lenient,
         "seed": inputs.seed,
@@ -206,11 +221,11 @@ def begin(under: Path, name: str, inputs: Inputs) -> StoredMission:
         "authorization": asdict(inputs.authorized.authorization),
         "files": {file: _sha256(data) for file, data in files.items()},
     }
-    if inputs.departure is not None:
-        departure = asdict(inputs.departure)
-        if not inputs.departure.by.options:
-            del departure["by"]["options"]  # which versions without plugins do not know
-        about["departure"] = departure
+    if inputs.started_on is not None:
+        started_on = asdict(inputs.started_on)
+        if not inputs.started_on.by.options:
+            del started_on["by"]["options"]  # versions without plugins do not know the field
+        about["departure"] = started_on
     whole = json_text(about, indent=1).encode()
     if (folder / ABOUT).exists():
         raise JournalError(
@@ -245,18 +260,20 @@ def begin(under: Path, name: str, inputs: Inputs) -> StoredMission:
         planner=inputs.planner,
         sha256=_sha256(whole),
         bundle=inputs.bundle,
-        departure=inputs.departure,
+        started_on=inputs.started_on,
     )
 
 
 @dataclass(frozen=True, kw_only=True)
 class FolderContents:
-    """The bytes of a mission's folder, each file read once. Everything that is decided about a mission follows from these.
+    """The contents of a mission's folder, each file read once, so that all decisions are based on the same bytes.
 
     Attributes:
-        about: What mission.json says; ``whole`` are its bytes.
-        files: Of every file that it names, each with the SHA-256 that it gives.
-    """  # noqa: E501
+        folder: Folder of the mission.
+        about: Contents of mission.json.
+        whole: Bytes of mission.json.
+        files: Bytes of every file that mission.json names, checked against its SHA-256.
+    """
 
     folder: Path
     about: Mapping[str, Any]
@@ -265,23 +282,23 @@ class FolderContents:
 
     @property
     def signed(self) -> bytes | None:
-        """The signed bundle that the mission came from; None where nobody signed it."""
+        """Bytes of the signed mission that it came from; None for an unsigned one."""
         return self.files.get(_SIGNED)
 
     @property
-    def departure(self) -> Departure | None:
-        """On which robot the mission was begun; None for one in simulation.
+    def started_on(self) -> RobotAtStart | None:
+        """Robot on which the mission was begun; None for the simulation.
 
         Raises:
-            JournalError: mission.json does not say.
+            JournalError: mission.json lacks it.
         """
         try:
-            return _departure_of(self.about)
+            return _robot_at_start_of(self.about)
         except (KeyError, TypeError, ValueError) as error:
             raise _no_mission(self.folder, f"{ABOUT} lacks {error}") from None
 
     def mission(self, verify: Callable[[bytes, str], Bundle] | None = None) -> StoredMission:
-        """Return the mission that these bytes are.
+        """Return the mission in the folder.
 
         Args:
             verify: As for :func:`open_mission`.
@@ -305,7 +322,7 @@ class FolderContents:
             raise _no_mission(folder, f"{ABOUT} names no Task, robot or site")
         bundle = None
         if verify is not None and self.signed is not None:
-            # Before anything else of the folder is read.
+            # The signature is verified before any other file of the folder is parsed.
             bundle = verify(self.signed, str(folder / _SIGNED))
             require_signed(bundle, files, authorization, lenient=lenient, planner=planner, folder=folder)
             authorized, site, robot = bundle.authorized, bundle.site, bundle.robot
@@ -322,16 +339,16 @@ class FolderContents:
             planner=planner,
             sha256=_sha256(self.whole),
             bundle=bundle,
-            departure=self.departure,
+            started_on=self.started_on,
         )
 
     def _unsigned(
         self, authorization: Authorization, site_file: str, *, lenient: bool
     ) -> tuple[AuthorizedTask, Site, RobotProfile]:
-        """Task, site and robot as the folder has them.
+        """Return Task, site and robot in the folder of an unsigned mission.
 
         Raises:
-            NotApprovedError: They are not those that were approved.
+            NotApprovedError: They are not the approved ones.
         """
         from fieldhand.approval.authorize import approved_before
         from fieldhand.robot.loader import parse_profile
@@ -348,10 +365,10 @@ class FolderContents:
 
 
 def read_folder(folder: Path) -> FolderContents:
-    """Read the folder of a mission, each file once, and hold each against the SHA-256 that mission.json gives.
+    """Read the folder of a mission, each file once, and check each against its SHA-256 in mission.json.
 
     Raises:
-        JournalError: This is no mission, a file is not the one that it began with, or others can write there.
+        JournalError: The folder is not that of a mission, a file was changed, or other users can write to the folder.
     """
     try:
         if folder.is_dir():
@@ -371,39 +388,40 @@ def open_mission(folder: Path, verify: Callable[[bytes, str], Bundle] | None = N
     """Return the mission of a folder.
 
     Args:
-        folder: The mission's.
-        verify: Opens a signed bundle, given with what to call it, once it was found to be good
-            (:func:`fieldhand.mission.open_bundle`): a signed mission is then what that bundle says, whatever else
-            lies in the folder. None takes the folder's word; nothing may run from that in production.
+        folder: Folder of the mission.
+        verify: Opens a signed mission from its bytes and a name for messages, and verifies its signature
+            (:func:`fieldhand.mission.open_bundle`); Task, site and robot are then those of the signed mission. None
+            takes the folder's files without verification, which must not run in production.
 
     Raises:
-        JournalError: This is no mission, or not the one that was begun.
-        NotApprovedError: It is not what was approved, or not what was signed.
-        BundleError, NotTrustedError: The bundle is broken, or nobody who is trusted here has signed it.
+        JournalError: The folder is not that of a mission, or a file was changed.
+        NotApprovedError: A file is not the approved or the signed one.
+        BundleError: The signed mission is damaged.
+        NotTrustedError: Its key is not trusted here.
     """
     return read_folder(folder).mission(verify)
 
 
-def _departure_of(about: Mapping[str, Any]) -> Departure | None:
-    """On which robot mission.json says that a mission was begun; None for one in simulation.
+def _robot_at_start_of(about: Mapping[str, Any]) -> RobotAtStart | None:
+    """Return the robot that mission.json names; None for a simulated mission.
 
     Raises:
-        KeyError, TypeError, ValueError: It says that it was one, and not which.
+        KeyError, TypeError, ValueError: The entry is missing or malformed.
     """
     if about["format"] != ON_ROBOT:
         return None
-    said = about["departure"]
-    return Departure(by=Connection(**said["by"]), charge_percent=float(said["charge_percent"]))
+    entry = about["departure"]
+    return RobotAtStart(by=Connection(**entry["by"]), charge_percent=float(entry["charge_percent"]))
 
 
 def remove_folder(folder: Path) -> None:
-    """Remove a mission with all that it has done.
+    """Remove the folder of a mission.
 
     Raises:
         JournalError: It cannot be removed.
     """
     try:
-        # First what makes it a mission: half of a folder shall not be taken for one.
+        # mission.json goes first, so that a partly removed folder is no mission.
         (folder / ABOUT).unlink()
         shutil.rmtree(folder)
     except OSError as error:
@@ -415,10 +433,10 @@ def remove_folder(folder: Path) -> None:
 
 
 def read_about(folder: Path) -> tuple[dict[str, Any], bytes]:
-    """What mission.json says, and its bytes.
+    """Return the contents of mission.json, and its bytes.
 
     Raises:
-        JournalError: It is missing, or is none.
+        JournalError: The file is missing or malformed.
     """
     try:
         whole = read_file(folder / ABOUT, _MOST_BYTES, look=lambda status: require_own_file(folder / ABOUT, status))
@@ -437,10 +455,10 @@ def read_about(folder: Path) -> tuple[dict[str, Any], bytes]:
 
 
 def read_kept(folder: Path, file: str, sha256: str) -> bytes:
-    """The bytes of a file of the folder, which have to be those that the mission began with.
+    """Return the bytes of a file in the folder, checked against its SHA-256.
 
     Raises:
-        JournalError: They are others, or cannot be read.
+        JournalError: The file was changed or cannot be read.
     """
     path = folder / file
     if path.resolve() != folder.resolve() / file:
@@ -461,11 +479,11 @@ def read_kept(folder: Path, file: str, sha256: str) -> bytes:
 
 
 def _require_guarded(folder: Path) -> None:
-    """Check that nobody else can change the folder of a mission, or put another in its place.
+    """Require that no other user can change or replace the folder of a mission.
 
     Raises:
-        JournalError: Somebody else can.
-        OSError: It may not be looked into.
+        JournalError: Another user can.
+        OSError: The folder may not be read.
     """
     try:
         require_guarded(folder)

@@ -1,4 +1,4 @@
-"""All missions at a glance, and the removal of those that have ended and are old."""
+"""List stored missions, and remove old ones that have ended."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from fieldhand.missions.folder import JOURNAL, read_about, read_kept, remove_fol
 from fieldhand.task.event_lines import from_json
 from fieldhand.task.results import Continued, Ended, Exited, Paused
 
-#: How the lines begin that say how a mission stands; the others are not read.
+#: Beginnings of the log lines that decide the state of a mission; other lines are not parsed.
 _TURNS = tuple(f'{{"event": "{kind.event}"' for kind in (Paused, Continued, Exited, Ended))
 
 
@@ -22,10 +22,13 @@ class ListedMission:
     """One mission of a list.
 
     Attributes:
-        begun, last: When it was begun, and when its last event was written.
-        state: ``running``, ``paused``, ``interrupted``, ``ended``; ``unreadable`` where its folder is damaged.
-        status: How it ended; of one that cannot be read, why.
-        signed: It came from a signed bundle.
+        folder: Folder of the mission.
+        begun: Time at which it was begun.
+        last: Time of its last event.
+        state: ``running``, ``paused``, ``interrupted``, ``ended``; ``unreadable`` if its folder is damaged.
+        status: Final status; for an unreadable mission, the reason.
+        request: Request that it was planned from.
+        signed: True if it came from a signed mission file.
     """
 
     folder: Path
@@ -38,24 +41,24 @@ class ListedMission:
 
     @property
     def id(self) -> str:
-        """The mission's name."""
+        """Name of the mission."""
         return self.folder.name
 
 
 def list_missions(under: Path) -> tuple[ListedMission, ...]:
-    """Every mission that was begun there, the one begun last at the end."""
+    """Return all missions below a folder, in the order in which they were begun."""
     return tuple(_entry(folder) for folder in all_missions(under))
 
 
 def removable(
     entries: tuple[ListedMission, ...], *, ended_before: datetime | None = None, keep: int | None = None
 ) -> tuple[ListedMission, ...]:
-    """Missions that have ended and may go; never one that runs, is paused, was cut off or cannot be read.
+    """Return missions to remove: only ended ones, never one that is running, paused, interrupted or unreadable.
 
     Args:
-        entries: From :func:`list_missions`.
-        ended_before: Only those whose last event is older.
-        keep: Not the last so many of those that have ended.
+        entries: Missions from :func:`list_missions`.
+        ended_before: Latest time of the last event; None for any time.
+        keep: Number of ended missions to keep, the newest ones; None to keep none.
     """
     ended = tuple(entry for entry in entries if entry.state == "ended")
     if keep is not None:
@@ -64,7 +67,7 @@ def removable(
 
 
 def older_than(now: datetime, days: float) -> datetime:
-    """The moment so many days ago; the beginning of all time where that is before it."""
+    """Return the time a number of days before ``now``, or the earliest possible time."""
     try:
         return now - timedelta(days=days)
     except OverflowError:
@@ -75,7 +78,7 @@ def remove(entry: ListedMission) -> None:
     """Remove the folder of a mission that has ended.
 
     Raises:
-        JournalError: It has not ended, or goes on just now; or its folder cannot be removed.
+        JournalError: The mission has not ended, or is being resumed; or its folder cannot be removed.
     """
     if _entry(entry.folder).state != "ended":
         raise JournalError("the mission has not ended", where=str(entry.folder))
@@ -107,7 +110,7 @@ def _entry(folder: Path) -> ListedMission:
         folder=folder,
         begun=begun,
         last=last,
-        # Its end is written, and its process still writes the report.
+        # The end is logged, but the process is still writing the report.
         state="running" if running and state == "ended" else state,
         status="" if end is None else end.status,
         request=task.command.request,

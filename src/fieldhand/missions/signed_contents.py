@@ -1,4 +1,4 @@
-"""What lies beside a signed bundle in a mission's folder, held against what was signed."""
+"""Comparison of the files in a mission's folder with the signed mission that they came from."""
 
 from __future__ import annotations
 
@@ -22,10 +22,18 @@ def require_signed(
     planner: str,
     folder: Path,
 ) -> None:
-    """What lies beside the bundle must be what it holds: somebody reads it, and takes it for what was signed.
+    """Require that the files in a mission's folder equal those in its signed mission, as people may read the former.
+
+    Args:
+        bundle: The signed mission, verified.
+        files: Contents of the folder's files by name.
+        authorization: Approval in mission.json.
+        lenient: Lenient reading of the site, from mission.json.
+        planner: Name of the planner, from mission.json.
+        folder: Folder of the mission, for messages.
 
     Raises:
-        NotApprovedError: It is not.
+        NotApprovedError: A file differs.
     """
     from fieldhand.task.codec import encode
 

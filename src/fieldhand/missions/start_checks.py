@@ -1,6 +1,6 @@
-"""Whether a real robot may set out: it stands on the site, knows where it is, may move, and has the charge.
+"""Checks before a mission starts on a real robot: position on the site, localization, stop signal and charge.
 
-The simulation begins at the start with the charge that its world says; a robot is where somebody left it.
+The simulation starts at the site's start with the charge of its world file; a real robot may be anywhere.
 """
 
 from __future__ import annotations
@@ -18,19 +18,18 @@ if TYPE_CHECKING:
     from fieldhand.site.drives import XY
     from fieldhand.site.model import Site
 
-#: Metres from the nearest tree or marker beyond which a robot is elsewhere, where no boundary says what belongs to the
-#: site.
+#: Distance from the nearest tree or marker, in metres, beyond which a robot is not on a site without a boundary.
 FAR_M = 100.0
 
 
 def require_in_place(site: Site, robot: RobotProfile, driver: Driver) -> float:
-    """See whether the robot may set out from where it stands.
+    """Require that the robot can start driving from its position.
 
     Returns:
-        Metres from where it stands to the start, in a straight line.
+        Distance from the robot to the site's start, in metres, in a straight line.
 
     Raises:
-        ExecutionError: It is stopped, does not know where it is, or stands where no drive can begin.
+        ExecutionError: The robot is stopped, has no position, or is where no drive can begin.
     """
     from fieldhand.forecast.visit_order import drives_for, start_place
 
@@ -75,17 +74,18 @@ def require_charged(
     *,
     confirm: bool = False,
 ) -> None:
-    """See whether a mission can be made with the charge that the robot has: it was approved for a full battery.
+    """Require that the charge of the robot is enough for a mission, which was approved for a full battery.
 
     Args:
-        promised: The review of the approval.
-        site, robot: Of the mission.
-        charge_percent: Of the battery now.
-        confirm: What becomes doubtful by it is accepted.
+        promised: Review that was approved.
+        site: Site of the mission.
+        robot: Robot of the mission.
+        charge_percent: Charge of the battery now, in percent.
+        confirm: Accept the warnings that the lower charge adds.
 
     Raises:
-        NotApprovedError: It does not last.
-        NotConfirmedError: It may well not last.
+        NotApprovedError: The charge is not enough.
+        NotConfirmedError: The charge may not be enough.
     """
     known = {problem.line() for problem in promised.problems}
     seen = mission.review(promised.task, site, robot, charge_percent=charge_percent)
@@ -105,7 +105,7 @@ def require_charged(
 
 
 def _elsewhere(site: Site, xy: XY) -> str:
-    """In words that follow "that is", why a point is no part of the site; empty if it is."""
+    """Return why a point is not on the site, as words after "that is"; empty if it is on the site."""
     import numpy as np
     import shapely
 

@@ -1,10 +1,10 @@
-"""The program: the rooms that meet the user, put together; none of them knows the others."""
+"""The program: the command line together with the commands ``serve`` and ``agent``."""
 
 from __future__ import annotations
 
 
 def main() -> None:
-    """What ``fieldhand`` runs: the command line, ``serve`` with API and page together, and ``agent``."""
+    """Run the command line, with ``serve`` and ``agent`` among its commands."""
     from fieldhand.cli import main as run_commands
     from fieldhand.program.agent import agent
     from fieldhand.program.serve import serve

@@ -1,4 +1,4 @@
-"""A robot that waits for signed missions, whatever it is told by: the agent's addresses, or services of ROS 2."""
+"""The agent of a robot: it stores signed missions and carries them out, behind a REST API or services of ROS 2."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from fieldhand.delivery.mission_store import MissionStore
 from fieldhand.delivery.mission_supervisor import MissionSupervisor
 from fieldhand.delivery.received_missions import ReceivedMission
+from fieldhand.program.review_cache import ReviewCache
 
 if TYPE_CHECKING:
     from fieldhand.approval.bundle.opening import Bundle
@@ -22,19 +23,22 @@ if TYPE_CHECKING:
     from fieldhand.robot.model import RobotProfile
     from fieldhand.site.model import Site
 
-#: Seconds within which the robot stands still before a program ends, and between two looks whether it does.
-_RESTS_WITHIN_S, _LOOK_S = 5.0, 0.02
+#: Seconds within which the robot must stop before the program ends, and between two checks.
+_STOPS_WITHIN_S, _CHECK_S = 5.0, 0.02
 
 
 @dataclass(frozen=True, kw_only=True)
 class RobotAgent:
-    """What takes missions and carries them out, one at a time.
+    """The agent of a robot, which receives missions and carries them out, one at a time.
 
     Attributes:
-        sites: On which the robot may work; empty for any.
-        on: On what missions are carried out, in words.
-        missing: What of the robot does not answer now, in words; nothing where missions are simulated.
-        let_go: Ends what was opened beside.
+        robot: Profile of the robot.
+        sites: Sites on which the robot may work; empty for any.
+        mission_store: Missions that were received.
+        supervisor: Supervisor that carries them out.
+        on: Driver of the missions, in words.
+        missing: Returns the parts of the robot that do not respond, in words; none in simulation.
+        resources: Connections that are closed with the agent.
     """
 
     robot: RobotProfile
@@ -43,16 +47,16 @@ class RobotAgent:
     supervisor: MissionSupervisor
     on: str = "simulation"
     missing: Callable[[], tuple[str, ...]] = tuple
-    let_go: ExitStack = field(default_factory=ExitStack)
+    resources: ExitStack = field(default_factory=ExitStack)
 
     def take(self, file: Path) -> ReceivedMission:
-        """Verify a mission that lies on this machine, and keep it; from then on it may be started.
+        """Verify and store a signed mission from a file, so that it can be started.
 
         Raises:
-            BundleError: It cannot be read, or is no mission for this robot.
-            NotTrustedError: Nobody who is trusted here has signed it.
-            ExecutionError: The same mission is here with a later approval.
-            StoreError: It cannot be kept.
+            BundleError: The file cannot be read, or is not a mission for this robot.
+            NotTrustedError: Its key is not trusted here.
+            ExecutionError: The same mission was received with a later approval.
+            StoreError: The mission cannot be stored.
         """
         import hashlib
 
@@ -63,20 +67,20 @@ class RobotAgent:
             incoming.write(data)
             return self.mission_store.take(incoming, hashlib.sha256(data).hexdigest())[0]
 
-    def pause_for_exit(self, within_s: float = _RESTS_WITHIN_S) -> None:
-        """Let the robot stand still, if a mission is under way; ``resume`` goes on with it."""
+    def pause_for_exit(self, within_s: float = _STOPS_WITHIN_S) -> None:
+        """Pause the running mission, if there is one, and wait until the robot stops; ``resume`` continues it."""
         until = time.monotonic() + within_s
 
         def wait() -> bool:
-            time.sleep(_LOOK_S)
+            time.sleep(_CHECK_S)
             return time.monotonic() < until
 
         self.supervisor.pause_for_exit(wait)
 
     def close(self) -> None:
-        """Let the robot stand still, and let go of everything: the program ends."""
+        """Pause the running mission, and close all connections and the store."""
         self.pause_for_exit()
-        self.let_go.close()
+        self.resources.close()
         self.mission_store.close()
 
 
@@ -96,13 +100,15 @@ def compose_robot_agent(
     """Compose the agent of a robot.
 
     Args:
-        environ: Says where trusted keys lie, and what else is kept.
-        robot, sites: Names or files.
+        environ: Environment variables that name the folders of trusted keys and of stored data.
+        robot: Name or file of the robot profile.
+        sites: Names or files of the sites.
         store: Folder of its missions; None for the one in the user's state folder.
-        world, speed: Of the simulation.
-        seed: Of the simulation, and of the guard.
-        lenient: How sites are read.
-        connection: How the robot is reached, at each mission anew; None for the simulation.
+        world: World file of the simulation.
+        seed: Seed of the simulation and of the budget guard.
+        speed: Simulated seconds per second; None for as fast as possible.
+        lenient: True to read sites leniently.
+        connection: Connection to the robot, opened for each mission; None for the simulation.
         warn: Prints a warning when the cost of a mission cannot be recorded.
 
     Raises:
@@ -122,7 +128,7 @@ def compose_robot_agent(
     places = tuple(open_site(one, lenient=lenient) for one in sites)
     trusted = trust_store(environ)
     trusted.known()
-    here = World() if world is None else load_world(world)
+    simulated_world = World() if world is None else load_world(world)
     memory = approval_memory(environ)
 
     def admit(bundle: Bundle) -> None:
@@ -134,13 +140,14 @@ def compose_robot_agent(
         now=_now,
         admit=admit,
     )
-    conclude = partial(_conclude, finished_missions.history_folder(environ), warn)
+    reviews = ReviewCache()
+    conclude = partial(_conclude, reviews, finished_missions.history_folder(environ), warn)
     if connection is None:
         supervisor = MissionSupervisor(
             mission_store,
             carry=partial(missions.carry_out, speed=speed, emit=lambda _: None),
-            world=here,
-            check=partial(_require_sound, here),
+            world=simulated_world,
+            check=partial(_require_valid, reviews, simulated_world),
             conclude=conclude,
             seed=seed,
         )
@@ -148,16 +155,16 @@ def compose_robot_agent(
     from fieldhand.execution.drivers.registry import driver_kind
     from fieldhand.program.mission_connector import MissionConnector
 
-    let_go, missing = ExitStack(), None
+    resources, missing = ExitStack(), None
     with ExitStack() as stack:
         stack.callback(mission_store.close)
         kind = driver_kind(connection.transport)
         if kind.watch is not None:
             presence = kind.watch(profile, connection)
-            let_go.callback(presence.close)
+            resources.callback(presence.close)
             missing = presence.missing
-        connector = MissionConnector(connection, kind.connect)
-        let_go.callback(connector.close)
+        connector = MissionConnector(connection, kind.connect, reviews)
+        resources.callback(connector.close)
         stack.pop_all()
     return RobotAgent(
         robot=profile,
@@ -168,7 +175,7 @@ def compose_robot_agent(
         ),
         on=str(connection),
         missing=missing or tuple,
-        let_go=let_go,
+        resources=resources,
     )
 
 
@@ -176,16 +183,16 @@ def _now() -> datetime:
     return datetime.now(UTC)
 
 
-def _conclude(history: Path, warn: Callable[[str], None], stored: StoredMission) -> None:
-    """Leave the report of a mission in its folder, and keep what it cost."""
-    from fieldhand import finished_missions, mission, missions
+def _conclude(reviews: ReviewCache, history: Path, warn: Callable[[str], None], stored: StoredMission) -> None:
+    """Write the report of a mission to its folder, and record its cost for calibration."""
+    from fieldhand import finished_missions, missions
 
     done = finished_missions.conclude(
         stored.authorized,
         stored.site,
         stored.robot,
         missions.events_of(stored.folder),
-        estimate=mission.review(stored.authorized.task, stored.site, stored.robot).estimate,
+        estimate=reviews.review(stored.authorized, stored.site, stored.robot).estimate,
         folder=stored.folder,
         history=history,
         at=_now(),
@@ -195,12 +202,17 @@ def _conclude(history: Path, warn: Callable[[str], None], stored: StoredMission)
         warn(done.history_error)
 
 
-def _require_sound(world: World, bundle: Bundle) -> None:
-    """The checks of whoever runs a mission by hand: the world fits it, and no check finds an error."""
+def _require_valid(reviews: ReviewCache, world: World, bundle: Bundle) -> None:
+    """Require that the world fits a mission, and that no check finds an error.
+
+    Raises:
+        WorldError: The world does not fit.
+        NotApprovedError: A check found an error.
+    """
     from fieldhand import mission
     from fieldhand.errors import NotApprovedError
 
     mission.check_world(world, bundle.site, bundle.robot)
-    errors = mission.review(bundle.authorized.task, bundle.site, bundle.robot).errors
+    errors = reviews.review(bundle.authorized, bundle.site, bundle.robot).errors
     if errors:
         raise NotApprovedError("; ".join(str(problem.line()) for problem in errors))

@@ -25,11 +25,11 @@ def serve(
 
 
 def compose(environ: Mapping[str, str], *, hosts: frozenset[str] | None) -> FastAPI:
-    """The API with the page on top.
+    """Create the ASGI application of the REST API and the web page.
 
     Args:
-        environ: Where a language model is configured.
-        hosts: Names under which a browser may call; None for any.
+        environ: Environment variables that configure a language model.
+        hosts: Host names that requests may address; None for any.
 
     Raises:
         InputError: The packages that serving needs are not installed.
