@@ -1,4 +1,4 @@
-"""The command line: thin, one command a file."""
+"""The command line, one command a file."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ if TYPE_CHECKING:
 
 
 def main(*others: Callable[..., None]) -> None:
-    """Run the command line; what went wrong is one line on standard error and the exit status of its kind.
+    """Run the command line; an error is printed as one line on standard error, and sets the exit status.
 
     Args:
-        others: Commands beside those of this room, made of rooms that this one does not know.
+        others: Further commands, which need packages that this one must not import.
     """
     import typer
 
@@ -25,45 +25,45 @@ def main(*others: Callable[..., None]) -> None:
 
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
-            stream.reconfigure(errors="replace")  # a terminal without "°" or "₂" shows a question mark, no traceback
+            stream.reconfigure(errors="replace")  # "°" becomes a question mark if the terminal cannot show it
 
-    misused: type[Exception] = typer.BadParameter.__mro__[1]  # the library hands out its children alone
+    misused: type[Exception] = typer.BadParameter.__mro__[1]  # typer exports only its subclasses
     try:
-        # Left to itself, the library says in a box how a command is called, beside our one line for all else.
+        # In standalone mode, typer prints usage errors itself, in a box.
         status = assemble(*others)(standalone_mode=False)
         if status == _INTERRUPTED:
             raise KeyboardInterrupt
         sys.exit(status if isinstance(status, int) else 0)
     except FieldhandError as error:
-        _say(error.said(_language().say))
+        _print_failure(error.said(_language().say))
         sys.exit(error.exit_status)
     except misused as error:
         line = _usage(error)
         if line:
-            _say(line)
+            _print_failure(line)
         sys.exit(2)
     except typer.Abort:
-        sys.stderr.write("\n")  # behind the question
-        _say(_language().say(message("no answer was given")))
+        sys.stderr.write("\n")  # after the question
+        _print_failure(_language().say(message("no answer was given")))
         sys.exit(1)
     except KeyboardInterrupt:
-        _say(_language().say(message("interrupted")))
+        _print_failure(_language().say(message("interrupted")))
         sys.exit(_INTERRUPTED)
     except BrokenPipeError:
-        # Whoever read our output has gone (a pager, head); say nothing more, not even at exit.
+        # The reader of standard output (a pager, head) has exited; print nothing more, not even at exit.
         sys.stderr.close()
         sys.exit(0)
-    except Exception:  # noqa: BLE001  a fault of the program; its traceback may quote anyone
+    except Exception:  # noqa: BLE001  fault of the program
         _show_traceback()
         sys.exit(1)
 
 
-#: Exit status after Ctrl-C, as shells have it.
+#: Exit status after Ctrl-C, as in shells.
 _INTERRUPTED = 130
 
 
-def _say(line: str) -> None:
-    """Print a failure; whatever it quotes, only its first line begins as ours do."""
+def _print_failure(line: str) -> None:
+    """Print an error; only its first line is not indented, so that quoted text cannot look like another error."""
     from fieldhand.hidden_characters import print_error
 
     first, *others = f"fieldhand: {line}".splitlines()
@@ -71,7 +71,7 @@ def _say(line: str) -> None:
 
 
 def _show_traceback() -> None:
-    """Print where the program failed, indented, so that no line of what it quotes begins as ours do."""
+    """Print the traceback, indented, so that quoted text cannot look like an error of ours."""
     import traceback
 
     from fieldhand.hidden_characters import print_error
@@ -81,7 +81,7 @@ def _show_traceback() -> None:
 
 
 def _usage(error: Any) -> str:
-    """What is wrong with how a command was called, as any other error; empty where its help was shown instead."""
+    """Return a usage error in the form of other errors; empty if the help was printed instead."""
     from fieldhand.errors import InputError
     from fieldhand.language import message
 
@@ -96,7 +96,7 @@ def _usage(error: Any) -> str:
 
 
 def _language() -> Language:
-    """Return the language that the command line asks for, read as it stands: what failed may be the reading of it."""
+    """Return the language of ``--lang``, found without parsing the command line, as the parser may have failed."""
     import os
     from itertools import pairwise
 

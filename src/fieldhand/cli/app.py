@@ -1,4 +1,4 @@
-"""Every command by name."""
+"""The application of the command line with all its commands."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ from fieldhand.cli.watch import watch
 
 
 def assemble(*others: Callable[..., None]) -> typer.Typer:
-    """Return the commands of this room, then ``others``, then those of plugins."""
+    """Return the application: the commands of this package, then ``others``, then those of plugins."""
     app = typer.Typer(
         name="fieldhand",
         cls=CommandsWithPlugins,

@@ -1,4 +1,4 @@
-"""Planning with questions: each is answered by what was given for it, by its first choice, or by the person there."""
+"""Planning with questions, which are answered by ``--answer``, by their first choice, or at the terminal."""
 
 from __future__ import annotations
 
@@ -23,25 +23,25 @@ from fieldhand.mission.documents import SiteAndRobot
 from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Planner
 from fieldhand.task.frames import Task
 
-#: A planner that has asked so often about one request goes round in circles.
+#: Largest number of questions about one request; a planner that asks more often does not terminate.
 MOST_QUESTIONS = 12
-#: Bytes of a request or a Task on standard input.
+#: Largest request or Task on standard input, in bytes.
 _MOST = 4_000_000
-#: Bytes that show what kind of file it is.
+#: Number of bytes by which the kind of a file is recognized.
 _ENOUGH = 200
 
 
 @dataclass(frozen=True, kw_only=True)
 class Replies:
-    """How questions are answered.
+    """The answers to the questions of a planner.
 
     Attributes:
-        given: Answers in the order in which they are used.
-        assume: Take the first choice where no answer is given, and say so among the assumptions.
-        ask: Ask the person at the terminal where there is one.
-        draw: Draws a question that is put to a person, or that nobody answers.
-        progress: In which language a terminal is told that the program is planning; None to say nothing.
-        language: In which questions are asked and refusals said.
+        given: Answers in the order of the questions.
+        assume: Take the first choice if no answer is given, and list it among the assumptions.
+        ask: Ask at the terminal, if there is one.
+        draw: Draws a question that is asked at the terminal or stays unanswered.
+        progress: Language of progress messages; None for no messages.
+        language: Language of questions and refusals.
     """
 
     given: tuple[str, ...] = ()
@@ -67,15 +67,14 @@ class Replies:
 
 
 def plan_and_ask(request: str, ground: SiteAndRobot, planner: Planner, replies: Replies) -> tuple[str, Outcome]:
-    """Plan a request, one question after the other.
+    """Plan a request, and answer the questions of the planner.
 
     Returns:
-        The request that was planned in the end (another one where a question was answered by one) and its outcome; a
-        question, where nobody answers it.
+        The request that was planned, which an answer may have replaced, and the outcome; the outcome is a question if
+        it stays unanswered.
 
     Raises:
-        RequestError: It is the name of a file, an answer is none or answers no question, or there was no end of
-            questions.
+        RequestError: The request is the name of a file, an answer fits no question, or there are too many questions.
     """
     _require_words(request)
     given = list(replies.given)
@@ -90,28 +89,28 @@ def plan_and_ask(request: str, ground: SiteAndRobot, planner: Planner, replies: 
             return request, outcome
         assumed = False
         if given:
-            said = given.pop(0)
+            reply = given.pop(0)
         elif replies.assume and outcome.choices:
-            said, assumed = outcome.choices[0], True
+            reply, assumed = outcome.choices[0], True
         elif replies.ask and may_ask():
             replies.draw(outcome)
-            said = _asked(outcome, sys.stdin.readline, replies.language)
+            reply = _ask(outcome, sys.stdin.readline, replies.language)
         else:
             replies.draw(outcome)
             return request, outcome
-        choice = _choice(said, outcome, replies.language)
+        choice = _choice(reply, outcome, replies.language)
         if choice is not None or outcome.free:
-            answers = (*answers, Answer(question=outcome.question, answer=choice or said, assumed=assumed))
+            answers = (*answers, Answer(question=outcome.question, answer=choice or reply, assumed=assumed))
         elif replies.given:
             raise RequestError(
-                message("'{said}' does not answer '{question}'", said=said, question=outcome.question),
+                message("'{said}' does not answer '{question}'", said=reply, question=outcome.question),
                 where="--answer",
                 advice=message("give one of: {choices}", choices=some_names(outcome.choices, 12, "; "))
                 if outcome.choices
                 else message("say it in the request"),
             )
         else:
-            request, answers = said, ()
+            request, answers = reply, ()
     raise RequestError(
         message("no plan after {count} questions", count=MOST_QUESTIONS),
         advice=message("say the request in other words"),
@@ -121,9 +120,12 @@ def plan_and_ask(request: str, ground: SiteAndRobot, planner: Planner, replies: 
 def plan_or_read(
     words: str, ground: SiteAndRobot, planner: str, transcript: Path | None, replies: Replies
 ) -> tuple[Task, bytes | None, str]:
-    """The Task of a request, or of a Task document if ``words`` is a file that ends in ``.xml``; and who planned it.
+    """Plan a request, or read a Task document if ``words`` is the name of an ``.xml`` file.
 
-    Ends the program with status 2 where the planner refuses, or has a question that nobody answers.
+    Ends the program with status 2 if the planner refuses the request, or asks a question that stays unanswered.
+
+    Returns:
+        The Task, the bytes of its document if it was read, and the name of its planner.
     """
     if words == str(STANDARD):
         typed = given_words(words)
@@ -148,10 +150,10 @@ def plan_or_read(
 
 
 def given_words(words: str) -> str:
-    """Return the words of a request, those on standard input where ``-`` is given.
+    """Return a request, read from standard input if it is ``-``.
 
     Raises:
-        RequestError: They are not text.
+        RequestError: Standard input is not text.
     """
     if words != str(STANDARD):
         return words
@@ -163,7 +165,7 @@ def given_words(words: str) -> str:
 
 
 def require_no_answer(given: Sequence[str], words: str) -> None:
-    """Refuse answers beside a file that holds a plan: nothing is asked about it.
+    """Require that no answers are given for a mission that is planned already.
 
     Raises:
         InputError: There are some.
@@ -176,10 +178,10 @@ def require_no_answer(given: Sequence[str], words: str) -> None:
 
 
 def _require_words(request: str) -> None:
-    """Refuse the name of a file where the words themselves are wanted, and say what it seems to be.
+    """Require that a request is not the name of a file.
 
     Raises:
-        RequestError: There is such a file.
+        RequestError: It is; the error names the kind of the file.
     """
     path = Path(request)
     try:
@@ -188,7 +190,7 @@ def _require_words(request: str) -> None:
         with path.open("rb") as file:
             begins = file.read(_ENOUGH)
     except (OSError, ValueError):
-        return  # no name that a file can have, or none that may be read: words, then
+        return  # not a file name, or not readable: a request
     if begins.startswith(b"PK"):
         what, advice = (
             message("is a zip file, perhaps a signed mission, not what the robot should do"),
@@ -208,31 +210,31 @@ def _require_words(request: str) -> None:
     raise RequestError(what, where=request, advice=advice)
 
 
-def _asked(asked: Clarify, read: Callable[[], str], language: Language) -> str:
-    """One question at the terminal, and what was typed."""
-    show_question(asked, language)
-    other = message("other words") if asked.free else message("the whole request in other words")
-    if len(asked.choices) > 1:
-        wanted = message("1 to {count}, or {other}: ", count=len(asked.choices), other=other)
+def _ask(question: Clarify, read: Callable[[], str], language: Language) -> str:
+    """Print a question at the terminal and return the answer."""
+    show_question(question, language)
+    other = message("other words") if question.free else message("the whole request in other words")
+    if len(question.choices) > 1:
+        wanted = message("1 to {count}, or {other}: ", count=len(question.choices), other=other)
     else:
-        wanted = message("1, or {other}: ", other=other) if asked.choices else message("{other}: ", other=other)
+        wanted = message("1, or {other}: ", other=other) if question.choices else message("{other}: ", other=other)
     err.print(Words(language.say(wanted)), end="")
     try:
-        said = read().strip()
+        reply = read().strip()
     except KeyboardInterrupt:
-        said = ""
-    if not said:
+        reply = ""
+    if not reply:
         raise RequestError(
             message("no answer was given, nothing was planned"), advice=message("answer, or say it in the request")
         )
-    return said
+    return reply
 
 
-def _choice(said: str, asked: Clarify, language: Language) -> str | None:
-    """The choice that a number or its own words name. Words come first: a choice may be a number itself."""
-    typed = said.strip().lower()
-    named = [choice for choice in asked.choices if typed in (choice.lower(), language.say(choice).lower())]
+def _choice(reply: str, question: Clarify, language: Language) -> str | None:
+    """Return the choice that an answer names by its text or its number; text first, as a choice may be a number."""
+    typed = reply.strip().lower()
+    named = [choice for choice in question.choices if typed in (choice.lower(), language.say(choice).lower())]
     if named:
         return named[0]
-    number = int(said) if said.strip().isdecimal() else 0
-    return asked.choices[number - 1] if 0 < number <= len(asked.choices) else None
+    number = int(reply) if reply.strip().isdecimal() else 0
+    return question.choices[number - 1] if 0 < number <= len(question.choices) else None

@@ -1,4 +1,4 @@
-"""How a robot is reached over ROS 2, as lines of ``fieldhand robot``."""
+"""Description of a robot's ROS 2 interface, for ``fieldhand robot``."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from fieldhand.robot.model import RobotProfile
 
 
 def binding_lines(profile: RobotProfile) -> Iterator[str]:
-    """What is said of a profile's ``ros2`` part; that there is none, where there is none."""
+    """Yield lines that describe the ``ros2`` part of a profile, or that it has none."""
     ros2 = profile.ros2
     if ros2 is None:
         yield "ROS 2: its profile does not say how it is reached"

@@ -1,4 +1,4 @@
-"""Signed missions at the command line: opened, and held against what else was given."""
+"""Signed missions at the command line: opening, verification and comparison with other options."""
 
 from __future__ import annotations
 
@@ -22,22 +22,23 @@ ENDING = ".mission"
 
 
 def is_bundle(words: str) -> bool:
-    """Whether what was given is the name of a bundle, and no request."""
+    """Return True if an argument is the name of a signed mission, instead of a request."""
     return words.lower().endswith(ENDING) and "\n" not in words
 
 
 def open_mission(file: str, site: str | None, robot: str | None, *, lenient: bool) -> Bundle:
-    """The mission of a bundle that somebody trusted has signed.
+    """Open a signed mission and verify that it may run here.
 
     Args:
-        file: The bundle.
-        site, robot: What was given beside it, if anything: it must be what was approved.
-        lenient: How a site that was given is read.
+        file: Name of the file.
+        site: Site given as an option, which must be the approved one; None if none is given.
+        robot: Robot given as an option, which must be the approved one; None if none is given.
+        lenient: True to read the given site leniently.
 
     Raises:
-        BundleError: It cannot be used, or was approved for another site or robot.
-        NotTrustedError: Nobody who is trusted here has signed it.
-        NotApprovedError: Its approval has run out, or a later one of the same mission was seen here.
+        BundleError: The file cannot be used, or was approved for another site or robot.
+        NotTrustedError: Its key is not trusted here.
+        NotApprovedError: Its approval has expired, or a later approval of the mission was used here.
     """
     from fieldhand.approval.bundle.container import read_bundle_file
     from fieldhand.approval.memory import approval_memory
@@ -46,22 +47,22 @@ def open_mission(file: str, site: str | None, robot: str | None, *, lenient: boo
 
     bundle = verify(read_bundle_file(Path(file)), file)
     if robot is not None and load_robot(robot).sha256 != bundle.robot.sha256:
-        raise _another("--robot", robot, bundle.robot.name)
+        raise _mismatch("--robot", robot, bundle.robot.name)
     if site is not None:
         given = open_site(site, lenient=lenient)
         if (given.sha256, given.content_sha256) != (bundle.site.sha256, bundle.site.content_sha256):
-            raise _another("--site", site, bundle.site.name)
+            raise _mismatch("--site", site, bundle.site.name)
     memory, clock = approval_memory(os.environ), datetime.now(UTC)
     memory.admit(bundle.manifest, bundle.signer.fingerprint, clock=clock, source=file)
     return bundle
 
 
 def verify(data: bytes, source: str) -> Bundle:
-    """The mission of a bundle, held against the keys that are trusted on this machine now.
+    """Open a signed mission, and verify its signature with the keys that this machine trusts now.
 
     Raises:
-        BundleError: It cannot be used.
-        NotTrustedError: Nobody who is trusted here has signed it.
+        BundleError: The file cannot be used.
+        NotTrustedError: Its key is not trusted here.
     """
     from fieldhand.approval.memory import trust_store
 
@@ -71,12 +72,13 @@ def verify(data: bytes, source: str) -> Bundle:
 
 @dataclass(frozen=True, kw_only=True)
 class Unverified:
-    """A bundle that is whole, whoever signed it: to be looked at, never to be run.
+    """A signed mission whose key may be untrusted: to be inspected, never to be carried out.
 
     Attributes:
-        document: Of its Task.
-        sha256: Of the whole.
-        signed: Whose signature it has, in words.
+        content: Its contents.
+        document: Bytes of its Task document.
+        sha256: SHA-256 of the file.
+        signed: Name of the signer in words.
     """
 
     content: Content
@@ -86,10 +88,10 @@ class Unverified:
 
 
 def read_unverified(data: bytes, source: str) -> Unverified:
-    """What a bundle says, and whose signature it has as far as this machine knows.
+    """Read a signed mission without requiring that its key is trusted.
 
     Raises:
-        BundleError: It is broken.
+        BundleError: The file is damaged.
     """
     from fieldhand.approval.bundle.container import TASK
     from fieldhand.approval.bundle.opening import content_of, unseal
@@ -109,10 +111,10 @@ def read_unverified(data: bytes, source: str) -> Unverified:
 
 
 def require_ending(path: Path) -> None:
-    """Refuse another ending than that by which a bundle is known.
+    """Require that the name of a signed mission ends in ``.mission``.
 
     Raises:
-        InputError: It has another one.
+        InputError: It does not.
     """
     if path != STANDARD and path.suffix.lower() != ENDING:
         better = path.with_suffix(ENDING) if path.name else f"a file such as mission{ENDING}"
@@ -124,7 +126,7 @@ def require_ending(path: Path) -> None:
 
 
 def signed_record(path: Path, data: bytes, authorization: Authorization, public: PublicKey) -> dict[str, Any]:
-    """What was signed, as JSON."""
+    """Return a new signed mission as JSON."""
     from hashlib import sha256
 
     return {
@@ -137,7 +139,7 @@ def signed_record(path: Path, data: bytes, authorization: Authorization, public:
 
 
 def signer_record(bundle: Bundle) -> dict[str, Any]:
-    """Who approved and signed a mission, and what was verified of it, as JSON."""
+    """Return approval, key and hashes of a signed mission as JSON."""
     return {
         "authorization": asdict(bundle.authorized.authorization),
         "key": {"name": bundle.signer.name, "fingerprint": bundle.signer.fingerprint},
@@ -146,7 +148,7 @@ def signer_record(bundle: Bundle) -> dict[str, Any]:
 
 
 def approval_line(bundle: Bundle) -> str:
-    """Who approved a mission, and with which key, in a line."""
+    """Return a line with the approval and the key of a signed mission."""
     approved = bundle.manifest.approved
     return message(
         "Approved by {who} at {moment}, signed with {key}",
@@ -157,10 +159,10 @@ def approval_line(bundle: Bundle) -> str:
 
 
 def require_site(site: str | None) -> str:
-    """The site, which only a bundle does without.
+    """Return the site option, which only signed missions do not need.
 
     Raises:
-        InputError: None was given.
+        InputError: No site is given.
     """
     if site is None:
         raise InputError(
@@ -171,7 +173,7 @@ def require_site(site: str | None) -> str:
     return site
 
 
-def _another(where: str, given: str, approved: str) -> BundleError:
+def _mismatch(where: str, given: str, approved: str) -> BundleError:
     return BundleError(
         message(
             "{given} is not what the mission was approved for ({approved}, byte by byte)",

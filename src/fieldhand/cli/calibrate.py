@@ -1,4 +1,4 @@
-"""``fieldhand robot calibrate``: the profile of a robot, fitted to what its missions cost."""
+"""``fieldhand robot calibrate``: fit the profile of a robot to the cost of its missions."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def calibrate(
 
 
 def _rows(robot: RobotProfile, found: Calibration) -> Iterator[tuple[str, float, FittedValue | None, str]]:
-    """Name, value in the profile, what was fitted, and unit of each figure."""
+    """Yield name, value in the profile, fitted value and unit of each figure."""
     fit, energy = found.fit, robot.energy
     yield "leg cost, alpha", robot.leg_cost.alpha, fit.legs.alpha, ""
     yield "metres driven for one planned", 1.0, fit.legs.scale, ""

@@ -1,4 +1,4 @@
-"""The terminal: every text that is printed passes through here, and hidden characters in it are made visible."""
+"""The terminal, on which hidden characters in all printed text are made visible."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from fieldhand.hidden_characters import visible
 if TYPE_CHECKING:
     from fieldhand.language import Language
 
-#: Columns of what is quoted where no terminal says how many it has, and the fewest that are used.
+#: Columns of quoted text if the width of the terminal is unknown, and the smallest number used.
 _WIDTH, _LEAST_WIDTH = 100, 20
-#: Columns by which a wrapped line is indented, and rows that it has at most.
+#: Indent of a wrapped line, in columns, and its largest number of rows.
 _HANGING, _MOST_ROWS = 4, 40
 
 
 class Words(Text):
-    """Text for the terminal on one line: line ends in it are made visible like all other hidden characters."""
+    """Text on one line of the terminal; line ends in it are made visible like other hidden characters."""
 
     def __init__(self, text: str = "", style: Any = "", **options: Any) -> None:
         super().__init__(visible(text), style, **options)
@@ -34,9 +34,9 @@ class Words(Text):
 
 
 class Terminal(Console):
-    """A console that prints text as it is: no markup, no emoji names, no control characters.
+    """A console without markup, emoji names and control characters.
 
-    Nobody may be reading it any more (a pager that was closed): that is no reason to end a mission.
+    It ignores that its reader has exited (such as a pager), as that must not end a mission.
     """
 
     def __init__(self, **options: Any) -> None:
@@ -58,10 +58,10 @@ class Terminal(Console):
 
     @contextmanager
     def behind(self, mark: str = "") -> Iterator[None]:
-        """Print every row behind a mark, wrapped, while the context lasts.
+        """Wrap lines and print a mark before every row, for the duration of the context.
 
-        Whatever is printed, none of its rows then begins where the program's own lines begin; without a mark, no row of
-        a wrapped line does. Where no terminal says how wide it is, lines without a mark are not wrapped.
+        Quoted text can then not look like a line of this program: with a mark, each of its rows is prefixed; without,
+        each wrapped row is indented. If the width of the terminal is unknown, lines without a mark are not wrapped.
         """
         before = self._mark
         self._mark = (before or "") + mark
@@ -81,7 +81,7 @@ class Terminal(Console):
                 super().print(row, **options)
 
     def _rows(self, text: Text, mark: str) -> list[Text]:
-        """Return the rows that a text takes behind a mark; all but the first are indented."""
+        """Return the rows of a text after a mark; all but the first are indented."""
         if not mark and not self.is_terminal:
             return [text]
         width = (self.width if self.is_terminal else _WIDTH) - len(mark)
@@ -96,7 +96,7 @@ class Terminal(Console):
         return [Text(mark) + (row if k == 0 else hanging + row) for k, row in enumerate(rows)]
 
     def _render_buffer(self, buffer: Iterable[Segment]) -> str:
-        # The last gate: also for what other parts of the library made of a text.
+        # Applies to all output, also of other parts of the library.
         return super()._render_buffer(
             segment if segment.control else Segment(visible(segment.text, lines=True), segment.style)
             for segment in buffer
@@ -109,11 +109,11 @@ err = Terminal(stderr=True)
 
 @contextmanager
 def working(what: str, language: Language | None) -> Iterator[None]:
-    """Show on a terminal that the program is at work; a pipe and JSON get nothing.
+    """Show a progress message on a terminal for the duration of the context.
 
     Args:
-        what: The work, in a word.
-        language: In which to say it; None to say nothing.
+        what: Message.
+        language: Language to show it in; None to show nothing.
     """
     if language is None or not err.is_terminal:
         yield

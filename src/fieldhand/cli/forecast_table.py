@@ -1,4 +1,4 @@
-"""The forecast of a Task in a terminal: a line for each branch, the worst first."""
+"""The forecast of a Task as a table: a row for each branch, the worst first."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ if TYPE_CHECKING:
     from fieldhand.mission import Review
     from fieldhand.robot.model import RobotProfile
 
-#: Branches beside the worst that are shown.
+#: Number of branches that are shown beside the worst.
 _MOST = 9
 
 
 def show_forecast(review: Review, robot: RobotProfile, language: Language = ENGLISH) -> None:
-    """The distributions of every branch, half of the missions below the first figure and nine in ten below the second.
+    """Print median and 90 % quantile of distance, time and remaining charge for each branch.
 
     Args:
-        review: With its estimate; nothing is shown without.
-        robot: For the words of conditions.
-        language: In which it is said.
+        review: Review with an estimate; without one, nothing is printed.
+        robot: Robot, for the words of conditions.
+        language: Language of the table.
     """
     from fieldhand.approval.paths import say_branch
 
@@ -75,7 +75,7 @@ def show_forecast(review: Review, robot: RobotProfile, language: Language = ENGL
 
 
 def _covered(forecast: Estimate) -> str:
-    """Say how many branches were looked at, and which."""
+    """Return the number of branches that were examined, and their selection, in words."""
     count = len(forecast.branches)
     if count == 1:
         return message("1 branch, the only one")

@@ -1,4 +1,4 @@
-"""``fieldhand import``: a tree of BehaviorTree.CPP becomes a Task."""
+"""``fieldhand import``: convert a tree of BehaviorTree.CPP to a Task."""
 
 from __future__ import annotations
 

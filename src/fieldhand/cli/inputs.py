@@ -1,4 +1,4 @@
-"""What every command does first: open the site and the robot."""
+"""Reading of sites and robots, and writing of files."""
 
 from __future__ import annotations
 
@@ -21,11 +21,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class InputFiles:
-    """Site and robot as they were read, for what keeps them: a mission's folder, a bundle.
+    """Files of a site and a robot, to be copied to a mission's folder or a signed mission.
 
     Attributes:
-        site, profile: The bytes.
-        lenient: How the site was read.
+        site: Files of the site.
+        profile: Bytes of the robot profile.
+        lenient: True if the site was read leniently.
     """
 
     site: SiteFiles
@@ -34,10 +35,10 @@ class InputFiles:
 
 
 def open_ground(site: str, robot: str, *, lenient: bool = False, language: Language = ENGLISH) -> SiteAndRobot:
-    """Open both; of a leniently read site say what was left out.
+    """Open a site and a robot, and print what a lenient reading of the site left out.
 
     Raises:
-        SiteError, ProfileError: One of them cannot be used.
+        SiteError, ProfileError: Site or robot cannot be used.
     """
     return read_ground(site, robot, lenient=lenient, language=language)[0]
 
@@ -45,42 +46,42 @@ def open_ground(site: str, robot: str, *, lenient: bool = False, language: Langu
 def read_ground(
     site: str, robot: str, *, lenient: bool = False, language: Language = ENGLISH
 ) -> tuple[SiteAndRobot, InputFiles]:
-    """Open both as :func:`open_ground`, and return the bytes from which they were read, too: each file is read once.
+    """Open a site and a robot as :func:`open_ground` does, and return their files, too; each file is read once.
 
     Raises:
-        SiteError, ProfileError: One of them cannot be used.
+        SiteError, ProfileError: Site or robot cannot be used.
     """
     from fieldhand.robot.loader import parse_profile, profile_bytes
     from fieldhand.site.loader import site_files, site_of
 
     files = site_files(site)
     opened = site_of(files, lenient=lenient)
-    tell_left_out(opened, lenient=lenient, language=language)
+    note_left_out(opened, lenient=lenient, language=language)
     profile, source = profile_bytes(robot)
     ground = SiteAndRobot(site=opened, robot=parse_profile(profile, source=source))
     return ground, InputFiles(site=files, profile=profile, lenient=lenient)
 
 
-def tell_left_out(site: Site, *, lenient: bool, language: Language = ENGLISH) -> None:
-    """Say of a leniently read site what was left out."""
-    for said in site.notes if lenient else ():
-        note(said, language)
+def note_left_out(site: Site, *, lenient: bool, language: Language = ENGLISH) -> None:
+    """Print the notes about the parts of a site that a lenient reading left out."""
+    for text in site.notes if lenient else ():
+        note(text, language)
 
 
 def write_file(path: Path, data: bytes) -> None:
-    """Write a file, making its folder; ``-`` is standard output.
+    """Write a file, and make its folder; ``-`` is standard output.
 
     Raises:
-        OutputError: It cannot be written.
+        OutputError: The file cannot be written.
     """
     _write(path, data, Path.write_bytes)
 
 
 def write_whole(path: Path, data: bytes) -> None:
-    """Write a file as a whole or not at all, also over another one and also where the power fails meanwhile.
+    """Write or replace a file atomically, so that it is complete even after a power cut.
 
     Raises:
-        OutputError: It cannot be written.
+        OutputError: The file cannot be written.
     """
     _write(path, data, files.write_whole)
 
@@ -98,5 +99,5 @@ def _write(path: Path, data: bytes, how: Callable[[Path, bytes], object]) -> Non
 
 
 def may_ask() -> bool:
-    """Whether there is a person to ask."""
+    """Return True if standard input is a terminal."""
     return sys.stdin is not None and sys.stdin.isatty()

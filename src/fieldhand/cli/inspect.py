@@ -1,4 +1,4 @@
-"""``fieldhand inspect``: who approved what, when, and whether it would run here."""
+"""``fieldhand inspect``: show the approval and the contents of a signed mission, and if it may run here."""
 
 from __future__ import annotations
 
@@ -17,17 +17,22 @@ if TYPE_CHECKING:
     from fieldhand.mission import Review
 
 
-#: Before every row that comes from the bundle, so that none of them looks like a line of this program.
+#: Prefix of all rows from the signed mission, so that none can look like a line of this program.
 _MARK = "  | "
 
 
 @dataclass(frozen=True, kw_only=True)
 class _Findings:
-    """What was found of a bundle, as far as one came.
+    """The findings about a signed mission; fields after the first failure are None.
 
     Attributes:
-        state: ``trusted``, ``unknown``, ``revoked`` or ``broken``.
-        problems: Why it would not run here; empty if it would.
+        state: State of its key: ``trusted``, ``unknown`` or ``revoked``; ``broken`` if the file is damaged.
+        problems: Reasons why it may not run here; empty if it may.
+        whose: Name of the key; empty if it is unknown.
+        sealed: Verified members and hashes.
+        manifest: Manifest.
+        content: Task, site and robot.
+        review: Review of the Task.
     """
 
     state: str
@@ -122,7 +127,7 @@ def _show(file: Path, found: _Findings, language: Language) -> None:
 
 
 def _show_manifest(manifest: Manifest, content: Content | None) -> None:
-    """Print who approved it, and for what; how many trees there are only if the site was read."""
+    """Print the manifest of a signed mission, and the number of trees if its site was read."""
     from fieldhand.cli import show
 
     approved = manifest.approved

@@ -1,4 +1,4 @@
-"""``fieldhand keys``: make a key to sign with, and say on a robot whose keys it trusts."""
+"""``fieldhand keys``: make signing keys, and manage the keys that a machine trusts."""
 
 from __future__ import annotations
 
@@ -117,7 +117,7 @@ def trust(
     if not whose:
         raise KeyFileError("the line does not say whose it is", where=str(file), advice="say it with --name")
     if fingerprint is None and not yes:
-        _compared(public.fingerprint, whose)
+        _require_comparison(public.fingerprint, whose)
     known = _folders()[1].trust(public, name=whose, at=datetime.now(UTC))
     if json:
         show.print_json(_known_record(known))
@@ -190,8 +190,8 @@ def _folders() -> tuple[SigningKeys, TrustStore]:
     return SigningKeys(config_folder(os.environ)), trust_store(os.environ)
 
 
-def _compared(fingerprint: str, whose: str) -> None:
-    """Have the fingerprint compared: whoever brought the file may have changed it."""
+def _require_comparison(fingerprint: str, whose: str) -> None:
+    """Ask the user to compare the fingerprint, as the file may have been changed on its way."""
     from fieldhand.cli import show
     from fieldhand.cli.inputs import may_ask
     from fieldhand.errors import NotApprovedError

@@ -1,4 +1,4 @@
-"""``fieldhand missions``: all missions at a glance, and the removal of old ones."""
+"""``fieldhand missions``: list stored missions, and remove old ones."""
 
 from __future__ import annotations
 
@@ -71,8 +71,8 @@ def _show(entries: tuple[ListedMission, ...], under: Path) -> None:
     wide = max((len(entry.id) for entry in entries), default=0)
     for entry in entries:
         request = " ".join(entry.request.split())
-        said = request if len(request) <= _LONGEST else f"{request[: _LONGEST - 1]}…"
+        short = request if len(request) <= _LONGEST else f"{request[: _LONGEST - 1]}…"
         state = entry.status if entry.state == "ended" else entry.state
-        why = entry.status if entry.state == "unreadable" else said
+        why = entry.status if entry.state == "unreadable" else short
         begun = entry.begun.astimezone().strftime("%Y-%m-%d %H:%M")
         show.out.print(f"{entry.id:<{wide}}  {begun}  {state:<11}  {'signed' if entry.signed else '':<6}  {why}")

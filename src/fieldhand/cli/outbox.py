@@ -1,4 +1,4 @@
-"""``fieldhand outbox``: what was sent, and what waits for its robot."""
+"""``fieldhand outbox``: list the missions that were sent, or wait for their robot."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""Where commands write: whether they can is found out before anything is asked, planned or driven.
+"""Checks of output files and folders, before anything is asked, planned or driven.
 
-Options that name a file or a folder to write have a function of here for their ``callback``: it is called while the
-command line is read. It tries, and leaves nothing behind.
+Options that name an output have one of these functions as their ``callback``, which typer calls while it parses the
+command line. The checks leave no files behind.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ _OPTIONS = "fieldhand.outputs"
 
 
 def to_file(ctx: typer.Context, param: typer.CallbackParam, path: Path | None) -> Path | None:
-    """Of an option that names a file; one that is there is replaced.
+    """Check an option that names a file, which is replaced if it exists.
 
     Raises:
-        OutputError: It cannot be written, or another option names the same.
+        OutputError: The file cannot be written, or another option names the same one.
     """
     if path == STANDARD:
         _take_standard_output(ctx, param)
@@ -35,12 +35,10 @@ def to_file(ctx: typer.Context, param: typer.CallbackParam, path: Path | None) -
 
 
 def to_whole_file(ctx: typer.Context, param: typer.CallbackParam, path: Path | None) -> Path | None:
-    """Of an option that names a file which is written beside its place and then put there, as a whole or not at all.
-
-    Standard output gets it as a whole.
+    """Check an option that names a file which is written atomically.
 
     Raises:
-        OutputError: As :func:`to_file`.
+        OutputError: As for :func:`to_file`.
     """
     if path == STANDARD:
         _take_standard_output(ctx, param)
@@ -53,10 +51,10 @@ def to_whole_file(ctx: typer.Context, param: typer.CallbackParam, path: Path | N
 
 
 def to_named_file(ctx: typer.Context, param: typer.CallbackParam, path: Path | None) -> Path | None:
-    """Refuse standard output for a file that is read again, or whose suffix names its kind.
+    """Check an option that names a file, but not standard output: it is read again, or its suffix is its format.
 
     Raises:
-        OutputError: As :func:`to_file`, or it is standard output.
+        OutputError: As for :func:`to_file`, or it is standard output.
     """
     if path is not None:
         refuse_standard_output(path, _name(param))
@@ -64,10 +62,10 @@ def to_named_file(ctx: typer.Context, param: typer.CallbackParam, path: Path | N
 
 
 def to_picture(ctx: typer.Context, param: typer.CallbackParam, path: Path | None) -> Path | None:
-    """Of an option that names a picture.
+    """Check an option that names a picture.
 
     Raises:
-        OutputError: As :func:`to_file`, or its ending is of no kind of picture.
+        OutputError: As for :func:`to_file`, or the suffix is not a picture format.
     """
     if path is not None:
         from fieldhand.site.drawing.saving import require_picture
@@ -79,10 +77,10 @@ def to_picture(ctx: typer.Context, param: typer.CallbackParam, path: Path | None
 
 
 def to_folder(ctx: typer.Context, param: typer.CallbackParam, path: Path | None) -> Path | None:
-    """Of an option that names the folder of what a mission leaves behind; what is there of the same names is replaced.
+    """Check an option that names the output folder of a mission, whose files are replaced.
 
     Raises:
-        OutputError: It cannot be written, or another option names the same.
+        OutputError: A file cannot be written, or another option names the same folder.
     """
     if path is not None:
         refuse_standard_output(path, _name(param))
@@ -95,20 +93,21 @@ def to_folder(ctx: typer.Context, param: typer.CallbackParam, path: Path | None)
 
 
 def mission_files(folder: Path) -> tuple[Path, ...]:
-    """What a mission leaves behind in a folder: Task, map, events, and the report, its page first."""
+    """Return the files of a mission in its output folder: Task, map, events and report."""
     from fieldhand.evaluation.report.writing import ReportFiles
 
     return (*(folder / name for name in ("task.xml", "map.png", "events.jsonl")), *ReportFiles.within(folder).paths)
 
 
 def require_folder(path: Path, where: str) -> None:
-    """Refuse a folder in which nothing can be written; one that is not there yet is made later.
+    """Require that files can be written to a folder, or that it can be made.
 
     Args:
-        where: What to call it.
+        path: The folder.
+        where: Name of the option and the folder, for messages.
 
     Raises:
-        OutputError: It is a file, or may not be written or made.
+        OutputError: It is a file, or cannot be written or made.
     """
     try:
         folder = Path(os.path.realpath(path))
@@ -116,14 +115,14 @@ def require_folder(path: Path, where: str) -> None:
         if not there.is_dir():
             what = message("cannot write: {name} is a file, not a folder", name=there.name)
             raise OutputError(what, where=where, advice=message("choose a folder that you may write to"))
-        with tempfile.TemporaryFile(dir=there):  # rights alone do not say it on every system
+        with tempfile.TemporaryFile(dir=there):  # permissions alone are not conclusive on every system
             pass
     except OSError as error:
         raise unwritable(where, error) from None
 
 
 def unwritable(where: str, error: OSError) -> OutputError:
-    """What is said of what cannot be written."""
+    """Return the error for a path that cannot be written."""
     return OutputError(
         message("cannot write: {why}", why=named(error.strerror or str(error), "reason")),
         where=where,
@@ -132,10 +131,10 @@ def unwritable(where: str, error: OSError) -> OutputError:
 
 
 def _take_standard_output(ctx: typer.Context, param: typer.CallbackParam) -> None:
-    """Keep standard output for one file: whatever people read goes to standard error for as long as the command runs.
+    """Reserve standard output for one file, and print messages on standard error while the command runs.
 
     Raises:
-        OutputError: Another option, or the one JSON object, goes there as well.
+        OutputError: Another option or ``--json`` uses standard output, too.
     """
     from fieldhand.cli.console import out
 
@@ -151,10 +150,10 @@ def _take_standard_output(ctx: typer.Context, param: typer.CallbackParam) -> Non
 
 
 def refuse_standard_output(path: Path | None, option: str) -> None:
-    """Refuse ``-`` for what is a folder, a picture, or read again.
+    """Require that an output is not ``-``: it is a folder, a picture, or read again.
 
     Raises:
-        OutputError: It is standard output.
+        OutputError: It is ``-``.
     """
     if path == STANDARD:
         raise OutputError(
@@ -170,7 +169,7 @@ def _require_file(path: Path, where: str) -> None:
                 pass
         elif not path.exists():
             require_folder(Path(os.path.realpath(path)).parent, where)
-        elif not os.access(path, os.W_OK):  # a pipe or a device, which may wait for its reader when it is opened
+        elif not os.access(path, os.W_OK):  # opening a pipe or a device may block
             raise PermissionError(13, "Permission denied")
     except OSError as error:
         raise unwritable(where, error) from None
@@ -184,13 +183,13 @@ def _require_no_folder(path: Path, where: str) -> None:
 
 
 def _require_own(ctx: typer.Context, param: typer.CallbackParam, path: Path) -> None:
-    """Refuse what another option names as well: the one would overwrite the other.
+    """Require that no other option names the same path, as one would overwrite the other.
 
     Raises:
-        OutputError: It does.
+        OutputError: One does.
     """
     if path.exists() and not (path.is_file() or path.is_dir()):
-        return  # a device takes whatever it is given
+        return  # a device may be given twice
     option = _name(param)
     other = ctx.meta.setdefault(_OPTIONS, {}).setdefault(os.path.realpath(path), option)
     if other != option:
@@ -202,5 +201,5 @@ def _require_own(ctx: typer.Context, param: typer.CallbackParam, path: Path) -> 
 
 
 def _name(param: typer.CallbackParam) -> str:
-    """An option by its long name."""
+    """Return the long name of an option."""
     return max(param.opts, key=len)

@@ -1,4 +1,4 @@
-"""Pictures that commands draw."""
+"""Pictures of plans and questions."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ if TYPE_CHECKING:
 
 
 def draw_plan(path: Path, review: Review, ground: SiteAndRobot, language: Language = ENGLISH) -> None:
-    """The map of a planned mission.
+    """Draw the map of a planned mission.
 
     Raises:
-        NotApprovedError: The Task cannot be driven, so there is nothing to draw; its problems are named.
+        NotApprovedError: The mission cannot be forecast; the error names its problems.
         OutputError: The file cannot be written.
     """
     if review.estimate is None:
@@ -31,7 +31,7 @@ def draw_plan(path: Path, review: Review, ground: SiteAndRobot, language: Langua
 
 
 def draw_question(path: Path, asked: Clarify, ground: SiteAndRobot) -> None:
-    """The map of a question, if its choices differ there.
+    """Draw the map of a question, if its choices are places.
 
     Raises:
         OutputError: The file cannot be written.

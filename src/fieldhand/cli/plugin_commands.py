@@ -22,14 +22,14 @@ if TYPE_CHECKING:
 
 _GROUP: Final[Group] = "fieldhand.commands"
 
-#: Commands of distributions that belong to this project, which are named where they are not installed.
+#: Commands of other distributions of this project, which an error names if they are not installed.
 _ELSEWHERE: Final = {"bench": "fieldhand-bench"}
 
 
 class CommandsWithPlugins(TyperGroup):
-    """The commands of this package, then those of plugins by name; a plugin overrides none of the former.
+    """The commands of this package, then those of plugins by name; a plugin cannot replace the former.
 
-    One that cannot be loaded fails its own command only, and is named on standard error below the list of commands.
+    A plugin that cannot be loaded only fails its own command; the help names it on standard error.
     """
 
     def list_commands(self, ctx: Any) -> list[str]:
@@ -41,7 +41,7 @@ class CommandsWithPlugins(TyperGroup):
 
         Raises:
             PluginError: The plugin cannot be loaded.
-            InputError: It is provided by a distribution of this project that is not installed.
+            InputError: A distribution of this project provides it, and is not installed.
         """
         command = super().get_command(ctx, cmd_name)
         if command is not None:
@@ -58,7 +58,7 @@ class CommandsWithPlugins(TyperGroup):
         return None
 
     def format_help(self, ctx: Any, formatter: Any) -> None:
-        """Write the help, and name the plugins that cannot be loaded."""
+        """Write the help, and print the plugins that cannot be loaded."""
         from fieldhand.hidden_characters import print_error
 
         super().format_help(ctx, formatter)
@@ -71,7 +71,7 @@ class CommandsWithPlugins(TyperGroup):
 
     @cached_property
     def _loadable(self) -> tuple[list[str], list[PluginError]]:
-        """The names of the plugins that can be loaded, and what is wrong with the others."""
+        """Names of the plugins that can be loaded, and errors of the others."""
         names: list[str] = []
         errors: list[PluginError] = []
         for name, plugin in self._plugins.items():

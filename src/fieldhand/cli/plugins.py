@@ -1,4 +1,4 @@
-"""``fieldhand plugins``: what other distributions add, and what of it is broken."""
+"""``fieldhand plugins``: list the plugins of installed distributions, and their errors."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""``fieldhand robot``: what a robot can do; ``robot calibrate`` and ``robot check`` stand in files of their own."""
+"""``fieldhand robot``: describe a robot; ``robot calibrate`` and ``robot check`` are in files of their own."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from fieldhand.robot.model import RobotProfile
 
 
-class _ShowUnlessTold(TyperGroup):
-    """A group whose first word may be a robot: ``fieldhand robot husky`` is ``fieldhand robot show husky``."""
+class _ShowByDefault(TyperGroup):
+    """A group of commands with ``show`` as the default: ``fieldhand robot husky`` is ``fieldhand robot show husky``."""
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         named = args and args[0] not in (*self.commands, *ctx.help_option_names)
@@ -27,7 +27,7 @@ class _ShowUnlessTold(TyperGroup):
 
 robot = typer.Typer(
     name="robot",
-    cls=_ShowUnlessTold,
+    cls=_ShowByDefault,
     help="Say what a robot can do (fieldhand robot husky), try its profile on it, or fit it to what its missions cost.",
     no_args_is_help=True,
 )

@@ -1,4 +1,4 @@
-"""``fieldhand robot check``: what a profile says of ROS 2, tried on the robot itself."""
+"""``fieldhand robot check``: check the ROS 2 interface in a profile against message types, or on the robot."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def check(
         bindings = replace(bindings, namespace=namespace_of(namespace))
         profile = replace(profile, ros2=bindings)
     interfaces = Interfaces.of(bindings.distro, bindings.interfaces)
-    report = _tried(profile, interfaces, on, domain, within) if live else check_types(profile, interfaces)
+    report = _check_live(profile, interfaces, on, domain, within) if live else check_types(profile, interfaces)
     if json:
         show.print_json(_record(profile, report, live=live))
     else:
@@ -54,7 +54,7 @@ def check(
         raise typer.Exit(1)
 
 
-def _tried(
+def _check_live(
     profile: RobotProfile, interfaces: Any, transport: str, domain: int | None, within_s: float
 ) -> ProfileReport:
     import time
@@ -70,7 +70,7 @@ def _tried(
 def _lines(profile: RobotProfile, report: ProfileReport, *, live: bool) -> list[str]:
     from fieldhand.execution.drivers.ros2.endpoint_problems import rmw_package
 
-    lines = [line for finding in report.endpoints for line in _told(finding)]
+    lines = [line for finding in report.endpoints for line in _finding_lines(finding)]
     bindings = f"{len(report.endpoints)} bindings of {profile.name}"
     if live and not report.rmw:
         lines.append("Nothing of this robot was found on this ROS domain (--domain, ROS_DOMAIN_ID).")
@@ -84,7 +84,7 @@ def _lines(profile: RobotProfile, report: ProfileReport, *, live: bool) -> list[
     return [*lines, f"{len(report.missing)} of {bindings} cannot be used."]
 
 
-def _told(finding: EndpointReport) -> list[str]:
+def _finding_lines(finding: EndpointReport) -> list[str]:
     bound = finding.binding
     first = f"{'ok     ' if finding.usable else 'MISSING'} {bound.part}: {bound.name} ({bound.type}): {finding.what}"
     return [first] if not finding.advice else [first, f"          {finding.advice}"]

@@ -1,4 +1,4 @@
-"""Passphrases: typed where nobody sees them, or from the environment; never among the words of a command."""
+"""Passphrases, typed at the terminal or read from the environment, never from the command line."""
 
 from __future__ import annotations
 
@@ -13,10 +13,13 @@ VARIABLE = "FIELDHAND_KEY_PASSPHRASE"
 
 
 def new_passphrase(*, asked: bool) -> str | None:
-    """A passphrase for a new key: the environment's, or typed twice if one was asked for, or none.
+    """Return a passphrase for a new key, from the environment or typed twice; None for a key without passphrase.
+
+    Args:
+        asked: Ask for a passphrase if the environment has none.
 
     Raises:
-        KeyFileError: One was asked for, and nobody is there to type it.
+        KeyFileError: A passphrase must be typed, and standard input is not a terminal.
     """
     given = os.environ.get(VARIABLE)
     if given:
@@ -30,7 +33,7 @@ def new_passphrase(*, asked: bool) -> str | None:
 
 
 def passphrase() -> str | None:
-    """The passphrase of a key: the environment's, or typed; None where nobody is there."""
+    """Return the passphrase of a key, from the environment or typed; None if standard input is not a terminal."""
     given = os.environ.get(VARIABLE)
     if given or not may_ask():
         return given or None

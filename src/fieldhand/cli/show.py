@@ -1,4 +1,4 @@
-"""How results look in a terminal. Text that came from outside is never read as markup."""
+"""Output of results to the terminal and as JSON; text from outside is never interpreted as markup."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from fieldhand.task.results import Ended
 
 
-#: How words look by what became of them: told apart by brightness and form, too, not by red and green.
+#: Styles of words by their role, which differ in brightness and form, too, not only in red and green.
 WORDS: dict[WordRole, str] = {
     "action": "bold blue",
     "place": "cyan",
@@ -41,23 +41,23 @@ MARK = {"success": ("✓", "green"), "failure": ("✗", "red"), "indeterminate":
 
 
 def heading(text: str) -> None:
-    """A heading with an empty line before it."""
+    """Print a heading after an empty line."""
     out.print()
     out.print(Words(text, style="bold"))
 
 
 def note(text: str, language: Language = ENGLISH) -> None:
-    """Print something that the user should know on standard error, so that it never mixes with results."""
+    """Print a note on standard error, apart from the results."""
     err.print(Words(language.say(message("note: ")), style="yellow") + Words(language.say(text)))
 
 
 def print_json(value: Any) -> None:
-    """One JSON object on standard output."""
+    """Print a JSON value on standard output."""
     sys.stdout.write(json_text(value, indent=2) + "\n")
 
 
 def fail_outcome(request: str, outcome: Clarify | Refused, language: Language = ENGLISH) -> NoReturn:
-    """Say what was not understood or what is asked back, and end the program with status 2."""
+    """Print the refusal or the question of a planner, and end the program with status 2."""
     if isinstance(outcome, Clarify):
         show_question(outcome, language)
         err.print(language.say(message("Say it in the request and plan again, or give --answer.")))
@@ -71,7 +71,7 @@ def fail_outcome(request: str, outcome: Clarify | Refused, language: Language = 
 
 
 def show_question(asked: Clarify, language: Language = ENGLISH) -> None:
-    """A question with its choices, and where each of them leads."""
+    """Print a question with its choices and their places."""
     say = language.say
     err.print(Words(say(message("A question first: ")), style="bold") + Words(say(asked.question)))
     led = asked.places or tuple(() for _ in asked.choices)
@@ -80,7 +80,7 @@ def show_question(asked: Clarify, language: Language = ENGLISH) -> None:
 
 
 def _where(places: Sequence[Place], say: Callable[[str], str]) -> str:
-    """Places in a few words, behind a choice."""
+    """Return the places of a choice in a few words."""
     if not places:
         return ""
     if len(places) == 1:
@@ -90,12 +90,12 @@ def _where(places: Sequence[Place], say: Callable[[str], str]) -> str:
 
 
 def sentence(reason: Reason, language: Language = ENGLISH) -> str:
-    """A reason with its advice as one line."""
+    """Return a reason with its advice as one line."""
     return language.say(reason.what) + (f"; {language.say(reason.advice)}" if reason.advice else "")
 
 
 def underlined(request: str, spans: Sequence[tuple[int, int]]) -> Text:
-    """The request with the words in question in red and underlined."""
+    """Return the request with the words in question in red and underlined."""
     text = Words(request)
     for start, end in spans:
         text.stylize("bold underline red", start, end)
@@ -103,7 +103,7 @@ def underlined(request: str, spans: Sequence[tuple[int, int]]) -> Text:
 
 
 def outcome_record(outcome: Planned | Clarify | Refused) -> dict[str, Any]:
-    """A planner's answer as JSON."""
+    """Return the outcome of a planner as JSON."""
     match outcome:
         case Planned():
             return {"outcome": "planned", "planner": outcome.planner}
@@ -118,7 +118,7 @@ def outcome_record(outcome: Planned | Clarify | Refused) -> dict[str, Any]:
 
 
 def review_record(review: Review, language: Language = ENGLISH, *, every: bool = False) -> dict[str, Any]:
-    """A review as JSON, its words in that language; ``every``: with the figures of every branch."""
+    """Return a review as JSON in a language; with ``every``, the figures of all branches are included."""
     words = review.read_back
     return {
         "task": review.task.id,
@@ -144,7 +144,7 @@ def review_record(review: Review, language: Language = ENGLISH, *, every: bool =
 def mission_record(
     task: Task, planner: str, ended: Ended | None, found: Assessment, files: Sequence[Path]
 ) -> dict[str, Any]:
-    """What came of a mission as JSON."""
+    """Return the result of a mission as JSON."""
     return {
         "task": task.id,
         "planner": planner,
@@ -161,7 +161,7 @@ def mission_record(
 
 
 def show_request(task: Task, language: Language = ENGLISH) -> None:
-    """The request with what became of its words: in colour, or else word by word behind it."""
+    """Print the request with the role of its words: in colour, else as a list."""
     pieces = [piece for piece in request_pieces(task) if piece.text.strip()]
     if not pieces:
         return
@@ -186,10 +186,12 @@ def show_request(task: Task, language: Language = ENGLISH) -> None:
 
 
 def show_review(review: Review, language: Language = ENGLISH, *, usual: bool = True) -> None:
-    """Print the read-back in that language, then every problem on its own line.
+    """Print the request, the plan in words, and every problem on its own line.
 
     Args:
-        usual: Print the limits and exits, too, that every Task has unless it asks for something else.
+        review: The review.
+        language: Language of the output.
+        usual: Print the limits and exits, too, that all Tasks have by default.
     """
     show_request(review.task, language)
     if review.read_back is not None:
@@ -201,7 +203,7 @@ def show_review(review: Review, language: Language = ENGLISH, *, usual: bool = T
 
 
 def show_problems(review: Review, language: Language = ENGLISH) -> None:
-    """Every problem on its own line, errors first."""
+    """Print every problem on its own line, errors first."""
     if review.problems:
         heading(language.say(message("Problems")))
     for problem in sorted(review.problems, key=lambda p: p.severity != "error"):
@@ -212,7 +214,7 @@ def show_problems(review: Review, language: Language = ENGLISH) -> None:
 
 
 def show_outcomes(found: Assessment, name: Callable[[str], str], language: Language = ENGLISH) -> None:
-    """Print what came of each goal, and each limit that was exceeded; ``name`` says a goal's id in words."""
+    """Print the outcome of each goal, and each exceeded limit; ``name`` returns the words for a goal's id."""
     say = language.say
     heading(say(message("What came of it")))
     for outcome in found.outcomes:

@@ -1,4 +1,4 @@
-"""``fieldhand site``: what is known of a site."""
+"""``fieldhand site``: describe a site."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def site(
     for line in report_lines(opened, driving, all_rows=all_rows):
         show.out.print(line)
     for note in opened.notes[MOST_NOTES:] if lenient else ():
-        show.out.print(f"Note: {note}.")  # whoever loads what is sound is told of all that is not
+        show.out.print(f"Note: {note}.")  # a lenient reading lists everything that was left out
     if picture is not None:
         show.out.print(f"Map: {picture}")
     if geojson is not None:

@@ -1,4 +1,4 @@
-"""``fieldhand status``: how a mission stands, asked from any process at any moment."""
+"""``fieldhand status``: show the state of a stored mission, from any process at any time."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ if TYPE_CHECKING:
     from fieldhand.missions import Status
 
 
-#: Columns of a line's name at least.
+#: Smallest width of the column of names.
 _LEAST_WIDE = 9
-#: How each kind of limit is said.
+#: Text of each kind of limit.
 _ALLOWED: dict[str, Callable[[str], str]] = {
     "distance_m": lambda limit: joined(" ", (limit, "m")),
     "duration_s": lambda limit: joined(" ", (limit, "s")),
@@ -67,7 +67,7 @@ def _show(found: Status, language: Language) -> None:
 
 
 def _lines(found: Status) -> Iterator[tuple[str, str]]:
-    """Yield each line that says how a mission stands, with its name."""
+    """Yield name and text of each line of the status."""
     from fieldhand.clock import clock_time
     from fieldhand.language import kept_in_log
 

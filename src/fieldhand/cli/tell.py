@@ -14,7 +14,7 @@ from fieldhand.language import message
 if TYPE_CHECKING:
     from fieldhand.execution.operator_commands import FileCommand
 
-#: Seconds to wait for the answer; a mission looks ten times a second.
+#: Seconds to wait for the mission, which reads its commands ten times a second.
 ANSWER_WITHIN_S = 5.0
 
 BecauseOption = Annotated[str, typer.Option("--because", help="Why, in words; the event log keeps it.")]
