@@ -28,10 +28,11 @@ if TYPE_CHECKING:
 class SigningOptions(ApprovalOptions):
     """Approval with a signature."""
 
-    by: Annotated[str | None, typer.Option("--by", help="Who approves; else the name of the key.")] = None
+    by: Annotated[str | None, typer.Option("--by", help="Name of the operator; else the name of the key.")] = None
     key: Annotated[str | None, typer.Option("--key", help="Name of the key to sign with, if you have several.")] = None
     valid_for: Annotated[
-        str, typer.Option("--valid-for", help="How long the robot may begin it, such as 12h or 30d; at most 366d.")
+        str,
+        typer.Option("--valid-for", help="Time within which the robot may begin it, such as 12h or 30d; at most 366d."),
     ] = "90d"
 
 
@@ -50,7 +51,7 @@ def approve(
     ],
     picture: PictureOption = None,
 ) -> None:
-    """Show what a mission will do and take, have it approved, and sign it for the robot."""
+    """Show what a mission will do and take, ask for approval, and sign it for the robot."""
     import os
     from dataclasses import replace
     from datetime import datetime

@@ -20,17 +20,17 @@ if TYPE_CHECKING:
 def calibrate(
     name: Annotated[str, typer.Argument(metavar="ROBOT", help="Built-in robot or a profile file (YAML).")] = "husky",
     events: Annotated[
-        list[Path] | None, typer.Argument(help="Event logs of its missions; else those that were kept.")
+        list[Path] | None, typer.Argument(help="Event logs of its missions; else the recorded missions.")
     ] = None,
     output: Annotated[
         Path | None, typer.Option("-o", "--out", callback=to_file, help="Write the new profile (YAML) here.")
     ] = None,
     simulated: Annotated[
-        bool, typer.Option("--simulated", help="Fit to simulated missions that were kept, not to driven ones.")
+        bool, typer.Option("--simulated", help="Fit to recorded missions in simulation, not to driven ones.")
     ] = False,
     json: JsonOption = False,
 ) -> None:
-    """Fit speed, energy, durations and the spread of legs to past missions, and say how well that predicts them."""
+    """Fit speed, energy, durations and the spread of legs to past missions, and show how well that predicts them."""
     import os
     from datetime import UTC, datetime
 

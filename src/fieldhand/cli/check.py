@@ -18,7 +18,7 @@ def check(
     display: DisplayOptions,
     picture: PictureOption = None,
     charge: Annotated[
-        float, typer.Option("--charge", min=0.0, max=100.0, metavar="<%>", help="Battery at the beginning, percent.")
+        float, typer.Option("--charge", min=0.0, max=100.0, metavar="<%>", help="Charge at the start, in percent.")
     ] = 100.0,
 ) -> None:
     """Check a Task against a site and a robot; exit status 1 if anything forbids approval."""

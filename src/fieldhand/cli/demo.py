@@ -30,7 +30,7 @@ REQUEST = (
 def demo(
     driver: DriverOptions,
     output: Annotated[
-        Path, typer.Option("-o", "--out", callback=to_folder, help="Folder for what the mission leaves behind.")
+        Path, typer.Option("-o", "--out", callback=to_folder, help="Folder for Task, map, events and report.")
     ] = Path("out"),
     seed: SeedOption = 7,
     lang: LangOption = None,

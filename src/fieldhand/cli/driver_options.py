@@ -28,7 +28,8 @@ SIMULATION = "simulation"
 READY_WITHIN_S = 20.0
 
 NamespaceOption = Annotated[
-    str | None, typer.Option("--namespace", help="Of the robot's names in ROS, in place of the profile's; / for none.")
+    str | None,
+    typer.Option("--namespace", help="Namespace of the robot's ROS names, instead of the profile's; / for none."),
 ]
 
 
@@ -51,7 +52,7 @@ class DriverOptions:
     ] = None
     namespace: NamespaceOption = None
     sim_time: Annotated[
-        bool, typer.Option("--sim-time", help="The robot is a simulation that publishes /clock: take its time.")
+        bool, typer.Option("--sim-time", help="Use the time on /clock, which a simulated robot publishes.")
     ] = False
     driver_option: Annotated[
         list[str] | None,

@@ -16,7 +16,7 @@ def import_tree(
     output: Annotated[Path, typer.Option("-o", "--output", callback=to_file, help="Where to write the Task (XML).")],
     robot: RobotOption = "husky",
     site: Annotated[str | None, typer.Option("--site", help="Check the Task on this site, too.")] = None,
-    request: Annotated[str, typer.Option("--request", help="What was asked, where the tree does not say.")] = "",
+    request: Annotated[str, typer.Option("--request", help="The request, if the tree does not contain it.")] = "",
     lenient: LenientOption = False,
     json: JsonOption = False,
 ) -> None:

@@ -49,7 +49,7 @@ def inspect(
     lang: LangOption = None,
     json: JsonOption = False,
 ) -> None:
-    """Say who approved what, when, and what it will do; exit status 1 if it would not run here."""
+    """Show who approved a mission, when, and what it will do; exit status 1 if it would not run here."""
     import os
 
     from fieldhand.approval.bundle.container import read_bundle_file

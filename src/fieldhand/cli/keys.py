@@ -15,13 +15,17 @@ if TYPE_CHECKING:
     from fieldhand.approval.keys.trust import KnownKey, TrustStore
 
 keys = typer.Typer(
-    name="keys", help="Keys that approve missions: make one, and say whose a robot trusts.", no_args_is_help=True
+    name="keys",
+    help="Keys that sign missions: make one, and choose the ones that a robot trusts.",
+    no_args_is_help=True,
 )
 
 
 @keys.command("new")
 def new(
-    name: Annotated[str | None, typer.Option("--name", help="Whose key it is; else the user who is logged in.")] = None,
+    name: Annotated[
+        str | None, typer.Option("--name", help="Name of its owner; else the user who is logged in.")
+    ] = None,
     output: Annotated[
         Path | None,
         typer.Option("-o", "--output", callback=to_file, help="Write the public line to this file, too, to be sent."),
@@ -86,14 +90,15 @@ def trust(
     file: Annotated[
         Path, typer.Argument(help="The line of a public key, as keys new wrote it, or a mail that holds it.")
     ],
-    name: Annotated[str | None, typer.Option("--name", help="Whose it is; else what the line says.")] = None,
+    name: Annotated[str | None, typer.Option("--name", help="Name of its owner; else the one in the line.")] = None,
     fingerprint: Annotated[
-        str | None, typer.Option("--fingerprint", help="As its owner read it to you; another one is refused.")
+        str | None,
+        typer.Option("--fingerprint", help="Fingerprint as its owner told it to you; another one is refused."),
     ] = None,
     yes: Annotated[bool, typer.Option("--yes", "-y", help="You have compared the fingerprint.")] = False,
     json: JsonOption = False,
 ) -> None:
-    """Run from now on what this key has signed."""
+    """Trust a key, so that missions signed with it may run."""
     from datetime import UTC, datetime
 
     from fieldhand.approval.keys.public import parse_fingerprint, parse_public
@@ -127,9 +132,10 @@ def trust(
 
 @keys.command("revoke")
 def revoke(
-    fingerprint: Annotated[str, typer.Argument(help="Of the key, as keys list shows it.")], json: JsonOption = False
+    fingerprint: Annotated[str, typer.Argument(help="Fingerprint of the key, as keys list shows it.")],
+    json: JsonOption = False,
 ) -> None:
-    """Never again run what this key has signed, whenever it did."""
+    """Revoke a key for good: no mission signed with it runs again."""
     from datetime import UTC, datetime
 
     from fieldhand.cli import show
@@ -145,12 +151,14 @@ def revoke(
 def confirm(
     valid_for: Annotated[
         str | None,
-        typer.Option("--valid-for", help="Have the list run out unless it is confirmed again, such as 30d."),
+        typer.Option(
+            "--valid-for", help="Let the list expire after this time, such as 30d, unless it is confirmed again."
+        ),
     ] = None,
     yes: Annotated[bool, typer.Option("--yes", "-y", help="You have looked at the list and at the clock.")] = False,
     json: JsonOption = False,
 ) -> None:
-    """Say that the trusted keys, as they lie here now, are those you mean, and that the clock is right."""
+    """Confirm that the list of trusted keys and the clock are right."""
     import os
     from datetime import UTC, datetime
 

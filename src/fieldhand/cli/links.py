@@ -20,10 +20,10 @@ if TYPE_CHECKING:
 UrlArgument = Annotated[str, typer.Argument(help="Address of the robot's agent, like https://robot:8443.")]
 MissionOfRobot = Annotated[
     str | None,
-    typer.Argument(help="The .mission file, its SHA-256, or the mission's name there; else the one under way."),
+    typer.Argument(help="The .mission file, its SHA-256, or the mission's name there; else the running one."),
 ]
 RetrySeedOption = Annotated[
-    int | None, typer.Option("--seed", min=0, help="Of the waits between tries; else drawn anew each time.")
+    int | None, typer.Option("--seed", min=0, help="Seed of the waiting times between attempts; random by default.")
 ]
 
 
@@ -38,10 +38,10 @@ class LinkOptions:
         Path | None, typer.Option("--ca", help="Certificate (PEM) of the authority that signed the robot's.")
     ] = None
     pin: Annotated[
-        str | None, typer.Option("--pin", help="SHA-256 of the robot's certificate; no other one is believed.")
+        str | None, typer.Option("--pin", help="SHA-256 of the robot's certificate; no other one is accepted.")
     ] = None
     insecure: Annotated[
-        bool, typer.Option("--insecure", help="Send without TLS: whoever listens can read the token.")
+        bool, typer.Option("--insecure", help="Send without TLS, so that others can read the token.")
     ] = False
 
     def trust(self) -> ServerTrust:

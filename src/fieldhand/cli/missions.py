@@ -27,7 +27,7 @@ def missions(
     kept: MissionsOption = None,
     json: JsonOption = False,
 ) -> None:
-    """List all missions, the last at the end; with --prune or --keep remove old ones that have ended, never others."""
+    """List all missions, the newest last; --prune and --keep remove old ones that have ended, never others."""
     from datetime import UTC, datetime
 
     from fieldhand.cli import show

@@ -43,7 +43,7 @@ SiteOption = Annotated[str, typer.Option("--site", help=SITE_HELP)]
 #: A bundle has its own; what is given beside it must be the same.
 MissionSiteOption = Annotated[str | None, typer.Option("--site", help=f"{SITE_HELP} A bundle brings its own.")]
 LenientOption = Annotated[
-    bool, typer.Option("--lenient", help="Load what is sound of the site and say what was left out.")
+    bool, typer.Option("--lenient", help="Load the valid parts of the site, and list what was left out.")
 ]
 RobotOption = Annotated[
     str,
@@ -57,7 +57,7 @@ MissionRobotOption = Annotated[
         help="Built-in robot (husky, amiga) or a profile file; husky if none is given.",
     ),
 ]
-ByOption = Annotated[str | None, typer.Option("--by", help="Who approves; else the user who is logged in.")]
+ByOption = Annotated[str | None, typer.Option("--by", help="Name of the operator; else the user who is logged in.")]
 YesOption = Annotated[bool, typer.Option("--yes", "-y", help="Approve without asking.")]
 ConfirmOption = Annotated[
     bool, typer.Option("--confirm", help="Confirm every warning without asking; --yes alone does not.")
@@ -75,15 +75,15 @@ TranscriptOption = Annotated[
     typer.Option(
         "--transcript",
         callback=to_named_file,
-        help="Where to keep what was said to a language model and its answers; else in the user's state folder.",
+        help="File for the prompts and answers of a language model; else in the user's state folder.",
     ),
 ]
 AnswerOption = Annotated[
     list[str] | None,
-    typer.Option("--answer", help="Answer to a question of the planner: a choice or its number; again for the next."),
+    typer.Option("--answer", help="Answer to a question of the planner: a choice or its number; may be repeated."),
 ]
 AssumeOption = Annotated[
-    bool, typer.Option("--assume", help="Take the first choice of each question, and say so in the plan.")
+    bool, typer.Option("--assume", help="Take the first choice of each question, and note that in the plan.")
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object instead of text.")]
 LangOption = Annotated[
@@ -103,10 +103,10 @@ MissionArgument = Annotated[
 ]
 SpeedOption = Annotated[
     str | None,
-    typer.Option("--speed", help="Of the simulation: max, or simulated seconds in a second (1 is real time)."),
+    typer.Option("--speed", help="Simulated seconds per second (1 is real time), or max."),
 ]
 ProductionOption = Annotated[
-    bool, typer.Option("--production", help="Run nothing but a mission that a trusted key has signed.")
+    bool, typer.Option("--production", help="Run only missions that a trusted key has signed.")
 ]
 PictureOption = Annotated[
     Path | None, typer.Option("--picture", callback=to_picture, help="Draw a map to this PNG file.")
@@ -121,9 +121,9 @@ McapOption = Annotated[
 LeaveOption = Annotated[
     Path | None, typer.Option("-o", "--out", callback=to_folder, help="Folder for Task, map, events and report.")
 ]
-SeedOption = Annotated[int, typer.Option("--seed", min=0, help="Same seed, same mission.")]
+SeedOption = Annotated[int, typer.Option("--seed", min=0, help="Random seed; the same seed gives the same result.")]
 CpuTimeOption = Annotated[
-    bool, typer.Option("--cpu-time", help="Count processor time, where others use the machine as well.")
+    bool, typer.Option("--cpu-time", help="Measure processor time, for a machine with other load.")
 ]
 RecordedArgument = Annotated[
     str | None,
@@ -188,7 +188,7 @@ class RecordedOptions:
     """Site and robot of an event log, and the folder of stored missions, which bring their own."""
 
     site: RecordedSiteOption = None
-    robot: Annotated[str | None, typer.Option("--robot", help="Of a log: the robot; husky if none is given.")] = None
+    robot: Annotated[str | None, typer.Option("--robot", help="Robot of an event log; husky by default.")] = None
     lenient: LenientOption = False
     missions: MissionsOption = None
 

@@ -22,7 +22,7 @@ def order(
 ) -> None:
     """Tell a mission on a robot to start, pause, resume, return (come home) or abort (stop here).
 
-    Exit status 1 if it has not heard it yet, or has ended.
+    Exit status 1 if the mission has not received it yet, or has ended.
     """
     from contextlib import closing
 

@@ -8,7 +8,7 @@ from fieldhand.cli.options import JsonOption
 
 
 def outbox(json: JsonOption = False) -> None:
-    """List what was sent, and what waits for its robot to be back."""
+    """List the missions that were sent, and those that wait for their robot."""
     from fieldhand.cli import show
     from fieldhand.cli.send import line, record
     from fieldhand.delivery.outbox import Outbox, outbox_folder

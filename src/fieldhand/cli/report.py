@@ -19,7 +19,7 @@ def report(
     display: DisplayOptions,
     source: RecordedArgument = None,
     task: Annotated[
-        Path | None, typer.Option("--task", help="Of a log: the Task document or signed mission that was carried out.")
+        Path | None, typer.Option("--task", help="Task document or signed mission of an event log.")
     ] = None,
     output: Annotated[Path, typer.Option("-o", "--out", callback=to_folder, help="Folder for the report.")] = Path(
         "report"

@@ -18,7 +18,7 @@ def resume(
     mission: MissionArgument = None,
     speed: SpeedOption = None,
 ) -> None:
-    """Go on with a mission that a power cut has cut off, from where it was; or end the pause of one under way."""
+    """Resume an interrupted mission from where it stopped, or end the pause of a running one."""
     from dataclasses import replace
 
     from fieldhand import finished_missions

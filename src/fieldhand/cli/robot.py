@@ -28,7 +28,7 @@ class _ShowByDefault(TyperGroup):
 robot = typer.Typer(
     name="robot",
     cls=_ShowByDefault,
-    help="Say what a robot can do (fieldhand robot husky), try its profile on it, or fit it to what its missions cost.",
+    help="Describe a robot (fieldhand robot husky), check its profile, or fit it to the cost of its missions.",
     no_args_is_help=True,
 )
 robot.command("calibrate")(calibrate)
@@ -46,7 +46,7 @@ def show_robot(
     ] = None,
     json: JsonOption = False,
 ) -> None:
-    """Say what a robot can do and measure; --xsd writes the schema that its Tasks must satisfy, --yaml its profile."""
+    """Describe what a robot can do and measure; --xsd writes the schema of its Tasks, --yaml its profile."""
     from dataclasses import asdict
 
     from fieldhand.cli import show

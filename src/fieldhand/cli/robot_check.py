@@ -26,11 +26,11 @@ def check(
     ] = None,
     namespace: NamespaceOption = None,
     within: Annotated[
-        float, typer.Option("--within", min=1.0, max=600.0, help="Seconds to wait for what is not there yet.")
+        float, typer.Option("--within", min=1.0, max=600.0, help="Seconds to wait for endpoints that are missing.")
     ] = 10.0,
     json: JsonOption = False,
 ) -> None:
-    """Hold what a profile says of ROS 2 against the types of the robot's release; --live also tries it on the robot."""
+    """Check the ROS 2 interface in a profile against its message types; --live tries it on the robot, too."""
     from dataclasses import replace
 
     from fieldhand.cli import show

@@ -25,9 +25,11 @@ from fieldhand.cli.options import (
 class SimulationOptions:
     """World, seed and speed of a simulation."""
 
-    world: Annotated[Path | None, typer.Option("--world", help="What sensors read, and what goes wrong.")] = None
+    world: Annotated[
+        Path | None, typer.Option("--world", help="World file: sensor readings and faults of the simulation.")
+    ] = None
     seed: Annotated[
-        int | None, typer.Option("--seed", min=0, help="Same seed, same mission; else the world's, else 0.")
+        int | None, typer.Option("--seed", min=0, help="Seed of the simulation; else the world's, else 0.")
     ] = None
     speed: SpeedOption = None
 
@@ -50,7 +52,7 @@ def run(
     store: StoreOptions,
     display: DisplayOptions,
     no_history: Annotated[
-        bool, typer.Option("--no-history", help="Do not keep what the mission cost, for fieldhand robot calibrate.")
+        bool, typer.Option("--no-history", help="Do not record the cost of the mission for fieldhand robot calibrate.")
     ] = False,
 ) -> None:
     """Carry a mission out and judge it: plan and approve it first, unless it is signed."""

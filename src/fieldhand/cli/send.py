@@ -23,9 +23,9 @@ def send(
     file: Annotated[Path | None, typer.Argument(help="A signed mission (.mission).")] = None,
     to: Annotated[str | None, typer.Option("--to", help="Address of the robot's agent: https://robot:8443.")] = None,
     start: Annotated[bool, typer.Option("--start", help="Start it once it has arrived.")] = False,
-    pending: Annotated[bool, typer.Option("--pending", help="Send what is in the outbox, now.")] = False,
+    pending: Annotated[bool, typer.Option("--pending", help="Send all waiting missions now.")] = False,
     watch: Annotated[
-        bool, typer.Option("--watch", help="Send what is in the outbox as robots come back, until it is empty.")
+        bool, typer.Option("--watch", help="Send waiting missions as their robots can be reached, until none waits.")
     ] = False,
     seed: RetrySeedOption = None,
     json: JsonOption = False,

@@ -29,7 +29,7 @@ _FASTEST = 1000.0
 class TransportOptions:
     """ROS 2 transport of the simulated robot."""
 
-    on: Annotated[str, typer.Option("--on", metavar="dds|rclpy", help="What carries its messages.")] = "dds"
+    on: Annotated[str, typer.Option("--on", metavar="dds|rclpy", help="ROS 2 transport of its messages.")] = "dds"
     domain: Annotated[
         int | None, typer.Option("--domain", min=0, max=MOST_DOMAIN, help="ROS domain; else ROS_DOMAIN_ID, else 0.")
     ] = None
@@ -40,22 +40,24 @@ class TransportOptions:
 def sim_robot(
     place: SiteAndRobotOptions,
     transport: TransportOptions,
-    world: Annotated[Path | None, typer.Option("--world", help="What sensors read, and what goes wrong.")] = None,
+    world: Annotated[
+        Path | None, typer.Option("--world", help="World file: sensor readings and faults of the simulation.")
+    ] = None,
     seed: Annotated[
-        int | None, typer.Option("--seed", min=0, help="Same seed, same readings and legs; else the world's, else 0.")
+        int | None, typer.Option("--seed", min=0, help="Seed of readings and drives; else the world's, else 0.")
     ] = None,
     speed: Annotated[
-        float, typer.Option("--speed", help="Its seconds in one of ours; other than 1, the time is on /clock.")
+        float, typer.Option("--speed", help="Simulated seconds per second; if it is not 1, the time is on /clock.")
     ] = 1.0,
     state: Annotated[
         Path | None,
         typer.Option(
-            "--state", callback=to_whole_file, help="Go on from this file if it is there, and keep it up to date."
+            "--state", callback=to_whole_file, help="Continue from this file if it exists, and keep it up to date."
         ),
     ] = None,
     json: Annotated[bool, typer.Option("--json", help="Print one JSON object a line instead of text.")] = False,
 ) -> None:
-    """Be a robot on ROS 2 that serves what its profile binds: Nav2's action, sensors, battery, fix. Ctrl-C ends it."""
+    """Simulate a robot on ROS 2 with the interface of its profile: Nav2's action, sensors, battery, fix."""
     from contextlib import closing
     from dataclasses import replace
 

@@ -31,7 +31,7 @@ def site(
     lenient: LenientOption = False,
     json: JsonOption = False,
 ) -> None:
-    """Say what was understood of a site: blocks, rows, where a robot can drive, markers, zones, attributes."""
+    """Describe a site: blocks, rows, where a robot can drive, markers, zones, attributes."""
     from fieldhand.cli import show
     from fieldhand.robot.loader import load_robot, robot_names
     from fieldhand.site.describe import describe_driving, report_lines, report_record

@@ -33,7 +33,7 @@ def status(
     kept: MissionsOption = None,
     json: JsonOption = False,
 ) -> None:
-    """Say how a mission stands: running, paused, interrupted or ended; where it is, what is done and what is left."""
+    """Show the state of a mission: running, paused, interrupted or ended; position, done and remaining work."""
     from fieldhand import missions
     from fieldhand.cli import show
     from fieldhand.language import spoken

@@ -27,7 +27,7 @@ def pause(
     kept: MissionsOption = None,
     json: JsonOption = False,
 ) -> None:
-    """Let the robot stand still, as soon as the capture in hand is made; `fieldhand resume` lets it go on."""
+    """Pause a mission after the current capture; `fieldhand resume` continues it."""
     tell(mission, kept, "pause", because, message("paused"), DisplayOptions(lang=lang, json=json))
 
 
@@ -38,7 +38,7 @@ def abort(
     kept: MissionsOption = None,
     json: JsonOption = False,
 ) -> None:
-    """Stop here, at once; the mission is over."""
+    """Stop the robot at once and end the mission."""
     tell(mission, kept, "abort", because, message("stopped"), DisplayOptions(lang=lang, json=json))
 
 
@@ -49,7 +49,7 @@ def come_home(
     kept: MissionsOption = None,
     json: JsonOption = False,
 ) -> None:
-    """Leave the rest and come home; the mission is over when the robot is there."""
+    """Skip the rest of a mission and drive home; the mission ends there."""
     tell(mission, kept, "return", because, message("coming home"), DisplayOptions(lang=lang, json=json))
 
 

@@ -22,14 +22,14 @@ def watch(
     url: UrlArgument,
     link: LinkOptions,
     mission: MissionOfRobot = None,
-    once: Annotated[bool, typer.Option("--once", help="Fetch what is there, and wait for nothing.")] = False,
+    once: Annotated[bool, typer.Option("--once", help="Fetch the events so far, without waiting.")] = False,
     events: Annotated[
         Path | None, typer.Option("--events", callback=to_file, help="Write the event log (JSON lines) here, whole.")
     ] = None,
     seed: RetrySeedOption = None,
     json: JsonOption = False,
 ) -> None:
-    """Follow a mission on a robot until nobody carries it out; events are complete, however often the link is lost.
+    """Follow a mission on a robot to its end; no event is missed if the connection is lost.
 
     Exit status 1 if it has ended otherwise than completed.
     """

@@ -33,9 +33,7 @@ class ListenOptions:
     token_file: Annotated[
         Path | None, typer.Option("--token-file", help="File with the token, mode 0600; else FIELDHAND_TOKEN.")
     ] = None
-    insecure: Annotated[
-        bool, typer.Option("--insecure", help="Let others reach it without token or TLS, if you mean it.")
-    ] = False
+    insecure: Annotated[bool, typer.Option("--insecure", help="Allow access by others without token or TLS.")] = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,20 +48,20 @@ class MissionOptions:
     store: Annotated[
         Path | None, typer.Option("--store", help="Folder of its missions; else in the user's state folder.")
     ] = None
-    resume: Annotated[
-        bool, typer.Option("--resume", help="Go on by itself with a mission that a power cut has cut off.")
-    ] = False
+    resume: Annotated[bool, typer.Option("--resume", help="Resume an interrupted mission after a power cut.")] = False
 
 
 @dataclass(frozen=True, kw_only=True)
 class AgentSimulationOptions:
     """World, seed and speed of simulated missions."""
 
-    world: Annotated[Path | None, typer.Option("--world", help="What sensors read in the simulation.")] = None
-    seed: Annotated[int, typer.Option("--seed", min=0, help="Of the simulation.")] = 0
+    world: Annotated[
+        Path | None, typer.Option("--world", help="World file: sensor readings and faults of the simulation.")
+    ] = None
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the simulation.")] = 0
     speed: Annotated[
         str | None,
-        typer.Option("--speed", help="Of the simulation: max, or simulated seconds in a second; else 1, real time."),
+        typer.Option("--speed", help="Simulated seconds per second, or max; 1, real time, by default."),
     ] = None
 
 
@@ -74,7 +72,7 @@ class AgentSimulationOptions:
 def agent(
     missions: MissionOptions, listen: ListenOptions, simulation: AgentSimulationOptions, driver: DriverOptions
 ) -> None:
-    """Wait for signed missions, and carry out, one at a time, what is told to start: in simulation, or on a robot."""
+    """Receive signed missions and carry out those that are started, one at a time: in simulation, or on a robot."""
     from fieldhand.api.serving import require_extra, require_free
     from fieldhand.cli.driver_options import connection_of, parse_speed, refuse_simulation_options
     from fieldhand.delivery.agent_token import read_token
