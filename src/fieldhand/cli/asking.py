@@ -55,7 +55,7 @@ class Replies:
     def of(
         cls, planning: PlanningOptions, display: DisplayOptions, draw: Callable[[Clarify], None] = lambda _: None
     ) -> Replies:
-        """Return the replies that the options of a command describe; nobody is asked where JSON is printed."""
+        """Return the replies that the options of a command describe; with JSON, questions stay unanswered."""
         return cls(
             given=tuple(planning.answer or ()),
             assume=planning.assume,

@@ -65,7 +65,7 @@ def authorize(
 
     Raises:
         NotConfirmedError: There is a warning that is not among the confirmed ones.
-        NotApprovedError: A check failed, or nobody is named.
+        NotApprovedError: A check failed, or the name is empty.
     """
     from fieldhand.approval.authorize import approve
 
