@@ -1,4 +1,4 @@
-"""Time as an argument: the clock that a mission runs on."""
+"""Clocks of a mission: simulated, scaled and wall-clock time, passed in as arguments."""
 
 from __future__ import annotations
 
@@ -8,49 +8,49 @@ from typing import Protocol, runtime_checkable
 
 
 class Clock(Protocol):
-    """Seconds since the mission began, and a way to let time pass."""
+    """A monotonic clock that counts seconds from its creation and can wait."""
 
     def now(self) -> float:
-        """Seconds since the clock was made."""
+        """Return the seconds since the clock was created."""
         ...
 
     def advance(self, seconds: float) -> None:
-        """Let ``seconds`` (0 or more) pass."""
+        """Let ``seconds`` (0 or more) pass; waits on a paced clock."""
         ...
 
 
 @runtime_checkable
 class PacedClock(Clock, Protocol):
-    """A clock on which time passes by itself, whoever waits."""
+    """A clock whose time passes by itself, at a fixed ratio to real time."""
 
     @property
     def speed(self) -> float:
-        """Seconds that pass here in one second of the wall clock, above 0."""
+        """Seconds of this clock per second of real time, above 0."""
         ...
 
 
 class WallClock(Protocol):
-    """The time of day. Anyone may set it, so nothing is decided by it: it only says when a mission was."""
+    """The date and time of day. It can be set at any time, so it only dates a mission and decides nothing."""
 
     def now(self) -> float:
-        """Seconds since 1970 began, in UTC."""
+        """Return the seconds since 1970-01-01 00:00 UTC."""
         ...
 
 
 class SystemWallClock:
-    """The computer's own time of day."""
+    """The computer's date and time of day."""
 
     def now(self) -> float:
         return time.time()
 
 
 class SimulatedWallClock:
-    """A time of day that goes with a mission's clock, but for being set.
+    """A simulated date and time that advances with a mission's clock and can jump as if it were set.
 
     Args:
-        clock: The mission's.
-        begins_s: Seconds since 1970 when this object is made.
-        jumps: When it is set, in seconds from then on, and by how many seconds.
+        clock: Clock of the mission.
+        begins_s: Initial time, in seconds since 1970.
+        jumps: Times of jumps, in seconds from now, each with the seconds by which the time of day jumps.
     """
 
     def __init__(self, clock: Clock, begins_s: float, jumps: Sequence[tuple[float, float]] = ()) -> None:
@@ -63,7 +63,7 @@ class SimulatedWallClock:
 
 
 class SimulatedClock:
-    """A clock that jumps: time passes as fast as the program runs."""
+    """A clock that never waits: :meth:`advance` jumps ahead, so a mission runs as fast as the program."""
 
     def __init__(self) -> None:
         self._now = 0.0
@@ -76,10 +76,10 @@ class SimulatedClock:
 
 
 class ScaledClock:
-    """A clock on which ``speed`` seconds pass in one second of the wall clock.
+    """A clock that runs at a multiple of real time.
 
     Args:
-        speed: 1 is real time. Must be above 0.
+        speed: Seconds of this clock per second of real time, above 0; 1 is real time.
     """
 
     def __init__(self, speed: float = 1.0) -> None:
@@ -90,7 +90,7 @@ class ScaledClock:
 
     @property
     def speed(self) -> float:
-        """Seconds that pass here in one second of the wall clock."""
+        """Seconds of this clock per second of real time."""
         return self._speed
 
     def now(self) -> float:
@@ -101,7 +101,7 @@ class ScaledClock:
 
 
 def clock_time(seconds: float) -> str:
-    """Minutes and seconds since the mission began: "3:07"; from an hour on "1:03:07"."""
+    """Return a time in seconds as minutes and seconds, "3:07", or with hours, "1:03:07"."""
     minutes, rest = divmod(round(seconds), 60)
     hours, minutes = divmod(minutes, 60)
     return f"{hours}:{minutes:02d}:{rest:02d}" if hours else f"{minutes}:{rest:02d}"

@@ -1,35 +1,35 @@
-"""Every failure that Fieldhand raises, as one tree.
+"""The exceptions of Fieldhand, in one hierarchy.
 
-    FieldhandError                  exit status 1: the mission or a check failed, or it could not be told
-    ├── InputError                  exit status 2: what was given cannot be used
-    │   ├── RequestError            the words of the request
-    │   ├── SiteError               the site file
-    │   ├── ProfileError            the robot profile
-    │   ├── TaskError               a Task document: its XML, its schema, its meaning
-    │   ├── WorldError              the world file of a simulation
-    │   ├── CaseError               a file of cases: requests with what they mean
-    │   ├── BundleError             a mission bundle: its container, its signature, its manifest, what it holds
-    │   ├── KeyFileError            a key: its file, its rights, its passphrase, or that there is none
-    │   ├── PlaceError              a selector that this site cannot resolve
-    │   ├── OutputError             a place to write to that cannot be written
-    │   │   ├── JournalError        a mission's folder or journal that cannot be gone on with
-    │   │   └── StoreError          where missions wait: the robot's store, the sender's outbox
-    │   ├── ProblemError            an orienteering problem that contradicts itself or has no solution
-    │   ├── ModelError              the language model: key, endpoint, answer
-    │   └── PluginError             an extension of another distribution, named with its distribution
-    ├── NotApprovedError            a check failed or the operator said no
-    │   ├── NotConfirmedError       there are warnings that nobody has confirmed
-    │   └── NotTrustedError         nobody whom this robot trusts has signed
-    ├── DeliveryError               a mission that could not be handed to a robot
-    │   └── UnreachableError        not now; later it may be
-    └── ExecutionError              the robot
-        ├── Ros2Error               it cannot be reached over ROS 2, or is not what its profile says
-        ├── DriveFault              a leg that cannot be driven
-        │   ├── BlockedFault        what the robot found in its way leaves no other
-        │   └── LostFault           the robot does not know where it is
-        └── ActionFault             an action or a sensor that failed
+    FieldhandError                  exit status 1: the mission or a check failed
+    ├── InputError                  exit status 2: an input is unusable
+    │   ├── RequestError            request text
+    │   ├── SiteError               site file
+    │   ├── ProfileError            robot profile
+    │   ├── TaskError               Task document: XML, schema, or consistency
+    │   ├── WorldError              world file of a simulation
+    │   ├── CaseError               file of test cases: requests with their expected plans
+    │   ├── BundleError             mission bundle: container, signature, manifest, or content
+    │   ├── KeyFileError            key: missing file, permissions, or passphrase
+    │   ├── PlaceError              selector that cannot be resolved on this site
+    │   ├── OutputError             file or folder that cannot be written
+    │   │   ├── JournalError        folder or journal of a mission that cannot be continued
+    │   │   └── StoreError          queue of missions: the robot's store or the sender's outbox
+    │   ├── ProblemError            orienteering problem: inconsistent or without a solution
+    │   ├── ModelError              language model: key, endpoint, or answer
+    │   └── PluginError             extension of another distribution
+    ├── NotApprovedError            failed check, or approval denied
+    │   ├── NotConfirmedError       unconfirmed warnings
+    │   └── NotTrustedError         unsigned mission, or unknown or revoked signing key
+    ├── DeliveryError               failed transfer of a mission to a robot
+    │   └── UnreachableError        temporary; a later attempt may succeed
+    └── ExecutionError              failure of the robot
+        ├── Ros2Error               unreachable over ROS 2, or inconsistent with its profile
+        ├── DriveFault              leg that cannot be driven
+        │   ├── BlockedFault        no way left around the blockages that the robot found
+        │   └── LostFault           unknown position
+        └── ActionFault             failed action or sensor
 
-A message says what is wrong, where, and what to do. ``exit_status`` is what a command line returns for it.
+A message states the problem, its location and a remedy. ``exit_status`` is the exit status of the command line.
 """
 
 from __future__ import annotations
@@ -71,19 +71,29 @@ __all__ = [
 ]
 
 
-#: Of what an error says, in characters, and of where.
+#: Maximum length in characters of an error's description or advice, and of its location.
 _LONGEST, _LONGEST_PLACE = 900, 300
 
 
 class FieldhandError(Exception):
-    """Something that the user has to know, with where it is and what to do about it.
+    """The base class of all exceptions of Fieldhand: a problem with its location and a remedy.
 
-    What it quotes may come from anyone: hidden characters are made visible, what no screen holds is cut.
+    Text from untrusted sources is safe in all three parts: hidden characters are made visible and long text is cut.
+
+    Example:
+        >>> try:
+        ...     fh.Robot.load("no-such-robot")
+        ... except fh.FieldhandError as error:
+        ...     print(error.what, error.advice, error.exit_status)
 
     Args:
-        what: What is wrong, in words, without a full stop.
-        where: File, line, element, tree or node; empty if there is no such place.
-        advice: What to do; empty if nothing can be done.
+        what: Description of the problem, without a full stop.
+        where: Location: file, line, element, tree or node; empty if there is none.
+        advice: Remedy; empty if there is none.
+
+    Attributes:
+        what, where, advice: As above.
+        exit_status: Exit status of the command line for this error: 2 for unusable input, else 1.
     """
 
     exit_status = 1
@@ -95,26 +105,26 @@ class FieldhandError(Exception):
         super().__init__(str(self))
 
     def __str__(self) -> str:
-        return self.said(str)
+        return self.line(str)
 
-    def said(self, say: Callable[[str], str]) -> str:
-        """Return the line that a person reads.
+    def line(self, translate: Callable[[str], str]) -> str:
+        """Return the error as one line in some language: "location: description; advice".
 
         Args:
-            say: Says each part, in some language.
+            translate: Function that translates a message (:meth:`fieldhand.language.Language.say`).
         """
-        at = f"{say(self.where)}: " if self.where else ""
-        todo = f"; {say(self.advice)}" if self.advice else ""
-        return f"{at}{say(self.what)}{todo}"
+        at = f"{translate(self.where)}: " if self.where else ""
+        todo = f"; {translate(self.advice)}" if self.advice else ""
+        return f"{at}{translate(self.what)}{todo}"
 
 
 def _cut(text: str, longest: int) -> str:
-    """Return no more of a text than a screen holds."""
+    """Return a text, cut to a maximum length with an ellipsis."""
     return text if len(text) <= longest else f"{text[: longest - 3]}..."
 
 
 def few(names: Sequence[str], most: int = 12, sign: str = ", ") -> str:
-    """Return the first of some names, and how many more there are: "a, b and 37 more"; "none" where there are none."""
+    """Return the first names and the number of the others: "a, b and 37 more"; "none" for no names."""
     if not names:
         return "none"
     more = f" and {len(names) - most} more" if len(names) > most else ""
@@ -122,13 +132,13 @@ def few(names: Sequence[str], most: int = 12, sign: str = ", ") -> str:
 
 
 class InputError(FieldhandError):
-    """What was given cannot be used."""
+    """An input is unusable: a request, file, option, or environment variable."""
 
     exit_status = 2
 
 
 class RequestError(InputError):
-    """The request is empty, too long, or nothing in it was understood."""
+    """The request is empty, too long, or not understood."""
 
 
 class SiteError(InputError):
@@ -148,11 +158,11 @@ class WorldError(InputError):
 
 
 class CaseError(InputError):
-    """A file of cases (requests with what they mean), or an event log that is to be judged, cannot be used."""
+    """A file of test cases (requests with their expected plans), or an event log to be evaluated, cannot be used."""
 
 
 class BundleError(InputError):
-    """A mission bundle is damaged, was changed after it was signed, or is of a form that is not known."""
+    """A mission bundle is damaged, was changed after it was signed, or has an unknown format."""
 
 
 class KeyFileError(InputError):
@@ -160,7 +170,7 @@ class KeyFileError(InputError):
 
 
 class PlaceError(InputError):
-    """A selector finds nothing on this site, or names what the site does not have."""
+    """A selector matches no place on this site, or names something that the site lacks."""
 
 
 class OutputError(InputError):
@@ -168,26 +178,26 @@ class OutputError(InputError):
 
 
 class JournalError(OutputError):
-    """A mission's folder or its journal cannot be gone on with: damaged, another mission's, in use, not to be written.
+    """The folder or journal of a mission cannot be continued: damaged, of another mission, in use, or not writable.
 
-    No behavior works around it: a mission that cannot keep what it does stops.
+    A mission that cannot record its progress stops; no ``Try`` of its plan catches this error.
     """
 
 
 class StoreError(OutputError):
-    """The place where missions wait cannot be used: the robot's store, or the outbox of whoever sends."""
+    """The queue of missions cannot be used: the robot's store, or the sender's outbox."""
 
 
 class ProblemError(InputError):
-    """An orienteering problem is not a problem: bad numbers, a vertex that does not exist, no way to the end."""
+    """An orienteering problem is invalid: bad numbers, a vertex that does not exist, or no way to the end."""
 
 
 class ModelError(InputError):
-    """The language model could not be reached, or did not give an answer that can be used."""
+    """The language model could not be reached, or gave no usable answer."""
 
 
 class PluginError(InputError):
-    """An extension that another distribution registers cannot be loaded, or is not what its group requires."""
+    """An extension registered by another distribution cannot be loaded, or does not fit its entry-point group."""
 
 
 class NotApprovedError(FieldhandError):
@@ -195,12 +205,12 @@ class NotApprovedError(FieldhandError):
 
 
 class NotConfirmedError(NotApprovedError):
-    """A Task has warnings that nobody has confirmed.
+    """A Task has warnings that were not confirmed.
 
     Args:
-        what: Which ones, in words.
-        warnings: Each as it was shown, and as it has to be confirmed.
-        advice: What to do.
+        what: Description of the warnings.
+        warnings: Text of each warning as it was shown and must be confirmed.
+        advice: Remedy.
     """
 
     def __init__(self, what: str, warnings: tuple[str, ...], *, advice: str) -> None:
@@ -209,23 +219,23 @@ class NotConfirmedError(NotApprovedError):
 
 
 class NotTrustedError(NotApprovedError):
-    """A mission is not signed, or by a key that is unknown here or was revoked."""
+    """A mission is unsigned, or its signing key is unknown here or revoked."""
 
 
 class DeliveryError(FieldhandError):
-    """A mission could not be handed to a robot, or what the robot answered is not what it has to be."""
+    """A mission could not be transferred to a robot, or the robot's answer is invalid."""
 
 
 class UnreachableError(DeliveryError):
-    """The robot does not answer, or cannot take it now; the same may succeed later."""
+    """The robot does not answer or cannot accept a mission now; a later attempt may succeed."""
 
 
 class ExecutionError(FieldhandError):
-    """The robot could not do what the Task asks."""
+    """The robot failed to execute a part of the Task."""
 
 
 class Ros2Error(ExecutionError):
-    """The robot cannot be reached over ROS 2, or what it says does not fit what its profile says of it."""
+    """The robot cannot be reached over ROS 2, or its interfaces differ from its profile."""
 
 
 class DriveFault(ExecutionError):
@@ -233,11 +243,11 @@ class DriveFault(ExecutionError):
 
 
 class BlockedFault(DriveFault):
-    """A place to which no way is left but those that the robot found blocked."""
+    """Every way to a place is blocked, as far as the robot found."""
 
 
 class LostFault(DriveFault):
-    """The robot does not know where it is, and has waited for that long enough."""
+    """The robot's position is unknown, and waiting for it took too long."""
 
 
 class ActionFault(ExecutionError):

@@ -1,4 +1,4 @@
-"""Files of anyone, read within a bound; files of our own, written whole; the folders where a user keeps them."""
+"""Read files up to a maximum size, write files atomically, and locate the user's folders."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from typing import IO, Any, Literal
 
 from fieldhand.errors import InputError
 
-#: In place of a file: standard input where one is read, standard output where one is written.
+#: Path that stands for standard input in reading and for standard output in writing.
 STANDARD = Path("-")
 
 
 class FileFault(Exception):
-    """Why a file is not read; whoever asks for it makes a message of their own of it.
+    """The reason why a file was not read; callers convert it to an error of their own.
 
     Attributes:
-        what: In words that can stand behind the file's name.
-        kind: ``missing`` and ``no file`` only where a plain file was asked for.
-        size: Bytes that it has at least, where it is too large.
+        what: Reason, as a phrase that follows the file's name.
+        kind: Kind of reason; ``missing`` and ``no file`` occur only if a regular file was required.
+        size: Minimum size of a file that is too large, in bytes.
     """
 
     def __init__(
@@ -34,17 +34,17 @@ class FileFault(Exception):
 def read_file(
     path: Path, most: int, *, plain: bool = False, look: Callable[[os.stat_result], None] = lambda _: None
 ) -> bytes:
-    """The bytes of a file; no more of it is read than it may have, for a device has no size and no end.
+    """Read a file up to a maximum size; a device may have no end.
 
     Args:
-        path: Of the file; ``-`` is standard input.
-        most: Bytes that it may have.
-        plain: Take no device and no pipe, and read nothing of a file that says itself that it is too large.
-        look: Sees owner and rights of the file that is read, even if another is put in its place meanwhile; it raises
-            if they will not do.
+        path: Path of the file; ``-`` for standard input.
+        most: Maximum size in bytes.
+        plain: Require a regular file, and check its size before reading.
+        look: Called with the status (owner, permissions) of the opened file; raises to refuse it. The check applies to
+            the file that is read, even if the path is replaced meanwhile.
 
     Raises:
-        FileFault: It is missing, no file, too large, or cannot be read.
+        FileFault: The file is missing, not a regular file, too large, or unreadable.
     """
     size = 0
     try:
@@ -70,15 +70,15 @@ def read_file(
 
 
 def _reason(error: Exception) -> str:
-    """Why the system refused a file, in words."""
+    """Return the reason given by the system for refusing a file."""
     return (error.strerror if isinstance(error, OSError) else None) or str(error) or type(error).__name__
 
 
 def open_output(path: Path, mode: Literal["a", "w", "wb"]) -> IO[Any]:
-    """Open a file that is written piece by piece; ``-`` is standard output. Text is UTF-8, line ends stay.
+    """Open a file to be written in pieces; ``-`` is standard output. Text is UTF-8 without line-end conversion.
 
     Raises:
-        OSError, ValueError: It cannot be written.
+        OSError, ValueError: The file cannot be written.
     """
     more: dict[str, Any] = {} if "b" in mode else {"encoding": "utf-8", "newline": "\n"}
     if path == STANDARD:
@@ -88,16 +88,16 @@ def open_output(path: Path, mode: Literal["a", "w", "wb"]) -> IO[Any]:
 
 
 def write_stored(path: Path, data: bytes, *, mode: int = 0o666, new: bool = False) -> None:
-    """Write a file and wait until it is on the disk.
+    """Write a file and wait until it is stored on the disk.
 
     Args:
-        path: Of the file; its folder is there.
-        data: What it shall hold.
-        mode: Rights on it, where it is made, less what the user gives to nobody.
-        new: Refuse to write over another one.
+        path: Path of the file, in an existing folder.
+        data: Content.
+        mode: Permissions of a new file, reduced by the user's umask.
+        new: Refuse to overwrite an existing file.
 
     Raises:
-        OSError: It cannot be written; FileExistsError where there is one.
+        OSError: The file cannot be written; FileExistsError if it exists and ``new`` is set.
     """
     how = os.O_WRONLY | os.O_CREAT | getattr(os, "O_BINARY", 0) | (os.O_EXCL if new else os.O_TRUNC)
     with os.fdopen(os.open(path, how, mode), "wb") as file:
@@ -107,10 +107,10 @@ def write_stored(path: Path, data: bytes, *, mode: int = 0o666, new: bool = Fals
 
 
 def write_whole(path: Path, data: bytes, *, mode: int = 0o666) -> None:
-    """Write a file as a whole or not at all, also over another one and also where the power fails meanwhile.
+    """Write or replace a file atomically, even if the power fails meanwhile.
 
     Raises:
-        OSError: It cannot be written.
+        OSError: The file cannot be written.
     """
     beside = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
@@ -123,17 +123,17 @@ def write_whole(path: Path, data: bytes, *, mode: int = 0o666) -> None:
 
 
 def move_whole(written: Path, path: Path) -> None:
-    """Give a file that is on the disk its name, which it has also after a power cut.
+    """Rename a stored file durably, so that it has its new name after a power cut.
 
     Raises:
-        OSError: It cannot be moved.
+        OSError: The file cannot be moved.
     """
     written.replace(path)
     store_names(path.parent)
 
 
 def store_names(folder: Path) -> None:
-    """Wait until the names in a folder are on the disk, where the system knows how.
+    """Wait until the directory entries of a folder are stored on the disk, if the system supports it.
 
     Raises:
         OSError: The disk fails.
@@ -147,28 +147,28 @@ def store_names(folder: Path) -> None:
 
 
 def state_folder(environ: Mapping[str, str]) -> Path:
-    """Where Fieldhand keeps what it has done for its user.
+    """Return the state folder, which contains missions, history and records of approvals.
 
     Raises:
-        InputError: What the environment names is a file, or the user has no home.
+        InputError: The environment names a file, or the user has no home folder.
     """
     return _user_folder(environ, "XDG_STATE_HOME", ".local/state")
 
 
 def config_folder(environ: Mapping[str, str]) -> Path:
-    """Where keys are kept and what is trusted: ``FIELDHAND_CONFIG``, else in the user's folder for configuration.
+    """Return the folder of keys and trust: ``FIELDHAND_CONFIG``, or a folder in the user's configuration folder.
 
     Raises:
-        InputError: What the environment names is a file, or the user has no home.
+        InputError: The environment names a file, or the user has no home folder.
     """
     return named_folder(environ, "FIELDHAND_CONFIG") or _user_folder(environ, "XDG_CONFIG_HOME", ".config")
 
 
 def named_folder(environ: Mapping[str, str], variable: str) -> Path | None:
-    """The folder that a variable names; None where it names none. It may be one that is not there yet.
+    """Return the folder that an environment variable names, which may not exist yet; None if it is unset.
 
     Raises:
-        InputError: It names something else.
+        InputError: The variable names something other than a folder.
     """
     named = environ.get(variable)
     if not named:

@@ -1,4 +1,4 @@
-"""Folders that only their user can change, and that one process at a time works in."""
+"""Check that only the user can change a folder, and lock a folder for one process."""
 
 from __future__ import annotations
 
@@ -17,21 +17,21 @@ if sys.platform != "win32":
     import grp
     import pwd
 
-#: Seconds for which a folder is waited for: whoever asks whether it is taken holds it for an instant.
+#: Maximum wait for a lock in seconds, because :func:`is_locked` holds it for an instant.
 _WITHIN_S = 0.5
 
 
-#: Links on the way to a folder, as many as Linux follows.
+#: Maximum number of links in a path, as in Linux.
 _MOST_LINKS = 40
 
 
 class Unguarded(Exception):
-    """A file or folder that somebody else can change or exchange.
+    """A file or folder can be changed or replaced by another user.
 
     Attributes:
-        what: In words that can stand behind its name.
-        path: Which.
-        advice: The command that mends it.
+        what: Reason, as a phrase that follows the name.
+        path: The file or folder.
+        advice: Command that repairs it.
     """
 
     def __init__(self, what: str, path: Path, advice: str) -> None:
@@ -40,19 +40,18 @@ class Unguarded(Exception):
 
 
 def require_guarded(folder: Path) -> None:
-    """Check that nobody else can put other files into a folder, or another folder in its place.
+    """Check that no other user can put files into a folder or replace it.
 
-    The folder and every folder and link on the way to it belong to this user or to root, and nobody else may write in
-    them; on the way, a folder in which each may only change what is their own (sticky, as ``/tmp``) will do. A group
-    that has no other member counts as the user alone. Windows is not checked: rights are lists there, which the folder
-    of a user has already.
+    The folder and every folder and link on its path must belong to this user or to root, and nobody else may write in
+    them; on the path, sticky folders such as ``/tmp`` are accepted. A group without other members counts as the user.
+    Windows is not checked: its permissions are access control lists, which a user's folder has by default.
 
     Args:
-        folder: It exists.
+        folder: Existing folder.
 
     Raises:
-        Unguarded: Somebody else can; names the folder and the command that mends it.
-        OSError: It may not be looked into.
+        Unguarded: Another user can; names the folder and the command that repairs it.
+        OSError: The folder cannot be accessed.
     """
     if sys.platform == "win32":
         return
@@ -65,10 +64,10 @@ def require_guarded(folder: Path) -> None:
 
 
 def require_own_file(path: Path, status: os.stat_result) -> None:
-    """Check that nobody else can write a file.
+    """Check that no other user can write a file.
 
     Raises:
-        Unguarded: Somebody else can.
+        Unguarded: Another user can.
     """
     if sys.platform != "win32":
         _require_owner(path, status)
@@ -88,7 +87,7 @@ def _require_mode(path: Path, status: os.stat_result) -> None:
 
 
 def _way_to(path: Path) -> Iterator[tuple[Path, os.stat_result]]:
-    """Yield every folder and link that leads to an absolute path, and what it is, from the root on."""
+    """Yield every folder and link on an absolute path with its status, starting at the root."""
     at, left, links = Path(path.anchor), list(path.parts[1:]), 0
     yield at, at.lstat()
     while left:
@@ -111,7 +110,7 @@ def _way_to(path: Path) -> Iterator[tuple[Path, os.stat_result]]:
 
 
 def _is_private(gid: int) -> bool:
-    """Return True if a group has no member but this user and root."""
+    """Return True if a group has no members except this user and root."""
     if sys.platform == "win32":
         return False
     own = {_user(0), _user(os.geteuid())}
@@ -132,20 +131,20 @@ def _user(uid: int) -> str:
 
 
 class FolderTaken(Exception):
-    """Another process, or another part of this one, works in the folder."""
+    """The folder is locked by another process or another part of this one."""
 
 
 class FolderLock:
-    """The lock of a folder, on the folder itself: there is no lock file that could be deleted.
+    """An exclusive lock on a folder itself, without a lock file that could be deleted.
 
-    It goes with the folder when that is renamed, and ends with the process. Windows has no such lock.
+    It persists if the folder is renamed, and ends with the process. Windows has no such lock.
 
     Args:
-        folder: To be locked.
+        folder: Folder to lock.
 
     Raises:
-        FolderTaken: Another one has it.
-        OSError: It cannot be opened, or its file system knows no locks.
+        FolderTaken: The folder is locked already.
+        OSError: The folder cannot be opened, or its file system does not support locks.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -184,7 +183,7 @@ class FolderLock:
 
 
 def is_locked(folder: Path) -> bool:
-    """Return True if some process holds the lock of a folder; False where there is no such folder."""
+    """Return True if a process has locked the folder; False if the folder does not exist."""
     if sys.platform == "win32":
         return False
     try:

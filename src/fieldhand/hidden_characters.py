@@ -1,9 +1,9 @@
-"""Make text from outside visible wherever a person reads it: terminal, page, report and files.
+"""Detect hidden characters in untrusted text, and make them visible in terminal, page, report and files.
 
-Text of a Task, a site, a robot's message or a model's answer may hold characters that move the cursor, reverse the
-direction of writing or show nothing at all, so that a person reads something else than what is there. Every writer of
-the package passes such text through one of the functions here; every reader of files that are signed or planned with
-refuses it with the help of :func:`find_hidden`.
+Text of a Task, a site, a robot's message or a model's answer may contain characters that move the cursor, reverse the
+direction of writing or are invisible, so that a person reads something other than the text. All output of the package
+passes through the functions here; files that a mission is planned or signed with are checked by :func:`find_hidden`
+and refused.
 """
 
 from __future__ import annotations
@@ -19,25 +19,25 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-#: Categories of characters that no screen shows: control, format (bidi, zero width), surrogate, private, unassigned,
+#: Unicode categories without a visible form: control, format (bidi, zero width), surrogate, private, unassigned,
 #: line and paragraph separators.
 _HIDDEN = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})
-#: Letters, marks and symbols that are invisible all the same (Unicode: Default_Ignorable_Code_Point, Braille blank).
+#: Invisible letters, marks and symbols (Unicode: Default_Ignorable_Code_Point, Braille blank).
 _BLANK = re.compile("[\u034f\u115f\u1160\u17b4\u17b5\u180b-\u180f\u2800\u3164\ufe00-\ufe0f\uffa0\U000e0100-\U000e01ef]")
 _NOT_ASCII = re.compile("[^\x00-\x7e]")
 _ESCAPE_OR_NOT_ASCII = re.compile(r"\\(?:u[0-9a-f]{4}|.)|[^\x00-\x7e]")
 _HARMLESS_ESCAPES = frozenset({r"\n", r"\t", r"\"", r"\\"})
-#: What a spreadsheet takes for the beginning of a formula (OWASP, "CSV Injection"), also in full width.
+#: First characters that a spreadsheet interprets as a formula (OWASP, "CSV Injection"), also in full width.
 _FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n", "\uff1d", "\uff0b", "\uff0d", "\uff20")
 
 
 @dataclass(frozen=True, kw_only=True)
 class HiddenCharacter:
-    """A character that a person cannot see.
+    """A hidden character in a text.
 
     Attributes:
-        at: Its index in the text.
-        name: Code point and, if Unicode has one, name: ``U+202E RIGHT-TO-LEFT OVERRIDE``.
+        at: Index in the text.
+        name: Code point and Unicode name, if any: ``U+202E RIGHT-TO-LEFT OVERRIDE``.
     """
 
     at: int
@@ -45,11 +45,11 @@ class HiddenCharacter:
 
 
 def visible(text: str, *, lines: bool = False) -> str:
-    r"""Return a text in which every hidden character is replaced by its code point, as ``\u{009b}``.
+    r"""Return a text with every hidden character replaced by its code point, as ``\u{009b}``.
 
     Args:
-        text: From anyone.
-        lines: Keep line ends and tabs; without it they are replaced, too, so that the text is one line.
+        text: Untrusted text.
+        lines: Keep line ends and tabs; otherwise they are replaced too, and the result is one line.
     """
     if not _has_hidden(text):
         return text
@@ -58,7 +58,7 @@ def visible(text: str, *, lines: bool = False) -> str:
 
 
 def print_error(*lines: str) -> None:
-    """Print lines on standard error, each of them on one line."""
+    """Print lines on standard error, each with its hidden characters visible and on one line."""
     for line in lines:
         print(visible(line), file=sys.stderr, flush=True)  # noqa: T201
 
@@ -67,8 +67,8 @@ def find_hidden(text: str, *, lines: bool = False) -> HiddenCharacter | None:
     """Return the first hidden character of a text; None if there is none.
 
     Args:
-        text: From anyone.
-        lines: Take line ends and tabs for visible.
+        text: Untrusted text.
+        lines: Accept line ends and tabs.
     """
     if not _has_hidden(text):
         return None
@@ -81,7 +81,7 @@ def find_hidden(text: str, *, lines: bool = False) -> HiddenCharacter | None:
 
 
 def find_hidden_within(value: object, where: str = "") -> tuple[str, HiddenCharacter] | None:
-    """Return the place of the first hidden character in mappings, lists and texts, as ``a.b[2]``, and the character."""
+    """Return the path, as ``a.b[2]``, and the first hidden character in nested mappings, lists and strings."""
     if isinstance(value, str):
         character = find_hidden(value, lines=True)
         return None if character is None else (where, character)
@@ -99,9 +99,9 @@ def find_hidden_within(value: object, where: str = "") -> tuple[str, HiddenChara
 def json_text(
     value: Any, *, indent: int | None = None, separators: tuple[str, str] | None = None, allow_nan: bool = True
 ) -> str:
-    r"""Return JSON for programs, hidden characters written as escapes (``\u009b``): a parser reads the same text again.
+    r"""Return JSON for programs, with hidden characters as escapes (``\u009b``), so that a parser restores the text.
 
-    Mappings of any kind become objects; what JSON does not know is written as its text.
+    Mappings of any kind become objects; other types unknown to JSON are written as strings.
     """
     text = _dumped(value, indent, separators, allow_nan=allow_nan)
     return text if text.isascii() and "\x7f" not in text else _NOT_ASCII.sub(_escaped, text)
@@ -110,13 +110,13 @@ def json_text(
 def visible_json(
     value: Any, *, indent: int | None = None, separators: tuple[str, str] | None = None, allow_nan: bool = True
 ) -> str:
-    r"""Return JSON whose texts are shown to people as they stand: a parser reads them made visible, on lines."""
+    r"""Return JSON whose strings are shown to people: a parser returns them with hidden characters made visible."""
     text = _dumped(value, indent, separators, allow_nan=allow_nan)
     return _ESCAPE_OR_NOT_ASCII.sub(_spelt, text)
 
 
 def csv_text(rows: Iterable[Sequence[object]]) -> str:
-    """Return rows as CSV (RFC 4180), all text visible; what a spreadsheet would compute begins with an apostrophe."""
+    """Return rows as CSV (RFC 4180) with visible text; cells that look like a formula get a leading apostrophe."""
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\r\n")
     writer.writerows([_cell(cell) for cell in row] for row in rows)
@@ -150,7 +150,7 @@ def _escaped(match: re.Match[str]) -> str:
 
 
 def _spelt(match: re.Match[str]) -> str:
-    """Return a backslash and the code point, in a string of JSON, for a hidden character."""
+    """Return a match in a JSON string with a hidden character replaced by its escaped code point."""
     found = match.group()
     if found in _HARMLESS_ESCAPES:
         return found

@@ -1,4 +1,4 @@
-"""Pieces of HTML for notebooks: escaped text, tables, and embedded pictures. Nothing is loaded from elsewhere."""
+"""HTML for notebooks: escaped text, tables and embedded pictures, without external resources."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def text_html(value: object) -> str:
 
 
 def element(tag: str, value: object) -> str:
-    """Return an element that holds text."""
+    """Return an HTML element with escaped text."""
     return f"<{tag}>{text_html(value)}</{tag}>"
 
 
@@ -32,11 +32,11 @@ def list_html(lines: Sequence[object]) -> str:
 
 
 def picture_html(picture: bytes, media_type: str) -> str:
-    """Return an image that holds its own bytes.
+    """Return an image element with the picture embedded as a data URL.
 
     Args:
-        picture: The file's bytes.
-        media_type: ``image/png`` or ``image/svg+xml``; a script in the latter does not run in an image.
+        picture: Content of the image file.
+        media_type: ``image/png`` or ``image/svg+xml``; scripts in an SVG do not run in an image element.
     """
     data = base64.b64encode(picture).decode()
     return f'<img alt="map" style="max-width: 100%; background: white" src="data:{media_type};base64,{data}">'

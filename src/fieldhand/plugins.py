@@ -1,6 +1,7 @@
-"""Extensions of other distributions, found by their entry points and loaded when they are used.
+"""Extensions of other distributions, found by their entry points and loaded on first use.
 
 A distribution registers an object in its ``pyproject.toml``::
+
 
     [project.entry-points."fieldhand.planners"]
     mine = "my_package.planner:make"
@@ -46,7 +47,7 @@ class Plugin:
     Attributes:
         group: Kind of extension.
         name: Name under which users choose it.
-        value: Where it is: ``module:attribute``.
+        value: Location of the object: ``module:attribute``.
         distribution: Distribution that registers it; empty where its metadata is missing.
         version: Version of that distribution.
         overridden_by: Distribution whose object is used under this name instead; empty if this one is used.
@@ -73,7 +74,7 @@ class Plugin:
         """Import the object.
 
         Raises:
-            PluginError: It cannot be imported, whatever the import raised.
+            PluginError: The import raised any exception.
         """
         from importlib.metadata import EntryPoint
 
@@ -90,7 +91,7 @@ class Plugin:
         """Return an error that names this plugin.
 
         Args:
-            what: What is wrong with it, as the end of a sentence that begins with its name.
+            what: Description of the problem, as a phrase that follows the plugin's name.
         """
         return PluginError(
             f"the plugin '{self.name}' of {self.origin} {what}",
@@ -102,8 +103,8 @@ class Plugin:
 def found(group: Group, *, built_in: Collection[str] = ()) -> tuple[Plugin, ...]:
     """Return every plugin of a group, without importing any.
 
-    Of those with one name the first is active: this package's own, then by name of the distribution, then by value.
-    The result is ordered by name, and among equal names the active one comes first.
+    Of several plugins with one name, the first is active, ordered by: this package, name of the distribution, value.
+    The result is sorted by name, with the active plugin of each name first.
 
     Args:
         group: Kind of extension.
@@ -134,7 +135,7 @@ def found(group: Group, *, built_in: Collection[str] = ()) -> tuple[Plugin, ...]
 
 @lru_cache(maxsize=4)
 def _entry_points(path: tuple[str, ...]) -> Any:  # noqa: ARG001  another path has other distributions
-    """Return the entry points of all distributions, which are looked for once per path."""
+    """Return the entry points of all distributions, searched once per path."""
     from importlib.metadata import entry_points  # slow to import, and most commands need no plugin
 
     return entry_points()

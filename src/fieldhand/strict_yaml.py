@@ -1,4 +1,4 @@
-"""Read YAML from anyone safely: plain values, each key once, no aliases, one kind of error."""
+"""Read untrusted YAML safely: plain values, unique keys, no aliases, and a single exception type."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ from fieldhand.hidden_characters import find_hidden
 if TYPE_CHECKING:
     import yaml
 
-#: Bits of a whole number: beyond this it cannot be a float either.
+#: Maximum number of bits of an integer; larger ones cannot be converted to a float.
 _MOST_BITS = 1000
-#: Mappings and lists within each other; a world file has six.
+#: Maximum nesting depth of mappings and lists; a world file has six levels.
 _DEEPEST = 50
 _LONGEST = 200
 
 
 class YamlFault(Exception):
-    """What a text cannot be read for; its readers make a message of their own of it.
+    """The reason why a YAML text was refused; callers convert it to an error of their own.
 
     Attributes:
-        what: In words.
-        line: Counted from 1; None where the text as a whole is at fault.
+        what: Description of the problem.
+        line: Line number from 1; None if the problem concerns the whole text.
     """
 
     def __init__(self, what: str, line: int | None = None) -> None:
@@ -33,16 +33,15 @@ class YamlFault(Exception):
 
 
 def read_yaml(text: str, *, aliases: bool = False) -> Any:
-    """The content of a text: mappings, lists and plain values; None if it holds nothing.
+    """Parse a YAML text into mappings, lists and plain values; return None for an empty text.
 
     Args:
-        text: Of anyone.
-        aliases: Whether ``*name`` may stand for what was called ``&name`` before; with them a small text can stand for
-            a huge one.
+        text: Untrusted text.
+        aliases: Allow aliases (``*name`` for ``&name``). With them, a small text can expand to a huge one.
 
     Raises:
-        YamlFault: It is not YAML, has a key twice, merged keys, an alias, a tag that its value does not fit, a number
-            that no float holds, a hidden character, or is nested too deep.
+        YamlFault: The text is not YAML, or has duplicate or merged keys, an alias, a tag that does not fit its value, a
+            number outside the range of floats, a hidden character, or too deep nesting.
     """
     import yaml
 
@@ -77,9 +76,9 @@ def _loader(aliases: bool) -> type[yaml.SafeLoader]:
             try:
                 value = super().construct_object(node, deep)
                 if isinstance(value, str):
-                    value.encode()  # an escape can name half of a character, which nobody can write or print
+                    value.encode()  # fails for a lone surrogate, which an escape sequence can produce
             except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError):
-                # The library trusts that a tag, written or found, fits what stands behind it.
+                # The library does not check that a tag, explicit or resolved, fits its value.
                 tag = str(node.tag).rpartition(":")[2]
                 raise self._error(node, f"{str(node.value)[:40]!r} cannot be read as {tag}") from None
             hidden = find_hidden(value, lines=True) if isinstance(value, str) else None

@@ -1,4 +1,4 @@
-"""Words that sites, selectors and conditions share: sides of the compass, corners, tests, values."""
+"""Types shared by sites, selectors and conditions: compass sides, corners, comparisons, attribute values."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ Side = Literal["north", "east", "south", "west"]
 CornerName = Literal["nw", "ne", "se", "sw"]
 MarkerName = Literal["start", "end", "charger"]
 Test = Literal["lt", "le", "gt", "ge", "eq", "ne"]
-#: What a file records of a tree under one name.
+#: Value of a tree's attribute in a site file.
 Value = str | float | bool
-#: Which end rows, or trees in a row, are counted from: ``usual`` is west, or north where that is the way of the row.
+#: End from which rows, or trees in a row, are counted; ``usual`` is west or north, by the direction of the rows.
 CountedFrom = Literal["usual", "north", "east", "south", "west"]
 #: A direction of the compass, or none.
 AnySide = Literal["any", "north", "east", "south", "west"]

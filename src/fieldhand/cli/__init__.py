@@ -35,7 +35,7 @@ def main(*others: Callable[..., None]) -> None:
             raise KeyboardInterrupt
         sys.exit(status if isinstance(status, int) else 0)
     except FieldhandError as error:
-        _print_failure(error.said(_language().say))
+        _print_failure(error.line(_language().say))
         sys.exit(error.exit_status)
     except misused as error:
         line = _usage(error)
@@ -92,7 +92,7 @@ def _usage(error: Any) -> str:
     words = context.command_path.removeprefix(context.find_root().command_path).split() if context else []
     help_of = " ".join(["fieldhand", *words, "--help"])
     advice = message("{command} says more", command=help_of)
-    return InputError(what[0].lower() + what[1:], where=" ".join(words), advice=advice).said(_language().say)
+    return InputError(what[0].lower() + what[1:], where=" ".join(words), advice=advice).line(_language().say)
 
 
 def _language() -> Language:

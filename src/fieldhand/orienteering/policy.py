@@ -1,7 +1,7 @@
-"""The adaptive policy: it plans again after every leg, for a robot that may skip stops.
+"""The adaptive orienteering policy: it plans again after every leg and may skip stops.
 
-A failure has a price, the same in the whole mission, at which the chance of one over the whole mission is the one that
-is accepted. docs/orienteering.md derives it.
+Exceeding a limit has a price in reward, constant over the mission, at which the failure probability of the whole
+mission equals the accepted one. docs/orienteering.md derives it.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Expectation", "Policy", "Route", "State", "StoppingCriterion", "compile_ahead", "solve"]
 
-#: The chance at which the first order is priced, of that which is accepted. A mission whose order is made anew after
-#: every leg fails more or less often than one whose order is only shortened: measured, by up to a third.
+#: Target failure probability of the initial order, as a fraction of the accepted one. A mission that plans again after
+#: every leg fails more or less often than one that only shortens its order; measured, by up to a third.
 _AIM = 0.8
 _PRICINGS = 3
 _BISECTIONS = 24
@@ -33,13 +33,13 @@ _BISECTIONS = 24
 
 @dataclass(frozen=True, kw_only=True)
 class State:
-    """The state of a mission.
+    """The state of a mission in an orienteering problem.
 
     Attributes:
-        vertex: The robot's vertex.
-        left: Amount left of each limit, in their order; may be negative.
-        visited: Vertices that have been collected.
-        given_up: Vertices that may not be visited any more, though nothing was collected there.
+        vertex: Index of the vertex at which the robot is.
+        left: Remaining amount of each limit, in the order and units of the problem's limits; may be negative.
+        visited: Vertices whose reward was collected.
+        given_up: Vertices that must not be visited any more, without a collected reward.
     """
 
     vertex: int
@@ -50,12 +50,12 @@ class State:
 
 @dataclass(frozen=True, kw_only=True)
 class Expectation:
-    """The expected outcome of a mission from a state on.
+    """The expected outcome of the rest of a mission.
 
     Attributes:
-        vertices: The order it means to drive, from here to the end; luck decides which of them it skips.
-        reward: Still to come, on average, of missions that keep to the limits.
-        success: Chance to keep to them.
+        vertices: Planned order from the current vertex to the end; the actual leg costs decide which are skipped.
+        reward: Expected further reward of missions within the limits.
+        success: Probability of keeping all limits.
     """
 
     vertices: tuple[int, ...]
@@ -64,19 +64,25 @@ class Expectation:
 
 
 class Policy:
-    """Drives one mission through a problem: asked before each leg, it plans anew from where the robot is.
+    """An adaptive policy for a stochastic orienteering problem (``fh.Policy``).
+
+    Ask :meth:`next` before each leg; it plans again from the robot's state. One object serves one mission.
+
+    Example:
+        >>> policy = Policy(problem, seed=1)
+        >>> policy.next(State(vertex=problem.start, left=(120.0,)))  # 120 of the only limit are left
 
     Args:
-        problem: As it stands before the mission.
-        seed: The same seed and the same leg costs give the same mission.
+        problem: Problem before the mission: vertices, rewards, leg costs and limits.
+        seed: Seed of the random generator; equal seeds and leg costs give equal decisions.
         effort: Search effort per decision.
         risk_tolerance: Weight of reward against safety, 0 to 1: the price of a failure may fall to minus this share of
             the expected reward. At 0 the policy collects the most over all missions, near 1 the most over successful
             missions, for which it uses up the whole failure probability.
-        price: Cost of a failure besides the lost reward; None to compute it at the first decision.
-        collected: Reward that is safe already, where the problem is what is left of a mission.
-        warm: Vertices that were planned, in their order, to begin the search with.
-        prepared: The prepared problem, if the caller has it.
+        price: Price of a failure in reward, besides the lost reward; None to compute it at the first decision.
+        collected: Reward collected before, if the problem is the rest of a mission.
+        warm: Initial order of vertices for the search.
+        prepared: Prepared problem, if the caller has computed it already.
 
     Raises:
         ProblemError: ``risk_tolerance`` is not a number from 0 to 1.

@@ -12,7 +12,7 @@ from fieldhand.site.model import Place
 class VisitedIds(Collection[str]):
     """An immutable ordered set of ids. An extended copy shares its storage with the original.
 
-    A walk over thousands of trees keeps one of these for each of its steps.
+    The state of every step of a long walk contains one.
 
     Args:
         ids: Ids, each once.
@@ -54,7 +54,7 @@ class VisitedIds(Collection[str]):
 
 @dataclass(frozen=True, kw_only=True)
 class Context:
-    """Where the robot is and has been.
+    """The mission state that selectors depend on: current place, visited trees and labels.
 
     Attributes:
         here: Current place; the start before the first drive.

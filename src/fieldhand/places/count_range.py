@@ -14,7 +14,7 @@ class CountRange:
 
     @property
     def exact(self) -> int | None:
-        """The number, if there is only one."""
+        """The only number in the range, or None."""
         return self.low if self.low == self.high else None
 
     def times(self, other: CountRange) -> CountRange:

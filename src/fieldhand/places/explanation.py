@@ -95,8 +95,8 @@ def _part(step: ResolutionStep, words: str) -> ResolvedPart:
         words=words,
         rule=step.notes.rule,
         candidates=step.notes.candidates,
-        chosen=len(step.found),
-        ids=tuple(p.id for p in step.found.keep(slice(_FEW)).places),
+        chosen=len(step.places),
+        ids=tuple(p.id for p in step.places.keep(slice(_FEW)).places),
         runners_up=step.notes.runners_up,
         notes=tuple(step.notes.remarks),
     )

@@ -1,4 +1,4 @@
-"""Places in a count in words: "third", "12th", "second last"."""
+"""Wording of ordinals: "third", "12th", "second last"."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ from typing import Literal
 
 from fieldhand.language import message
 
-#: What an ordinal stands before or for, which other languages say differently.
+#: Noun of an ordinal, which other languages inflect differently.
 Ranked = Literal["tree", "row", "one"]
 
 
 def say_ordinal(number: int, of: Ranked = "tree") -> str:
-    """Return an ordinal: "third", "12th", and from the other end "last", "second last"."""
+    """Return an ordinal: "third", "12th", or "last", "second last" for negative numbers."""
     if number == -1:
         return message("last", context=of)
     if number < 0:
@@ -49,7 +49,7 @@ def say_ordinal(number: int, of: Ranked = "tree") -> str:
 
 
 def say_ranked_tree(number: int) -> str:
-    """The tree that has a number in a count: "the third tree", "the second last tree"."""
+    """Return a tree with its ordinal: "the third tree", "the second last tree"."""
     if number < -1:
         return message("the {ordinal} last tree", ordinal=say_ordinal(-number))
     return message("the {ordinal} tree", ordinal=say_ordinal(number))

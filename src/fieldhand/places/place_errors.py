@@ -65,7 +65,7 @@ def no_such_block(site: Site, block: str) -> PlaceError:
     return _no_such_area(site, "block", block)
 
 
-def no_such_row(site: Site, blocks: Sequence[Block], said: str) -> PlaceError:
+def no_such_row(site: Site, blocks: Sequence[Block], name: str) -> PlaceError:
     """Return the error for a row that none of these blocks has."""
     names = list(dict.fromkeys(row.name for block in blocks for row in block.rows))
     has = counted("there is {count} row", "there are {count} rows", len(names))
@@ -73,8 +73,8 @@ def no_such_row(site: Site, blocks: Sequence[Block], said: str) -> PlaceError:
         has = message("{rows}: {names}", rows=has, names=listed(names))
     else:
         has = message("{rows}, {first} to {last}", rows=has, first=short(names[0]), last=short(names[-1]))
-    near = "" if said.lstrip("-").isdecimal() else _alike(said, names)
-    what = message("there is no row '{name}'", name=short(said))
+    near = "" if name.lstrip("-").isdecimal() else _alike(name, names)
+    what = message("there is no row '{name}'", name=short(name))
     if len(site.planting.blocks) > 1:
         what = message("{what} in {blocks}", what=what, blocks=listed([say_block(b.name) for b in blocks]))
     return PlaceError(what, where=site.name, advice=joined(" ", (near, has)) if near else has)

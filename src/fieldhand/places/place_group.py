@@ -88,10 +88,10 @@ class PlaceGroup:
         planted = self.site.planting.rank
         return np.where(self.is_tree, planted[self.index * self.is_tree], -1)
 
-    def without(self, taken: PlaceGroup) -> PlaceGroup:
-        """Return the places that are not among ``taken``."""
-        others = set(taken.places) if taken.others and self.others else set()
-        mask = ~np.isin(self.index, taken.index[taken.index >= 0])
+    def without(self, excluded: PlaceGroup) -> PlaceGroup:
+        """Return the places that are not among ``excluded``."""
+        others = set(excluded.places) if excluded.others and self.others else set()
+        mask = ~np.isin(self.index, excluded.index[excluded.index >= 0])
         if others:
             mask &= [k >= 0 or self.others[-1 - k] not in others for k in self.index.tolist()]
         return self.keep(mask)

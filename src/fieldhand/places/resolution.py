@@ -1,4 +1,4 @@
-"""Resolve a selector: each part works on the group left by the part nested in it, and takes notes."""
+"""Resolve a selector: each part works on the group left by the part nested in it, and records notes."""
 
 from __future__ import annotations
 
@@ -49,11 +49,11 @@ def resolve_one(selector: Selector, site: Site, context: Context) -> Place:
 
 @dataclass(frozen=True, eq=False)
 class ResolutionStep:
-    """A resolved part of a selector."""
+    """A resolved part of a selector: its notes and the places found."""
 
     selector: Selector
     notes: ResolutionNotes
-    found: PlaceGroup
+    places: PlaceGroup
 
 
 class Resolution:
@@ -63,26 +63,26 @@ class Resolution:
         steps: Resolved parts, each after those nested in it.
     """
 
-    def __init__(self, site: Site, context: Context, known: dict[str, ResolutionStep] | None = None) -> None:
+    def __init__(self, site: Site, context: Context, resolved: dict[str, ResolutionStep] | None = None) -> None:
         self.site = site
         self.context = context
         self.steps: list[ResolutionStep] = []
-        self._known: dict[str, ResolutionStep] = {} if known is None else known
+        self._resolved: dict[str, ResolutionStep] = {} if resolved is None else resolved
         self._listed: set[str] = set()
 
     def spots(self, selector: Selector) -> PlaceGroup:
         """Return the places that the selector leaves, at least one."""
         key = repr(selector)  # not the selector itself: selectors with 1.0 and True are equal
-        if key not in self._known:
+        if key not in self._resolved:
             notes = ResolutionNotes()
             found = selector.resolve(self, notes)
             if not len(found):
                 raise nothing(self.site, selector)
-            self._known[key] = ResolutionStep(selector, notes, found)
+            self._resolved[key] = ResolutionStep(selector, notes, found)
         if key not in self._listed:
             self._listed.add(key)
-            self.steps.append(self._known[key])
-        return self._known[key].found
+            self.steps.append(self._resolved[key])
+        return self._resolved[key].places
 
     def one(self, selector: Selector) -> PlaceGroup:
         """Return the one place that the selector leaves."""
@@ -119,15 +119,17 @@ class Resolution:
         return PlaceGroup(site=self.site, index=np.array(known, dtype=np.intp))
 
     def origin(self, selector: Selector) -> Origin:
-        """Return what distances are measured from: the zone itself for a selector of all its trees."""
+        """Return the origin of distances: the zone itself for a selector of all its trees, else its places."""
         zones = zones_called(self.site, selector.whole_zone)
         return ZoneArea(site=self.site, area=shapely.union_all(zones)) if zones else self.spots(selector)
 
     def reference(self, selector: Selector, of: PlaceGroup, *, picks_too: bool = True) -> PlaceGroup:
-        """Return the group whose extent counts: ``of`` before visited trees (and attributes and picks) are taken out.
+        """Return the reference group: ``of`` before visited trees (and attributes and picks) are removed.
 
         Args:
-            selector: What ``of`` comes from.
+            selector: Selector that ``of`` results from.
+            of: Places of that selector.
+            picks_too: As for :meth:`Selector.reference`.
         """
         bare = selector.reference(picks_too=picks_too)
-        return of if bare == selector else Resolution(self.site, self.context, self._known).spots(bare)
+        return of if bare == selector else Resolution(self.site, self.context, self._resolved).spots(bare)

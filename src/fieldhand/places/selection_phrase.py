@@ -7,7 +7,7 @@ from fieldhand.places.noun_phrase import NounPhrase, clauses, many, one
 
 
 def superlative(word: str, count: int) -> str:
-    """Return "northernmost", inflected for a number of trees."""
+    """Return a superlative such as "northernmost", inflected for a number of trees."""
     match word:
         case "northernmost":
             return counted("northernmost", "northernmost", count)
@@ -35,13 +35,13 @@ def foremost_phrase(word: str, count: int, group: NounPhrase) -> NounPhrase:
 
 
 def picked_phrase(group: NounPhrase, count: int, which: str, *, that_is: bool = True) -> NounPhrase:
-    """Return the trees of a group that are nearest to something, or have the most of something.
+    """Return the phrase for trees picked from a group by a criterion.
 
     Args:
-        group: What they are picked from.
-        count: How many.
-        which: By what: "nearest to the middle of the site", "with the highest yield".
-        that_is: ``which`` follows a clause as "that is nearest to ...".
+        group: Phrase of the group.
+        count: Number of trees.
+        which: Criterion: "nearest to the middle of the site", "with the highest yield".
+        that_is: Phrase the criterion as a relative clause: "that is nearest to ...".
     """
     build = one if count == 1 else many
     if not that_is:
@@ -69,5 +69,5 @@ def picked_phrase(group: NounPhrase, count: int, which: str, *, that_is: bool = 
 
 
 def the_most(word: str) -> str:
-    """Return the name, in a note, of those that come first: "the northernmost"."""
+    """Return a superlative with its article, for notes: "the northernmost"."""
     return message("the {northernmost}", northernmost=superlative(word, 1))

@@ -1,7 +1,12 @@
-"""Every selector. To add one, write its file, import it here and add it to ``SELECTORS``.
+"""The registry of all selectors (``fh.selectors``).
 
-The plan language of Tasks (:mod:`fieldhand.task.codec_shapes`), its schema, the definitions for language models and the
-benchmark of sites follow from ``SELECTORS``, in its order.
+To add a selector, write its file, import it here and add it to ``SELECTORS``. The plan language of Tasks
+(:mod:`fieldhand.task.codec_shapes`), its schema, the definitions for language models and the benchmark of sites are
+derived from ``SELECTORS``, in its order.
+
+Example:
+    >>> from fieldhand.places import selectors as s
+    >>> s.Nearest(to=s.Marker(name="charger"), count=3, of=s.Rows(first="2", last="2"))
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Selectors in words that a grower can sign: the only wording of places, for messages, read-back and the map.
+"""Wording of selectors, used for all messages, the read-back and the map.
 
 The phrase of a selector is built from the inside out. Filters (an attribute, a zone, a half of the site, a row)
 accumulate around one noun: "the yellow trees of row 3 in the northern half". A pick (the northernmost, the 3 nearest)

@@ -1,4 +1,4 @@
-"""What a planner is, and the three things that it may answer."""
+"""The planner protocol and its three outcomes: planned, a clarifying question, or refused."""
 
 from __future__ import annotations
 
@@ -17,7 +17,12 @@ from fieldhand.task.plan import Span
 
 @dataclass(frozen=True, kw_only=True)
 class Planned:
-    """The request was understood. What the operator should know before approving stands in the Task."""
+    """The outcome of an understood request (``fh.Planned``).
+
+    Attributes:
+        task: Task to review and approve; assumptions and warnings of the planner are part of it.
+        planner: Name of the planner that made it.
+    """
 
     task: Task
     planner: str
@@ -25,12 +30,23 @@ class Planned:
 
 @dataclass(frozen=True, kw_only=True)
 class Clarify:
-    """The request can mean two things here: one question, with the answers to choose from.
+    """The outcome of an ambiguous request: one question with its choices (``fh.Clarify``).
+
+    Answer it by planning the request again with an :class:`Answer`.
+
+    Example:
+        >>> outcome = planner.plan(request, site, robot)
+        >>> if isinstance(outcome, Clarify):
+        ...     answer = Answer(question=outcome.question, answer=outcome.choices[0])
+        ...     outcome = planner.plan(request, site, robot, (answer,))
 
     Attributes:
-        places: For each choice, the places that it would mean; empty for one that nobody knows of yet. Nothing at all
-            where the choices do not differ on the map.
-        free: Other words than a choice can be an answer; else they are a request of their own.
+        question: The question, as a sentence.
+        choices: Answers to choose from; empty for an open question.
+        places: Places that each choice would select, in the order of ``choices``; empty for a choice whose places are
+            unknown so far, and an empty tuple if the choices do not differ on the map.
+        planner: Name of the planner that asks.
+        free: An answer may use words other than a choice; otherwise such words are treated as a new request.
     """
 
     question: str
@@ -41,10 +57,10 @@ class Clarify:
 
     @property
     def task(self) -> NoReturn:
-        """Raise: a question has no Task.
+        """Raise, because a question has no Task.
 
         Raises:
-            RequestError: Always; it holds the question.
+            RequestError: Always; the message contains the question.
         """
         raise RequestError(
             message("a question first: {question}", question=self.question),
@@ -56,11 +72,12 @@ class Clarify:
 
 @dataclass(frozen=True, kw_only=True)
 class Answer:
-    """What was answered to the question of a planner.
+    """An answer to a planner's question (``fh.Answer``), recorded among the assumptions of the Task.
 
     Attributes:
-        answer: One of the choices, or other words where the question takes them.
-        assumed: Nobody was asked: the first choice was taken.
+        question: The question, as in :attr:`Clarify.question`.
+        answer: One of the choices, or other words if :attr:`Clarify.free` is set.
+        assumed: The first choice was taken without asking anybody.
     """
 
     question: str
@@ -68,11 +85,11 @@ class Answer:
     assumed: bool = False
 
     def __str__(self) -> str:
-        """A sentence for the assumptions of a Task."""
+        """Return the sentence for the assumptions of a Task."""
         return str(self.sentence())
 
     def sentence(self) -> str:
-        """The same as a message, for other languages."""
+        """Return the sentence for the assumptions of a Task as a translatable message."""
         fills = {"question": self.question, "answer": self.answer}
         if self.assumed:
             return message('Asked: "{question}" Taken without asking: "{answer}".', context="assumption", **fills)
@@ -81,7 +98,13 @@ class Answer:
 
 @dataclass(frozen=True, kw_only=True)
 class Reason:
-    """Why a request was refused: what, where in the request (character ranges), and how to say it instead."""
+    """A reason for refusing a request.
+
+    Attributes:
+        what: Description of the problem.
+        said: Character ranges of the request that caused it: start, and end (exclusive).
+        advice: Suggested wording or remedy; empty if there is none.
+    """
 
     what: str
     said: tuple[Span, ...] = ()
@@ -90,17 +113,22 @@ class Reason:
 
 @dataclass(frozen=True, kw_only=True)
 class Refused:
-    """The request was not understood, or cannot be done with this robot on this site."""
+    """The outcome of a request that is not understood, or impossible with this robot on this site (``fh.Refused``).
+
+    Attributes:
+        reasons: Reasons for the refusal, at least one.
+        planner: Name of the planner that refused.
+    """
 
     reasons: tuple[Reason, ...]
     planner: str = ""
 
     @property
     def task(self) -> NoReturn:
-        """Raise: a refused request has no Task.
+        """Raise, because a refused request has no Task.
 
         Raises:
-            RequestError: Always; it holds the reasons.
+            RequestError: Always; the message contains the reasons.
         """
         raise RequestError(
             joined("; ", [reason.what for reason in self.reasons]),
@@ -113,12 +141,12 @@ Outcome = Planned | Clarify | Refused
 
 @dataclass(frozen=True, kw_only=True)
 class PlannerSettings:
-    """Settings with which a planner is made.
+    """Settings for creating a planner.
 
     Attributes:
-        environ: Environment variables; secrets come from nowhere else.
+        environ: Environment variables, the only source of secrets.
         transcript: File to which prompts and answers of a language model are appended.
-        watched: Wraps the connection to a language model, for example to count its answers.
+        watched: Function that wraps the connection to a language model, for example to count its answers.
     """
 
     environ: Mapping[str, str]
@@ -127,17 +155,20 @@ class PlannerSettings:
 
 
 class Planner(Protocol):
-    """Turns words into a Task, or says why not. Names places; never computes coordinates."""
+    """A planner converts a request to a Task, a question or a refusal (``fh.Planner``).
+
+    Plans name places by selectors; a planner never computes coordinates.
+    """
 
     def plan(self, request: str, site: Site, robot: RobotProfile, answers: tuple[Answer, ...] = ()) -> Outcome:
         """Plan one request.
 
         Args:
-            request: What was asked, word for word.
-            site: Site that it is for.
-            robot: Robot that it is for.
-            answers: What was answered to earlier questions about this request, in their order. They stand among the
-                assumptions of the Task; its request stays as it was typed.
+            request: The request as typed.
+            site: Site of the mission.
+            robot: Robot that executes it.
+            answers: Answers to earlier questions about this request, in order. They become assumptions of the Task; its
+                request remains as typed.
 
         Raises:
             RequestError: The request is empty or too long.
@@ -146,5 +177,5 @@ class Planner(Protocol):
         ...
 
 
-#: Makes a planner. Distributions register one under a name by an entry point of the group ``fieldhand.planners``.
+#: Function that creates a planner; distributions register one by an entry point of the group ``fieldhand.planners``.
 PlannerFactory = Callable[[PlannerSettings], Planner]

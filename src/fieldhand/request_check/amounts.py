@@ -15,28 +15,30 @@ AmountKind = Literal[
     "temperature", "speed", "unit", "ordinal", "plain",
 ]  # fmt: skip
 
-#: Words that may stand between the numbers of a list of names ("trees 4, 9 and 12").
+#: Words between the numbers of a list of names ("trees 4, 9 and 12").
 _JOINS = frozenset({",", "and", "or", "&", "to", "-", "\u2013", "through", "thru", "then", "#"})
 _RANGES = frozenset({"to", "-", "\u2013", "through", "thru"})
 _NUMBERED = frozenset({"#", "number", "no", "nr", "id", "ids", "numbers"})
-#: More digits than these are no amount of anything on a farm.
+#: Maximum number of digits of an amount.
 _LONGEST = 15
-#: How far before a number the word stands that compares with it.
+#: Maximum distance in tokens of a comparison word before its number.
 _COMPARED = 5
 
 
 @dataclass(frozen=True, kw_only=True)
 class StatedAmount:
-    """A number of the request.
+    """A number in the request.
 
     Attributes:
-        values: Possible values in the unit that plans use (metres, seconds, degC, percent, a plain number).
-        said: The words, for messages.
-        actions: For captures, the actions that the noun may mean.
-        unit: The unit of a ``unit``.
-        index: Index of its token.
-        compared: ``below`` or ``above`` where it is a threshold, ``between`` for the end of a range, else empty.
-        through: Last number of the range that an ``id`` or ``row`` begins, else 0.
+        kind: Kind of quantity.
+        values: Possible values in the unit of plans (metres, seconds, degC, percent, or a plain number).
+        said: Words of the request, for messages.
+        index: Index of its first token.
+        sentence: Number of its sentence.
+        actions: Actions that the noun may mean, if captures are counted.
+        unit: Unit, if the kind is ``unit``.
+        compared: ``below`` or ``above`` for a threshold, ``between`` for an end of a range, else empty.
+        through: Last number of a range that an ``id`` or ``row`` begins, else 0.
     """
 
     kind: AmountKind
@@ -52,7 +54,7 @@ class StatedAmount:
 
 @dataclass(frozen=True, kw_only=True)
 class Noun:
-    """A noun of the robot's vocabulary at a token: its length in tokens and the actions that it may mean."""
+    """A noun of the robot's vocabulary in the request: its length in tokens and the actions that it may mean."""
 
     length: int
     actions: frozenset[str]
@@ -70,9 +72,9 @@ def amounts(said: Sequence[Token], nouns: dict[int, Noun], units: frozenset[str]
     """Return every number of a request.
 
     Args:
-        said: The request.
-        nouns: The robot's nouns by their first token.
-        units: Units of the quantities that the robot measures, in lower case.
+        said: Tokens of the request.
+        nouns: Nouns of the robot's vocabulary by the index of their first token.
+        units: Units of the robot's quantities in lower case.
     """
     found: list[StatedAmount] = []
     for number in _numbers(said):
@@ -182,13 +184,13 @@ def _amount(said: Sequence[Token], number: _Number, nouns: dict[int, Noun], unit
 
 
 def _pace(said: Sequence[Token], k: int) -> float:
-    """Return the seconds of a speed's unit of time: "/ s", "per hour", "a second"; 0 where no speed is said."""
+    """Return the seconds of a speed's unit of time ("/ s", "per hour", "a second"); 0 if it is no speed."""
     per = [token.text for token in said[k : k + 2]]
     return w.TIMES.get(per[1], 0.0) if len(per) == 2 and per[0] in ("/", "per", "a", "an") else 0.0
 
 
 def _name(before: Sequence[Token]) -> AmountKind | None:
-    """Return the kind of name that a number is, from the words before it: "tree 7", "row #3"."""
+    """Return the kind of name that a number is by the words before it: "tree 7", "row #3"."""
     texts = [token.text for token in before]
     numbered = bool(texts) and texts[-1] in _NUMBERED
     head = "" if not texts else texts[0] if numbered and len(texts) > 1 else texts[-1]
@@ -215,7 +217,7 @@ def _celsius(value: float, said: Sequence[Token], k: int) -> tuple[float, ...]:
 
 
 def _counted(said: Sequence[Token], k: int, nouns: dict[int, Noun]) -> tuple[AmountKind, frozenset[str]] | None:
-    """Return what a number counts: the noun at the end of its phrase."""
+    """Return the kind and actions that a number counts, by the noun at the end of its phrase."""
     for at in range(k, min(k + 6, len(said))):
         text = said[at].text
         if at in nouns and nouns[at].actions:
@@ -232,7 +234,7 @@ def _counted(said: Sequence[Token], k: int, nouns: dict[int, Noun]) -> tuple[Amo
 
 
 def _compared(said: Sequence[Token], index: int) -> str:
-    """Return the comparison of which a number is the threshold."""
+    """Return the direction of the comparison whose threshold a number is; empty if there is none."""
     for k in range(index - 1, max(-1, index - 1 - _COMPARED), -1):
         text = said[k].text
         number = k + 2 < len(said) and (w.is_number(said[k + 1].text) or said[k + 1].text in w.NUMBERS)

@@ -1,7 +1,7 @@
-"""Comparison of a plan with its request: certain contradictions only.
+"""Compare a plan with its request and report certain contradictions only.
 
-Each function takes what was stated and what is planned and yields contradictions of one kind. Two questions are asked
-of each fact: is what the request states in the plan, and does what the plan holds come from the request?
+Each function yields contradictions of one kind, in both directions: facts of the request that the plan lacks, and facts
+of the plan that do not follow from the request.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
 
-#: Steps that are counted together.
+#: Maximum number of consecutive steps whose counts are added.
 _MOST_STEPS = 40
-#: Numbers that count nothing, and those that count no captures.
+#: Kinds of numbers that count nothing, and those that count no captures.
 _NAMES = frozenset({"id", "row", "name", "length", "time", "percent", "temperature", "speed", "unit", "attribute"})
 _PLACES = _NAMES | {"trees", "corners", "rows", "ordinal"}
 
@@ -34,7 +34,7 @@ _PLACES = _NAMES | {"trees", "corners", "rows", "ordinal"}
 def mismatches(task: Task, site: Site, robot: RobotProfile) -> tuple[PlanMismatch, ...]:
     """Return every certain contradiction between a plan and its request, each once.
 
-    A request that states no such fact has none, and a plan without any may still be wrong.
+    A plan without contradictions may still be wrong.
     """
     request = task.command.read_as or task.command.request
     sizes = SelectorSizes(task, site)
@@ -97,14 +97,14 @@ def _counts(said: RequestFacts, plan: PlanFacts, sizes: SelectorSizes) -> Iterat
 
 
 def _comes_to_what_is_said(said: RequestFacts, plan: PlanFacts, node: str, sizes: SelectorSizes) -> bool:
-    """Return True if a selector only keeps some of what is counted inside it, as many as the request says."""
+    """Return True if a selector filters a counted group to as many places as the request states."""
     top = next(x for name, x in plan.selectors if name == node)
     request_facts = {n for a in said.amounts if a.kind in ("trees", "captures") for n in numbers_of(a)}
     return not hasattr(top, "count") and sizes.of_node(node) in request_facts
 
 
 def _phrase(said: RequestFacts, amount: StatedAmount) -> str:
-    """Return a number with the words after it, up to what it counts."""
+    """Return a number with the following words, up to the counted noun."""
     end = amount.index + 1
     for k in range(amount.index + 1, min(amount.index + 6, len(said.said))):
         text = said.said[k].text
@@ -117,7 +117,7 @@ def _phrase(said: RequestFacts, amount: StatedAmount) -> str:
 
 
 def _explained(plan: PlanFacts, amount: StatedAmount) -> set[int]:
-    """Return every number of things that the plan may be said to take or visit."""
+    """Return every number that describes captures or visits of the plan."""
     acts = [one for one in plan.captures if not amount.actions or one.action in amount.actions]
     found = {n for one in acts for n in (one.each, *one.around)}
     for one in acts:
@@ -142,7 +142,7 @@ def _sums(acts: list[PlannedCaptures]) -> set[int]:
 
 
 def _visited(plan: PlanFacts, sizes: SelectorSizes) -> set[int]:
-    """Return at how many places each selector comes out ("all 18 yellow trees"), and steps that follow each other."""
+    """Return the number of places of each selector ("all 18 yellow trees"), and of consecutive steps."""
     steps = [sizes.of_node(node.id) for node in plan.nodes if node.selector is not None]
     found = set(sizes.every)
     for start in range(min(len(steps), _MOST_STEPS)):
@@ -152,9 +152,9 @@ def _visited(plan: PlanFacts, sizes: SelectorSizes) -> set[int]:
 
 
 def _allowed(said: RequestFacts, number: PlannedNumber) -> set[int]:
-    """Return the whole numbers that the request permits in place of a number of the plan.
+    """Return the whole numbers of the request that explain a number of the plan.
 
-    What only names a tree or a row, or has a unit, is no number of captures.
+    Names of trees and rows, and numbers with a unit, are no numbers of captures.
     """
     captures = number.what == "captures at a place"
     others = _PLACES if captures else _NAMES if number.what.endswith(" count") else frozenset()
@@ -175,5 +175,5 @@ def _allowed(said: RequestFacts, number: PlannedNumber) -> set[int]:
 
 
 def _by_itself(said: RequestFacts, what: str) -> bool:
-    """Return True if a number needs no words, such as one row of "each row"."""
+    """Return True if a number follows without being stated, such as one row of "each row"."""
     return said.vague or (what.startswith(("rows ", "inrow ")) and bool(said.words & {"each", "every", "all", "per"}))

@@ -14,18 +14,18 @@ from fieldhand.task.frames import BudgetKind
 _KINDS: dict[BudgetKind, tuple[str, str]] = {
     "distance_m": ("length", "m"), "duration_s": ("time", "s"), "energy_percent": ("percent", "%"),
 }  # fmt: skip
-#: Words for what is left of the robot's energy.
+#: Words for the robot's remaining energy.
 BATTERY = frozenset({"battery", "charge", "energy", "power", "capacity"})
 _KEEPS = frozenset(
     {"keep", "keeping", "reserve", "left", "leave", "leaving", "remain", "remains", "remaining", "before"}
 )
 _USES = frozenset({"use", "uses", "using", "used", "spend", "spending", "within", "consume", "more", "most", "up"})
-#: Words that stand by a limit on driving or on time, in the few words before it.
+#: Words shortly before a limit on distance or time.
 _LIMITS = words_in("""
     within in under most more less than maximum max limit limited only up exceed exceeding longer have spend
     spending budget of further over use using takes take
     """)
-#: A rounded conversion is the same amount.
+#: Relative tolerance for rounded conversions.
 _CLOSE = 0.02
 _PARTS = {"half": 0.5, "quarter": 0.25, "third": 1 / 3}
 
@@ -79,7 +79,7 @@ def _dropped(said: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> Itera
     before = {t.text for t in said.said[max(0, amount.index - 6) : amount.index]}
     after = {t.text for t in said.said[amount.index : amount.index + 4]}
     if amount.kind == "length" and said.spaced and plan.trees:
-        return  # the trees that stand so are named
+        return  # the plan names the trees at that distance
     if amount.kind == "length" or before & _LIMITS:
         if amount.kind == "length" and not (before & _LIMITS or after & {"apart", "intervals", "interval", "spacing"}):
             return
@@ -87,7 +87,7 @@ def _dropped(said: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> Itera
 
 
 def _drives(plan: PlanFacts, metres_per_second: float) -> bool:
-    """Return True if the plan limits its speed to that."""
+    """Return True if the plan limits its speed to this value."""
     speed = plan.task.constraints.speed_m_s
     return speed is not None and _close(speed, metres_per_second)
 

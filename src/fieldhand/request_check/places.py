@@ -17,13 +17,13 @@ from fieldhand.terms import Side
 
 _SIDES: tuple[Side, ...] = ("north", "east", "south", "west")
 _CHARGER = frozenset({"charger", "dock"})
-#: Words of a request that says what is to be done when something goes wrong.
+#: Words of a request that specifies a reaction to faults.
 _OF_FAULTS = w.words_in("fail fails failed fault error abort aborted wrong stuck problem battery charge budget low")
 _EACH_KIND = frozenset({"each", "every", "all", "per", "both", "different", "any"})
 _NUMBER = re.compile("-?[0-9]{1,9}")
-#: A side that is named by the one that was spoken of before.
+#: Pattern of a side that refers to the one mentioned before.
 _OTHER_PART = re.compile(r"\bother (?:half|side|end|edge|corner|quarter)\b")
-#: Rows that are not called by a number each.
+#: Pattern of rows without a number for each.
 _SOME_ROWS = re.compile(
     r"\b(?:each|every|all|per|other|last|final|next|odd|even|alternate|middle|cent(?:er|re|ral)|\w+most|by)"
     r"(?: \w+){0,3} rows?\b"
@@ -56,7 +56,7 @@ def _trees(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
             continue
         yield PlanMismatch(kind="place", message=f"the request names tree {n}, and the plan does not")
     if said.spaced:
-        return  # which trees stand so far from each other, only the site says
+        return  # the trees at that distance depend on the site
     spoken = said.text.replace(" ", "")
     numbers = {str(n) for n in said.whole_numbers}
     for node, tree in plan.trees:
@@ -131,7 +131,7 @@ def _areas(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMism
     rows = {t for _, x in plan.having(s.Rows) if isinstance(x, s.Rows) for t in (x.first.lower(), x.last.lower())}
     for name in sorted(said.zones - held - rows):
         if name in w.COMPASS and w.COMPASS[name] <= pointed:
-            continue  # a block called "North" is not what "from the north" or "the northernmost" means
+            continue  # "from the north" or "the northernmost" does not mean a block called "North"
         if not any(name in other for other in held) and not _stands_in(plan, name, site):
             yield PlanMismatch(kind="place", message=f"the request names '{name}', and the plan does not")
     for node, name in plan.areas:
@@ -144,7 +144,7 @@ def _areas(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMism
 
 
 def _pointed(plan: PlanFacts) -> set[Side]:
-    """Return the sides of the compass that a plan holds anywhere: places there, counts from there, ways and orders."""
+    """Return all compass sides in a plan: of places, counts, directions and orders."""
     held: set[str] = set(plan.sides)
     for _, selector in plan.selectors:
         held |= {str(getattr(selector, name, "")) for name in ("counted_from", "side", "towards")}
@@ -155,7 +155,7 @@ def _pointed(plan: PlanFacts) -> set[Side]:
 
 
 def _stands_in(plan: PlanFacts, name: str, site: Site) -> bool:
-    """Return True if a tree that the plan names by its id stands in the zone or block of that name."""
+    """Return True if a tree that the plan names by its id is in the zone or block of that name."""
     from fieldhand.errors import PlaceError
     from fieldhand.places.context import Context
     from fieldhand.places.resolution import resolve
@@ -210,7 +210,7 @@ def _sides(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
             yield PlanMismatch(kind="side", message=f"the request says '{side}', and no place of the plan is there")
     if said.unknown or said.words & w.VAGUE_SIDES or _OTHER_PART.search(said.text):
         return
-    around = len(plan.sides) == 4 and not spoken  # each quarter, or the edge all around
+    around = len(plan.sides) == 4 and not spoken  # each quarter, or the whole edge
     ends = frozenset() if said.sides else plan.ends_driven
     for side, node in plan.sides.items():
         if side not in said.sides and not around and side not in ends:
@@ -238,7 +238,7 @@ def _attributes(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
     for node, attribute, value in plan.values:
         words = {t.text for t in _tokens(str(value))}
         if said.words & _EACH_KIND and stems & {w.singular(t.text) for t in _tokens(attribute)}:
-            continue  # of each variety
+            continue  # the plan covers each variety
         if isinstance(value, str) and not words & said.words:
             yield PlanMismatch(
                 kind="attribute",

@@ -1,6 +1,6 @@
 """Countable facts of a plan: captures, places, tests, limits, names, sides, exit.
 
-From the Task alone. Where the plan leaves a number to the site, to a reading or to the budget, there is a range.
+They follow from the Task alone; numbers that depend on the site, a reading or the budget are ranges.
 """
 
 from __future__ import annotations
@@ -20,20 +20,22 @@ from fieldhand.task.codec_shapes import element_name
 from fieldhand.task.frames import Task
 from fieldhand.terms import Side, Test, Value
 
-#: Sides that lie across from each other.
+#: Opposite sides.
 _ACROSS: tuple[tuple[Side, Side], ...] = (("north", "south"), ("east", "west"))
 
 
 @dataclass(frozen=True, kw_only=True)
 class PlannedCaptures:
-    """Captures of one act of the plan.
+    """The captures of one act of the plan.
 
     Attributes:
-        each: At one place.
-        places: Distinct places that its for-eaches lead to.
-        total: In the whole mission, if it is reached.
+        node: Id of the act.
+        action: Name of the action.
+        each: Number of captures at one place.
+        places: Number of distinct places, from the enclosing for-eaches.
+        total: Number of captures in the whole mission, if the act is reached.
         bound: True if it is conditional, in a try, or optional.
-        around: Numbers that stand in the selectors and nodes around it.
+        around: Numbers in the enclosing selectors and nodes.
     """
 
     node: str
@@ -47,13 +49,19 @@ class PlannedCaptures:
 
 @dataclass(frozen=True, kw_only=True)
 class PlannedTest:
-    """A threshold that the plan tests: a reading's, or an attribute's where ``quantity`` is empty.
+    """A threshold tested by the plan: of a reading, or of an attribute if ``quantity`` is empty.
 
     Attributes:
-        levels: The word, where it is tested by one.
-        plainly: It leads to a ``then`` without an ``otherwise``, and neither negation nor a stop turns it around.
-        then, otherwise: Actions that it leads to where it holds and where not, "stop" among them; both empty where it
-            ends a repetition or a negation turns it around.
+        node: Id of the node that tests it.
+        quantity: Measured quantity.
+        attribute: Attribute of the tree.
+        test: Comparison.
+        values: Thresholds.
+        unit: Unit of the thresholds.
+        level: Level word, if the test uses one.
+        plainly: The test has a ``then`` without an ``otherwise``, and neither negation nor a stop inverts it.
+        then, otherwise: Actions if the test is true or false, including "stop"; both empty if it ends a repetition or
+            is negated.
     """
 
     node: str
@@ -70,7 +78,7 @@ class PlannedTest:
 
 @dataclass(frozen=True, kw_only=True)
 class PlannedNumber:
-    """A whole number or a distance that stands in a selector or a node, other than the one that holds by itself."""
+    """A whole number or distance in a selector or node that differs from the default."""
 
     node: str
     what: str
@@ -80,7 +88,7 @@ class PlannedNumber:
 
 @dataclass(frozen=True, kw_only=True)
 class PlanFacts:
-    """Facts of a Task: ``nodes`` are its plan nodes in their order, ``selectors`` every part of theirs."""
+    """The facts of a Task: its plan nodes in order, every selector of these, captures, tests and numbers."""
 
     task: Task
     nodes: tuple[p.Node, ...]
@@ -116,7 +124,7 @@ class PlanFacts:
 
     @cached_property
     def sides(self) -> dict[Side, str]:
-        """Return the sides of the compass that selectors name, each with a node; none for all four corners together."""
+        """Return the compass sides named by selectors, each with a node; none for all four corners together."""
         found: dict[Side, str] = {}
         visited: dict[Selector, set[str]] = {}
         for _, x in self.selectors:
@@ -124,14 +132,14 @@ class PlanFacts:
                 visited.setdefault(x.of, set()).update(x.which)
         for node, x in self.selectors:
             if isinstance(x, s.Corners) and len(visited[x.of]) == 4:
-                continue  # one after the other they are all four, whose sides nobody has to say
+                continue  # together they are all four sides, which the request need not mention
             for side in x.sides:
                 found.setdefault(side, node)
         return found
 
     @cached_property
     def ends_driven(self) -> frozenset[Side]:
-        """Return sides that only distinguish the two ends of one way, and no other place."""
+        """Return the sides that only distinguish the two ends of one direction."""
         drives = {n.id: n.selector for n in self.nodes if n.only_drives and isinstance(n.selector, s.Extreme)}
         ends = {(place.of, place.side) for place in drives.values()}
         elsewhere = {side for node, x in self.selectors if x != drives.get(node) for side in x.sides}
@@ -153,7 +161,7 @@ def plan_facts(task: Task, size: Callable[[str], int | None]) -> PlanFacts:
     """Return the facts of a Task.
 
     Args:
-        size: At how many places the selector of a node comes out on the site, by the node's id; None where it is open.
+        size: Function from a node's id to the number of places of its selector on the site; None if that is open.
     """
     root = task.composition.plan
     nodes = tuple(p.walk(root))
@@ -204,7 +212,7 @@ def _captures(node: p.Node, around: _Surroundings, size: Callable[[str], int | N
 
 
 def _visited(node: p.Node, select: Selector, around: _Surroundings, size: int | None, *, loose: bool) -> _Surroundings:
-    """Return what holds inside a node that visits each place: how many places, and the numbers that stand in it."""
+    """Return the surroundings inside a node that visits each place: number of places, and numbers in the node."""
     inside = select.size if size is None else exactly(size)
     most = frozenset({node.at_most} if node.at_most is not None else ())
     if node.at_most is not None:

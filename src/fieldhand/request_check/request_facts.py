@@ -1,4 +1,4 @@
-"""Facts that a request states outright, found by words, numbers and names."""
+"""Facts stated explicitly in a request, recognized by words, numbers and names."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from fieldhand.robot.model import Action, RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.terms import Side
 
-#: Attributes of more different words than this are names of trees rather than kinds of them.
+#: Maximum number of distinct values of an attribute that describes kinds of trees rather than naming each.
 _MOST_KINDS = 200
 _GOES_BACK = (
     r"(?:return|returns|come back|comes back|go back|get back|drive back|head back|travel back|end up|finish up)"
@@ -26,14 +26,18 @@ _TO = r"(?: again)? (?:to|at) (?:the |its |your )?"
 
 @dataclass(frozen=True, kw_only=True)
 class RequestFacts:
-    """Facts of a request, with the names of this robot and this site.
+    """The facts of a request for this robot and site.
 
     Attributes:
-        nouns: The robot's nouns by their first token.
-        zones: Names of zones and blocks of the site that are said.
-        attributes: Words that the site records of its trees, each with the token where it is said.
-        levels: Words such as "low" that are said in a condition, each with its sentence.
-        named: Tokens of names and of words of this site and this robot.
+        request: The request.
+        said: Tokens of the request: words, numbers and signs.
+        nouns: Nouns of the robot's vocabulary by the index of their first token.
+        amounts: Numbers with their quantities.
+        zones: Mentioned zones and blocks of the site.
+        attributes: Mentioned attribute values of the site's trees, each with the index of its token.
+        levels: Level words such as "low" in conditions.
+        known: Words known to this check.
+        named: Indices of the tokens that belong to names and to words of this site and robot.
     """
 
     request: str
@@ -63,7 +67,7 @@ class RequestFacts:
 
     @cached_property
     def vague(self) -> bool:
-        """Return True if "several" or the like leaves a number open."""
+        """Return True if a word such as "several" leaves a number open."""
         return bool(w.VAGUE.search(self.text))
 
     @cached_property
@@ -84,7 +88,7 @@ class RequestFacts:
         return tuple(x for x in (*(t.text for t in self.said if len(t.text) > 1), *pairs, *split) if x in w.COMPASS)
 
     def conditional(self, sentence: int) -> bool:
-        """Return True if a sentence has a condition; a mere question ("check whether") is none."""
+        """Return True if a sentence contains a condition; an indirect question ("check whether") does not count."""
         inside = [t.text for t in self.said if t.sentence == sentence]
         asked = re.search(r"\b(?:check|see|find out|tell me|know|report|look) (?:if|whether)\b|\bwhether\b", self.text)
         if asked and sum(t.text in w.CONDITIONAL for t in self.said) <= 1:
@@ -98,7 +102,7 @@ class RequestFacts:
 
     @cached_property
     def returns(self) -> str:
-        """Return where the request ends: ``start``, ``end``, or empty."""
+        """Return the marker to which the request returns at the end: ``start``, ``end``, or empty."""
         text = self.text
         home = re.search(
             rf"\b{_GOES_BACK}(?: \w+)?{_TO}{_START}\b(?! of| tree)|\b(?:go|come|return|drive|head) home\b", text
@@ -160,7 +164,7 @@ def _norm(name: str) -> str:
 
 
 def _names(site: Site) -> set[str]:
-    """Return the zones, blocks and rows that have a name, as words."""
+    """Return the names of zones, blocks and rows as words."""
     blocks = [b.name for b in site.planting.blocks]
     rows = [r.name for b in site.planting.blocks for r in b.rows]
     named = {_norm(name) for name in (*(z.name for z in site.zones if z.name), *blocks, *rows)}
@@ -181,7 +185,7 @@ def _kinds(site: Site) -> set[str]:
 
 
 def _said_names(said: Sequence[Token], names: set[str]) -> tuple[set[str], set[int]]:
-    """Return the names in the request and their tokens; a name of plain words alone ("row", "end") is none."""
+    """Return the names in the request and their tokens; names of plain words only ("row", "end") do not count."""
     found: set[str] = set()
     covered: set[int] = set()
     for name, k in _phrases(said, names):
@@ -225,7 +229,7 @@ def _singular(phrase: str) -> str:
 
 
 def _stem(phrase: str) -> str:
-    """Return a phrase as the profile writes it: singular, and a verb without its ending ("photographing")."""
+    """Return a phrase in the form of the profile: singular, and verbs without ending ("photographing")."""
     head, space, last = phrase.rpartition(" ")
     for ending in ("ing", "ed"):
         if not head and last.endswith(ending) and len(last) > len(ending) + 4:
@@ -234,7 +238,7 @@ def _stem(phrase: str) -> str:
 
 
 def _meant(word: str, robot: RobotProfile) -> frozenset[str]:
-    """Return the actions that a word may mean: those that have it, and those that measure a quantity that has it."""
+    """Return the actions that a word may mean, by their own words or those of their quantities."""
     quantities = {q.name for q in robot.quantities if word in q.words}
     return frozenset(
         a.name for a in robot.actions if word in (*a.words, *a.verbs) or quantities.intersection(a.measures)
@@ -242,7 +246,7 @@ def _meant(word: str, robot: RobotProfile) -> frozenset[str]:
 
 
 def hints(action: Action, robot: RobotProfile) -> frozenset[str]:
-    """Return every word that may refer to an action: of its names, verbs, description and quantities."""
+    """Return every word that may refer to an action: from its names, verbs, description and quantities."""
     quantities = [robot.quantity[name] for name in action.measures if name in robot.quantity]
     phrases = [action.name, action.description, *action.words, *action.verbs, *(q.name for q in quantities)]
     phrases += [word for q in quantities for word in q.words]

@@ -1,4 +1,4 @@
-"""The number of places that each selector of a plan gives on the site."""
+"""Count the places of each selector of a plan on the site."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from fieldhand.task.frames import Task
 
 
 class SelectorSizes:
-    """Count the places that each selector of a plan names.
+    """Counts of the places of each selector of a plan.
 
-    The plan is followed step by step, every branch of it, as if each visit list were visited whole: where the robot is
-    then seldom changes how many places a selector names. What has been visited before does, so those sizes are only
-    taken for what may be, and what the form of a selector fixes comes first.
+    The plan is followed on every branch as if each visit list were visited completely. The resulting position of the
+    robot seldom changes the number of places; previous visits do, so that sizes that depend on them are only possible
+    values, and a size fixed by the form of a selector takes precedence.
 
     Attributes:
-        every: Each size that a part of a selector comes out at.
+        every: Every size of a part of a selector.
     """
 
     def __init__(self, task: Task, site: Site) -> None:
@@ -33,11 +33,11 @@ class SelectorSizes:
             self._follow(node)
 
     def of_node(self, node: str) -> int | None:
-        """Return at how many places the selector of a node comes out; None where that is open, or it has none."""
+        """Return the number of places of a node's selector; None if it is open or there is no selector."""
         return self._of_node.get(node)
 
     def _follow(self, node: p.Node) -> None:
-        """Count the places of a node, and go there."""
+        """Count the places of a node and continue from there."""
         selector = node.selector
         if selector is None:
             self._bind(node, (self._here,))
@@ -60,7 +60,7 @@ class SelectorSizes:
         return selector.size.exact if found is None else len(found)
 
     def _places(self, selector: s.Selector) -> tuple[Place, ...] | None:
-        """Return the places of a selector from where the robot would be; None where it names none."""
+        """Return the places of a selector from the robot's assumed position; None if it has none."""
         from fieldhand.places.resolution import resolve
 
         known = self._from_here if selector.relative else self._known

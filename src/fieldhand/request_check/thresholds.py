@@ -13,15 +13,15 @@ from fieldhand.request_check.plan_facts import PlanFacts, PlannedTest
 from fieldhand.request_check.request_facts import RequestFacts
 from fieldhand.robot.model import RobotProfile
 
-#: A number of these kinds may be said in another unit of the same thing.
+#: Factors between units in which the same quantity may be stated.
 _FACTORS = (1.0, 100.0, 0.01, 1e4, 1e-4, 1e3, 1e-3)
-#: Numbers of attributes in this range are years of the calendar, which follow from an age.
+#: Range of attribute values that are calendar years, which may follow from an age.
 _CALENDAR = (1900.0, 2100.0)
 _WAYS = {"below": ("lt", "le"), "above": ("gt", "ge")}
 
 
 def threshold_mismatches(said: RequestFacts, plan: PlanFacts, robot: RobotProfile) -> Iterator[PlanMismatch]:
-    """Yield contradictions in what is tested."""
+    """Yield contradictions in tested thresholds and levels."""
     for amount in said.amounts:
         yield from _kept(said, plan, robot, amount)
     for test in plan.tests:
@@ -153,7 +153,7 @@ def _follows(value: float, amount: StatedAmount, test: PlannedTest) -> bool:
     if amount.kind == "unit" and test.unit and amount.unit != test.unit.lower():
         return False
     if amount.kind == "temperature":
-        # An attribute has no unit that could be compared; a reading has.
+        # An attribute has no unit to compare, unlike a reading.
         return test.unit not in ("ppm", "percent") and any(_same(value, x) for x in amount.values)
     factors = _FACTORS if amount.kind in ("unit", "percent", "plain", "attribute", "length") else (1.0,)
     return any(_same(value, x * factor) for x in amount.values for factor in factors)

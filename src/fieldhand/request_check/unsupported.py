@@ -1,7 +1,6 @@
-"""Words that no plan can express: times of day, schedules, earlier days, waiting.
+"""Report parts of a request that no plan can express: times of day, schedules, past days, waiting.
 
-A plan has no element for any of these, so whatever it holds, it leaves them out. They are looked for in the words
-alone, and a name of the site ("the Sunday block") is none of them.
+They are recognized by words alone; names of the site ("the Sunday block") do not count.
 """
 
 from __future__ import annotations
@@ -54,12 +53,12 @@ _KINDS = (
     (_pattern(_PAST), "a plan knows nothing of earlier missions"),
     (_pattern(_WAITING), "a plan holds no waiting"),
 )
-#: Of what was before a sentence may speak that asks for nothing ("We had a leak last week.").
+#: References to the past, which are harmless in a sentence without a request ("We had a leak last week.").
 _REMARKS = _KINDS[1][0]
 
 
 def unsupported_words(said: RequestFacts) -> Iterator[PlanMismatch]:
-    """Yield a contradiction for each stretch of the request that no plan can hold."""
+    """Yield a contradiction for each part of the request that no plan can express."""
     starts: dict[int, int] = {}
     at = 0
     for k, token in enumerate(said.said):

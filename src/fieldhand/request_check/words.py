@@ -1,7 +1,7 @@
-"""The words that this check knows: numbers, units, the compass, and the plainest words of requests.
+"""Word lists of this check: numbers, units, the compass, and common words of requests.
 
-A small list of its own, deliberately not the English planner's. It is for recognising a contradiction, not for
-understanding a sentence, so it may be incomplete: a word that is missing makes the check silent, never wrong.
+The lists are small and deliberately independent of the English planner's. A missing word makes the check report less,
+never something wrong.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ ORDINALS = {
         _in_order("first second third fourth fifth sixth seventh eighth ninth tenth eleventh twelfth"), start=1
     )
 }
-#: Words that stand for a number of things, without a noun of their own.
+#: Words for a number of things without a noun.
 MULTIPLES = {
     "once": 1,
     "twice": 2,
@@ -46,7 +46,7 @@ MULTIPLES = {
     "double": 2,
     "triple": 3,
 }
-#: Where one of these is said, how many is not fixed by the request; "as many as" is said apart.
+#: Words that leave a number open; "as many as" is handled separately.
 VAGUE = re.compile(r"\b(?:few|several|some(?! other)|handful|(?<!as )many|multiple|various|plenty|lots)\b")
 
 LENGTHS = {
@@ -69,7 +69,7 @@ DEGREES = words_in("c f celsius fahrenheit centigrade degree degrees deg °")
 PERCENT = frozenset(["%", "percent", "pct"])
 
 _COMPASS: tuple[Side, ...] = ("north", "east", "south", "west")
-#: What is said of the compass, and which sides it means; a corner means two.
+#: Compass words and their sides; a corner has two.
 COMPASS: dict[str, frozenset[Side]] = {}
 for _side in _COMPASS:
     for _form in ("", "s", "ern", "ernmost", "most", "erly", "ward", "wards", "bound", "erlymost"):
@@ -82,7 +82,7 @@ for _a in _NORTH_SOUTH:
         for _form in ("", "ern", "ernmost", "erly"):
             COMPASS[_a + _b + _form] = _two
         COMPASS[_a[0] + _b[0]] = _two
-#: Sides of a picture or of a slope: which compass side is meant does not stand in the words.
+#: Words for sides of a picture or slope, which name no compass side.
 VAGUE_SIDES = words_in("""
     left right top bottom upper uphill downhill front back rear sunny shady up down opposite
     across clockwise anticlockwise counterclockwise perimeter outer outermost edges border borders corners
@@ -109,8 +109,8 @@ NEGATIONS = words_in("""
     cannot can't won't nothing none do-not besides
     """)
 
-#: Plain words of requests, which add nothing that a plan could hold. What stands in no list is a word that the check
-#: does not know; where there is one, nothing is said to be invented.
+#: Common words of requests without content for a plan. A word in no list is unknown; in a request with unknown words,
+#: no part of the plan is reported as invented.
 PLAIN = words_in("""
     a an the this that these those it its it's he she they them their my our your i we you me us one ones any all
     each every both either another other others different some same such own new next last final near nearby nearest
@@ -146,7 +146,13 @@ _HALF_A_DOZEN = re.compile(r"\bhalf[ -](?:a[ -])?dozen\b")
 
 @dataclass(frozen=True, kw_only=True)
 class Token:
-    """A word, a number or a sign of the request in lower case, and which sentence it stands in."""
+    """A word, number or sign of the request.
+
+    Attributes:
+        text: Text in lower case.
+        sentence: Number of its sentence.
+        joined: True if it follows the previous token without a space.
+    """
 
     text: str
     sentence: int
@@ -154,10 +160,7 @@ class Token:
 
 
 def tokens(request: str) -> tuple[Token, ...]:
-    """Return the words, numbers and signs of a request in their order.
-
-    ``joined`` says that nothing stands between a token and the one before it, as in "33C".
-    """
+    """Return the words, numbers and signs of a request in order; in "33C", the second token is ``joined``."""
     text = unicodedata.normalize("NFKC", request).lower().replace("\N{RIGHT SINGLE QUOTATION MARK}", "'")
     text = _HALF_A_DOZEN.sub("six", text)
     found: list[Token] = []
@@ -175,7 +178,7 @@ def is_number(text: str) -> bool:
 
 
 def singular(word: str) -> str:
-    """Return a noun without its plural ending, accurate enough to compare two nouns."""
+    """Return a noun without its plural ending, accurately enough to compare nouns."""
     for ending, instead in (("leaves", "leaf"), ("ies", "y"), ("sses", "ss"), ("xes", "x"), ("ches", "ch")):
         if word.endswith(ending):
             return word.removesuffix(ending) + instead

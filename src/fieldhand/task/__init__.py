@@ -1,1 +1,1 @@
-"""The nouns of IEEE 1872.1 as pure data, and their XML."""
+"""The Task of IEEE 1872.1-2024: frames, plan nodes, conditions and events as data, and their XML."""

@@ -14,7 +14,7 @@ from fieldhand.terms import Test, Value
 
 @dataclass(frozen=True, kw_only=True)
 class Compare:
-    """A reading against a threshold, in the unit that the profile gives for the quantity."""
+    """A reading compared with a threshold, in the unit of the profile."""
 
     reading: str
     quantity: str
@@ -25,7 +25,7 @@ class Compare:
 
 @dataclass(frozen=True, kw_only=True)
 class Between:
-    """A reading within two thresholds, both included."""
+    """A reading between two thresholds, both inclusive."""
 
     reading: str
     quantity: str
@@ -36,7 +36,7 @@ class Between:
 
 @dataclass(frozen=True, kw_only=True)
 class Level:
-    """A reading against a word ("low", "high") whose threshold the profile defines."""
+    """A reading compared with a word ("low", "high") whose threshold the profile defines."""
 
     reading: str
     quantity: str
@@ -45,7 +45,7 @@ class Level:
 
 @dataclass(frozen=True, kw_only=True)
 class TreeHas:
-    """An attribute of the current tree, as the site file records it."""
+    """An attribute of the current tree, from the site file, compared with a value."""
 
     attribute: str
     test: Test
@@ -54,21 +54,21 @@ class TreeHas:
 
 @dataclass(frozen=True, kw_only=True)
 class AllOf:
-    """Every one of the conditions."""
+    """All conditions are true."""
 
     conditions: tuple[Condition, ...]
 
 
 @dataclass(frozen=True, kw_only=True)
 class AnyOf:
-    """At least one of the conditions."""
+    """At least one condition is true."""
 
     conditions: tuple[Condition, ...]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Not:
-    """The opposite of a condition."""
+    """The condition is false."""
 
     condition: Condition
 

@@ -1,6 +1,6 @@
-"""The frames of IEEE 1872.1-2024: everything in a Task beside its plan.
+"""The frames of a Task (IEEE 1872.1-2024): everything in it besides the nodes of its plan.
 
-Command (goal, state, parameter), task composition (plan, exits), results (metrics of the goals), constraints and
+Command (goals, state, parameters), task composition (plan, exits), results (metrics of the goals), constraints and
 resources.
 """
 
@@ -20,13 +20,15 @@ BudgetKind = Literal["distance_m", "duration_s", "energy_percent"]
 
 @dataclass(frozen=True, kw_only=True)
 class Goal:
-    """A countable outcome to be evaluated as success, failure or indeterminate.
+    """A countable outcome of a mission, evaluated as success, failure or indeterminate.
 
     Attributes:
-        node: Id of the ``Act`` that serves it.
-        expected: Number of captures where the request fixes it; None where the site or a reading decides.
+        id: Identifier within the Task.
+        node: Id of the ``Act`` whose captures count.
+        action: Name of its action.
+        expected: Number of captures if the request fixes it; None if it depends on the site or a reading.
         conditional: The node is inside an if or an otherwise, so not reaching it is no failure.
-        optional: The budget decides how many are made ("as many as you can").
+        optional: The budget decides on the number of captures ("as many as you can").
     """
 
     id: str
@@ -39,7 +41,14 @@ class Goal:
 
 @dataclass(frozen=True, kw_only=True)
 class Variable:
-    """A state variable: the reading bound by a node."""
+    """A state variable: a reading that a node of the plan takes.
+
+    Attributes:
+        name: Name of the reading, used by conditions.
+        quantity: Measured quantity.
+        unit: Unit of its values.
+        node: Id of the ``Act`` that takes it.
+    """
 
     name: str
     quantity: str
@@ -49,12 +58,16 @@ class Variable:
 
 @dataclass(frozen=True, kw_only=True)
 class Command:
-    """The command frame: request, goals, state variables, and assumptions made in interpreting the request.
+    """The command frame: the request, its goals and state variables, and how it was interpreted.
 
     Attributes:
-        no_part: Ranges of the request without a part in the plan, such as politeness or a reason.
-        read_as: The request with the answers to clarifying questions; empty without questions.
-        warnings: Sentences that the planner wants confirmed before approval.
+        request: The request as typed.
+        goals: Goals, one for each action of the plan.
+        variables: State variables, one for each reading and quantity.
+        assumptions: Assumptions made in interpreting the request, as sentences.
+        no_part: Character ranges of the request without a part in the plan, such as politeness or a reason.
+        read_as: The request completed by the answers to clarifying questions; empty without questions.
+        warnings: Sentences that must be confirmed before approval.
     """
 
     request: str
@@ -68,7 +81,7 @@ class Command:
 
 @dataclass(frozen=True, kw_only=True)
 class FaultedExit:
-    """The exit to take when a fault ends the mission."""
+    """The exit of a mission that a fault ends: ``fault`` is its kind, ``then`` the exit taken."""
 
     fault: Fault
     then: Then
@@ -76,10 +89,13 @@ class FaultedExit:
 
 @dataclass(frozen=True, kw_only=True)
 class Composition:
-    """The plan and its exits. ``nominal`` is taken when the plan is done.
+    """The plan and its exits.
 
     Attributes:
-        nominal_said: Ranges of the request that state the nominal exit.
+        plan: Root node of the plan.
+        nominal: Exit after the plan.
+        nominal_said: Character ranges of the request that state the nominal exit.
+        faulted: Exit after each kind of fault; default exits apply to the others.
     """
 
     plan: Node
@@ -90,12 +106,12 @@ class Composition:
 
 @dataclass(frozen=True, kw_only=True)
 class Budget:
-    """At most ``limit`` of a resource for the whole mission, the way home included.
+    """At most ``limit`` of a resource for the whole mission, including the way home.
 
     Attributes:
         kind: Metres driven, seconds, or percent of a full battery.
-        failure_probability: Accepted chance of exceeding it (Pf), above 0 and below 1.
-        said: Ranges of the request that state it.
+        failure_probability: Accepted probability of exceeding it (Pf), above 0 and below 1.
+        said: Character ranges of the request that state the budget.
     """
 
     kind: BudgetKind
@@ -106,12 +122,12 @@ class Budget:
 
 @dataclass(frozen=True, kw_only=True)
 class Constraints:
-    """Limits of the whole mission.
+    """Limits of the whole mission: its ``budgets``, reserve and speed.
 
     Attributes:
         reserve_percent: Charge to leave at the end; None for the profile's reserve.
-        speed_m_s: Maximum speed.
-        reserve_said: Ranges of the request that state the reserve.
+        reserve_said: Character ranges of the request that state the reserve.
+        speed_m_s: Maximum speed; None for the robot's.
     """
 
     budgets: tuple[Budget, ...] = ()
@@ -122,7 +138,13 @@ class Constraints:
 
 @dataclass(frozen=True, kw_only=True)
 class Resource:
-    """A resource for which the Task was planned, identified by name and the SHA-256 of its source."""
+    """A site or robot for which the Task was planned.
+
+    Attributes:
+        kind: ``robot`` or ``site``.
+        name: Name of the robot or site.
+        sha256: SHA-256 of its source file in hexadecimal.
+    """
 
     kind: Literal["robot", "site"]
     name: str
@@ -131,7 +153,23 @@ class Resource:
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class Task:
-    """A mission as it is planned, approved, executed and evaluated (level 1 of the design)."""
+    """A mission that can be reviewed, approved, executed and evaluated (``fh.Task``; IEEE 1872.1-2024).
+
+    A planner or :func:`fh.build_task <fieldhand.mission.build_task>` makes one from a request or a plan;
+    :meth:`from_xml` reads one from its document.
+
+    Example:
+        >>> task = Task.from_xml(Path("mission.xml"))
+        >>> task.command.request
+        'Photograph every third tree of row 2.'
+
+    Attributes:
+        id: Hash of request, plan and resources.
+        command: Request, goals, state variables and assumptions.
+        composition: Plan and exits.
+        constraints: Budgets, reserve and maximum speed.
+        resources: Site and robot for which the Task was planned.
+    """
 
     id: str
     command: Command
@@ -143,12 +181,15 @@ class Task:
 
     @classmethod
     def from_xml(cls, document: bytes | str | Path) -> Task:
-        """Read a Task from its XML, or from a file of that path.
+        """Read a Task from an XML document or file.
 
-        Whether a robot can carry it out is part of the review.
+        Only the form is checked here; :func:`fh.review <fieldhand.mission.review>` checks that a robot can execute it.
+
+        Args:
+            document: XML as bytes or text, or the path of a file as a :class:`pathlib.Path`.
 
         Raises:
-            TaskError: The file cannot be read, or it holds no Task; says where.
+            TaskError: The file cannot be read or is not a Task document; the message gives line and element.
         """
         from fieldhand.task.codec import decode
         from fieldhand.task.codec_xml import read_xml
@@ -159,7 +200,11 @@ class Task:
         return decode(document.encode() if isinstance(document, str) else document)
 
     def to_xml(self) -> bytes:
-        """Return the Task as XML, UTF-8; the same bytes for the same Task."""
+        """Return the Task as a UTF-8 XML document; equal Tasks give identical bytes.
+
+        Raises:
+            TaskError: A text has hidden characters, a number is not finite, or the document is too large or deep.
+        """
         from fieldhand.task.codec import encode
 
         return encode(self)

@@ -108,7 +108,7 @@ def _ranges(task: Task) -> Iterator[tuple[Span, WordRole]]:
 
 
 def _bridge(roles: list[WordRole], request: str) -> None:
-    """What stands between two words of one role belongs to them unless a sign parts them. ``roles`` changes."""
+    """Assign text between two words of one role to that role, unless it contains punctuation; changes ``roles``."""
     at = 0
     for role, run in groupby(list(roles)):
         start, at = at, at + len(list(run))

@@ -1,4 +1,4 @@
-"""What every driver does: subclass :class:`DriverContract` for your own and return one in each situation.
+"""Contract tests for drivers: subclass :class:`DriverContract` and return your driver in each situation.
 
 ::
 
@@ -21,7 +21,7 @@ from fieldhand.site.model import Place, Site
 
 __all__ = ["DriverContract", "drive_goal", "finish"]
 
-#: More polls than any goal of these tests needs.
+#: Maximum number of polls until a goal is over.
 MANY = 10_000
 
 
@@ -29,7 +29,8 @@ class DriverContract(ABC):
     """The contract of :mod:`fieldhand.execution.drivers.protocol`, as tests.
 
     Attributes:
-        action, measures: An action of the robot, and the quantity that it measures.
+        action: Name of an action of the robot.
+        measures: Quantity that the action measures.
     """
 
     action = "read_co2"
@@ -37,19 +38,19 @@ class DriverContract(ABC):
 
     @abstractmethod
     def make(self) -> tuple[Driver, Clock, Site]:
-        """Return a driver without a goal, its clock and its site; the robot is at the start with a charged battery."""
+        """Return an idle driver, its clock and its site; the robot is at the start with a charged battery."""
 
     @abstractmethod
     def make_blocked(self) -> tuple[Driver, Clock, Site]:
-        """Return the same, with something impassable on the way to the last tree."""
+        """Return the same as :meth:`make`, with an impassable obstacle on the way to the last tree."""
 
     @abstractmethod
     def make_lost(self) -> tuple[Driver, Clock, Site]:
-        """Return the same, with a localisation that is lost on the drive to the last tree and recovers later."""
+        """Return the same as :meth:`make`, with a position that is lost on the drive to the last tree and recovers."""
 
     @abstractmethod
     def make_broken(self) -> tuple[Driver, Clock, Site]:
-        """Return the same, with an action that fails."""
+        """Return the same as :meth:`make`, with an action that fails."""
 
     def test_it_begins_idle_at_the_start(self) -> None:
         driver, _, site = self.make()
@@ -207,7 +208,7 @@ def drive_goal(start: Place, end: Place, speed_m_s: float = 1.0) -> DriveGoal:
 
 
 def finish(driver: Driver, clock: Clock) -> Progress:
-    """Let time pass until the current goal is over, and return how it ended."""
+    """Advance the clock until the current goal is over, and return its outcome."""
     for _ in range(MANY):
         progress = driver.poll()
         if progress.over:

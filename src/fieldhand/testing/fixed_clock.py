@@ -1,4 +1,4 @@
-"""A time of day that a test sets."""
+"""A date and time of day that a test sets."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ __all__ = ["FixedClock"]
 
 
 class FixedClock:
-    """A time of day that stands still until it is moved: a :class:`~fieldhand.clock.WallClock`, and a function.
+    """A date and time that changes only when it is advanced: a :class:`~fieldhand.clock.WallClock` and a callable.
 
     Args:
-        moment: The time of day, with time zone.
+        moment: Initial date and time, with time zone.
     """
 
     def __init__(self, moment: datetime = datetime(2026, 5, 1, 8, tzinfo=UTC)) -> None:
@@ -20,13 +20,13 @@ class FixedClock:
         self.moment = moment
 
     def now(self) -> float:
-        """Return seconds since 1970 began, in UTC."""
+        """Return the seconds since 1970-01-01 00:00 UTC."""
         return self.moment.timestamp()
 
     def __call__(self) -> datetime:
-        """Return the time of day."""
+        """Return the date and time."""
         return self.moment
 
     def advance(self, seconds: float) -> None:
-        """Let time pass; a negative number sets the clock back."""
+        """Advance the clock; a negative number sets it back."""
         self.moment += timedelta(seconds=seconds)

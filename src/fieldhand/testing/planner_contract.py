@@ -1,4 +1,4 @@
-"""What every planner does: subclass :class:`PlannerContract` for your own and name requests that it understands.
+"""Contract tests for planners: subclass :class:`PlannerContract` and list requests that your planner understands.
 
 ::
 
@@ -33,8 +33,8 @@ class PlannerContract(ABC):
     """The contract of :class:`fieldhand.planning.planner.Planner`, as tests.
 
     Attributes:
-        understood: Requests that become a plan on the site, with no question.
-        not_understood: Requests that the planner refuses, or asks about.
+        understood: Requests that are planned on the site without a question.
+        not_understood: Requests that the planner refuses or asks a question about.
     """
 
     understood: ClassVar[Sequence[str]]
@@ -45,11 +45,11 @@ class PlannerContract(ABC):
         """Return a planner."""
 
     def site(self) -> Site:
-        """Return where it plans; by default the built-in orchard."""
+        """Return the site to plan on; by default the built-in orchard."""
         return open_site("demo")
 
     def robot(self) -> RobotProfile:
-        """Return what it plans for; by default the built-in husky."""
+        """Return the robot to plan for; by default the built-in husky."""
         return load_robot("husky")
 
     def test_a_plan_keeps_the_request_word_for_word(self) -> None:
@@ -90,7 +90,7 @@ class PlannerContract(ABC):
         raise AssertionError(f"an empty request became {type(outcome).__name__}")
 
     def _planned(self, request: str) -> Task:
-        """Return the Task that a request becomes."""
+        """Return the Task planned from a request."""
         outcome = self.make().plan(request, self.site(), self.robot())
         assert isinstance(outcome, Planned), f"{request!r} became {outcome}"
         return outcome.task

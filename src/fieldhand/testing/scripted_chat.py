@@ -1,4 +1,4 @@
-"""A language model that gives prepared answers, without a network: for tests of the llm planner."""
+"""A scripted language model without a network, for tests of the llm planner."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ SETTINGS = LlmSettings(provider="openai-compatible", model="script", base_url="h
 
 
 class ScriptedChat:
-    """A model that gives its answers in order, the last one repeatedly.
+    """A model that returns prepared answers in order, and the last one repeatedly.
 
     Args:
-        answers: What it answers.
+        answers: Answers to return.
 
     Attributes:
-        told: The last message of each request to it, in order.
+        told: Last message of each request to the model, in order.
     """
 
     def __init__(self, *answers: str) -> None:
@@ -31,16 +31,16 @@ class ScriptedChat:
 
 
 def planner_of(chat: ScriptedChat, settings: LlmSettings = SETTINGS) -> LlmPlanner:
-    """Return an llm planner that asks this model."""
+    """Return an llm planner that uses this model."""
     return LlmPlanner(settings, chat=chat)
 
 
 def task_document(plan: str, frames: str = "") -> str:
-    """Return an answer with a plan.
+    """Return an answer of a model: a draft document with a plan.
 
     Args:
-        plan: XML of its nodes.
-        frames: Exits, and after ``<!--constraints-->`` constraints.
+        plan: XML of the plan's nodes.
+        frames: XML of the exits, followed by ``<!--constraints-->`` and the XML of the constraints.
     """
     exits, _, constraints = frames.partition("<!--constraints-->")
     return (

@@ -1,4 +1,4 @@
-"""A small site and Tasks on it, made in memory: for tests that need both and no file."""
+"""A small site and Tasks on it, built in memory for tests that need no file."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ SOUTH_WEST = (37.0, -120.0)
 
 
 def at(row: float, column: float) -> list[float]:
-    """Return longitude and latitude of a place counted in rows northwards and columns eastwards."""
+    """Return longitude and latitude of a position counted in rows northwards and columns eastwards."""
     return [SOUTH_WEST[1] + column * LON_STEP, SOUTH_WEST[0] + row * LAT_STEP]
 
 
@@ -31,8 +31,8 @@ def orchard(rows: int = 4, columns: int = 5, zones: Sequence[dict[str, Any]] = (
     Every third tree is yellow, the others green; the reward of a tree is its id.
 
     Args:
-        rows, columns: Its size; trees stand about 5 m apart.
-        zones: GeoJSON features beside the trees, see :func:`block`.
+        rows, columns: Numbers of rows and columns; the spacing is about 5 m.
+        zones: Additional GeoJSON features, such as those of :func:`block`.
     """
     features = [_point(at(-1, 0), {"kind": "start"}), _point(at(-1, columns - 1), {"kind": "end"})]
     for k in range(rows * columns):
@@ -63,9 +63,9 @@ def task_for(site: Site, plan: Node, request: str = "", **more: Any) -> Task:
     """Return a Task for the site and the husky.
 
     Args:
-        site: Where the plan is to be carried out.
-        plan: What is to be done.
-        request: The words that the plan stands for.
+        site: Site of the Task.
+        plan: Root node of the plan.
+        request: Request that the plan implements.
         more: Further arguments of :func:`fieldhand.task.build.make_task`.
     """
     robot = husky()

@@ -1,1 +1,1 @@
-"""The web page: static files of this package, no framework, nothing loaded from elsewhere."""
+"""The web page: static files of this package, without a framework or external resources."""

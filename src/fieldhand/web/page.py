@@ -1,4 +1,4 @@
-"""The page as a router: its files, read once, each at an address of its own."""
+"""The FastAPI router of the web page: its files, read once, each at its own address."""
 
 from __future__ import annotations
 
@@ -20,7 +20,13 @@ INDEX = "index.html"
 
 @dataclass(frozen=True, kw_only=True)
 class Asset:
-    """A file of the page; ``tag`` changes with its content."""
+    """A file of the page.
+
+    Attributes:
+        data: Content.
+        media_type: Value of the ``Content-Type`` header.
+        tag: ``ETag``, which changes with the content.
+    """
 
     data: bytes
     media_type: str
@@ -28,7 +34,7 @@ class Asset:
 
 
 def assets() -> Mapping[str, Asset]:
-    """Every file of the page by name."""
+    """Return every file of the page by name."""
     found = {}
     for file in sorted((resources.files("fieldhand.web") / "static").iterdir(), key=lambda f: f.name):
         kind = MEDIA_TYPES.get(file.name.rpartition(".")[2])
@@ -40,7 +46,7 @@ def assets() -> Mapping[str, Asset]:
 
 
 def page_router() -> APIRouter:
-    """``GET /`` and ``GET /static/{name}``; what is not one of the page's files is not there."""
+    """Return the router of ``GET /`` and ``GET /static/{name}``, which serves the page's files only."""
     routes = APIRouter(include_in_schema=False)
     for name, asset in assets().items():
         path = "/" if name == INDEX else f"/static/{name}"
@@ -49,7 +55,7 @@ def page_router() -> APIRouter:
 
 
 def _sender(asset: Asset) -> Callable[[Request], Response]:
-    # Asked for each time, sent only where it changed: a new version of the program is a new page at once.
+    # Browsers revalidate on every request, so that a new version of the program takes effect at once.
     headers = {"ETag": asset.tag, "Cache-Control": "no-cache"}
 
     def send(request: Request) -> Response:

@@ -1,1 +1,1 @@
-"""Selectors by where trees stand in the extent of a group: halves, edges, corners, middles."""
+"""Selectors by position in the extent of a group: halves, edges, corners, middles."""

@@ -1,4 +1,4 @@
-"""Halves, quarters and edges in words, and the sides of the compass that corners share."""
+"""Wording of halves, quarters and edges, and the compass sides that corners share."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ _SIDES: tuple[Side, ...] = ("north", "east", "south", "west")
 
 
 def of_reference(of: Selector, wording: SelectorWording) -> str:
-    """Return of what a half or an edge is one, empty for the whole site (:mod:`fieldhand.places` gives the rule)."""
+    """Return the reference group of a half or edge in words ("of block B"); empty for the whole site."""
     reference = of.reference()
     return "" if reference == Trees() else message("of {trees}", trees=wording.phrase(reference).group())
 
 
 def in_area(of: Selector, area: str, wording: SelectorWording) -> NounPhrase:
-    """Return the trees of a group in a region of its ground, whichever way it is nested with what else keeps trees."""
+    """Return the phrase for the trees of a group in a region, independent of the nesting with other filters."""
     if of.reference() == of:
         return NounPhrase(after=(area,))
     return wording.phrase(of).keeping(after=area)
 
 
 def sides_of_corners(corners: Sequence[CornerName]) -> tuple[Side, ...]:
-    """Return the sides that all of some corners share: "nw" and "ne" are the northern corners."""
+    """Return the sides common to all corners: north for "nw" and "ne"."""
     return tuple(side for side in _SIDES if corners and all(side[0] in corner for corner in corners))

@@ -1,4 +1,4 @@
-"""The outermost line of a group's ground."""
+"""Selector of the trees on one edge of a group."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class Edge(FromGroup):
-    """Trees of ``of`` on the outermost line of one side of its ground: no tree stands right beyond them."""
+    """Trees of ``of`` on the outermost line of one side of its area: no tree stands right beyond them."""
 
     side: Side
     of: Selector = Trees()

@@ -1,4 +1,4 @@
-"""A half of a group's ground."""
+"""Selector of the trees in one half of a group."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class Half(FromGroup):
-    """Trees of ``of`` on one side of the middle line of its ground.
+    """Trees of ``of`` on one side of the middle line of its area.
 
-    The ground is the site, or the zone, block, half or picked trees inside; attributes, rows and visits inside do not
+    The area is the site, or the zone, block, half or picked trees inside; attributes, rows and visits inside do not
     change it.
     """
 

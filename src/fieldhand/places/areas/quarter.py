@@ -1,4 +1,4 @@
-"""A quarter of a group's ground."""
+"""Selector of the trees in one quarter of a group."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class Quarter(FromGroup):
-    """Trees of ``of`` in one quarter of its ground."""
+    """Trees of ``of`` in one quarter of its area."""
 
     quarter: CornerName
     of: Selector = Trees()

@@ -1,1 +1,1 @@
-"""Selectors that keep trees by what they are, by zones and by what was visited."""
+"""Selectors that filter trees by attributes, zones, distance and previous visits."""

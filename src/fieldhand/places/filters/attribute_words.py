@@ -1,4 +1,4 @@
-"""Attributes of trees in words: "age is above 10 years"."""
+"""Wording of tree attributes: "age is above 10 years"."""
 
 from __future__ import annotations
 
@@ -20,20 +20,20 @@ _ATTRIBUTE_UNITS = {
 
 
 def say_attribute(name: str) -> tuple[str, str]:
-    """An attribute as words and the unit that its name ends with: ``age_years`` is ("age", "years")."""
+    """Split an attribute into its name in words and its unit suffix: ``age_years`` gives ("age", "years")."""
     stem, _, last = name.rpartition("_")
     unit = _ATTRIBUTE_UNITS.get(last.lower(), "")
     return (say_name(stem), unit) if stem and unit else (say_name(name), "")
 
 
 def say_with_article(name: str) -> str:
-    """Something that is measured or known of a tree, with its article: "the canopy temperature", "the age"."""
+    """Return a quantity or attribute with its article: "the canopy temperature", "the age"."""
     words = say_name(name)
     return named(f"the {words}", "the", message("the “{name}”", name=str(words)))
 
 
 def say_whose(attribute: str, test: Test, value: Value) -> str:
-    """A test of an attribute that keeps trees: "whose age is above 10 years", "whose leaf color is not yellow"."""
+    """Return a filter as a clause: "whose age is above 10 years", "whose leaf color is not yellow"."""
     name, unit = say_attribute(attribute)
     amount = _amount(value, unit)
     match test:
@@ -52,7 +52,7 @@ def say_whose(attribute: str, test: Test, value: Value) -> str:
 
 
 def say_of_tree(attribute: str, test: Test, value: Value) -> str:
-    """A test of an attribute of the tree in hand: "the tree's age is above 10 years"."""
+    """Return a test of the current tree as a clause: "the tree's age is above 10 years"."""
     stem, unit = say_attribute(attribute)
     name = named(str(stem), "of the tree", message("“{name}” of the tree", name=str(stem)))
     amount = _amount(value, unit)

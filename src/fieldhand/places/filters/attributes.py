@@ -1,4 +1,4 @@
-"""Trees by what the file says of them. A tree that lacks an attribute passes no test of it and has no rank in it."""
+"""Filter and rank trees by attributes of the site file; a tree without the attribute passes no test and has no rank."""
 
 from __future__ import annotations
 
@@ -41,12 +41,12 @@ _COMPARE: Mapping[Test, Callable[[Any, Any], Any]] = {
 
 @dataclass(frozen=True, eq=False)
 class Column:
-    """One attribute of every tree.
+    """The values of one attribute for all trees of a site.
 
     Attributes:
-        numbers: Its value where it is a number (or text that is one), else NaN.
-        codes: Position of its value's text in ``texts``, -1 where the tree lacks the attribute.
-        texts: The distinct values as text, lower case; one that stands for all where every value is a number.
+        numbers: Numeric value of each tree; NaN if the value is not a number.
+        codes: Index of each tree's value in ``texts``; -1 if the tree lacks the attribute.
+        texts: Distinct values as text in lower case; a single placeholder if all values are numbers.
     """
 
     numbers: NDArray[np.float64]
@@ -55,7 +55,7 @@ class Column:
 
 
 def where(spots: PlaceGroup, selector: Where, notes: ResolutionNotes) -> PlaceGroup:
-    """Those whose attribute passes the test: as numbers if both sides are numbers, else as text without case."""
+    """Return the places whose attribute passes the test, as numbers if both are, else as text ignoring case."""
     column = column_of(spots.site, selector.attribute)
     mine = column_rows(column, spots)
     wanted = _number(selector.value)
@@ -82,14 +82,14 @@ def where(spots: PlaceGroup, selector: Where, notes: ResolutionNotes) -> PlaceGr
 
 
 def _values(spots: PlaceGroup, attribute: str) -> tuple[Value, ...]:
-    """Return the values that an attribute has among these places, each once."""
+    """Return the distinct values of an attribute among these places."""
     trees = [spots.site.trees[k] for k in spots.index[spots.is_tree].tolist()]
     kept = (tree.properties[name] for tree in trees for name in tree.properties if phrase(name) == phrase(attribute))
     return tuple(dict.fromkeys(kept))
 
 
 def note_lacking(count: int, attribute: str, notes: ResolutionNotes) -> None:
-    """Say how many could not be judged since the file says nothing of them."""
+    """Add a note on the number of trees without the attribute."""
     if count:
         notes.remark(
             counted(
@@ -102,7 +102,7 @@ def note_lacking(count: int, attribute: str, notes: ResolutionNotes) -> None:
 
 
 def with_number(spots: PlaceGroup, attribute: str) -> tuple[PlaceGroup, NDArray[np.float64]]:
-    """Return all that have a number as an attribute, and their numbers."""
+    """Return the places with a numeric value of the attribute, and the values."""
     column = column_of(spots.site, attribute)
     if np.isnan(column.numbers).all():
         raise not_a_number(attribute)
@@ -112,7 +112,7 @@ def with_number(spots: PlaceGroup, attribute: str) -> tuple[PlaceGroup, NDArray[
 
 
 def column_rows(column: Column, spots: PlaceGroup) -> Column:
-    """The column for these places; what is no tree lacks every attribute."""
+    """Return the column restricted to these places; places other than trees lack every attribute."""
     tree = spots.is_tree
     return Column(
         numbers=np.where(tree, column.numbers[spots.index * tree], np.nan),
@@ -122,9 +122,9 @@ def column_rows(column: Column, spots: PlaceGroup) -> Column:
 
 
 def column_of(site: Site, attribute: str) -> Column:
-    """The attribute of this name, else the only one whose name differs in case, hyphens and underscores alone.
+    """Return the column of an attribute, or of the only one whose name differs just in case, hyphens or underscores.
 
-    It is read from the trees when it is first asked for, and kept with the site.
+    The column is computed on first use and cached with the site.
     """
     name = attribute
     if not any(name in tree.properties for tree in site.trees):
@@ -140,10 +140,10 @@ def column_of(site: Site, attribute: str) -> Column:
 
 def _column(site: Site, name: str) -> Column:
     values = [tree.properties.get(name) for tree in site.trees]
-    if all(type(value) is float for value in values):  # the usual case, and the quick one
+    if all(type(value) is float for value in values):  # fast path
         numbers = np.array(values, dtype=np.float64)
         return Column(np.where(np.isfinite(numbers), numbers, np.nan), np.zeros(len(values), dtype=np.intp), ("\0",))
-    kinds = [(type(value), value) for value in values]  # 1.0 and True are one key, and two values
+    kinds = [(type(value), value) for value in values]  # 1.0 and True are equal keys but different values
     distinct = list(dict.fromkeys(kinds))
     texts: dict[str, int] = {}
     code = {kind: -1 if kind[1] is None else texts.setdefault(_text(kind[1]), len(texts)) for kind in distinct}
@@ -156,7 +156,7 @@ def _column(site: Site, name: str) -> Column:
 
 
 def _number(value: Value) -> float:
-    """The number that a value is or that its text spells; NaN for anything else."""
+    """Return a value as a number, parsing text; NaN for anything else."""
     if isinstance(value, bool):
         return math.nan
     try:

@@ -33,7 +33,7 @@ class InBlock(FromGroup):
         return cls(block=site.planting.blocks[0].name if site.planting.blocks else "")
 
     def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
-        """Return the trees by the block of that name; where there is none, by the zones of that name."""
+        """Return the trees of the block of that name, or else those in the zones of that name."""
         from fieldhand.places.filters.zones import in_block, in_zones
 
         inside = in_block(of, self.block)

@@ -40,7 +40,7 @@ class InZone(FromGroup):
         return cls(zone=next((zone.name for zone in site.zones if zone.kind == "zone"), ""))
 
     def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
-        """Return the trees by the zones of that name; where there are none, by the block of that name."""
+        """Return the trees in the zones of that name, or else those of the block of that name."""
         from fieldhand.places.filters.zones import in_block, in_zones
 
         site, zone = resolution.site, self.zone

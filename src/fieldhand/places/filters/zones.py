@@ -1,4 +1,4 @@
-"""Trees inside zones and blocks, and outside keep-outs."""
+"""Find the places inside zones and blocks, and those outside keep-out zones."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from fieldhand.site.model import Site
 
 
 def zones_called(site: Site, name: str) -> list[BaseGeometry]:
-    """Return the outlines of the zones of that name, whatever its case, hyphens and underscores."""
+    """Return the outlines of the zones of that name, ignoring case, hyphens and underscores."""
     zones = [z for z in site.zones if name and phrase(z.name) == phrase(name)]
     return [z.polygon for z in [z for z in zones if z.name == name] or zones]
 
 
 def in_zones(of: PlaceGroup, name: str, margin_m: float = 0.0) -> PlaceGroup | None:
-    """Return those inside the zones of that name or so near to one; None where there are none."""
+    """Return the places inside or within a margin of the zones of that name; None if there is no such zone."""
     zones = zones_called(of.site, name)
     if not zones:
         return None
@@ -37,13 +37,13 @@ def in_zones(of: PlaceGroup, name: str, margin_m: float = 0.0) -> PlaceGroup | N
 
 
 def in_block(of: PlaceGroup, name: str) -> PlaceGroup | None:
-    """Return those in the rows of the block of that name or number; None where there is none."""
+    """Return the places in the rows of the block of that name or number; None if there is no such block."""
     block = find_block(of.site, name)
     return None if block is None else in_those_rows(of, block.rows)
 
 
 def outside_keep_outs(of: PlaceGroup, notes: ResolutionNotes) -> PlaceGroup:
-    """Return those that a robot may drive to: where any of them will do, the others are passed over."""
+    """Return the places that a robot may drive to, for selectors that may choose any of several."""
     closed = np.zeros(len(of), dtype=bool)
     for zone in of.site.zones_of("keep_out"):
         shapely.prepare(zone.polygon)

@@ -1,4 +1,4 @@
-"""Near and far: nearest, next to, farthest, within, neighbour after neighbour, and the few that make a short drive."""
+"""Compute nearest, adjacent and farthest places, places within a distance, and few places with a short drive."""
 
 from __future__ import annotations
 
@@ -20,33 +20,33 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ZoneArea:
-    """The ground of a zone, from whose outline distances are measured; no tree inside is near to it or far from it."""
+    """A zone as an origin of distances, which are measured from its outline; trees inside are excluded."""
 
     site: Site
     area: BaseGeometry
 
 
-#: Distances are measured from the nearest of some places, or from the ground of a zone.
+#: Origin of distances: the nearest of several places, or a zone.
 Origin = PlaceGroup | ZoneArea
 
-#: "Next to" prefers the same row among those at most this much farther than the nearest one.
+#: Factor on the nearest distance within which "next to" prefers the same row.
 _BAND = 1.5
 
-#: Two trees closer than this are one tree that the file holds twice.
+#: Distance in metres below which two trees of the file are the same tree.
 _SAME_SPOT_M = 0.01
 
-#: Neighbour after neighbour is looked for among this many around the first, before all others are looked at.
+#: Number of places around the first that are searched for a chain of neighbours before all are searched.
 _AROUND = 1_000
 
-#: Distances nearer to each other than this are a tie.
+#: Difference in metres below which two distances are a tie.
 _TIE_M = 2e-4
 
-#: Straight on is within this angle of the line so far (30 degrees).
+#: Cosine of the largest angle to the previous direction that counts as straight on (30 degrees).
 _STRAIGHT_COS = 0.87
 
 
 def distance_to(spots: PlaceGroup, origin: Origin) -> Floats:
-    """Metres from each place to the nearest of ``origin``, straight; 0 inside a zone."""
+    """Return the straight-line distance in metres from each place to the origin; 0 inside a zone."""
     if isinstance(origin, ZoneArea):
         return np.asarray(shapely.distance(origin.area, shapely.points(spots.xy)))
     if len(origin) == 1:
@@ -55,7 +55,7 @@ def distance_to(spots: PlaceGroup, origin: Origin) -> Floats:
 
 
 def nearest_of(origin: Origin, spots: PlaceGroup) -> Floats:
-    """Return for each place the point of ``origin`` that is nearest to it, in metres east and north, shape (n, 2)."""
+    """Return the point of the origin nearest to each place, in metres east and north, shape (n, 2)."""
     if isinstance(origin, ZoneArea):
         lines = shapely.shortest_line(origin.area, shapely.points(spots.xy))
         return np.asarray(shapely.get_coordinates(lines)[::2])
@@ -63,7 +63,7 @@ def nearest_of(origin: Origin, spots: PlaceGroup) -> Floats:
 
 
 def apart_from(spots: PlaceGroup, origin: Origin) -> PlaceGroup:
-    """Those neither among nor inside ``origin``, nor the same tree entered twice in the file (within a centimetre)."""
+    """Return the places outside the origin, without duplicates of its trees in the file (within a centimetre)."""
     if isinstance(origin, ZoneArea):
         return spots.keep(distance_to(spots, origin) > 0)
     left = spots.without(origin)
@@ -75,7 +75,7 @@ def apart_from(spots: PlaceGroup, origin: Origin) -> PlaceGroup:
 
 
 def next_to(spots: PlaceGroup, to: Origin, count: int) -> PlaceGroup:
-    """The nearest, but of those at most half as far again as the nearest one the same row comes first."""
+    """Return the nearest places, preferring the same row among those at most 1.5 times as far as the nearest."""
     away = distance_to(spots, to)
     rows = to.row[to.row >= 0] if isinstance(to, PlaceGroup) else ()
     other_row = ~np.isin(spots.row, rows) if len(rows) else np.zeros(len(spots), dtype=bool)
@@ -85,11 +85,10 @@ def next_to(spots: PlaceGroup, to: Origin, count: int) -> PlaceGroup:
 
 
 def on_side(spots: PlaceGroup, to: Origin, side: Side, *, next_to: bool) -> PlaceGroup:
-    """Return those in the quarter of the compass around a side, seen from ``to``; the nearest of several counts.
+    """Return the places in the 90-degree sector around a side, seen from the nearest place of ``to``.
 
     Args:
-        next_to: Also keep only neighbours: those no farther away than half as far again as the rows or the trees along
-            them stand apart there.
+        next_to: Keep only neighbours: places at most 1.5 times as far away as the local row or tree spacing.
     """
     if not len(spots):
         return spots
@@ -106,7 +105,7 @@ def on_side(spots: PlaceGroup, to: Origin, side: Side, *, next_to: bool) -> Plac
 
 
 def _apart_at(to: PlaceGroup, k: int) -> float:
-    """Return how far apart neighbours stand at a place: rows and the trees along them, whichever is more."""
+    """Return the larger of the row spacing and the tree spacing at a place, in metres."""
     site = to.site
     planting = site.planting
     tree = int(to.index[k])
@@ -118,25 +117,25 @@ def _apart_at(to: PlaceGroup, k: int) -> float:
 
 
 def within(spots: PlaceGroup, to: Origin, distance_m: float) -> PlaceGroup:
-    """At most that far, straight."""
+    """Return the places within a straight-line distance."""
     if not len(spots) or isinstance(to, ZoneArea) or len(to) == 1:
         return spots.keep(distance_to(spots, to) <= distance_m) if len(spots) else spots
-    reach = distance_m + 1e-9  # the bound itself is left out
+    reach = distance_m + 1e-9  # the query excludes its bound
     return spots.keep(_index(to).query(spots.xy, distance_upper_bound=reach)[0] <= distance_m)
 
 
 def side_by_side(spots: PlaceGroup, near: Origin, count: int) -> PlaceGroup:
-    """``count`` next to each other (fewer if there are not as many), beginning with the nearest to ``near``.
+    """Return up to ``count`` places next to each other, beginning with the one nearest to ``near``.
 
-    Each next one is a neighbour of the last: of those at most half as far again as its nearest the same row comes
-    first, then what lies straight on, then the nearest. Where the last one has no neighbour left, the line goes on
-    from whichever taken one has the nearest.
+    Each place is a neighbour of the previous one: among those at most 1.5 times as far as its nearest, the same row
+    comes first, then the direction straight on, then the distance. If the previous place has no neighbour left, the
+    chain continues from the chosen place with the nearest one.
     """
     itself = np.isin(spots.index, near.index) if isinstance(near, PlaceGroup) else np.zeros(len(spots), dtype=bool)
     seed = spots.ranked(np.where(itself, -1.0, distance_to(spots, near)), 1).index[0]
     from_seed = np.hypot(*(spots.xy - spots.xy[np.flatnonzero(spots.index == seed)[0]]).T)
     around = max(_AROUND, 4 * count**2)
-    if around < len(spots):  # look at those around first, and at all only where these do not decide it
+    if around < len(spots):  # search the surroundings first, and all places only if these are not decisive
         radius = float(np.partition(from_seed, around)[around])
         inside = np.flatnonzero(from_seed <= radius)
         taken = _chain(spots.keep(inside), int(seed), count, radius)
@@ -147,7 +146,7 @@ def side_by_side(spots: PlaceGroup, near: Origin, count: int) -> PlaceGroup:
 
 
 def _chain(spots: PlaceGroup, seed: int, count: int, radius: float) -> list[int] | None:
-    """Positions of neighbour after neighbour; None where one beyond the radius from the seed might come before them."""
+    """Return the positions of a chain of neighbours; None if a place beyond the radius could belong to it."""
     taken = [int(np.flatnonzero(spots.index == seed)[0])]
     to_any = from_seed = np.hypot(*(spots.xy - spots.xy[taken[0]]).T)
     free = to_any > _SAME_SPOT_M
@@ -169,7 +168,7 @@ def _chain(spots: PlaceGroup, seed: int, count: int, radius: float) -> list[int]
 
 
 def short_drive(spots: PlaceGroup, here: tuple[float, float], count: int) -> PlaceGroup:
-    """``count`` of them, one after another the nearest to the last, from here on."""
+    """Return ``count`` places, each the nearest to the previous one, starting from here."""
     xy, order = spots.xy, spots.file_order
     left = np.arange(len(spots))
     index = _index(spots)
@@ -177,7 +176,7 @@ def short_drive(spots: PlaceGroup, here: tuple[float, float], count: int) -> Pla
     taken: list[int] = []
     at = np.array(here)
     while len(taken) < count:
-        if gone[left].sum() > max(32, len(left) // 2):  # else searches wade through those that are gone
+        if gone[left].sum() > max(32, len(left) // 2):  # rebuild the index without the places already taken
             left = left[~gone[left]]
             index = cKDTree(xy[left], balanced_tree=False, compact_nodes=False)
         found = _nearest_left(index, left, gone, at)
@@ -192,7 +191,7 @@ def short_drive(spots: PlaceGroup, here: tuple[float, float], count: int) -> Pla
 def _nearest_left(
     index: cKDTree, left: NDArray[np.intp], gone: NDArray[np.bool_], at: NDArray[np.float64]
 ) -> NDArray[np.intp]:
-    """Those not gone that are nearest to a point: at least the nearest and all that tie with it."""
+    """Return the remaining places nearest to a point, including all ties."""
     k = 8
     while True:
         k = min(k, len(left))
@@ -204,7 +203,7 @@ def _nearest_left(
 
 
 def _straight_on(xy: NDArray[np.float64], taken: list[int], band: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """Which candidates continue the line of the trees taken so far; all of them while there is no line yet."""
+    """Return a mask of the candidates that continue the line of the chosen trees; all if there is no line yet."""
     if len(taken) < 2:
         return np.ones(len(band), dtype=bool)
     line = xy[taken[-1]] - xy[taken[0]]
@@ -214,5 +213,5 @@ def _straight_on(xy: NDArray[np.float64], taken: list[int], band: NDArray[np.int
 
 
 def _index(spots: PlaceGroup) -> Any:
-    """The places, to ask for the nearest; quickly made, since it is asked once."""
+    """Return a spatial index of the places that is cheap to build, since it is queried once."""
     return cKDTree(spots.xy, balanced_tree=False, compact_nodes=False)

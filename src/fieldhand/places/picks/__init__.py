@@ -1,1 +1,1 @@
-"""Selectors that order, count and draw."""
+"""Selectors that order, count and sample places."""

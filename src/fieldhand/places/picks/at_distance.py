@@ -1,4 +1,4 @@
-"""Trees at a distance from each other. They stand where they stand: those that fit best are looked for."""
+"""Search for trees at a given distance from each other, as closely as the planting permits."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ if TYPE_CHECKING:
     from fieldhand.places.picks.apart import Apart
 
 
-#: A tree whose distance differs by more than this share of what was asked for is not "so far apart".
+#: Maximum relative deviation from the requested distance.
 TOLERANCE = 0.25
-#: So many trees are tried as the first.
+#: Maximum number of first trees to try.
 _MOST_TRIES = 200
 
 
 def at_distance(of: PlaceGroup, selector: Apart, notes: ResolutionNotes) -> PlaceGroup:
-    """The first trees that fit, each tried in turn to begin with; from there each time the one that fits best.
+    """Return the first fitting sequence of trees, trying each as the first and continuing with the best fit.
 
     Raises:
         PlaceError: There are no such trees.
@@ -61,7 +61,7 @@ def at_distance(of: PlaceGroup, selector: Apart, notes: ResolutionNotes) -> Plac
 
 
 def _none_among(none: str, of: PlaceGroup) -> str:
-    """Say in which row they were looked for and how long it is, or over how much ground."""
+    """Return a sentence on the failed search with the row and its length, or the extent of the group."""
     rows = np.unique(of.row).tolist()
     if len(rows) == 1 and rows[0] >= 0:
         row = row_words(of.site, of.site.planting.rows[rows[0]])

@@ -1,4 +1,4 @@
-"""Some of a row of trees, evenly along it: 3 of the next 5, 3 of every 5."""
+"""Selector of trees at even positions of a sequence: 3 of the next 5, 3 of every 5."""
 
 from __future__ import annotations
 
@@ -40,9 +40,9 @@ class Evenly(Counted):
         return cls(count=3, out_of=5, of=Rows.example(site))
 
     def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
-        """Return trees at even positions of the order of the group: its own, else row by row.
+        """Return trees at even positions in the order of the group: its own order, else row by row.
 
-        Of a group of which fewer than ``out_of`` are left at the end, those at the same positions are returned.
+        In an incomplete last group of ``out_of`` trees, those at the same positions are returned.
         """
         from fieldhand.places.filters.zones import outside_keep_outs
 
@@ -95,7 +95,7 @@ class Evenly(Counted):
 
 
 def _even(count: int, length: int) -> Sequence[int]:
-    """Return positions evenly spread over a length, its ends among them; of one position the middle."""
+    """Return positions evenly spread over a length including its ends; for one position, the middle."""
     if count == 1:
         return [(length - 1) // 2]
     gaps = count - 1

@@ -1,4 +1,4 @@
-"""Trees spread over an area: far from each other, so that together they speak for all of it."""
+"""Choose trees far from each other, as a sample that represents an area."""
 
 from __future__ import annotations
 
@@ -14,24 +14,24 @@ from fieldhand.places.resolution_notes import ResolutionNotes
 
 Floats = NDArray[np.float64]
 
-#: Begun with at most so many trees, those farthest from the middle.
+#: Maximum number of starting trees, those farthest from the middle.
 _STARTS = 8
 
-#: So many distances are measured in all, about half a second's worth; with more trees it is begun with fewer.
+#: Maximum number of computed distances, about half a second; with more trees, fewer starts are tried.
 _MOST_MEASURED = 100_000_000
 
 
 def far_apart(spots: PlaceGroup, count: int, notes: ResolutionNotes) -> PlaceGroup:
-    """``count`` of the places so that the two nearest of them stand far apart, in the order of the file.
+    """Return ``count`` places with a large minimum distance, in the order of the file.
 
-    From a tree at the rim, each next one is that which is farthest from all taken so far (Gonzalez 1985). The least
-    distance is at least half of the best that there is. Of several trees to begin with the best is kept. A single one
-    is the tree nearest to the middle.
+    Starting at the rim, each next place is the farthest from all chosen ones (Gonzalez 1985), which reaches at least
+    half of the largest possible minimum distance. The best of several starts is kept. A single place is the tree
+    nearest to the middle.
 
     Args:
         spots: At least ``count`` places.
-        count: How many, at least 1.
-        notes: Is told how far apart they stand.
+        count: Number of places, at least 1.
+        notes: Receives the minimum distance.
     """
     xy = spots.xy
     away = np.hypot(*(xy - xy.mean(axis=0)).T)
@@ -45,10 +45,10 @@ def far_apart(spots: PlaceGroup, count: int, notes: ResolutionNotes) -> PlaceGro
 
 
 def _from(xy: Floats, first: int, count: int) -> tuple[list[int], float]:
-    """The places taken, beginning with one, and the least distance between any two of them."""
+    """Return the chosen places for one start, and the minimum distance between any two of them."""
     x, y = np.ascontiguousarray(xy.T)
     taken, least = [first], np.inf
-    nearest = (x - x[first]) ** 2 + (y - y[first]) ** 2  # squares: far faster than the metres
+    nearest = (x - x[first]) ** 2 + (y - y[first]) ** 2  # squared distances avoid the square root
     nearest[first] = -1.0
     while len(taken) < count:
         farthest = int(nearest.argmax())

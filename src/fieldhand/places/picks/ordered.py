@@ -1,4 +1,4 @@
-"""Places in an order that is to be kept."""
+"""Selector of places in a given order."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ Order = Literal[
     "rows",
     "attribute",
 ]
-#: What the first is called in an order.
+#: Superlative of the first place in each order.
 _FOREMOST: Mapping[Order, str] = {
     "west_to_east": "westernmost",
     "east_to_west": "easternmost",
@@ -63,7 +63,7 @@ _BACKWARDS: Mapping[Order, str] = {
 
 @dataclass(frozen=True, kw_only=True)
 class Ordered(FromGroup):
-    """``of`` in an order that is to be kept: by the compass, by distance from the place in hand, row by row
+    """``of`` in a fixed order: by the compass, by distance from the current place, row by row
     (``rows``), or by an ``attribute``, from its lowest value or ``descending``."""
 
     by: Order
@@ -98,7 +98,7 @@ class Ordered(FromGroup):
         return "nearness" if self.by in ("nearest_first", "farthest_first") else "site"
 
     def nth_phrase(self, number: int, wording: SelectorWording) -> NounPhrase:
-        """Return the second northernmost, the tree with the third highest yield."""
+        """Return the phrase of the n-th place, such as "the tree with the third highest yield"."""
         if number > 0 and self.by == "attribute":
             return one(self._nth_most(number, wording.phrase(self.of)))
         if number > 0 and self.by in _FOREMOST and not self.descending:
@@ -106,7 +106,7 @@ class Ordered(FromGroup):
         return super().nth_phrase(number, wording)
 
     def _order(self) -> str:
-        """Return the order: "from west to east", "by yield, the highest first"."""
+        """Return the order in words: "from west to east", "by yield, the highest first"."""
         if self.by == "attribute":
             name = say_attribute(self.attribute)[0]
             if self.descending:
@@ -129,7 +129,7 @@ class Ordered(FromGroup):
 
 
 def _nth_foremost(word: str, number: int, group: NounPhrase) -> NounPhrase:
-    """Return the second northernmost tree."""
+    """Return a phrase such as "the second northernmost tree"."""
     if number == 1:
         return foremost_phrase(word, 1, group)
     rank, which = say_ordinal(number, "tree"), superlative(word, 1)

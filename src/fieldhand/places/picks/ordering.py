@@ -1,4 +1,4 @@
-"""Places in an order that is to be kept, and the one of a number in it."""
+"""Sort places by compass direction, distance, row or attribute."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _COMPASS: dict[Order, tuple[float, float]] = {
 
 
 def ordered(spots: PlaceGroup, selector: Ordered, here: tuple[float, float], notes: ResolutionNotes) -> PlaceGroup:
-    """All of them in that order; ties by file order; last what has no row, or lacks the attribute."""
+    """Return all places sorted; ties in file order, places without a row or the attribute last."""
     key, lacking = _key(spots, selector, here, notes)
     if lacking.any():
         count = int(lacking.sum())
@@ -56,7 +56,7 @@ def ordered(spots: PlaceGroup, selector: Ordered, here: tuple[float, float], not
 def _key(
     spots: PlaceGroup, selector: Ordered, here: tuple[float, float], notes: ResolutionNotes
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """What they are ordered by, and which of them have none."""
+    """Return the sort key of each place, and a mask of the places without one."""
     none = np.zeros(len(spots), dtype=bool)
     match selector.by:
         case "nearest_first" | "farthest_first":
@@ -78,7 +78,7 @@ def _key(
 
 
 def _row_places(site: Site) -> tuple[Indices, str]:
-    """For each row of the site its place in the count, block after block."""
+    """Return the position of each row in the count, block after block, and the rule in words."""
     planting = require_rows(site)
     position = {id(row): k for k, row in enumerate(planting.rows)}
     place = np.zeros(len(planting.rows), dtype=np.intp)

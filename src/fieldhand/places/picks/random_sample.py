@@ -1,4 +1,4 @@
-"""Trees drawn at random, so that preview, approval, robot and replay draw the same."""
+"""Selector of random trees, the same ones in preview, approval, execution and replay."""
 
 from __future__ import annotations
 
@@ -60,10 +60,10 @@ class RandomSample(Counted):
 
 
 def _drawn(spots: PlaceGroup, count: int, seed: int) -> PlaceGroup:
-    """Return ``count`` of the places, each as likely as any other, in the order of the file.
+    """Return a uniform random sample of ``count`` places, in the order of the file.
 
     Each place gets a number from the SHA-256 of the seed and its id, and the lowest are drawn (bottom-k sampling, Cohen
-    and Kelley 2007). So the draw depends on no program's generator and not on the order of the file.
+    and Kelley 2007), so the sample depends neither on a random generator nor on the order of the file.
     """
     prefix = f"{seed}\n".encode()
     lots = [sha256(prefix + place.id.encode()).digest() for place in spots.places]

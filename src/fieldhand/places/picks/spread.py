@@ -1,4 +1,4 @@
-"""Trees spread over an area: far from each other, so that together they speak for all of it."""
+"""Selector of trees far from each other, as a sample that represents an area."""
 
 from __future__ import annotations
 

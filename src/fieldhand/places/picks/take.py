@@ -1,4 +1,4 @@
-"""Any few of a group."""
+"""Selector of any few places of a group."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class Take(Counted):
-    """Any ``count`` of ``of``: the nearest to the place in hand, so that the drive is short."""
+    """Any ``count`` of ``of``: the nearest to the current place, so that the drive is short."""
 
     count: int
     of: Selector

@@ -1,4 +1,4 @@
-"""The trees with the most of an attribute."""
+"""Selector of the trees with the highest or lowest value of an attribute."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Selectors of free points, tied to no tree."""
+"""Selectors of free points, independent of trees."""

@@ -1,4 +1,4 @@
-"""Where free points may lie: inside the boundary, clear of keep-outs, off the trees."""
+"""Areas for free points: inside the boundary, clear of keep-out zones and trees."""
 
 from __future__ import annotations
 
@@ -22,20 +22,20 @@ from fieldhand.site.feature_kinds import phrase
 from fieldhand.site.model import Place, Site
 from fieldhand.site.names import short
 
-#: Free points keep this far from keep-outs and the boundary where they can.
+#: Preferred distance in metres of free points from keep-out zones and the boundary.
 MARGIN_M = 1.0
 
-#: Free points keep this far from trees where they can: a robot stands beside a tree, not on it.
+#: Preferred distance in metres of free points from trees.
 OFF_TREES_M = 1.0
 
-#: No robot stops more often than this on one line, or in one zone.
+#: Maximum number of points on one line or in one zone.
 MOST_POINTS = 10_000
 
 Floats = NDArray[np.float64]
 
 
 def free_points(site: Site, xy: Floats, ids: Sequence[str]) -> PlaceGroup:
-    """Return a group of free points of these names."""
+    """Return a group of free points with these ids."""
     degrees = site.projection.degrees(xy).tolist()
     return PlaceGroup.of(
         site,
@@ -47,10 +47,10 @@ def free_points(site: Site, xy: Floats, ids: Sequence[str]) -> PlaceGroup:
 
 
 def area_called(site: Site, name: str) -> BaseGeometry:
-    """The zones of that name as one area, else the ground of the block of that name.
+    """Return the union of the zones of that name, or else the area of the block of that name.
 
     Raises:
-        PlaceError: There is neither, or a robot may not go there.
+        PlaceError: There is neither, or robots are not allowed there.
     """
     zones = [z for z in site.zones if phrase(z.name) == phrase(name)]
     zones = [z for z in zones if z.name == name] or zones
@@ -69,12 +69,12 @@ def area_called(site: Site, name: str) -> BaseGeometry:
 
 
 def ground_of(xy: Floats, around_m: float) -> BaseGeometry:
-    """The ground of some trees: their convex hull and a little around it."""
+    """Return the convex hull of some trees, extended by ``around_m`` metres."""
     return MultiPoint(xy).convex_hull.buffer(around_m)
 
 
 def free_part(site: Site, area: BaseGeometry) -> BaseGeometry:
-    """The part of an area or a line where points may lie: with the margin, or without it where that leaves nothing."""
+    """Return the part of an area or line that is free for points, with the margin unless nothing would remain."""
     if not site.zones:
         return area
     for margin in (MARGIN_M, 0.0):
@@ -85,25 +85,25 @@ def free_part(site: Site, area: BaseGeometry) -> BaseGeometry:
 
 
 def segments(geometry: BaseGeometry) -> list[LineString]:
-    """The straight pieces of a line that was cut."""
+    """Return the straight pieces of a line or of several lines."""
     pieces = getattr(geometry, "geoms", [geometry])
     return [p for p in pieces if isinstance(p, LineString) and p.length > 0]
 
 
 def tree_index(site: Site) -> Any:
-    """The trees, to ask how far the nearest is; kept with the site."""
+    """Return a spatial index of the trees, cached with the site."""
     if "tree index" not in site.cache:
         site.cache["tree index"] = cKDTree(site.xy, balanced_tree=False, compact_nodes=False)
     return site.cache["tree index"]
 
 
 def off_trees(site: Site, xy: Floats) -> Floats:
-    """For each point how far the nearest tree is, up to the distance that is enough."""
+    """Return the distance of each point to the nearest tree in metres, capped at the preferred distance."""
     return np.asarray(np.minimum(tree_index(site).query(xy)[0], OFF_TREES_M))
 
 
 def _open_ground(site: Site, margin_m: float) -> Any:
-    """The whole plane, or the boundary's inside, without the keep-outs; a margin away from both."""
+    """Return the area inside the boundary, or the whole plane, without keep-out zones and with a margin to both."""
     key = ("open ground", margin_m)
     if key not in site.cache:
         bounds = [z.polygon for z in site.zones_of("boundary")]

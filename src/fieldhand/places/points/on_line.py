@@ -1,4 +1,4 @@
-"""Points at a spacing along a line."""
+"""Place points at an exact spacing on a straight line beside a row or across an area."""
 
 from __future__ import annotations
 
@@ -41,21 +41,21 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-#: Beside a row means on the side of whoever asks, if they stand at least this part of a row spacing off its line.
+#: Minimum offset from a row, as a fraction of the row spacing, at which the origin determines the side of the line.
 _ASIDE = 0.25
 
-#: Lines that are tried across an area.
+#: Number of lines tried across an area.
 _LINES = 41
 
 
 @dataclass(frozen=True, kw_only=True)
 class _Line:
-    """A straight way on which points may lie.
+    """A straight line for points.
 
     Attributes:
-        pieces: What of it is free.
-        where: Behind "15 m point 2": "east of row 3".
-        words: In a message: "beside row 3".
+        pieces: Free pieces of the line.
+        where: Suffix of the points' ids: "east of row 3" in "15 m point 2 east of row 3".
+        words: Wording in messages: "beside row 3".
     """
 
     pieces: Sequence[LineString]
@@ -63,15 +63,15 @@ class _Line:
     words: str
 
 
-#: How far from its row towards the next one a line of points lies: nearer to its own row, whose ground is meant.
+#: Distance of a line from its row towards the next one, as a fraction of the row spacing; nearer to its own row.
 _BESIDE = 0.4
 
 
 def on_line(spots: PlaceGroup, near: Origin, selector: Spaced, notes: ResolutionNotes) -> PlaceGroup:
-    """Points at exactly that spacing on one straight line, from its end that is nearer to ``near``.
+    """Return points at an exact spacing on one straight line, starting at the end nearer to ``near``.
 
     Raises:
-        PlaceError: They do not fit; it says how many do.
+        PlaceError: The points do not fit; the message gives the number that does.
     """
     site, apart, count = spots.site, selector.apart_m, selector.count
     if not (np.isfinite(apart) and apart > 0):
@@ -111,8 +111,9 @@ def on_line(spots: PlaceGroup, near: Origin, selector: Spaced, notes: Resolution
 def _fitting(
     lines: Iterator[_Line], near: Floats, apart: float, count: int, notes: ResolutionNotes
 ) -> tuple[_Line, LineString]:
-    """The first line with a piece that holds the count, and that piece from its end that is nearer to ``near``; else
-    the longest piece. Without a count the longest piece of the first line with any."""
+    """Return the first line with a piece long enough for the count, and that piece, starting at the end nearer to
+    ``near``; else the longest piece. Without a count, return the longest piece of the first line that has one.
+    """
     longest: tuple[_Line, LineString] | None = None
     for line in lines:
         pieces = sorted((_begun(p, near) for p in line.pieces), key=lambda p: round(Point(near).distance(p), 3))
@@ -139,7 +140,7 @@ def _fitting(
 
 
 def _begun(piece: LineString, near: Floats) -> LineString:
-    """The piece as seen from ``near``: it begins with the nearer end."""
+    """Return the piece directed so that it begins at the end nearer to ``near``."""
     first, last = (np.hypot(*(np.array(piece.coords[k]) - near)) for k in (0, -1))
     return piece if first <= last + 1e-6 else LineString(list(piece.coords)[::-1])
 
@@ -161,14 +162,14 @@ def _does_not_fit(site: Site, selector: Spaced, line: _Line, piece: LineString, 
 
 
 def _from(near: Origin, spots: PlaceGroup) -> Floats:
-    """Return the point from which a line is seen: the first place of ``near``, or where a zone is nearest to a tree."""
+    """Return the origin point: the first place of ``near``, or the point of a zone nearest to a tree."""
     if isinstance(near, PlaceGroup):
         return np.asarray(near.xy[0])
     return np.asarray(nearest_of(near, spots.ranked(distance_to(spots, near), 1))[0])
 
 
 def _beside_row(in_row: PlaceGroup, near: Origin, notes: ResolutionNotes) -> Iterator[_Line]:
-    """Lines beside the row that has the tree nearest to ``near``: on its side first."""
+    """Yield lines beside the row of the tree nearest to ``near``, those on the side of ``near`` first."""
     site = in_row.site
     nearest = in_row.ranked(distance_to(in_row, near), 1)
     row = site.planting.rows[int(nearest.row[0])]
@@ -202,7 +203,7 @@ def _beside_row(in_row: PlaceGroup, near: Origin, notes: ResolutionNotes) -> Ite
 
 
 def _course(site: Site, row: Row, u: Floats, v: Floats) -> tuple[float, float]:
-    """The straight line of a row: how far across it lies where it crosses the origin, and by how much it slants."""
+    """Return the fitted line of a row: its offset across at the origin, and its slope."""
     xy = site.xy[row.trees]
     along, aside = xy @ u, xy @ v
     if len(xy) < 5 or np.ptp(along) < 1.0:
@@ -212,7 +213,7 @@ def _course(site: Site, row: Row, u: Floats, v: Floats) -> tuple[float, float]:
 
 
 def _across_area(spots: PlaceGroup, zone: str, notes: ResolutionNotes) -> Iterator[_Line]:
-    """Straight lines through a zone, or through the extent of the trees: off the trees first, then near its middle."""
+    """Yield straight lines through a zone or the extent of the trees, clear of trees and near the middle first."""
     site = spots.site
     area = area_called(site, zone) if zone else ground_of(spots.xy, site.spacing_m / 2)
     u = _long_way(site, area)
@@ -238,7 +239,7 @@ def _across_area(spots: PlaceGroup, zone: str, notes: ResolutionNotes) -> Iterat
 
 
 def _long_way(site: Site, area: BaseGeometry) -> Floats:
-    """The unit vector along the rows in an area, or along the area where it has no rows."""
+    """Return the unit vector along the rows in an area, or along the area if it has no rows."""
     inside = np.flatnonzero(shapely.intersects_xy(area, *site.xy.T))
     rows = site.planting.row_of[inside]
     if (rows >= 0).any():
@@ -251,7 +252,7 @@ def _long_way(site: Site, area: BaseGeometry) -> Floats:
 
 
 def _clear(site: Site, pieces: Sequence[LineString]) -> float:
-    """How far the nearest tree is from a line, in half metres, up to half a spacing."""
+    """Return the distance from a line to the nearest tree in steps of 0.5 m, capped at half a tree spacing."""
     along = [np.linspace(0, piece.length, min(int(piece.length) + 2, 400)) for piece in pieces]
     xy = np.vstack(
         [shapely.get_coordinates(shapely.line_interpolate_point(p, t)) for p, t in zip(pieces, along, strict=True)]

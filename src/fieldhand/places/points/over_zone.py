@@ -1,4 +1,4 @@
-"""Points spread evenly over a zone."""
+"""Spread points evenly over a zone."""
 
 from __future__ import annotations
 
@@ -32,18 +32,18 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-#: Points that are tried for each that is wanted.
+#: Number of raster points per requested point.
 _RASTER = 40
 
-#: Rounds in which points settle in the middle of their share.
+#: Number of Lloyd iterations.
 _ROUNDS = 8
 
 
 def over_zone(site: Site, selector: PointsIn, notes: ResolutionNotes) -> PlaceGroup:
-    """Points spread evenly over a zone, or its middle; off the trees by a metre where there is room.
+    """Return points spread evenly over a zone, or its middle for one point; a metre from the trees if there is space.
 
     Raises:
-        PlaceError: There is no such zone, or no room in it.
+        PlaceError: There is no such zone, or no space in it.
     """
     count = selector.count
     if not 1 <= count <= MOST_POINTS:
@@ -90,7 +90,7 @@ def over_zone(site: Site, selector: PointsIn, notes: ResolutionNotes) -> PlaceGr
 
 
 def _raster(site: Site, free: BaseGeometry, count: int) -> Floats:
-    """Points on a square raster over an area, off the trees where enough of them are."""
+    """Return the points of a square raster over an area, only those clear of trees if there are enough."""
     wanted = int(np.clip(_RASTER * count, 400, max(6_000, 2 * count)))
     step = float(np.sqrt(free.area / wanted))
     west, south, east, north = free.bounds
@@ -99,7 +99,7 @@ def _raster(site: Site, free: BaseGeometry, count: int) -> Floats:
         -np.ceil((north - south) / step / 2), np.ceil((north - south) / step / 2) + 1
     )
     columns = np.meshgrid(x, y, indexing="ij")
-    columns[1][1::2] = columns[1][1::2, ::-1]  # down one column and up the next, so that neighbours are near
+    columns[1][1::2] = columns[1][1::2, ::-1]  # alternate the direction, so that consecutive points are close
     xy = np.column_stack([c.ravel() for c in columns])
     shapely.prepare(free)
     xy = xy[shapely.intersects_xy(free, *xy.T)]
@@ -108,7 +108,7 @@ def _raster(site: Site, free: BaseGeometry, count: int) -> Floats:
 
 
 def _spread(raster: Floats, count: int) -> Floats:
-    """Points of the raster, each in the middle of those that are nearest to it (Lloyd 1982), evenly to begin with."""
+    """Return raster points that are centres of their Voronoi cells (Lloyd 1982), starting with an even choice."""
     centres = raster[((np.arange(count) + 0.5) * len(raster) / count).astype(np.intp)]
     for _ in range(_ROUNDS):
         nearest = np.asarray(cKDTree(centres).query(raster)[1])

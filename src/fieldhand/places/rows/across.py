@@ -1,4 +1,4 @@
-"""The tree abreast in the next row."""
+"""Selector of the tree abreast in the next row."""
 
 from __future__ import annotations
 

@@ -124,10 +124,10 @@ def across(origin: PlaceGroup, side: CountedFrom, notes: ResolutionNotes) -> Pla
 
 
 def successive(spots: PlaceGroup, near: Origin, count: int, notes: ResolutionNotes) -> PlaceGroup:
-    """That many of the group one after the other in one row.
+    """Return ``count`` consecutive places of the group in one row.
 
-    The row is the one with the nearest tree, of those that have as many; in it the ones with the least distance in
-    all, in the order of the row from the end of theirs that is nearer. No place where no row has as many.
+    Among the rows with enough places, the row with the nearest tree is chosen; in it, the run with the smallest total
+    distance, ordered from its end nearer to ``near``. The result is empty if no row has enough places.
     """
     site = spots.site
     require_rows(site)

@@ -1,4 +1,4 @@
-"""The tree some trees along the row."""
+"""Selector of the tree a number of trees along the row."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class AlongRow(Selector):
 
 
 def _say_way(towards: Towards) -> str:
-    """Return which way along a row: "down the row", "along the row to the north"."""
+    """Return the direction along a row: "down the row", "along the row to the north"."""
     match towards:
         case "down":
             return message("down the row")

@@ -1,4 +1,4 @@
-"""Trees by their numbers in their row."""
+"""Select trees by their numbers in their row."""
 
 from __future__ import annotations
 
@@ -31,10 +31,10 @@ Mask = NDArray[np.bool_]
 
 
 def in_row(spots: PlaceGroup, selector: InRow, notes: ResolutionNotes) -> PlaceGroup:
-    """Those with such numbers in their row.
+    """Return the trees with the selected numbers in their row.
 
-    Whole rows whose trees the file numbers go by the file's numbers, unless a side is named to count from; else the
-    trees of the group that stand are counted.
+    Complete rows whose trees are numbered in the file use those numbers, unless the selector counts from a side;
+    otherwise the trees of the group in the row are counted.
     """
     first, last = selector.first, selector.last
     if 0 in (first, last):
@@ -58,9 +58,9 @@ def in_row(spots: PlaceGroup, selector: InRow, notes: ResolutionNotes) -> PlaceG
 
 
 def every_nth(spots: PlaceGroup, selector: EveryNth, notes: ResolutionNotes) -> PlaceGroup:
-    """Those whose number among the group in their row is ``start``, ``start + nth``, and so on.
+    """Return the trees whose number among the group in their row is ``start``, ``start + nth``, and so on.
 
-    Where no row has as many trees, the count goes on from row to row: "every 50th tree" is not the first of every row.
+    If no row has that many trees, the count continues from row to row: "every 50th tree" is not the first of every row.
     """
     if selector.nth < 1 or selector.start < 1:
         raise PlaceError(
@@ -87,7 +87,7 @@ def every_nth(spots: PlaceGroup, selector: EveryNth, notes: ResolutionNotes) -> 
 
 
 def _row_by_row(spots: PlaceGroup, number: Indices) -> Indices:
-    """The numbers in their rows counted on from one row to the next; 0 stays what is in no row."""
+    """Return numbers that continue from one row to the next; 0 for places in no row."""
     counted = np.flatnonzero(number)
     row = spots.site.planting.row_of[spots.index[counted]]
     on = np.zeros_like(number)
@@ -96,7 +96,7 @@ def _row_by_row(spots: PlaceGroup, number: Indices) -> Indices:
 
 
 def _ways(spots: PlaceGroup, side: CountedFrom) -> tuple[Indices, str]:
-    """For each row of the site the way in which its trees count, and from where, of the blocks of the group."""
+    """Return the counting direction of each row of the site, and the rule in words for the blocks of the group."""
     site = spots.site
     planting = require_rows(site)
     way = np.ones(len(planting.rows), dtype=np.intp)
@@ -107,7 +107,7 @@ def _ways(spots: PlaceGroup, side: CountedFrom) -> tuple[Indices, str]:
         sign, name = trees_from(site, block, side)
         sides[name] = None
         way[of_row == block.rows[0].block] = sign
-    if side == "usual":  # the file's own numbers say where its count begins
+    if side == "usual":  # numbers in the file determine the end at which a row begins
         rows = spots.row
         for k in np.unique(rows[rows >= 0]).tolist():
             slots = planting.rows[k].slots
@@ -121,7 +121,7 @@ def _ways(spots: PlaceGroup, side: CountedFrom) -> tuple[Indices, str]:
 
 
 def _by_own_numbers(spots: PlaceGroup, kept: Mask, ends: tuple[int, int], notes: ResolutionNotes) -> Mask:
-    """The same choice by the file's numbers, in rows that it numbers and of which the group has every tree."""
+    """Return the choice by numbers of the file, for numbered rows of which the group contains every tree."""
     site = spots.site
     rows = spots.row
     there = np.bincount(rows[rows >= 0], minlength=len(site.planting.rows))

@@ -1,4 +1,4 @@
-"""The side from which rows or trees are counted, in words."""
+"""Wording of the side from which rows or trees are counted."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ if TYPE_CHECKING:
     from fieldhand.terms import CountedFrom
 
 
-def many_from(said: str, side: CountedFrom) -> NounPhrase:
-    """Return trees with the side that they are counted from, where that is not the usual one."""
+def many_from(phrase: str, side: CountedFrom) -> NounPhrase:
+    """Return the phrase for several trees, with the side that they are counted from unless it is the usual one."""
     if side == "usual":
-        return many(said)
-    return many(message("{trees}, counted from the {side}", trees=said, side=COMPASS[side]))
+        return many(phrase)
+    return many(message("{trees}, counted from the {side}", trees=phrase, side=COMPASS[side]))

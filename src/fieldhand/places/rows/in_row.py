@@ -50,7 +50,7 @@ class InRow(FromGroup):
         return many_from(self._of_rows(wording.phrase(self.of)), self.counted_from)
 
     def _of_rows(self, group: NounPhrase) -> str:
-        """Return trees 4 to 9 of whichever rows the group stands in."""
+        """Return the trees with the rows of the group: "trees 4 to 9 of rows 2 to 5"."""
         numbered = self._numbers()
         if not group.bare:
             return message("{numbered} of each row among {trees}", numbered=numbered, trees=group.group())
@@ -62,7 +62,7 @@ class InRow(FromGroup):
         return message("{numbered} of each of {rows}", numbered=numbered, rows=group.whose)
 
     def _numbers(self) -> str:
-        """Return which trees of a row: "trees 4 to 9", "tree 4", "the last 3 trees"."""
+        """Return the trees of a row in words: "trees 4 to 9", "tree 4", "the last 3 trees"."""
         first, last = self.first, self.last
         if first == last:
             if first >= 0:

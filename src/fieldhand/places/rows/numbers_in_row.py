@@ -1,4 +1,4 @@
-"""Positions of the trees of a group in their rows and blocks."""
+"""Compute the positions of trees in their rows and blocks."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def numbers_in_row(spots: PlaceGroup, way: Indices) -> tuple[Indices, Indices]:
 
 
 def blocks_of(site: Site, spots: PlaceGroup) -> tuple[Block, ...]:
-    """The blocks in which these places stand, in the site's order."""
+    """Return the blocks of these places, in the site's order."""
     planting = require_rows(site)
     rows = spots.row
     of_row = np.array([row.block for row in planting.rows], dtype=np.intp)
@@ -42,7 +42,7 @@ def blocks_of(site: Site, spots: PlaceGroup) -> tuple[Block, ...]:
 
 
 def in_those_rows(spots: PlaceGroup, rows: Sequence[Row]) -> PlaceGroup:
-    """Return those that stand in some rows."""
+    """Return the places in the given rows."""
     chosen = np.zeros(len(spots.site.trees) + 1, dtype=bool)
     for row in rows:
         chosen[row.trees] = True

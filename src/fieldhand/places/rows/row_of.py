@@ -48,7 +48,7 @@ class RowOf(FromGroup):
 
 
 def _row_of(over: int, origin: str) -> str:
-    """Return the row of a place, or a row near it; of the place in hand where no origin is given."""
+    """Return the row of a place, or a row near it, in words; of the current place if there is no origin."""
     if over == 0:
         return message("the row of {place}", place=origin) if origin else message("the same row")
     if over == 1:

@@ -1,4 +1,4 @@
-"""Trees by their rows: a range of rows, every so many of them, and rows beside a place's own."""
+"""Select trees by their rows: a range of rows, every n-th row, and rows beside that of a place."""
 
 from __future__ import annotations
 
@@ -31,9 +31,9 @@ if TYPE_CHECKING:
 
 
 def in_rows(spots: PlaceGroup, selector: Rows, reference: PlaceGroup, notes: ResolutionNotes) -> PlaceGroup:
-    """Those in a range of rows, or in every so many of them.
+    """Return the trees in a range of rows, or in every n-th of these.
 
-    A row that is called by name or number is looked for in the blocks of the ground; without one, each block counts.
+    A row given by name or number is searched in the blocks of the reference group; otherwise each block counts its own.
     """
     site = spots.site
     require_rows(site)
@@ -59,7 +59,7 @@ def in_rows(spots: PlaceGroup, selector: Rows, reference: PlaceGroup, notes: Res
 
 
 def row_of(spots: PlaceGroup, origin: PlaceGroup, over: int, notes: ResolutionNotes) -> PlaceGroup:
-    """Those in the rows of the origin, or so many rows over."""
+    """Return the trees in the rows of the origin, or in the rows ``over`` rows from them."""
     site = spots.site
     planting = require_rows(site)
     rows = np.unique(origin.row)
@@ -98,7 +98,7 @@ def row_of(spots: PlaceGroup, origin: PlaceGroup, over: int, notes: ResolutionNo
 
 
 def _range(site: Site, blocks: Sequence[Block], selector: Rows, notes: ResolutionNotes) -> Sequence[Row]:
-    """The rows from first to last; they are of one block, and no other block has both."""
+    """Return the rows from first to last, which must both be in exactly one block."""
     found: list[tuple[Block, Sequence[Row]]] = []
     by_number = selector.counted_from != "usual"
     for block in blocks:
@@ -121,7 +121,7 @@ def _backwards(rows: Sequence[Row], first: int, last: int, step: int) -> Sequenc
 
 
 def _no_such_range(site: Site, blocks: Sequence[Block], selector: Rows) -> PlaceError:
-    """One of the two is nowhere, or they are in different blocks."""
+    """Return the error for a range whose ends do not exist or are in different blocks."""
     by_number = selector.counted_from != "usual"
     where: dict[str, list[str]] = {}
     for said in dict.fromkeys(s for s in (selector.first, selector.last) if s):

@@ -1,4 +1,4 @@
-"""Trees of some rows."""
+"""Selector of the trees of some rows."""
 
 from __future__ import annotations
 
@@ -52,11 +52,11 @@ class Rows(FromGroup):
         return in_rows(of, self, resolution.reference(self.of, of), notes)
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:
-        rows, single = self._said()
+        rows, single = self._rows_in_words()
         return wording.phrase(self.of).of_rows(rows, one=single)
 
-    def _said(self) -> tuple[str, bool]:
-        """Return the rows that are meant, without the trees in them, and True if it is one: "row 3", "all rows"."""
+    def _rows_in_words(self) -> tuple[str, bool]:
+        """Return the rows in words ("row 3", "all rows"), and True if it is a single row."""
         first, last = self.first, self.last
         side = "" if self.counted_from == "usual" else message("from the {side}", side=COMPASS[self.counted_from])
         if first and first == last:
@@ -83,24 +83,24 @@ class Rows(FromGroup):
         return message("every {ordinal} one of {rows}", ordinal=say_ordinal(self.every, "row"), rows=span), False
 
 
-def _say_row(said: str, side: str) -> str:
-    if _is_name(said, side):
-        return message("row {name}", name=_bare(said))
-    if int(said) < -1:
-        ordinal = say_ordinal(-int(said), "row")
+def _say_row(row: str, side: str) -> str:
+    if _is_name(row, side):
+        return message("row {name}", name=_bare(row))
+    if int(row) < -1:
+        ordinal = say_ordinal(-int(row), "row")
         return message("the {ordinal} last row {from_side}", ordinal=ordinal, from_side=side)
-    return message("the {ordinal} row {from_side}", ordinal=say_ordinal(int(said), "row"), from_side=side)
+    return message("the {ordinal} row {from_side}", ordinal=say_ordinal(int(row), "row"), from_side=side)
 
 
-def _is_name(said: str, side: str) -> bool:
-    """Return True if a row is called so, rather than counted from a side or from the last."""
-    return _rises(said) and not (side and said.strip().isdecimal())
+def _is_name(row: str, side: str) -> bool:
+    """Return True if the text is a name or plain number, not counted from a side or from the last row."""
+    return _rises(row) and not (side and row.strip().isdecimal())
 
 
-def _rises(said: str) -> bool:
+def _rises(row: str) -> bool:
     """Return True for a name, or a number that does not count from the last row."""
-    return bool(said) and re.fullmatch(r"-\d{1,9}", said.strip()) is None
+    return bool(row) and re.fullmatch(r"-\d{1,9}", row.strip()) is None
 
 
-def _bare(said: str) -> str:
-    return said[4:] if said.lower().startswith("row ") else said
+def _bare(row: str) -> str:
+    return row[4:] if row.lower().startswith("row ") else row

@@ -1,1 +1,1 @@
-"""Selectors that name places outright."""
+"""Selectors without a group: every tree, a named place, the current place, labelled places, unions."""

@@ -30,7 +30,7 @@ class GateIs(Selector):
         return cls(gate=site.gates[0].place.id if site.gates else "")
 
     def resolve(self, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
-        """Return the gate of that name, whatever its case, hyphens and underscores."""
+        """Return the gate of that name, ignoring case, hyphens and underscores."""
         site = resolution.site
         alike = [g.place for g in site.gates if same_words(g.place.id) == same_words(self.gate)]
         exact = [place for place in alike if place.id == self.gate]

@@ -1,4 +1,4 @@
-"""The place in hand."""
+"""Selector of the current place."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class Here(Selector):
-    """The place in hand."""
+    """The current place."""
 
     @classmethod
     def example(cls, site: Site) -> Here:
@@ -40,7 +40,7 @@ class Here(Selector):
         return "mission"
 
     def it(self, wording: SelectorWording) -> str:
-        """Return "that place": "there" would be no English ("next to there")."""
+        """Return "that place", because "next to there" is not English."""
         return message("that place")
 
     def from_it(self, wording: SelectorWording) -> str:

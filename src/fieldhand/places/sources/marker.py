@@ -48,7 +48,7 @@ class Marker(Selector):
         return self.name
 
     def _place(self, resolution: Resolution) -> Place:
-        """A missing start is the first tree of the file, a missing end is the start; a charger has no stand-in."""
+        """Return the marker; the first tree replaces a missing start, the start a missing end, nothing a charger."""
         site = resolution.site
         if self.name in site.markers:
             return site.markers[self.name]

@@ -61,7 +61,7 @@ class UnionOf(Selector):
 
     @property
     def size(self) -> CountRange:
-        """The sum of the parts at most; all of it where each part is a tree of its own."""
+        """At most the sum of the parts' sizes; exactly the sum if every part is a different named tree."""
         sizes = [part.size for part in self.parts]
         highs = [size.high for size in sizes if size.high is not None]
         total = sum(highs) if len(highs) == len(sizes) else None

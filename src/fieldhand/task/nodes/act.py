@@ -19,17 +19,18 @@ if TYPE_CHECKING:
 class Act(PlanNode):
     """One action of the robot.
 
-    The robot drives to the place, which the selector must name alone, binds the label to it and makes the captures
-    there. Without a selector the action is done at the current place; a robot displaced by a failed drive first drives
-    back there. The reading of an earlier round is cleared first, so that it decides nothing if this action fails.
+    The robot drives to the place, which must be the only one of the selector, binds the label to it and makes the
+    captures there. Without a selector, the action is done at the current place; a robot displaced by a failed drive
+    first drives back there. The reading of an earlier round is cleared first, so that it decides nothing if this action
+    fails.
 
     Attributes:
-        at: Where; else the place in hand.
-        at_said: Those of its ranges of the request that say where.
+        at: Place; by default the current one.
+        at_said: Character ranges of the request that name the place.
         count: Captures at that place.
         parameters: Name and value of each parameter that the profile declares for the action.
         label: Binds the place for later nodes.
-        reading: Binds what the action measures, of several captures the last.
+        reading: Binds the measured values, of several captures the last.
     """
 
     id: str = ""

@@ -18,9 +18,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class AnyOrder(PlanNode):
-    """Steps in whatever order drives least; each step starts with a place of its own.
+    """Steps in the order with the shortest drive; each step begins at a place of its own.
 
-    The order is decided once, when the node is reached. The node fails as soon as a step does.
+    The order is decided once, when the node is reached. The node fails as soon as a step fails.
+
+    Each of ``steps`` is executed once.
     """
 
     id: str = ""

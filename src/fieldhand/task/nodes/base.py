@@ -36,7 +36,7 @@ Role: TypeAlias = Literal["condition", "limit", "end", "action", "place", "order
 #: A generator of instructions that is sent their results and returns nothing.
 Program: TypeAlias = "Generator[Instruction, Any, None]"
 
-#: Returns a selector in a few words.
+#: Function that returns a selector in a few words.
 SayPlace: TypeAlias = "Callable[[Selector], str]"
 
 
@@ -95,7 +95,7 @@ class ChildNode:
 
 
 class Known(Protocol):
-    """What is known at a point of a plan; ``|`` merges two branches."""
+    """The bindings known at a point of a plan; ``|`` merges those of two branches."""
 
     def __or__(self, other: Self, /) -> Self: ...
 
@@ -104,10 +104,14 @@ K = TypeVar("K", bound=Known)
 
 
 class PlanNode(ABC):
-    """A node of a plan; concrete nodes are dataclasses.
+    """The base class of plan nodes, which are dataclasses.
 
     The properties below describe a node without executing it. Their defaults fit a node that does not drive, does no
     work and has no children.
+
+    Attributes:
+        id: Identifier within the Task, the same from planning to the report; empty until ``task.build.make_task``.
+        said: Character ranges of the request from which the node was derived: start, and end (exclusive).
     """
 
     id: str
@@ -123,7 +127,7 @@ class PlanNode(ABC):
 
     @abstractmethod
     def say(self, place: SayPlace) -> str:
-        """Return a few words on what the node does."""
+        """Return a short description of the node."""
 
     @property
     @abstractmethod
@@ -152,7 +156,7 @@ class PlanNode(ABC):
         return False
 
     def goes_on_after(self, child: Node) -> bool:  # noqa: ARG002
-        """Return True if another child, or another round of this one, can follow this child."""
+        """Return True if another child, or another execution of the same one, can follow this child."""
         return False
 
     @property

@@ -21,16 +21,16 @@ if TYPE_CHECKING:
 class ForEach(PlanNode):
     """``body`` at each place of a selector.
 
-    The selector is resolved once, when the node is reached. Then, until no visit is left, ``at_most`` are made, or
-    ``until`` holds after one: drive to the next place, bind the label to it, execute the body. An abandoned visit does
-    not count. Afterwards the label means every place that was visited.
+    The selector is resolved once, when the node is reached. Each visit drives to the next place, binds the label to it
+    and executes the body, until no place is left, ``at_most`` visits are made, or ``until`` is true after a visit. An
+    abandoned visit does not count. Afterwards the label is bound to every place that was visited.
 
     Attributes:
         label: Names the place for ``Bound(label=...)`` in ``body``.
-        order: ``best`` drives least; ``given`` keeps the order of the selector.
-        optional: Visits, in no given order, may be shed by the budget guard, least worth first ("as many as you can").
-        at_most: Stop after that many visits ("up to 6").
-        reward: Attribute that a visit is worth; else each is worth 1.
+        order: ``best`` for the shortest drive; ``given`` for the order of the selector.
+        optional: Visits may be dropped to keep the budget, least worth first ("as many as you can").
+        at_most: Maximum number of visits ("up to 6").
+        reward: Attribute that a visit is worth, else 1.
         until: Stop once this holds after a visit.
     """
 

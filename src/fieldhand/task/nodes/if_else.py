@@ -17,9 +17,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class If(PlanNode):
-    """``then`` where the condition holds, else ``otherwise`` (nothing if absent). It is tested once, when reached.
+    """``then`` if the condition is true, else ``otherwise`` (nothing if absent). It is tested once, when reached.
 
-    A condition on a reading that was not taken does not hold.
+    A condition on a reading that was not taken is false. ``otherwise`` is None for no alternative.
     """
 
     id: str = ""

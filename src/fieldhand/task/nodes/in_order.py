@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class InOrder(PlanNode):
-    """Steps in their order; it fails as soon as one does."""
+    """Steps in their order; fails as soon as a step fails."""
 
     id: str = ""
     steps: tuple[Node, ...]

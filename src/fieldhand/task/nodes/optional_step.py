@@ -16,12 +16,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class OptionalStep(PlanNode):
-    """``body`` as a whole, if the budget allows. What it binds is known inside it alone.
+    """``body`` as a whole, if the budget allows. Names bound inside are unknown outside.
 
-    The budget guard decides once, when it is reached. Skipping it, or abandoning it half-way, is no failure.
+    The budget guard decides once, when the step is reached. Skipping or abandoning it is no failure.
 
     Attributes:
-        reward: What it is worth.
+        reward: Worth of the step.
     """
 
     id: str = ""

@@ -18,7 +18,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class Repeat(PlanNode):
-    """``body`` a number of times, or until a condition holds after a round, whichever comes first."""
+    """``body`` a number of times, or until a condition is true after a round, whichever comes first.
+
+    ``times`` is the maximum number of rounds, at least 1; ``until`` is None for exactly that number.
+    """
 
     id: str = ""
     times: int

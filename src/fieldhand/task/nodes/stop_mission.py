@@ -13,7 +13,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class StopMission(PlanNode):
-    """End the mission here and take an exit. Nothing around it goes on, no ``Try`` either."""
+    """End the mission here and take an exit; no enclosing node continues.
+
+    ``exit`` selects the exit: ``nominal`` as after a completed plan, ``faulted`` as after an abort.
+    """
 
     id: str = ""
     exit: Literal["nominal", "faulted"] = "nominal"

@@ -15,7 +15,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class Try(PlanNode):
-    """``body``, and if that fails ``otherwise``, from wherever the failure left the robot."""
+    """``body``, and if it fails ``otherwise``, from where the failure left the robot.
+
+    A failure of ``otherwise`` is not caught here.
+    """
 
     id: str = ""
     body: Node

@@ -1,7 +1,7 @@
 """Hypothesis strategies for orchards, Tasks and event logs.
 
 Raises:
-    ModuleNotFoundError: Hypothesis, which is not installed with Fieldhand, is missing.
+    ModuleNotFoundError: Hypothesis, which Fieldhand does not install, is missing.
 """
 
 from importlib.util import find_spec

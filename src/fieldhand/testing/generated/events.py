@@ -36,5 +36,5 @@ def _event(cls: type[Event]) -> st.SearchStrategy[Event]:
     return st.builds(cls, **(fields | {"t": st.floats(0, 1e6)}))
 
 
-#: Logs of any events in any order.
+#: Logs of arbitrary events in arbitrary order.
 events: st.SearchStrategy[tuple[Event, ...]] = st.lists(st.one_of(*map(_event, get_args(Event))), max_size=8).map(tuple)

@@ -1,4 +1,4 @@
-"""Hypothesis strategies of orchards whose rows are known: small ones, with and without pond, fence and markers."""
+"""Hypothesis strategies for small orchards with known rows, with and without pond, fence and markers."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ seeds = st.integers(0, 2**32 - 1)
 
 @st.composite
 def block_shapes(draw: st.DrawFn, *, most_rows: int = 7, most_along: int = 10, jitter: float = 0.1) -> BlockShape:
-    """Draw a block of 4 rows or more, clearly planted: rows at least 1.25 times as far apart as their trees."""
+    """Draw a block of at least 4 rows whose spacing is at least 1.25 times that of the trees in a row."""
     spacing = draw(st.floats(3.0, 7.0))
     return BlockShape(
         rows=draw(st.integers(4, most_rows)),
@@ -32,12 +32,12 @@ def block_shapes(draw: st.DrawFn, *, most_rows: int = 7, most_along: int = 10, j
 def made_orchards(
     draw: st.DrawFn, *, most_blocks: int = 2, surrounded: bool = True, named: bool = False
 ) -> GeneratedOrchard:
-    """Draw an orchard of a few blocks, with what is true of it.
+    """Draw an orchard of a few blocks together with its true rows.
 
     Args:
-        most_blocks: Of the orchard.
-        surrounded: Whether some have a pond, a fence and markers.
-        named: Whether the file names rows, blocks and positions.
+        most_blocks: Maximum number of blocks.
+        surrounded: Allow a pond, a fence and markers.
+        named: Name rows, blocks and positions in the file.
     """
     rng = np.random.default_rng(draw(seeds))
     return make_orchard(
@@ -59,5 +59,5 @@ def orchard_sites(draw: st.DrawFn, *, most_blocks: int = 2, surrounded: bool = T
 
 
 def site_of_made(made: GeneratedOrchard) -> Site:
-    """Return the site that the made orchard's file is read as."""
+    """Return the site read from the file of a generated orchard."""
     return parse_site(made.to_bytes(), name="made")

@@ -1,7 +1,7 @@
 """Hypothesis strategies for Tasks and their parts, derived from the dataclasses: a new selector needs no edit.
 
-Names of places and readings come from a small pool, so they often meet; that a reading is taken before it is tested is
-not promised. Numbers are finite; text holds whatever XML can hold.
+Names of places and readings come from a small pool, so that they often coincide. A reading is not necessarily taken
+before it is tested. Numbers are finite; text is anything that XML can represent.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ _spans = st.lists(st.tuples(st.integers(0, 999), st.integers(0, 999)), max_size=
 
 @dataclass(frozen=True)
 class Parts:
-    """Strategies for the parts of Tasks that a robot can carry out, nested at most ``depth`` deep."""
+    """Strategies for parts of Tasks that a robot can execute, with a maximum nesting ``depth``."""
 
     capabilities: Capabilities
     depth: int = 3
@@ -84,21 +84,21 @@ class Parts:
 
     @cached_property
     def selectors(self) -> st.SearchStrategy[Any]:
-        """Strategy for selectors."""
+        """Return a strategy for selectors."""
         return self.one_of(SELECTORS, self.depth)
 
     @cached_property
     def conditions(self) -> st.SearchStrategy[Any]:
-        """Strategy for conditions."""
+        """Return a strategy for conditions."""
         return self.one_of(get_args(Condition), self.depth)
 
     @cached_property
     def plans(self) -> st.SearchStrategy[Any]:
-        """Strategy for plans."""
+        """Return a strategy for plans."""
         return self.one_of(get_args(Node), self.depth)
 
     def one_of(self, options: tuple[type, ...], depth: int) -> st.SearchStrategy[Any]:
-        """Return a strategy for any of some classes; at depth 0 those that need nothing inside."""
+        """Return a strategy for any of some classes; at depth 0 only for those without nested parts."""
         usable = [o for o in options if depth > 0 or not _needs_parts(o)]
         return st.one_of(*(self._deferred(o, depth) for o in usable))
 
@@ -151,7 +151,7 @@ class Parts:
         return plain[hint]
 
     def fitted(self, cls: type, made: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
-        """Return a strategy for instances whose action or quantity is one of the robot's, with what belongs to it."""
+        """Return a strategy for instances with an action or quantity of the robot and matching parameters and units."""
         if cls is Act:
             return st.builds(_with_action, made, self.actions())
         if cls in (Compare, Between, Level):
@@ -171,7 +171,7 @@ class Parts:
         return st.sampled_from(sorted(self.capabilities.actions)).flatmap(parameters)
 
     def tasks(self) -> st.SearchStrategy[Task]:
-        """Return a strategy for whole Tasks as ``make_task`` makes them: numbered, with goals and state variables."""
+        """Return a strategy for complete Tasks from ``make_task``: with ids, goals and state variables."""
         quantities = self.capabilities.quantities
         measures = {
             name: tuple((q, quantities[q].unit) for q in action.measures)
