@@ -2,6 +2,7 @@
 
 driver_contract   tests that every driver must pass, as a base class
 planner_contract  tests that every planner must pass, as a base class
+solver_contract   tests that every orienteering solver must pass, as a base class
 small_orchard     a small site and Tasks on it, built in memory
 scripted_chat     a language model with prepared answers
 fixed_clock       a date and time that a test sets

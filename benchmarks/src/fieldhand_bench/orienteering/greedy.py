@@ -6,7 +6,7 @@ import numpy as np
 
 from fieldhand.orienteering.overrun import overrun_probability
 from fieldhand.orienteering.policy import State
-from fieldhand.orienteering.problem import Problem
+from fieldhand.orienteering.problem import Problem, count_visits
 
 
 class Greedy:
@@ -29,6 +29,7 @@ class Greedy:
             sums = [there**k + home**k + (after**k).sum() for k in (1, 2, 3)]
             chance = overrun_probability(sums[0], second * sums[1], third * sums[2], left - work)
             free &= chance <= limit.failure_probability
-        if not free.any():
+        full = problem.max_visits is not None and count_visits(problem, state.visited) >= problem.max_visits
+        if full or not free.any():
             return end
         return int(np.where(free, problem.rewards / (there + 1e-12), -1.0).argmax())

@@ -19,6 +19,14 @@ from fieldhand.orienteering.policy import State
 from fieldhand.orienteering.problem import Problem
 
 
+def require_supported(problem: Problem) -> None:
+    """Raise a ProblemError for more than one limit, legs after the end, no distances, or a maximum number of visits."""
+    if len(problem.limits) != 1 or not len(problem.distances) or problem.legs_after:
+        raise ProblemError("the plain tree search takes problems with distances and one limit only")
+    if problem.max_visits is not None:
+        raise ProblemError("the plain tree search takes no problems with a maximum number of visits")
+
+
 class TreeSearch:
     """Decides by simulated missions from where the robot is.
 
@@ -28,12 +36,11 @@ class TreeSearch:
         simulations: For each decision.
 
     Raises:
-        ProblemError: More than one limit, legs after the end, or no distances.
+        ProblemError: The problem is of another kind (:func:`require_supported`).
     """
 
     def __init__(self, problem: Problem, seed: int, simulations: int = 2000) -> None:
-        if len(problem.limits) != 1 or not len(problem.distances) or problem.legs_after:
-            raise ProblemError("the plain tree search takes problems with distances and one limit only")
+        require_supported(problem)
         self._problem, self._simulations = problem, simulations
         self._state = np.array([seed], dtype=np.uint64)
         service = problem.limits[0].service
@@ -86,7 +93,7 @@ def _search(
         path[0] = 0
         growing = True
         while at != end:
-            _open_moves(at, moves, distances, taken, room, spare, safe)
+            _open_moves(at, moves, distances, service, taken, room, spare, safe)
             pick = _pick(child[node], visits, value, safe, visits[node], scale, state) if growing else -1
             if pick < 0:
                 pick = _random_move(at, moves, distances, safe, state)
@@ -137,14 +144,15 @@ def _pick(
 
 @compiled
 def _open_moves(
-    at: int, moves: Ints, distances: Floats, taken: NDArray[np.bool_], room: float, spare: float,
+    at: int, moves: Ints, distances: Floats, service: Floats, taken: NDArray[np.bool_], room: float, spare: float,
     safe: NDArray[np.bool_],
 ) -> None:  # fmt: skip
     """Going home is always open, a vertex where going there and straight home is safe enough."""
     end = len(moves) - 1
     for i in range(end):
         a, b = distances[at, moves[i]], distances[moves[i], moves[end]]
-        safe[i] = not taken[i] and a + b + spare * math.sqrt(a * a + b * b) <= room
+        work = service[moves[i]] + service[moves[end]]
+        safe[i] = not taken[i] and a + b + work + spare * math.sqrt(a * a + b * b) <= room
     safe[end] = True
 
 

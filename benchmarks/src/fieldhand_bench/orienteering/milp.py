@@ -108,6 +108,9 @@ def _model(problem: Problem, ends: list[tuple[int, int]], rng: np.random.Generat
             row(np.concatenate([out, into]), np.repeat([1.0, -1.0], [len(out), len(into)]), 0.0, 0.0)
     for leg, (a, b) in enumerate(ends):
         row(np.array([m + a, m + b, leg]), np.array([1.0, -1.0, float(n)]), -np.inf, n - 1.0)
+    if problem.max_visits is not None:
+        rewarded = np.flatnonzero((problem.rewards[j] > 0.0) & (j != problem.end))
+        row(rewarded, np.ones(len(rewarded)), 0.0, float(problem.max_visits))
     lengths = problem.distances[i, j]
     service = 0.0 if limit.service is None else limit.service[j]
     for q in range(samples):

@@ -11,12 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.orienteering.policy import State
+from fieldhand.orienteering.prepared_solver import PreparedSolver
 from fieldhand.orienteering.problem import Problem
 from fieldhand.orienteering.simulated_mission import simulate_mission
 from fieldhand_bench.orienteering.bound import with_perfect_information
 from fieldhand_bench.orienteering.engine import spread
 from fieldhand_bench.orienteering.graphs import Graph
-from fieldhand_bench.orienteering.solvers import Options, Prepared, prepare
+from fieldhand_bench.orienteering.solvers import Options, prepare
 
 Floats = NDArray[np.float64]
 
@@ -60,7 +61,7 @@ class Row:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class _Piece:
-    prepared: Prepared | None
+    prepared: PreparedSolver | None
     problem: Problem
     seeds: range
 
@@ -117,7 +118,7 @@ def wilson(part: float, count: int) -> tuple[float, float]:
     return max(0.0, min(part, float(middle - half))), min(1.0, max(part, float(middle + half)))
 
 
-def _prepare(solver: str, problem: Problem, options: Options) -> tuple[Prepared, float]:
+def _prepare(solver: str, problem: Problem, options: Options) -> tuple[PreparedSolver, float]:
     if solver in {"online", "fixed"}:
         # Compile first: that is waited for once in the life of an installation.
         prepare("fixed", problem, options)

@@ -7,23 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol
 
 from fieldhand.errors import ProblemError
-from fieldhand.orienteering.policy import Policy, State
+from fieldhand.orienteering.policy import Policy
+from fieldhand.orienteering.prepared_solver import Decide, PreparedSolver
 from fieldhand.orienteering.problem import Problem
 from fieldhand.orienteering.route import StoppingCriterion, solve
 from fieldhand.plugins import active
-
-Next = Callable[[State], int]
-
-
-class Prepared(Protocol):
-    """A solver that has done what it does before a mission. It can be sent to another process."""
-
-    def mission(self, seed: int) -> Next:
-        """What decides in one mission."""
-        ...
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,7 +39,7 @@ class Options:
 class _Online:
     policy: Policy
 
-    def mission(self, seed: int) -> Next:
+    def mission(self, seed: int) -> Decide:
         return self.policy.again(seed, self.policy.price).next
 
 
@@ -57,7 +47,7 @@ class _Online:
 class _Fixed:
     vertices: tuple[int, ...]
 
-    def mission(self, seed: int) -> Next:  # noqa: ARG002
+    def mission(self, seed: int) -> Decide:  # noqa: ARG002
         ahead = iter(self.vertices[1:])
         return lambda _: next(ahead)
 
@@ -66,7 +56,7 @@ class _Fixed:
 class _Greedy:
     problem: Problem
 
-    def mission(self, seed: int) -> Next:  # noqa: ARG002
+    def mission(self, seed: int) -> Decide:  # noqa: ARG002
         from fieldhand_bench.orienteering.greedy import Greedy
 
         return Greedy(self.problem).next
@@ -77,7 +67,7 @@ class _TreeSearch:
     problem: Problem
     simulations: int
 
-    def mission(self, seed: int) -> Next:
+    def mission(self, seed: int) -> Decide:
         from fieldhand_bench.orienteering.mcts import TreeSearch
 
         return TreeSearch(self.problem, seed, self.simulations).next
@@ -92,22 +82,29 @@ class Solver:
         summary: One line for help texts.
     """
 
-    prepare: Callable[[Problem, Options], Prepared]
+    prepare: Callable[[Problem, Options], PreparedSolver]
     summary: str
 
 
-def _prepare_online(problem: Problem, options: Options) -> Prepared:
+def _prepare_online(problem: Problem, options: Options) -> PreparedSolver:
     from fieldhand.orienteering.price_tuning import tune_price
 
     policy = Policy(problem, options.seed, risk_tolerance=options.daring)
     return _Online(tune_price(policy, problem, options.seed + 1, options.missions))
 
 
-def _prepare_fixed(problem: Problem, options: Options) -> Prepared:
+def _prepare_fixed(problem: Problem, options: Options) -> PreparedSolver:
     return _Fixed(solve(problem, options.seed, StoppingCriterion(rounds=20_000)).vertices)
 
 
-def _prepare_milp(problem: Problem, options: Options) -> Prepared:
+def _prepare_tree_search(problem: Problem, options: Options) -> PreparedSolver:
+    from fieldhand_bench.orienteering.mcts import require_supported
+
+    require_supported(problem)
+    return _TreeSearch(problem, options.simulations)
+
+
+def _prepare_milp(problem: Problem, options: Options) -> PreparedSolver:
     from fieldhand_bench.orienteering.milp import solve_milp
 
     return _Fixed(solve_milp(problem, options.seed, options.milp_s).vertices)
@@ -116,9 +113,7 @@ def _prepare_milp(problem: Problem, options: Options) -> Prepared:
 ONLINE = Solver(prepare=_prepare_online, summary="decides anew after every leg (this library)")
 FIXED = Solver(prepare=_prepare_fixed, summary="best fixed route (this library)")
 GREEDY = Solver(prepare=lambda problem, _: _Greedy(problem), summary="greedy by reward per distance")
-MCTS = Solver(
-    prepare=lambda problem, options: _TreeSearch(problem, options.simulations), summary="plain Monte Carlo tree search"
-)
+MCTS = Solver(prepare=_prepare_tree_search, summary="plain Monte Carlo tree search")
 MILP = Solver(prepare=_prepare_milp, summary="sample-average MILP, HiGHS")
 
 
@@ -127,7 +122,7 @@ def solver_names() -> tuple[str, ...]:
     return tuple(active("fieldhand.solvers"))
 
 
-def prepare(name: str, problem: Problem, options: Options) -> Prepared:
+def prepare(name: str, problem: Problem, options: Options) -> PreparedSolver:
     """Prepare a solver for a problem.
 
     Raises:
