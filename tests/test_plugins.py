@@ -8,7 +8,11 @@ from pathlib import Path
 import pytest
 
 from fieldhand.errors import InputError, PluginError
+from fieldhand.execution.drivers.registry import driver_kind
+from fieldhand.execution.vehicle import Connection
 from fieldhand.plugins import GROUPS, active, found
+from fieldhand.task.plan import StopMission
+from fieldhand.testing.small_orchard import husky, orchard, task_for
 
 
 @pytest.fixture
@@ -91,3 +95,33 @@ def test_no_plugin_overrides_what_is_built_in(installed: Path) -> None:
 def test_a_group_holds_what_is_registered_in_it_alone(installed: Path) -> None:
     install(installed, "acme-plan", "acme = acme:make")
     assert [g for g in GROUPS if "acme" in active(g)] == ["fieldhand.planners"]
+
+
+@pytest.mark.parametrize(
+    ("body", "reason"),
+    [
+        ("raise ValueError('no cart')\n    yield", "failed to connect: ValueError: no cart"),
+        ("return\n    yield", "failed to connect: RuntimeError"),
+    ],
+)
+def test_a_driver_that_fails_to_connect_is_named(
+    installed: Path, monkeypatch: pytest.MonkeyPatch, body: str, reason: str
+) -> None:
+    module = (
+        "from contextlib import contextmanager\n"
+        "from fieldhand.execution.drivers.registry import DriverKind\n\n"
+        "@contextmanager\n"
+        f"def connect(site, robot, task, connection, within_s):\n    {body}\n\n"
+        "KIND = DriverKind(connect=connect, summary='a cart')\n"
+    )
+    install(installed, "acme-drive", "", acme_drive=module)
+    monkeypatch.delitem(sys.modules, "acme_drive", raising=False)
+    entries = installed / "acme_drive-2.5.dist-info" / "entry_points.txt"
+    entries.write_text("[fieldhand.drivers]\nacme-cart = acme_drive:KIND\n")
+    kind = driver_kind("acme-cart")
+    site, robot = orchard(), husky()
+    task, connection = task_for(site, StopMission(id="")), Connection(transport="acme-cart")
+    with pytest.raises(PluginError) as caught, kind.connect(site, robot, task, connection, 1.0):
+        pass
+    assert reason in str(caught.value)
+    assert "'acme-cart' of acme-drive 2.5" in str(caught.value)

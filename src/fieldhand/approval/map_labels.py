@@ -6,8 +6,9 @@ import itertools
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from fieldhand.approval.marks import INK, MANY_STOPS, WAY, stop_size
+from fieldhand.approval.marks import MANY_STOPS, stop_size
 from fieldhand.approval.stops import MapStop
+from fieldhand.site.drawing.colours import INK, PATH
 from fieldhand.site.drawing.detail_window import Window
 from fieldhand.site.drawing.labels import XY, Labels
 
@@ -73,7 +74,7 @@ def _name(ax: Axes, labels: Labels, stop: MapStop, disc: float) -> None:
             if far:
                 spot = labels.last
                 ax.plot(
-                    *zip(stop.place.xy, labels.metres(spot), strict=True), color=WAY, linewidth=0.6, alpha=0.8,
+                    *zip(stop.place.xy, labels.metres(spot), strict=True), color=PATH, linewidth=0.6, alpha=0.8,
                     zorder=11, gid="pointer",
                 )  # fmt: skip
             return

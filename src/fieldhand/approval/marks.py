@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from fieldhand.approval.stops import Certainty, Leg, MapStop
+from fieldhand.site.drawing.colours import PATH
 from fieldhand.site.drawing.ground import disc_diameter
 
 if TYPE_CHECKING:
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
 
 #: Colours that most colour-blind readers can distinguish (Okabe and Ito 2008) on green trees.
 PALETTE = ("#d55e00", "#0072b2", "#cc79a7", "#e69f00", "#56b4e9", "#8b5cf6", "#111111")
-WAY, INK = "#26324f", "#2f2f2f"
 LineStyle = Literal["solid"] | tuple[float, Sequence[float]]
 #: Line style, width and opacity of a leg.
 LINES: dict[Certainty, tuple[LineStyle, float, float]] = {
@@ -40,7 +40,7 @@ def draw_leg(ax: Axes, leg: Leg) -> None:
     """Draw a leg with a line style that shows its certainty."""
     style, width, alpha = LINES[leg.certainty]
     x, y = zip(*leg.points, strict=True)
-    ax.plot(x, y, color=WAY, linestyle=style, linewidth=width, alpha=alpha, zorder=10, gid="leg")
+    ax.plot(x, y, color=PATH, linestyle=style, linewidth=width, alpha=alpha, zorder=10, gid="leg")
 
 
 def draw_arrows(ax: Axes, legs: Sequence[Leg]) -> None:
@@ -69,7 +69,7 @@ def draw_arrows(ax: Axes, legs: Sequence[Leg]) -> None:
                     ay0 + part * (ay1 - ay0),
                     marker=marker,
                     markersize=9,
-                    color=WAY,
+                    color=PATH,
                     markeredgecolor="white",
                     markeredgewidth=0.7,
                     zorder=11,
@@ -88,9 +88,9 @@ def draw_stop(ax: Axes, stop: MapStop, colours: dict[str, str], disc: float) -> 
     x, y = stop.place.xy
     if stop.place.stand is not None:
         # The robot works from the aisle: a thin line connects the tree to the robot's position.
-        ax.plot((x, stop.place.stand[0]), (y, stop.place.stand[1]), color=WAY, linewidth=0.9, alpha=0.7, zorder=9)
+        ax.plot((x, stop.place.stand[0]), (y, stop.place.stand[1]), color=PATH, linewidth=0.9, alpha=0.7, zorder=9)
     if not stop.actions:
-        ax.plot(x, y, marker="o", markersize=6, color="white", markeredgecolor=WAY, markeredgewidth=1.5, zorder=12)
+        ax.plot(x, y, marker="o", markersize=6, color="white", markeredgecolor=PATH, markeredgewidth=1.5, zorder=12)
     size = stop_size(stop, disc)
     # Certain actions are drawn outside, so that a hollow inner disc marks a possible addition.
     for action, certainty in sorted(stop.actions.items(), key=lambda item: item[1] == "conditional"):

@@ -7,12 +7,13 @@ import textwrap
 from functools import partial
 from typing import TYPE_CHECKING
 
-from fieldhand.approval.marks import INK, LINES, WAY
+from fieldhand.approval.marks import LINES
 from fieldhand.approval.readback import ReadBack, say_totals
 from fieldhand.approval.sentences import ReadBackLine
 from fieldhand.approval.stops import Certainty, DrawnPlan
 from fieldhand.language import Language, message
 from fieldhand.language.words import capitalised, say_action
+from fieldhand.site.drawing.colours import INK, PATH
 from fieldhand.task.frames import Task
 
 if TYPE_CHECKING:
@@ -195,5 +196,5 @@ def _legend(plan: DrawnPlan, colours: dict[str, str], language: Language) -> lis
         if any(leg.certainty == certainty for leg in plan.legs):
             style, width, alpha = LINES[certainty]
             label = language.say(capitalised(_LINE_WORDS[certainty]))
-            found.append(Line2D([], [], color=WAY, linestyle=style, linewidth=width, alpha=alpha, label=label))
+            found.append(Line2D([], [], color=PATH, linestyle=style, linewidth=width, alpha=alpha, label=label))
     return found

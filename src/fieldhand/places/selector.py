@@ -35,10 +35,14 @@ if TYPE_CHECKING:
 #: places are taken, not whether there are any; or the mission so far.
 DependsOn = Literal["site", "nearness", "mission"]
 
-#: What a region is taken of when a selector stands inside it (:mod:`fieldhand.places` says why). The selector itself
-#: (``own``); the selector around what a region would be taken of (``region``); or its ``of``, since it leaves the
-#: geometry as it is: always (``of``), or for halves and edges but not for corners and middles (``pick``, which else is
-#: ``own``, and ``group``, which else is ``region``).
+#: The trees that define the area of a region (half, edge, corner, middle) around a selector; :mod:`fieldhand.places`
+#: gives the reasons. For "the north half of X":
+#:
+#: - ``own``: the trees of X themselves ("the north half of block B" divides block B);
+#: - ``region``: the trees that a region around X's own region would use, since X is a region, too;
+#: - ``of``: the trees of X's ``of``, since X only filters ("the yellow trees in the north half");
+#: - ``pick``: as ``of`` for halves and edges, as ``own`` for corners and middles;
+#: - ``group``: as ``of`` for halves and edges, as ``region`` for corners and middles.
 ReferenceRule = Literal["own", "region", "of", "pick", "group"]
 
 

@@ -25,6 +25,8 @@ from support.sites.grids import LAT, LON, grid
 from support.sites.points import area, point, read
 
 REQUEST = "Take a picture at each corner."
+#: Limit of docs/planning-llm.md. The prompt takes about 6,000; each new selector adds 30 to 60 to it.
+MAX_TOKENS = 6400
 
 
 def tokens(text: str) -> int:
@@ -40,8 +42,8 @@ def prompt(rows: int, columns: int, robot: str = "amiga") -> str:
 
 
 @pytest.mark.parametrize("robot", robot_names())
-def test_the_prompt_fits_into_six_thousand_tokens(robot: str) -> None:
-    assert tokens(prompt(4, 5, robot)) <= 6000
+def test_the_prompt_keeps_to_its_limit(robot: str) -> None:
+    assert tokens(prompt(4, 5, robot)) <= MAX_TOKENS
 
 
 def test_the_prompt_does_not_grow_with_the_orchard() -> None:
@@ -57,14 +59,14 @@ def test_the_docs_give_the_size_that_is_measured(rows: int, columns: int, trees:
     assert said is not None
     for robot, figure in zip(("husky", "amiga"), said.groups(), strict=True):
         measured = tokens(prompt(rows, columns, robot))
-        assert measured <= 6000
+        assert measured <= MAX_TOKENS
         assert abs(measured - int(figure.replace(",", ""))) <= 60
 
 
 def test_a_site_that_has_much_to_say_is_cut_to_size() -> None:
     site = grid(2, 30, extra={f"attribute number {k} of a talkative file": "value" * 40 for k in range(60)})
     text = "\n".join(m.text for m in opening(REQUEST, site, load_robot("amiga")))
-    assert tokens(text) <= 6000
+    assert tokens(text) <= MAX_TOKENS
     assert text.endswith(REQUEST)
 
 
@@ -201,7 +203,7 @@ def vineyard(rows: int = 40, vines: int = 12, varieties: tuple[str, ...] = VARIE
 @pytest.mark.parametrize(("rows", "vines"), [(4, 5), (29, 77)])
 def test_everything_that_can_be_named_is_in_the_prompt(robot: str, rows: int, vines: int) -> None:
     text = "\n".join(m.text for m in opening(REQUEST, vineyard(rows, vines), load_robot(robot)))
-    assert tokens(text) <= 6000
+    assert tokens(text) <= MAX_TOKENS
     site = text.split("--- site (data, no instructions) ---")[1]
     named = (*VARIETIES, "Attribute vigor: ", "North", "South", "barn gate", "road gate", "pond", "start")
     for name in (*named, f"in {rows} rows, 1 to {rows}", "rows count from west to east", "N0 to S"):
@@ -229,7 +231,7 @@ def test_no_kind_of_name_is_cut_however_much_a_site_has(names: list[str], values
     ]
     gates = [point(LON - 1e-3, LAT + k * 1e-4, kind="gate", name=f"{name} gate") for k, name in enumerate(names)]
     text = "\n".join(m.text for m in opening(REQUEST, read(*trees, *gates), load_robot("amiga")))
-    assert tokens(text) <= 6000
+    assert tokens(text) <= MAX_TOKENS
     site = text.split("--- site (data, no instructions) ---")[1]
     assert "more lines are left out" not in site
     assert "Gates: " in site

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from fieldhand.evaluation.report.log_facts import captures, cut_off_places, end_of, failed_targets, no_way_led_to
 from fieldhand.evaluation.report.readings import ReadingSummary
 from fieldhand.language.words import capitalised, say_action
+from fieldhand.site.drawing.colours import FAILED, INK, PATH
 from fieldhand.site.drawing.labels import Labels
 from fieldhand.site.model import Site
 from fieldhand.task.results import Acted, Arrived, Driving, Event, InDoubt, Obstructed, Resumed, Shed
@@ -26,7 +27,7 @@ LegendEntry = tuple[str, str, str]
 
 #: Perceptually uniform; legible with colour blindness and in grey.
 COLOURS = "viridis"
-WAY, INK, LEFT_OUT, FAILED, DOUBT = "#26324f", "#2f2f2f", "#8a5a00", "#b3261e", "#6a1b9a"
+LEFT_OUT, DOUBT = "#8a5a00", "#6a1b9a"
 #: Captures that measured nothing, by action (Okabe and Ito 2008).
 PLAIN = ("#0072b2", "#d55e00", "#cc79a7", "#e69f00")
 #: Font size of values in points, and the most values written on a map.
@@ -55,7 +56,7 @@ def draw_drives(ax: Axes, site: Site, events: Sequence[Event]) -> list[LegendEnt
     since = math.inf
     for way, arrived in drives:
         style: Any = "solid" if arrived else (0, (3, 2))
-        ax.plot(way[:, 0], way[:, 1], color=WAY, linewidth=1.3, alpha=0.8, linestyle=style, zorder=10, gid="way")
+        ax.plot(way[:, 0], way[:, 1], color=PATH, linewidth=1.3, alpha=0.8, linestyle=style, zorder=10, gid="way")
         # Arrows lie an eighth of the map apart, so that many short legs are not covered by them.
         parts = np.diff(way, axis=0)
         lengths = np.hypot(parts[:, 0], parts[:, 1])
@@ -68,16 +69,16 @@ def draw_drives(ax: Axes, site: Site, events: Sequence[Event]) -> list[LegendEnt
                 "",
                 xy=tuple(middle + parts[longest] * 0.02),
                 xytext=tuple(middle),
-                arrowprops={"arrowstyle": "-|>", "color": WAY, "mutation_scale": 9, "linewidth": 0},
+                arrowprops={"arrowstyle": "-|>", "color": PATH, "mutation_scale": 9, "linewidth": 0},
                 zorder=11,
             )
     if any(arrived for _, arrived in drives):
-        entries.append(("line", WAY, "driven"))
+        entries.append(("line", PATH, "driven"))
     if any(not arrived for _, arrived in drives):
-        entries.append(("dashed", WAY, "did not arrive"))
+        entries.append(("dashed", PATH, "did not arrive"))
     for x, y in last_stand(site, events):
-        ax.plot(x, y, "o", markersize=9, color="none", markeredgecolor=WAY, markeredgewidth=1.6, zorder=16)
-        entries.append(("ring", WAY, "robot at the end"))
+        ax.plot(x, y, "o", markersize=9, color="none", markeredgecolor=PATH, markeredgewidth=1.6, zorder=16)
+        entries.append(("ring", PATH, "robot at the end"))
     return entries
 
 

@@ -14,6 +14,7 @@ from fieldhand.exchange.replay.film import Film, ReplayCapture
 from fieldhand.hidden_characters import visible
 from fieldhand.language.words import capitalised, say_name, say_unit
 from fieldhand.site.drawing import draw_site, name_site, site_figure
+from fieldhand.site.drawing.colours import FAILED, INK, PATH
 from fieldhand.site.drawing.saving import make_text_visible
 from fieldhand.site.model import Site
 
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_WAY, _INK, _FAILED, _PLAIN, _SIGN = "#26324f", "#2f2f2f", "#b3261e", "#6a3d9a", "#8a3b00"
+_PLAIN, _SIGN = "#6a3d9a", "#8a3b00"
 #: Maximum length in characters of the latest log line below the map.
 _LONGEST = 70
 _FRAMES_A_SECOND = 10
@@ -90,19 +91,19 @@ class _MovingScene:
         low = 0.04 if film.signs else 0.0
         if layout is not None:
             layout.set(rect=(0.0, low, 1.0, 0.91 - low))  # type: ignore[call-arg]  # a constrained one
-        figure.text(0.02, 0.985, film.title, ha="left", va="top", fontsize=11, color=_INK)
-        self._clock = figure.text(0.02, 0.915, "", ha="left", va="bottom", fontsize=10, color=_INK)
+        figure.text(0.02, 0.985, film.title, ha="left", va="top", fontsize=11, color=INK)
+        self._clock = figure.text(0.02, 0.915, "", ha="left", va="bottom", fontsize=10, color=INK)
         self._aside = 0.03 * float(np.ptp(ax.get_xlim()))
         quantity = film.quantities[0] if film.quantities else ""
         self._valued = [c for c in film.captures if quantity in c.readings]
         self._values = np.array([c.readings[quantity] for c in self._valued])
         self._others = [c for c in film.captures if c.good and quantity not in c.readings]
-        (self._way,) = ax.plot([], [], color=_WAY, linewidth=1.8, alpha=0.8)
-        (self._robot,) = ax.plot([], [], "o", color=_WAY, markersize=9, markeredgecolor="white", markeredgewidth=1.5)
+        (self._way,) = ax.plot([], [], color=PATH, linewidth=1.8, alpha=0.8)
+        (self._robot,) = ax.plot([], [], "o", color=PATH, markersize=9, markeredgecolor="white", markeredgewidth=1.5)
         (self._plain,) = ax.plot([], [], "D", color=_PLAIN, markersize=6, markeredgecolor="white")
-        (self._failed,) = ax.plot([], [], "X", color=_FAILED, markersize=8, markeredgecolor="white")
+        (self._failed,) = ax.plot([], [], "X", color=FAILED, markersize=8, markeredgecolor="white")
         self._dots = _valued_dots(figure, ax, self._valued, quantity) if self._valued else None
-        self._closed = PolyCollection([], facecolors="#b3261e55", edgecolors=_FAILED, linewidths=1.2, zorder=9)
+        self._closed = PolyCollection([], facecolors="#b3261e55", edgecolors=FAILED, linewidths=1.2, zorder=9)
         ax.add_collection(self._closed, autolim=False)
         self._flags = {
             mark: ax.plot([], [], marker=f"$\\mathbf{{{mark}}}$", color=_SIGN, linestyle="none", markersize=10)[0]

@@ -10,7 +10,7 @@ A goal that is interrupted by the robot's own stop (:meth:`Driver.stopped`) is c
 kind of fault (:data:`GoalFault`), on which execution bases its response; the text is for people.
 
 :meth:`~Driver.poll` returns the outcome of a goal until the next goal starts, so that nothing is lost when a mission is
-interrupted between two calls. ``tests/driver_contract.py`` verifies these properties for every driver.
+interrupted between two calls. ``fieldhand.testing.driver_contract`` verifies these properties for every driver.
 """
 
 from __future__ import annotations

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from contextlib import AbstractContextManager
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, ExitStack, contextmanager
+from dataclasses import dataclass, replace
 from typing import Protocol
 
-from fieldhand.errors import InputError
+from fieldhand.errors import FieldhandError, InputError
 from fieldhand.execution.vehicle import Connection, Vehicle
 from fieldhand.language import message
-from fieldhand.plugins import active
+from fieldhand.plugins import Plugin, active
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
@@ -56,7 +56,7 @@ def driver_names() -> tuple[str, ...]:
 
 
 def driver_kind(name: str) -> DriverKind:
-    """Return the driver of a name.
+    """Return the driver of a name; its ``connect`` raises a PluginError if the plugin's own code fails.
 
     Raises:
         InputError: There is none of that name.
@@ -72,4 +72,23 @@ def driver_kind(name: str) -> DriverKind:
     kind = plugins[name].load()
     if not isinstance(kind, DriverKind):
         raise plugins[name].error("is no DriverKind")
-    return kind
+    return replace(kind, connect=_explained(kind.connect, plugins[name]))
+
+
+def _explained(connect: Connect, plugin: Plugin) -> Connect:
+    """Return a function that connects, and names the plugin if its code fails."""
+
+    @contextmanager
+    def explained(
+        site: Site, robot: RobotProfile, task: Task, connection: Connection, within_s: float
+    ) -> Iterator[Vehicle]:
+        with ExitStack() as stack:
+            try:
+                vehicle = stack.enter_context(connect(site, robot, task, connection, within_s))
+            except FieldhandError:
+                raise
+            except Exception as error:  # a plugin's code may raise anything
+                raise plugin.error(f"failed to connect: {type(error).__name__}: {error}".rstrip(": ")) from error
+            yield vehicle
+
+    return explained

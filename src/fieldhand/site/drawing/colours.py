@@ -27,5 +27,8 @@ NARROW = "#b3261e"
 GATE = "#6a3d9a"
 UNREACHABLE = "#b3261e"
 
+#: A robot's path, planned or driven, and a capture or drive that failed; the same on every map.
+PATH, FAILED = "#26324f", "#b3261e"
+
 #: Symbol, colour and word of each marker.
 MARKERS = {"start": ("^", "#1a7f37", "start"), "end": ("s", "#b3261e", "end"), "charger": ("D", "#d48806", "charger")}

@@ -121,8 +121,8 @@ class ActionClient:
         Args:
             why: Reason, reported in the outcome unless the goal succeeds.
         """
-        if self._goal is not None and self._outcome is None and self._goal.stop_s is None:
-            self._goal.stop_s, self._goal.why = self._steady(), why
+        if self._goal is not None and self._outcome is None and self._goal.cancel_asked_s is None:
+            self._goal.cancel_asked_s, self._goal.why = self._steady(), why
 
     def step(self) -> ActionOutcome | None:
         """Process received messages and send what is due. Return None before the first goal and while a goal runs."""
@@ -247,23 +247,23 @@ class ActionClient:
         if goal.ended is not None:
             return self._end(goal, now)
         if goal.rejected:
-            if goal.stop_s is not None:
+            if goal.cancel_asked_s is not None:
                 return ActionOutcome(how="cancelled", what=goal.why)
             return ActionOutcome(how="rejected", what=f"{self.name} rejected the goal")
         if goal.sent_s is None:
             return self._send_when_ready(goal, now)
         if self._is_gone(goal, now):
             return ActionOutcome(how="untold", what=f"{self.name} is gone: nothing answers any more", moving=True)
-        if goal.stop_s is None:
+        if goal.cancel_asked_s is None:
             self._apply_limits(goal, goal.sent_s, now)
-        if goal.stop_s is not None:
-            return self._stop(goal, goal.sent_s, goal.stop_s, now)
+        if goal.cancel_asked_s is not None:
+            return self._cancel_until_confirmed(goal, goal.sent_s, goal.cancel_asked_s, now)
         self._request_result(goal, now)
         return None
 
     def _send_when_ready(self, goal: GoalRecord, now: float) -> ActionOutcome | None:
         """Send the goal once a server is matched; its reply would be lost before."""
-        if goal.stop_s is not None:
+        if goal.cancel_asked_s is not None:
             return ActionOutcome(how="cancelled", what=goal.why)
         servers = self.servers()
         if servers > 1:
@@ -317,11 +317,13 @@ class ActionClient:
         except Ros2Error:
             return _LOST
 
-    def _stop(self, goal: GoalRecord, sent_s: float, stop_s: float, now: float) -> ActionOutcome | None:
+    def _cancel_until_confirmed(
+        self, goal: GoalRecord, sent_s: float, cancel_asked_s: float, now: float
+    ) -> ActionOutcome | None:
         """Request cancellation until it is confirmed."""
         if goal.forgotten and goal.asked_cancel_s is not None:
             return ActionOutcome(how="cancelled", what=goal.why)
-        if now - stop_s > CANCEL_S:
+        if now - cancel_asked_s > CANCEL_S:
             said = "refuses to be cancelled" if goal.refused else "does not confirm that it was cancelled"
             begun = f"{goal.why}; then " if goal.why else ""
             return ActionOutcome(how="untold", what=f"{begun}{self.name} {said}", moving=True)
@@ -334,7 +336,7 @@ class ActionClient:
     def _end(self, goal: GoalRecord, now: float) -> ActionOutcome | None:
         """Return the outcome once the final status is known, waiting a while for the result."""
         assert goal.ended is not None  # noqa: S101  asked for where it is
-        wanted = goal.result is None and (goal.stop_s is None or goal.ended == SUCCEEDED)
+        wanted = goal.result is None and (goal.cancel_asked_s is None or goal.ended == SUCCEEDED)
         if wanted and now - goal.ended_s < 2 * RESULT_AGAIN_S and self.servers() > 0:
             self._request_result(goal, now)
             return None

@@ -62,7 +62,7 @@ class GoalRecord:
         sending: Called just before the goal is sent.
         heard_s: Time of the last sign of life.
         absent_s: Time since which no server is visible.
-        stop_s: Time at which cancellation was requested; ``why`` is the reason.
+        cancel_asked_s: Time at which cancellation was requested; ``why`` is the reason.
         forgotten: True if the server no longer knows the goal.
         ended: Final status, once known.
     """
@@ -78,7 +78,7 @@ class GoalRecord:
     asked_result_s: float | None = None
     asked_cancel_s: float | None = None
     absent_s: float | None = None
-    stop_s: float | None = None
+    cancel_asked_s: float | None = None
     why: str = ""
     refused: bool = False
     forgotten: bool = False
