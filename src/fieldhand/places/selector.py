@@ -1,11 +1,11 @@
 """The base classes of selectors.
 
-A selector is an expression. The innermost part is a source (every tree, a marker, the place in hand); each part around
-it keeps, orders or picks from what its ``of`` selects. "Yellow trees in the northern half" is
+A selector is an expression. The innermost part is a source (every tree, a marker, the current place); each part around
+it filters, orders or picks from what its ``of`` selects. "Yellow trees in the northern half" is
 ``Where(attribute="leaf_color", test="eq", value="yellow", of=Half(side="north", of=Trees()))``.
 
-Each selector has a file of its own with its data, the places it resolves to, its words and its size. Its fields are its
-XML (:mod:`fieldhand.task.codec_shapes`), its docstring is its definition for language models.
+Each selector has its own file with its data, resolution, wording and size. Its fields define its XML
+(:mod:`fieldhand.task.codec_shapes`), and its docstring is its definition in the prompt of language models.
 :mod:`fieldhand.places.selectors` registers it.
 """
 
@@ -31,40 +31,42 @@ if TYPE_CHECKING:
     from fieldhand.site.model import Site
     from fieldhand.terms import MarkerName, Side
 
-#: Inputs that determine the places of a selector: the site alone; the distance to the robot, which only decides which
-#: places are taken, not whether there are any; or the mission so far.
+#: State that determines the places of a selector: only the site; the robot's position, which affects the choice but not
+#: the existence of places; or the mission so far.
 DependsOn = Literal["site", "nearness", "mission"]
 
-#: The trees that define the area of a region (half, edge, corner, middle) around a selector; :mod:`fieldhand.places`
-#: gives the reasons. For "the north half of X":
-#:
-#: - ``own``: the trees of X themselves ("the north half of block B" divides block B);
-#: - ``region``: the trees that a region around X's own region would use, since X is a region, too;
-#: - ``of``: the trees of X's ``of``, since X only filters ("the yellow trees in the north half");
-#: - ``pick``: as ``of`` for halves and edges, as ``own`` for corners and middles;
-#: - ``group``: as ``of`` for halves and edges, as ``region`` for corners and middles.
+#: Reference group of a region around a selector (rules: :mod:`fieldhand.places`). ``own``: the selector itself.
+#: ``region``: the selector applied to the reference group of its ``of``. ``of``: the reference group of its ``of``, as
+#: the selector does not change the geometry. ``pick`` and ``group``: like ``of`` for halves and edges, but for corners
+#: and middles like ``own`` and ``region``.
 ReferenceRule = Literal["own", "region", "of", "pick", "group"]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Selector(ABC):
-    """A part of a Task that names places without coordinates."""
+    """The base class of selectors, which name places without coordinates (``fh.selectors``).
 
-    #: True if it counts from a side of the compass, so that a side in the request may refer to it without any field.
+    A selector is immutable. :func:`fieldhand.places.resolution.resolve` returns its places on a site.
+
+    Example:
+        >>> Where(attribute="leaf_color", test="eq", value="yellow", of=Rows(first="2", last="4"))
+    """
+
+    #: True if it always counts from a compass side, so that a side in the request may refer to it without a field.
     counts_from_a_side: ClassVar[bool] = False
 
     @classmethod
     @abstractmethod
     def example(cls, site: Site) -> Selector:
-        """Return one as a planner would write it, for a context in which a tree is in hand and bound."""
+        """Return an example as a planner would write it, for a context with a current tree and a label."""
 
     @abstractmethod
     def resolve(self, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
-        """Return the places that are meant.
+        """Return the selected places.
 
         Args:
-            resolution: Resolves the selectors inside this one.
-            notes: Takes the rule that is applied and what a person may not expect.
+            resolution: Resolves nested selectors.
+            notes: Receives the applied rule and remarks on surprising results.
         """
 
     @abstractmethod
@@ -72,82 +74,82 @@ class Selector(ABC):
         """Return the selector in words.
 
         Args:
-            wording: Says the selectors inside this one.
+            wording: Returns the phrases of nested selectors.
         """
 
     @property
     def single(self) -> bool:
-        """True if the form promises at most one place ("the northernmost tree", not "trees in the north")."""
+        """True if the form guarantees at most one place ("the northernmost tree", not "trees in the north")."""
         return False
 
     @property
     def size(self) -> CountRange:
-        """The number of distinct places, by the form alone."""
+        """The range of the number of distinct places, as far as the form determines it."""
         return ONE if self.single else ANY
 
     @property
     def sides(self) -> tuple[Side, ...]:
-        """The sides of the compass that it goes to: not where it counts from, nor all four corners together."""
+        """The compass sides that it selects, without sides it counts from and without all four corners together."""
         return ()
 
     @property
     def depends_on(self) -> DependsOn:
-        """The state that its places depend on, beside the parts inside it."""
+        """The state that its places depend on, apart from its nested selectors."""
         return "site"
 
     @property
     def keeps_order(self) -> bool:
-        """True if its places come in an order of its own, not in that of the file."""
+        """True if its places have an order of their own instead of that of the file."""
         return False
 
     @property
     def measured_from(self) -> Selector | None:
-        """The selector inside from which distances are measured."""
+        """The nested selector from which distances are measured; None if there is none."""
         return None
 
     @property
     def whole_zone(self) -> str:
-        """The zone whose trees it selects, all of them: distances are measured from the zone itself. Else empty."""
+        """The zone of which it selects all trees, so that distances are measured from the zone itself; else empty."""
         return ""
 
     @property
     def named_tree(self) -> str:
-        """The id of the one tree that it names, else empty."""
+        """The id of the tree that it names; else empty."""
         return ""
 
     @property
     def named_marker(self) -> MarkerName | Literal[""]:
-        """Return the name of the site's marker that it is, else an empty one."""
+        """The name of the marker that it selects; else empty."""
         return ""
 
     @property
     def members(self) -> tuple[Selector, ...]:
-        """Return the selectors whose places it joins: the parts of a union; of every other selector itself alone."""
+        """The selectors whose places it joins: the parts of a union; for any other selector, the selector itself."""
         return (self,)
 
     @property
     def any_of(self) -> Selector | None:
-        """Return the group of which it takes any few, those that make a short drive; None if it takes none so."""
+        """The group from which it takes any few places with a short drive; None for other selectors."""
         return None
 
     @property
     def row_of(self) -> Selector | None:
-        """Return the place whose row it selects, or a row so many from that row; None for every other selector."""
+        """The place relative to whose row it selects a row; None for other selectors."""
         return None
 
     @property
     def central(self) -> bool:
-        """Return True if it picks the trees nearest to a middle: that of an area, or of an edge."""
+        """True if it picks the trees nearest to the middle of an area or edge."""
         return False
 
     @property
     def from_start(self) -> Selector:
-        """The selector with the start in place of a place in hand that only decides which places are the nearest."""
+        """The selector with the start in place of a current place that only determines the nearest places."""
         return self
 
     @property
     def inner(self) -> Iterator[Selector]:
-        """The selectors directly inside this one."""
+        """The directly nested selectors."""
         for field in fields(self):
             value = getattr(self, field.name)
             for item in value if isinstance(value, tuple) else (value,):
@@ -162,41 +164,41 @@ class Selector(ABC):
 
     @property
     def relative(self) -> bool:
-        """True if the places depend on where the robot is or has been, so that they resolve when they are reached."""
+        """True if the places depend on the robot's position or previous visits, and are resolved on arrival."""
         return any(part.depends_on != "site" for part in self.walk())
 
     def reference(self, *, picks_too: bool = True) -> Selector:
-        """Return the selector without the parts that leave the geometry as it is.
+        """Return the selector of the reference group: without the parts that do not change the geometry.
 
         Args:
-            picks_too: Also without what picks trees by an attribute or by their row; else only without what depends on
-                the mission so far.
+            picks_too: Also remove parts that pick trees by attribute or row; otherwise only parts that depend on the
+                mission so far.
         """
         del picks_too
         return self
 
     def it(self, wording: SelectorWording) -> str:
-        """Return the selector in words that may follow "next to"."""
+        """Return the selector in words that can follow "next to"."""
         return wording.phrase(self).say()
 
     def from_it(self, wording: SelectorWording) -> str:
-        """Return in words from where something is counted, empty where that goes without saying."""
+        """Return the origin of a count in words; empty if it is obvious."""
         return self.it(wording)
 
     def as_origin(self, wording: SelectorWording) -> str:
-        """Return in words what something is near to or far from: a zone itself, not the trees in it."""
+        """Return the origin of a distance in words: a zone itself instead of its trees."""
         return say_zone(self.whole_zone) if self.whole_zone else self.it(wording)
 
-    def aside(self, said: str) -> str:
-        """Return what stands in brackets behind the name of the one place, empty where the name is all of it.
+    def aside(self, phrase: str) -> str:
+        """Return the addition in brackets after the name of the single place; empty if the name is complete.
 
         Args:
-            said: The selector in words.
+            phrase: The selector in words.
         """
-        return said
+        return phrase
 
     def nth_phrase(self, number: int, wording: SelectorWording) -> NounPhrase:
-        """Return the place of a number among those of this selector in words; -1 is the last."""
+        """Return the phrase for the n-th place of this selector; -1 is the last."""
         group = wording.phrase(self)
         if group.plain:
             said = say_ranked_tree(number)
@@ -206,7 +208,12 @@ class Selector(ABC):
 
 
 class FromGroup(Selector):
-    """A selector that keeps, orders or picks from what its ``of`` selects."""
+    """The base class of selectors that filter, order or pick from the places of another selector.
+
+    Attributes:
+        of: Selector of the group.
+        reference_rule: Contribution of this selector to the reference group of a region around it.
+    """
 
     of: Selector
 
@@ -214,12 +221,12 @@ class FromGroup(Selector):
 
     @abstractmethod
     def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
-        """Return which of some places are meant, and in which order.
+        """Return the selected places of a group, in order.
 
         Args:
-            of: The places of ``of``, at least one.
-            resolution: Resolves the other selectors inside this one.
-            notes: Takes the rule that is applied and what a person may not expect.
+            of: Places of ``of``, at least one.
+            resolution: Resolves other nested selectors.
+            notes: Receives the applied rule and remarks on surprising results.
         """
 
     def resolve(self, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
@@ -240,12 +247,16 @@ class FromGroup(Selector):
         return self.around(self.of.reference(picks_too=picks_too))
 
     def around(self, of: Selector) -> Self:
-        """Return the same selector of another group."""
+        """Return a copy of the selector for another group."""
         return replace(self, of=of)  # type: ignore[call-arg]  # each subclass is a dataclass with that field
 
 
 class Counted(FromGroup):
-    """A selector that picks a ``count`` from what its ``of`` selects."""
+    """The base class of selectors that pick a fixed number of places from a group.
+
+    Attributes:
+        count: Number of places, at least 1.
+    """
 
     count: int
 
@@ -262,10 +273,10 @@ class Counted(FromGroup):
         return True
 
     def need(self, candidates: PlaceGroup, resolution: Resolution) -> None:
-        """Check that there are enough to choose from.
+        """Check that there are enough candidates.
 
         Raises:
-            PlaceError: There are fewer than the count.
+            PlaceError: There are fewer than ``count``.
         """
         if self.count < 1 or len(candidates) < self.count:
             raise too_few(resolution.site, self, self.count, len(candidates))

@@ -18,16 +18,16 @@ class ScriptedChat:
         answers: Answers to return.
 
     Attributes:
-        told: Last message of each request to the model, in order.
+        prompts: Last message of each request to the model, in order.
     """
 
     def __init__(self, *answers: str) -> None:
         self.answers = answers
-        self.told: list[str] = []
+        self.prompts: list[str] = []
 
     def ask(self, messages: Sequence[ChatMessage]) -> Reply:
-        self.told.append(messages[-1].text)
-        return Reply(text=self.answers[min(len(self.told), len(self.answers)) - 1])
+        self.prompts.append(messages[-1].text)
+        return Reply(text=self.answers[min(len(self.prompts), len(self.answers)) - 1])
 
 
 def planner_of(chat: ScriptedChat, settings: LlmSettings = SETTINGS) -> LlmPlanner:

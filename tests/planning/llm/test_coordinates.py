@@ -137,6 +137,6 @@ def test_the_model_is_told_and_a_plan_that_keeps_it_is_never_given() -> None:
     good = task_document("<act><take_thermal_picture/><at><first/></at></act>")
     chat = ScriptedChat(bad, good)
     assert isinstance(planner_of(chat).plan(REQUEST, SITE, HUSKY), Planned)
-    assert "[coordinate] line 4 <go-to>: the label '37.12,-120.5' holds '37.12'" in chat.told[1]
+    assert "[coordinate] line 4 <go-to>: the label '37.12,-120.5' holds '37.12'" in chat.prompts[1]
     with pytest.raises(ModelError, match="coordinate"):
         planner_of(ScriptedChat(bad)).plan(REQUEST, SITE, HUSKY)

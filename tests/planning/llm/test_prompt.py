@@ -152,7 +152,7 @@ def test_every_plan_of_the_examples_passes_every_check_and_quotes_every_word(req
     site, robot, chat = grid(6, 8), load_robot(ROBOT), ScriptedChat(answer)
     planned = planner_of(chat).plan(request_, site, robot)
     assert isinstance(planned, Planned)
-    assert len(chat.told) == 1
+    assert len(chat.prompts) == 1
     assert mission.review(planned.task, site, robot).warnings == ()
 
 

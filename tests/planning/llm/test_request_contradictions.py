@@ -38,24 +38,24 @@ def test_a_right_plan_is_taken_at_once_without_a_warning() -> None:
     chat = ScriptedChat(RIGHT)
     outcome = planner_of(chat).plan(REQUEST, DEMO, HUSKY)
     assert isinstance(outcome, Planned)
-    assert (len(chat.told), doubted(outcome.task)) == (1, ())
+    assert (len(chat.prompts), doubted(outcome.task)) == (1, ())
 
 
 def test_a_contradiction_goes_back_as_a_typed_problem_with_its_place() -> None:
     chat = ScriptedChat(WRONG, RIGHT)
     outcome = planner_of(chat).plan(REQUEST, DEMO, HUSKY)
     assert isinstance(outcome, Planned)
-    assert (captures(outcome.task), doubted(outcome.task), len(chat.told)) == (3, (), 2)
-    assert "[request] line 4 <act>: the plan holds the number 2" in chat.told[1]
-    assert "[request] the request says '3 pictures'" in chat.told[1]
-    assert "keep the plan as it is if the request does mean it" in chat.told[1]
+    assert (captures(outcome.task), doubted(outcome.task), len(chat.prompts)) == (3, (), 2)
+    assert "[request] line 4 <act>: the plan holds the number 2" in chat.prompts[1]
+    assert "[request] the request says '3 pictures'" in chat.prompts[1]
+    assert "keep the plan as it is if the request does mean it" in chat.prompts[1]
 
 
 def test_a_model_that_insists_is_not_asked_again_and_the_operator_reads_why() -> None:
     chat = ScriptedChat(WRONG)
     outcome = planner_of(chat).plan(REQUEST, DEMO, HUSKY)
     assert isinstance(outcome, Planned)
-    assert len(chat.told) == 2
+    assert len(chat.prompts) == 2
     assert captures(outcome.task) == 2
     assert len(doubted(outcome.task)) == 2
     assert any("'3 pictures'" in warning for warning in doubted(outcome.task))
@@ -73,7 +73,7 @@ def test_a_model_that_only_breaks_its_plan_leaves_the_doubted_one(after: str) ->
     chat = ScriptedChat(WRONG, after)
     outcome = planner_of(chat).plan(REQUEST, DEMO, HUSKY)
     assert isinstance(outcome, Planned)
-    assert len(chat.told) == SETTINGS.repairs + 1
+    assert len(chat.prompts) == SETTINGS.repairs + 1
     assert captures(outcome.task) == 2
     assert doubted(outcome.task)
 
@@ -82,7 +82,7 @@ def test_a_doubt_does_not_use_up_the_other_repairs() -> None:
     chat = ScriptedChat(BROKEN, WRONG, BROKEN, RIGHT)
     outcome = planner_of(chat).plan(REQUEST, DEMO, HUSKY)
     assert isinstance(outcome, Planned)
-    assert (captures(outcome.task), doubted(outcome.task), len(chat.told)) == (3, (), 4)
+    assert (captures(outcome.task), doubted(outcome.task), len(chat.prompts)) == (3, (), 4)
 
 
 def test_a_model_may_ask_when_it_is_doubted() -> None:
@@ -95,14 +95,14 @@ def test_without_repairs_a_doubt_is_a_warning_at_once() -> None:
     outcome = planner_of(chat, replace(SETTINGS, repairs=0)).plan(REQUEST, DEMO, HUSKY)
     assert isinstance(outcome, Planned)
     assert doubted(outcome.task)
-    assert len(chat.told) == 1
+    assert len(chat.prompts) == 1
 
 
 def test_a_model_that_never_gives_a_usable_plan_still_fails_clearly() -> None:
     chat = ScriptedChat(BROKEN)
     with pytest.raises(ModelError, match="none of 4 answers"):
         planner_of(chat).plan(REQUEST, DEMO, HUSKY)
-    assert len(chat.told) == 4
+    assert len(chat.prompts) == 4
 
 
 def test_faulted_exits_that_nobody_asked_for_are_doubted() -> None:

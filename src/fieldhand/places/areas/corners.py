@@ -57,11 +57,11 @@ class Corners(FromGroup):
     def keeps_order(self) -> bool:
         return True
 
-    def aside(self, said: str) -> str:
+    def aside(self, phrase: str) -> str:
         """Return "north-west corner"."""
         if self.single and self.of == Trees():
             return message("{north_west} corner", north_west=CORNERS[self.which[0]])
-        return said
+        return phrase
 
     @property
     def single(self) -> bool:

@@ -36,7 +36,7 @@ class Marker(Selector):
     def phrase(self, wording: SelectorWording) -> NounPhrase:
         return one(say_marker(self.name))
 
-    def aside(self, said: str) -> str:
+    def aside(self, phrase: str) -> str:
         return ""
 
     @property

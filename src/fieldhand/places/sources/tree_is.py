@@ -37,7 +37,7 @@ class TreeIs(Selector):
     def phrase(self, wording: SelectorWording) -> NounPhrase:
         return one(say_tree(self.tree))
 
-    def aside(self, said: str) -> str:
+    def aside(self, phrase: str) -> str:
         return ""
 
     @property
