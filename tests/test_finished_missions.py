@@ -64,10 +64,10 @@ def changed(log, event, fields):
 
 
 BAD = [
-    ("started", {"robot": "other"}, "is of the robot 'other', not 'husky'"),
-    ("started", {"site": "\u001b[31m"}, "is of the site"),
-    ("started", {"task": "<b>"}, "is of the Task"),
-    ("started", {"event": "unheard of"}, "has no line that says of which mission"),
+    ("started", {"robot": "other"}, "was recorded by the robot 'other', not 'husky'"),
+    ("started", {"site": "\u001b[31m"}, "was recorded with the site"),
+    ("started", {"task": "<b>"}, "was recorded with the Task"),
+    ("started", {"event": "unheard of"}, "has no line that identifies its mission"),
     ("arrive", {"leg_m": float("nan")}, "leg_m cannot be nan"),
     ("arrive", {"t": float("inf")}, "t cannot be inf"),
     ("arrive", {"travelled_m": 1e300}, "travelled_m of event"),
@@ -91,5 +91,5 @@ def test_a_log_that_cannot_be_reported_is_one_clear_line(log, tmp_path, event, f
 
 @pytest.mark.parametrize("text", ["", "\x00\x01\n", "[" * 100_000 + "\n", "{}\n", "null\n"])
 def test_what_is_no_log_at_all_is_one_clear_line(tmp_path, text):
-    with pytest.raises(InputError, match=r"not an event|has no line|holds no event"):
+    with pytest.raises(InputError, match=r"not an event|has no line|contains no events"):
         reported(tmp_path, text)

@@ -27,11 +27,11 @@ REFUSED = {
     "a list in itself": ("&a [*a]", 1, "aliases (*name) are not allowed"),
     "merged keys by an alias": ("a: &a {b: 1}\nc: {<<: [*a, *a]}", 2, "aliases (*name) are not allowed"),
     "merged keys": ("a:\n  <<: {b: 1}", 2, "merged keys (<<) are not allowed"),
-    "a key twice": ("a: 1\nb: {c: 1, c: 2}", 2, "the key 'c' stands twice"),
+    "a key twice": ("a: 1\nb: {c: 1, c: 2}", 2, "the key 'c' is given twice"),
     "a key that is a list": ("? [a]\n: 1", 1, "unhashable key"),
     "a mapping that is none": ("a: !!map [b]", 1, "expected a mapping node"),
     "a Python object": ("a: !!python/object/apply:os.system ['true']", 1, "could not determine a constructor"),
-    "too deep": ("[" * 3000, 1, "nested too deep"),
+    "too deep": ("[" * 3000, 1, "nested too deeply"),
     "two documents": ("a\n---\nb", 2, "another document"),
     "a control character": ("a: \x01", None, "special characters are not allowed"),
 }

@@ -179,7 +179,7 @@ def named_folder(environ: Mapping[str, str], variable: str) -> Path | None:
     except OSError:
         other = False  # whoever opens it says what is wrong
     if other:
-        raise InputError(f"{named} is a file, not a folder", where=variable, advice="name a folder")
+        raise InputError(f"{named} is a file, not a folder", where=variable, advice="give a folder")
     return path
 
 
@@ -189,5 +189,5 @@ def _user_folder(environ: Mapping[str, str], variable: str, else_in_home: str) -
         try:
             named = (named_folder(environ, "HOME") or Path.home()) / else_in_home
         except RuntimeError:
-            raise InputError("you have no home folder", where="HOME", advice=f"name a folder in {variable}") from None
+            raise InputError("you have no home folder", where="HOME", advice=f"set {variable} to a folder") from None
     return named / "fieldhand"

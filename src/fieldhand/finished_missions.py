@@ -68,7 +68,7 @@ def read_log(path: Path) -> MissionLog:
     events = read_mcap(path) if is_mcap(path) else read_events(path, whole=False)
     if not events:
         raise InputError(
-            message("holds no event"), where=str(path), advice=message("give a log that fieldhand run wrote")
+            message("contains no events"), where=str(path), advice=message("give a log that fieldhand run wrote")
         )
     return MissionLog(events=events, where=str(path), sha256=hashlib.sha256(path.read_bytes()).hexdigest())
 
@@ -138,7 +138,7 @@ def _require_log_of(task: Task, site: Site, robot: RobotProfile, log: MissionLog
     started = start_of(log.events)
     if started is None:
         raise InputError(
-            "has no line that says of which mission it is",
+            "has no line that identifies its mission",
             where=log.where,
             advice="give the whole log, from its first line",
         )
@@ -149,18 +149,18 @@ def _require_log_of(task: Task, site: Site, robot: RobotProfile, log: MissionLog
     ):
         if wanted != found:
             raise InputError(
-                f"is of the {what} {found!r}, not {wanted!r}",
+                f"was recorded with the {what} {found!r}, not {wanted!r}",
                 where=log.where,
-                advice=f"give the {what} that it was made with",
+                advice=f"give the {what} that was used for the mission",
             )
     for number, event in enumerate(log.events, start=1):
         for name in _FIGURES:
             value = getattr(event, name, 0.0)
             if not math.isfinite(value) or abs(value) > 1e12:
                 raise InputError(
-                    f"{name} of event {number} ({event.event}) is {value}, which no mission has",
+                    f"{name} of event {number} ({event.event}) is {value}, which is not plausible",
                     where=log.where,
-                    advice="was the log edited?",
+                    advice="use the original log; this one may have been edited",
                 )
 
 
@@ -264,7 +264,9 @@ def measured_missions(
         driven = measure_mission(read_log(log).events, where=str(log))
         if driven.robot != robot.name:
             raise InputError(
-                f"is of the robot {driven.robot!r}, not {robot.name!r}", where=str(log), advice="give logs of one robot"
+                f"was recorded by the robot {driven.robot!r}, not {robot.name!r}",
+                where=str(log),
+                advice="give only logs of that robot",
             )
         read[driven.key] = driven
     if read:
@@ -276,9 +278,9 @@ def measured_missions(
         kind, other = ("simulated", "driven") if simulated else ("driven", "simulated")
         hint = f" ({others} {other} ones are{'' if simulated else ': --simulated takes them'})" if others else ""
         raise InputError(
-            f"no {kind} missions of {robot.name} were kept{hint}",
+            f"no {kind} missions of {robot.name} are stored{hint}",
             where=str(history),
-            advice="drive some, or give their event logs",
+            advice="run some missions, or give their event logs",
         )
     return found
 

@@ -66,7 +66,7 @@ def _loader(aliases: bool) -> type[yaml.SafeLoader]:
             if not aliases and self.check_event(yaml.AliasEvent):
                 raise yaml.composer.ComposerError(None, None, "aliases (*name) are not allowed", mark)
             if self.depth > _DEEPEST:
-                raise yaml.composer.ComposerError(None, None, "it is nested too deep", mark)
+                raise yaml.composer.ComposerError(None, None, "it is nested too deeply", mark)
             self.depth += 1
             node = super().compose_node(parent, index)
             self.depth -= 1
@@ -83,7 +83,7 @@ def _loader(aliases: bool) -> type[yaml.SafeLoader]:
                 raise self._error(node, f"{str(node.value)[:40]!r} cannot be read as {tag}") from None
             hidden = find_hidden(value, lines=True) if isinstance(value, str) else None
             if hidden is not None:
-                raise self._error(node, f"{hidden.name} stands in the text, which nobody can see")
+                raise self._error(node, f"the text contains the invisible character {hidden.name}")
             if isinstance(value, int) and value.bit_length() > _MOST_BITS:
                 raise self._error(node, "the number is too large")
             return value
@@ -94,7 +94,7 @@ def _loader(aliases: bool) -> type[yaml.SafeLoader]:
                 if key.tag == "tag:yaml.org,2002:merge":
                     raise self._error(key, "merged keys (<<) are not allowed")
                 if isinstance(key, yaml.ScalarNode) and key.value in seen:
-                    raise self._error(key, f"the key {key.value[:40]!r} stands twice")
+                    raise self._error(key, f"the key {key.value[:40]!r} is given twice")
                 seen.add(str(key.value))
             return super().construct_mapping(node, deep)
 

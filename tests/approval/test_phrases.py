@@ -63,7 +63,7 @@ SAID = [
     (s.Within(distance_m=20.0, to=TREE), None, "the trees within 20 m of tree 81"),
     (s.Take(count=1, of=s.AmongExtreme(side="north")), None, "the nearest of the northernmost trees"),
     (s.Spread(count=5, of=YELLOW), None, "5 of the yellow trees, spread far from each other"),
-    (s.Spread(count=1), None, "of the trees the one nearest to their middle"),
+    (s.Spread(count=1), None, "the one of the trees nearest to their middle"),
     (s.Evenly(count=3, of=YELLOW), None, "3 of the yellow trees, evenly along them"),
     (s.Evenly(count=1, of=YELLOW), None, "the middle one of the yellow trees"),
     (s.Evenly(count=3, out_of=5), None, "3 of every 5 trees"),

@@ -107,7 +107,7 @@ def test_a_map_that_cannot_be_written_is_one_clear_error(tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(OutputError, match="cannot be written"):
         save_map(task, SITE, ROBOT, forecast, tmp_path / "file" / "map.png")
-    with pytest.raises(OutputError, match="no kind of picture"):
+    with pytest.raises(OutputError, match="not a supported picture format"):
         save_map(task, SITE, ROBOT, forecast, tmp_path / "map.mission")
 
 

@@ -96,7 +96,7 @@ def test_the_page_shows_a_file_that_can_be_used_and_names_every_key(tmp_path: Pa
 
 BAD = {
     "not YAML": ("cases: [", "line 1: is not YAML"),
-    "a key twice": ("site: a\nsite: b\ncases: []", "the key 'site' stands twice"),
+    "a key twice": ("site: a\nsite: b\ncases: []", "the key 'site' is given twice"),
     "empty": ("", "holds no cases"),
     "a list": ("- 1", "holds no cases"),
     "no cases": ({"site": "builtin:demo", "robot": "husky"}, "the key 'cases' is missing"),

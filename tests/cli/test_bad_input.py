@@ -209,7 +209,7 @@ def test_a_file_where_the_environment_has_to_name_a_folder(
     env = {name: value for name, value in os.environ.items() if name not in usual}
     (tmp_path / "file").touch()
     run = fieldhand(*words, cwd=tmp_path, env=env | {variable: "file"})
-    assert is_one_clear_line(run, f"{variable}: file is a file, not a folder", "name a folder")
+    assert is_one_clear_line(run, f"{variable}: file is a file, not a folder", "give a folder")
     assert run.out == ""
 
 

@@ -53,7 +53,7 @@ def files(tmp_path: Path) -> Path:
         (export, {"source": "task.xml", "to": "kml"}, "needs its site"),
         (export, {"source": "none.xml", "to": "btcpp"}, "none.xml: there is no such file"),
         (export, {"source": "task.xml", "to": "btcpp", "robot": "amiga"}, "not valid for this robot"),
-        (export, {"source": "empty.jsonl", "to": "csv"}, "holds no event"),
+        (export, {"source": "empty.jsonl", "to": "csv"}, "contains no events"),
         (export, {"source": "binary.jsonl", "to": "csv"}, "cannot be read"),
         (export, {"source": "text.mcap", "to": "csv"}, "no event|damaged"),
         (replay, {"source": "events.jsonl", "site": "demo", "output": Path("m.avi")}, ".avi is no kind of animation"),

@@ -137,7 +137,7 @@ def test_a_folder_without_rights_or_room(tmp_path: Path, monkeypatch: pytest.Mon
 def test_a_picture_of_no_kind_costs_no_planning(tmp_path: Path) -> None:
     run = fieldhand("plan", *COMMANDS["plan"], "--picture", "map.docx", cwd=tmp_path)
     assert (run.status, run.out) == (2, "")
-    assert ".docx is no kind of picture" in run.err
+    assert ".docx is not a supported picture format" in run.err
 
 
 def test_a_device_takes_what_it_is_given(tmp_path: Path) -> None:

@@ -44,7 +44,7 @@ def test_a_robot_is_calibrated_from_logs_and_its_new_profile_is_shown(tmp_path):
     assert (shown["name"], shown["speed_m_s"]) == ("husky", 0.8)
     refused = fieldhand("robot", "calibrate", cwd=tmp_path, env=env)
     assert refused.status == 2
-    assert "no driven missions of husky were kept" in refused.err
+    assert "no driven missions of husky are stored" in refused.err
 
 
 def test_a_mission_beyond_its_limit_is_no_success_though_every_goal_is_met(tmp_path):

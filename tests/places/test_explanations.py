@@ -162,8 +162,8 @@ def test_each_part_says_what_it_left_of_what():
     told = explain(s.EveryNth(nth=2, of=s.Rows(first="2", last="3")), site, at_start(site))
     assert told.say() == (
         "every tree: 15 (1, 2, 3, 4, 5, 6 and 9 more)",
-        "the trees of rows 2 to 3: 10 of 15 (6, 7, 8, 9, 10, 11 and 4 more); rows count from west",
-        "every other tree of rows 2 to 3: 6 of 10 (6, 8, 10, 11, 13, 15); the trees that stand are counted, in each row"
+        "the trees of rows 2 to 3: 10 of 15 (6, 7, 8, 9, 10, 11 and 4 more); rows are counted from west",
+        "every other tree of rows 2 to 3: 6 of 10 (6, 8, 10, 11, 13, 15); existing trees are counted, in each row"
         " from north",
     )
 
@@ -197,8 +197,8 @@ def test_trees_of_which_the_file_says_nothing_are_said_to_be_left_out():
     [
         (s.Half(side="north"), "halves and quarters go by the middle lines of the extent along true north"),
         (s.AmongExtreme(side="east"), "less than 6.0 m, one row spacing, from the easternmost"),
-        (s.First(), "the site has no start marker, so the file's order counts"),
-        (s.Rows(first="2", last="2", counted_from="east"), "rows count from east"),
+        (s.First(), "the site has no start marker, so the order of the file applies"),
+        (s.Rows(first="2", last="2", counted_from="east"), "rows are counted from east"),
         (s.Across(), "that is in row 2"),
         (s.Successive(count=2), "row 1 is the nearest with that many"),
         (s.InZone(zone="1"), "that is a block of the site"),

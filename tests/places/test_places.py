@@ -689,7 +689,7 @@ def test_attributes_compare_as_numbers_or_as_text_without_case(attributed, attri
         (Within(distance_m=-1.0, to=TreeIs(tree="1")), "more than 0 m"),
         (Corners(which=()), "no corner"),
         (UnionOf(parts=()), "no parts"),
-        (Take(count=9, of=Trees()), "9 are asked for and there are only 5"),
+        (Take(count=9, of=Trees()), "9 were asked for, but there are only 5"),
         (Nearest(to=TreeIs(tree="99")), "no tree '99'"),
     ],
 )

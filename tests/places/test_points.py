@@ -189,13 +189,13 @@ def test_points_spread_over_a_square_stand_as_a_person_would_put_them():
 @pytest.mark.parametrize(
     ("selector", "says"),
     [
-        (Spaced(apart_m=0.0), "0 m apart are no line"),
+        (Spaced(apart_m=0.0), "points cannot be 0 m apart"),
         (Spaced(apart_m=1.0, count=-1), "too many for one line"),
         (Spaced(apart_m=5.0, zone="nowhere"), "no zone 'nowhere'.*zones are wet, pond"),
         (Spaced(apart_m=15.0, count=9, zone="wet"), "9 points 15 m apart do not fit inside wet: . does on its"),
         (PointsIn(zone="pond"), "pond is a keep-out zone"),
         (PointsIn(zone="wet", count=0), "0 points in a zone"),
-        (PointsIn(zone="drowned"), "no room for 1 point in drowned; all of it is kept out"),
+        (PointsIn(zone="drowned"), "no room for 1 point in drowned; all of it is inside keep-outs"),
         (Spaced(apart_m=5.0, zone="drowned"), "no free line there"),
     ],
 )

@@ -299,7 +299,7 @@ def test_so_many_trees_along_the_row_or_its_last_one(farm, trees, towards, data)
     if towards in COMPASS:
         cosine = faced(farm.block_of(tree)[1], towards)
         if abs(cosine) < 0.5 - 1e-9:
-            with pytest.raises(PlaceError, match=f"{towards} is no way along row .*which runs .* to .*; say "):
+            with pytest.raises(PlaceError, match=f"{towards} is not a direction along row .*which runs .* to .*; say "):
                 ids(selector, farm.site)
             return
         way = 1 if cosine > 0 else -1
@@ -355,7 +355,7 @@ def test_a_place_that_is_no_tree_of_a_row_counts_from_the_nearest_one():
     assert ids(s.AlongRow(trees=1), site) == ["5"]
     assert ids(s.RowOf(), site) == ["4", "5", "6"]
     told = explain(s.AlongRow(trees=1), site, at_start(site))
-    assert told.notes == ("start stands in no row, so it counts from the nearest tree that does, 4",)
+    assert told.notes == ("start is not in a row, so counting starts at the nearest tree in a row, 4",)
     assert told.rules == ("down is south here, away from the start",)
 
 
@@ -478,7 +478,7 @@ SCATTERED = without_rows(site_of([(0, 0), (7, 2), (3, 9)], properties=[{"age": 1
     ],
 )
 def test_a_site_without_rows_says_so_and_why(selector):
-    with pytest.raises(PlaceError, match="this site has no rows; the trees stand in no rows; ask by ids"):
+    with pytest.raises(PlaceError, match="this site has no rows; the trees do not stand in rows; select trees by id"):
         ids(selector, SCATTERED)
 
 
@@ -486,20 +486,20 @@ def test_a_site_without_rows_says_so_and_why(selector):
     ("selector", "says"),
     [
         (s.Rows(first="1", last="9"), "there is no row '9'; there are 3 rows: 1, 2, 3"),
-        (s.Rows(first="1", last="2", every=0), "every 0th row is no row"),
-        (s.RowOf(over=5), "there is no row 5 rows after row 1; the rows count from west: 1, 2, 3"),
+        (s.Rows(first="1", last="2", every=0), "every 0th row is not possible"),
+        (s.RowOf(over=5), "there is no row 5 rows after row 1; the rows are counted from west: 1, 2, 3"),
         (s.RowOf(over=-1), "there is no row 1 row before row 1"),
-        (s.InRow(first=0, last=2), "count from 1"),
+        (s.InRow(first=0, last=2), "counted from 1"),
         (s.InRow(first=4, last=5), "none of the 3 rows has trees 4 to 5; the longest has 3"),
         (s.InRow(first=4, last=4, of=s.Rows(first="2", last="2")), "row 2 has no tree 4; 3 trees are to choose from"),
-        (s.EveryNth(nth=0), "is no tree"),
+        (s.EveryNth(nth=0), "is not possible"),
         (s.EveryNth(nth=2, start=9), "nothing on this site matches every other tree of each row, from the ninth on"),
         (s.AlongRow(trees=0), "0 trees along a row is no way"),
-        (s.AlongRow(trees=2, origin=s.Trees()), "9 places are meant by 'every tree' where one is needed"),
+        (s.AlongRow(trees=2, origin=s.Trees()), "'every tree' selects 9 places, but only one is allowed here"),
         (s.Across(side="west"), "there is no row to the west of row 1"),
-        (s.Successive(count=4), "4 are asked for and there are only 3: 4 successive trees of one row"),
-        (s.Nth(nth=0, of=s.Trees()), "places count from 1"),
-        (s.Nth(nth=12, of=s.Trees()), "12 are asked for and there are only 9: every tree"),
+        (s.Successive(count=4), "4 were asked for, but there are only 3: 4 successive trees of one row"),
+        (s.Nth(nth=0, of=s.Trees()), "places are counted from 1"),
+        (s.Nth(nth=12, of=s.Trees()), "12 were asked for, but there are only 9: every tree"),
         (s.Ordered(by="attribute", attribute="x"), "no tree has an attribute 'x'"),
     ],
 )
@@ -512,7 +512,7 @@ def test_what_rows_cannot_give_is_said_with_what_there_is(selector, says):
 
 def test_rows_of_two_blocks_are_no_range():
     two = planted([(b, 0.0, [(f"{b}{k}", [(50.0 * n + 6 * k, 0.0)]) for k in (1, 2)]) for n, b in enumerate("AB")])
-    with pytest.raises(PlaceError, match="row A1 is in block A and row B2 is in block B, so they are no range"):
+    with pytest.raises(PlaceError, match="row A1 is in block A and row B2 is in block B, so they do not form a range"):
         ids(s.Rows(first="A1", last="B2"), two)
     assert ids(s.Rows(first="B1", last="B2"), two) == ["3", "4"]
 

@@ -194,10 +194,10 @@ def test_units_are_those_of_physics() -> None:
         ({"battery__type": "my_msgs/Pack"}, "'my_msgs/Pack' is not a type here; write package/msg/Name"),
         ({"stop": {"topic": "stop", "stopped": "maybe"}}, "ros2.stop.stopped: "),
         ({"actions__probe": ROVER["ros2"]["actions"]["probe_soil"]}, "no action 'probe'; did you mean 'probe_soil'?"),
-        ({"actions__probe_soil": {}}, "nothing carries it out; give action, service or topics"),
+        ({"actions__probe_soil": {}}, "nothing performs the action; give action, service or topics"),
         (
             {"actions__probe_soil__service": {"name": "p", "type": "std_srvs/srv/Trigger"}},
-            "by an action of ROS or by a service; give one of them",
+            "both action and service are given; give only one of them",
         ),
         (
             {"actions__probe_soil__action__request": {"depth": "$depth"}},
@@ -211,11 +211,11 @@ def test_units_are_those_of_physics() -> None:
         ({"actions__probe_soil__action__type": "a/srv/B"}, "'a/srv/B' is not a type here; write package/action/Name"),
         (
             {"actions__probe_soil__action__readings": {}},
-            "nothing says where 'moisture' is read; add it to the readings",
+            "no source is given for 'moisture'; add it to the readings",
         ),
         (
             {"actions__probe_soil__action__readings": {"moisture": "value", "air": "air"}},
-            "'air' is read twice; leave it in readings or in topics",
+            "'air' is read twice; keep it either in readings or in topics",
         ),
         (
             {"actions__probe_soil__action__readings": {"moisture": "value", "co2": "ppm"}},
@@ -231,7 +231,7 @@ def test_units_are_those_of_physics() -> None:
         ),
         (
             {"actions__probe_soil__topics__air__unit": "K", "actions__probe_soil__topics__air__offset": 1},
-            f"ros2.{AIR}: unit and scale or offset say the same; give the unit, or scale and offset",
+            f"ros2.{AIR}: unit conflicts with scale and offset; give either the unit, or scale and offset",
         ),
         ({"actions__probe_soil__topics__air__within_s": 4000}, f"ros2.{AIR}.within_s: must be less than or equal"),
         ({"interfaces": {"rover_probe/action/Measure": "int8 a\n---\n"}}, "has 1 lines of ---; a .action file has 2"),

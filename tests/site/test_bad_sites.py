@@ -46,8 +46,8 @@ FAULTS = {
     "kilometres away": (point(LON + 1, LAT), "88 km from the middle of the trees"),
     "unclosed zone": (area([*square(LON, LAT)[:4], [LON, LAT]], name="a"), "not closed"),
     "self-intersecting zone": (area(BOW, name="a"), "crosses or touches itself"),
-    "no numbers": (geometry("Point", []), "its coordinates hold nothing"),
-    "one number": (geometry("Point", [-120]), "its coordinates hold one number"),
+    "no numbers": (geometry("Point", []), "its coordinates contain nothing"),
+    "one number": (geometry("Point", [-120]), "its coordinates contain only one number"),
     "text for a number": (geometry("Point", ["-120", LAT]), "its longitude is '-120'"),
     "a number that is none": (point(LON, LAT + 1e-4, age=float("nan")), "property 'age' is not a finite number"),
     "a gate of no width": (point(LON, LAT, kind="gate", width_m=0), "its width is '0'"),
@@ -175,7 +175,7 @@ def test_the_first_of_two_start_markers_is_kept():
 def test_a_lenient_reading_ignores_only_a_crs_of_wgs_84():
     crs = {"type": "name", "properties": {"name": "urn:ogc:def:crs:OGC:1.3:CRS84"}}
     assert "RFC 7946" in refused(*TREES, crs=crs)
-    assert 'the "crs" member was read over' in leniently(*TREES, crs=crs).notes[0]
+    assert 'the "crs" member was ignored' in leniently(*TREES, crs=crs).notes[0]
     assert "WGS 84" in refused(*TREES, crs={"properties": {"name": "EPSG:32610"}}, lenient=True)
 
 
@@ -214,7 +214,7 @@ def test_a_geometry_collection_counts_as_its_parts():
     [
         ("", "empty"),
         ("lat,lon\n", "no points"),
-        ("37.26,-120.42\n37.27,-120.42\n", "line 1: the first line is no header"),
+        ("37.26,-120.42\n37.27,-120.42\n", "line 1: the first line is not a header"),
         ("a,b\n1,2\n", "line 1: it has no column for latitude or longitude (its columns: 'a', 'b')"),
         ("lat,b\n1,2\n", "no column for longitude"),
         ("lat,lon\n37.26,-120.42\n37.26\n", "line 3: it has 1 columns, the header has 2"),
@@ -227,7 +227,7 @@ def test_a_geometry_collection_counts_as_its_parts():
         ("lat,lon\n4129876,701234\n", "out of range"),
         ("lat;lon\n37°15'36\"N;120°25'12\"W\n", "write decimal degrees: 37.2600000"),
         ("lat,lon\n37.26,120 25.2 W\n", "write decimal degrees: -120.4200000"),
-        ('lat,lon,a\n37.26,-120.42,"open\n', "line 2: the table cannot be read from here on"),
+        ('lat,lon,a\n37.26,-120.42,"open\n', "line 2: the table cannot be read from this line on"),
         ("lat,lon,age\n37.26,-120.42,1e999\n", "property 'age' is not a finite number"),
     ],
 )

@@ -50,7 +50,7 @@ def test_the_picture_contains_question_choices_and_numbers_as_text(tmp_path: Pat
 
 
 def test_a_choices_picture_that_cannot_be_written_is_reported(tmp_path: Path) -> None:
-    with pytest.raises(OutputError, match="no kind of picture"):
+    with pytest.raises(OutputError, match="not a supported picture format"):
         save_choices_picture(SITE, "Which?", ("one",), (ONE,), tmp_path / "question.txt")
     (tmp_path / "file").write_text("")
     with pytest.raises(OutputError, match="cannot be written"):

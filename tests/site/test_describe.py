@@ -118,7 +118,7 @@ def test_trees_in_no_row_are_named_with_the_reason():
     site = site_of([*grid(4, 8), (70.0, 70.0)], row_names=[str(k // 8) for k in range(32)] + [""])
     s = describe(site)
     assert (s.in_no_row, s.in_no_row_ids) == (1, ("33",))
-    (line,) = (line for line in report_lines(site) if "in no row" in line)
+    (line,) = (line for line in report_lines(site) if "not in a row" in line)
     assert line.endswith(": 33.")
     assert site.planting.why[1:] in line
 

@@ -198,7 +198,11 @@ def test_names_with_special_characters_of_matplotlib_are_drawn(tmp_path):
 
 @pytest.mark.parametrize(
     ("name", "says"),
-    [("file/site.png", "cannot be written"), ("site.xyz", "no kind of picture"), ("site", "no ending")],
+    [
+        ("file/site.png", "cannot be written"),
+        ("site.xyz", "not a supported picture format"),
+        ("site", "without extension"),
+    ],
 )
 def test_a_site_picture_that_cannot_be_written_is_reported(tmp_path, name, says):
     (tmp_path / "file").touch()

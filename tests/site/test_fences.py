@@ -56,7 +56,7 @@ def test_a_gate_without_a_width_has_a_usual_one(said, width):
 def test_a_gate_far_from_every_fence_is_noted():
     (far,) = degrees((0, 60))
     site = read(point(LON, LAT), line((-10, 5), (10, 5), kind="fence"), point(*far, kind="gate", name="north gate"))
-    assert "'north gate' stands at no fence" in site.notes[0]
+    assert "'north gate' is not on a fence" in site.notes[0]
 
 
 @pytest.mark.parametrize(("width", "through"), [(None, False), (0.5, False), (1.0, True), (4.0, True)])

@@ -105,7 +105,7 @@ def test_a_geopackage_with_views_or_virtual_tables_is_rejected(tmp_path):
     database.close()
     site = load_site(path)
     assert len(site.trees) == 1
-    assert "views were left out, only tables are read: more" in site.notes
+    assert "views were left out (only tables are read): more" in site.notes
     with sqlite3.connect(path) as database:
         database.execute("PRAGMA writable_schema = ON")
         database.execute(
@@ -127,7 +127,7 @@ def test_a_shapefile_needs_its_coordinate_system_and_its_main_file(tmp_path):
     )
     (tmp_path / "farm.prj").unlink()
     assert "coordinate system" in told(path)
-    assert "part of a Shapefile" in told(tmp_path / "farm.dbf")
+    assert "only part of a Shapefile" in told(tmp_path / "farm.dbf")
     (tmp_path / "farm.prj").write_text('LOCAL_CS["here"]')
     assert "coordinate system" in told(path)
     assert "cannot be read" in told(tmp_path / "farm.shp", path.read_bytes()[:60])

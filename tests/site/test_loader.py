@@ -104,7 +104,7 @@ def test_properties_are_scalars_numbers_are_floats_and_booleans_stay():
 
 def test_text_that_cannot_be_printed_or_written_to_xml_is_refused():
     for name in ("a\u0000b", "a\ud800c"):
-        with pytest.raises(SiteError, match=r"feature 1: its name holds the character U\+"):
+        with pytest.raises(SiteError, match=r"feature 1: its name contains the invisible character U\+"):
             parse_site(collection(point(LON, LAT, name=name)), name="x")
 
 
@@ -246,7 +246,7 @@ TREE = point(LON, LAT)
             collection(TREE, point(LON + 1e-2, LAT, kind="end"), area(square(LON, LAT), kind="fence")),
             "outside the boundary",
         ),
-        (collection(TREE, crs={"properties": {"name": "EPSG:32611"}}), "does not say WGS 84"),
+        (collection(TREE, crs={"properties": {"name": "EPSG:32611"}}), "is not WGS 84"),
         (collection(TREE, crs={"properties": {"name": "urn:ogc:def:crs:OGC:1.3:CRS84"}}), "delete that member"),
         (collection(TREE, crs={"properties": {"name": "EPSG:4326"}}), "RFC 7946"),
         (collection(TREE, crs=None), "RFC 7946"),

@@ -59,7 +59,7 @@ def check(planting: Planting, site: Site) -> None:
         way *= 1.0 if (way[0] > 0 if block.runs_east_west else way[1] < 0) else -1.0
         aside = np.array([way[1], -way[0]]) if block.runs_east_west else np.array([-way[1], way[0]])
         middles = [float((site.xy[row.trees] @ aside).mean()) for row in block.rows]
-        assert middles == sorted(middles), "rows count from west, or from north"
+        assert middles == sorted(middles), "rows are counted from west, or from north"
         for row in block.rows:
             assert row.block == place
             assert len(row.trees) == len(row.slots) > 0
@@ -117,7 +117,7 @@ def test_scattered_trees_beside_rows_are_in_no_row_and_counted():
     planting = points_site(np.vstack([made.xy, wild])).planting
     assert (planting.row_of[: len(made.xy)] >= 0).all()
     assert (planting.row_of[len(made.xy) :] == -1).all()
-    assert planting.why == "40 of the 160 trees stand in no row"
+    assert planting.why == "40 of the 160 trees are not in a row"
 
 
 @quick

@@ -124,7 +124,7 @@ def test_the_low_end_of_a_range_comes_first(low, high, wrong):
     between = Between(reading="r", quantity="soil_moisture", low=low, high=high, unit="percent")
     problems = references(task_of(probe("r"), when(Not(condition=between))), ROVER)
     expected = (
-        "node 'n3' tests whether the soil_moisture is between 5 and 1, which it never is: the low end comes first"
+        "node 'n3' tests whether the soil_moisture is between 5 and 1, which is impossible: give the low end first"
     )
     assert problems == ((expected,) if wrong else ())
 
@@ -179,8 +179,8 @@ def test_goals_and_state_variables_name_actions_that_fit():
     )
     assert references(replace(task, command=command)) == (
         "2 goals have the id 'g1'",
-        "goal 'g1' names 'n3', which is no action of the plan",
+        "goal 'g1' names 'n3', which is not an action of the plan",
         "goal 'g1' counts 'read_co2', but its node 'n2' does 'probe_soil'",
-        "state variable 'r' names 'n9', which is no action of the plan",
+        "state variable 'r' names 'n9', which is not an action of the plan",
         "state variable 'q' is not the reading that 'n2' binds",
     )

@@ -115,7 +115,7 @@ def test_the_schema_is_itself_valid_and_the_same_every_time(draft):
         ('<half side="north"/>', "<here/><trees/>", "<trees>: is one too many inside <corners>"),
         ("<here/>", "", "<at>: lacks an element inside; one of: trees, tree-is,"),
         ("<condition>", "<case/><condition>", "<case>: is not known inside <if>; known: condition, then, otherwise"),
-        ("<select>", "<select>every tree", "<select>: holds text between its elements"),
+        ("<select>", "<select>every tree", "<select>: contains text between its elements"),
         ('count="2"', 'count="0"', 'count="0" is out of bounds: it must be at least 1'),
         ('count="2"', 'count="1001"', 'count="1001" is out of bounds: it must be at most 1000'),
         ('count="2"', 'count="two"', 'count="two" is not a whole number'),

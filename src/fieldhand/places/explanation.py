@@ -20,7 +20,7 @@ class ResolvedPart:
     Attributes:
         selector: The part, with those nested in it.
         words: The part in words: "the northernmost of the yellow trees".
-        rule: Rule that was applied, as a short clause ("rows count from west"); empty where the words suffice.
+        rule: Rule that was applied, as a short clause ("rows are counted from west"); empty where the words suffice.
         candidates: Number of places it chose from; None for a source.
         chosen: Number of places it left.
         ids: Ids of the first few of these.
@@ -61,7 +61,7 @@ class Explanation:
         return tuple(dict.fromkeys(part.rule for part in self.parts if part.rule))
 
     def say(self) -> tuple[str, ...]:
-        """Return a line for each part: "the trees of row 3: 12 of 98; rows count from west"."""
+        """Return a line for each part: "the trees of row 3: 12 of 98; rows are counted from west"."""
         return tuple(_line(part) for part in self.parts)
 
 

@@ -99,7 +99,7 @@ def row_in_several_blocks(site: Site, selector: Rows, blocks: Sequence[str]) -> 
             names=listed(blocks),
         ),
         where=site.name,
-        advice=message('say of which block: "{rows} of {block}"', rows=rows, block=short(blocks[-1])),
+        advice=message('name the block: "{rows} of {block}"', rows=rows, block=short(blocks[-1])),
     )
 
 
@@ -149,7 +149,7 @@ def not_comparable(selector: Where) -> PlaceError:
             name=short(selector.attribute),
             value=short(value_text(selector.value)),
         ),
-        advice=message("compare with a number, or ask whether it is equal"),
+        advice=message("compare it with a number, or test only whether it is equal"),
     )
 
 
@@ -157,7 +157,7 @@ def not_a_number(attribute: str) -> PlaceError:
     """Return the error for an attribute that is no number on any tree, where one is required."""
     return PlaceError(
         message("{name} is not a number", name=short(attribute)),
-        advice=message("it can be equal to a value, not above, below or highest"),
+        advice=message("test only whether it equals a value; above, below and highest need numbers"),
     )
 
 
@@ -179,8 +179,8 @@ def too_few(site: Site, selector: Selector, wanted: int, there_are: int) -> Plac
         only = message("there are none")
     return PlaceError(
         counted(
-            "{count} is asked for and {there_are}: {trees}",
-            "{count} are asked for and {there_are}: {trees}",
+            "{count} was asked for, but {there_are}: {trees}",
+            "{count} were asked for, but {there_are}: {trees}",
             wanted,
             there_are=only,
             trees=_shortened(say_selector(selector)),

@@ -59,7 +59,7 @@ def nearest_to_marker(spots: PlaceGroup, name: Literal["start", "end"], notes: R
     """Return the tree nearest to a marker; None where the site has none."""
     marker = spots.site.markers.get(name)
     if marker is None:
-        notes.rule = f"the site has no {name} marker, so the file's order counts"
+        notes.rule = f"the site has no {name} marker, so the order of the file applies"
         return None
     notes.rule = f"that is the tree nearest to the {name} marker"
     away = distance_to(spots, PlaceGroup.of(spots.site, [marker]))

@@ -90,7 +90,7 @@ class Resolution:
         if len(found) > 1:
             raise PlaceError(
                 message(
-                    "{count} places are meant by '{selector}' where one is needed",
+                    "'{selector}' selects {count} places, but only one is allowed here",
                     count=len(found),
                     selector=short(say_selector(selector), 160),
                 ),

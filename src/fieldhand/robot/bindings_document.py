@@ -28,7 +28,7 @@ _SECTIONS = {"msg": 0, "srv": 1, "action": 2}
 def _ros_name(value: str) -> str:
     if len(value) > _LONGEST_NAME or not re.fullmatch(r"/?[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*", value):
         raise ValueError(
-            f"{value[:80]!r} is not a name of ROS; use letters, digits and _, parted by single /, as gps/fix"
+            f"{value[:80]!r} is not a ROS name; use letters, digits and _, separated by single /, such as gps/fix"
         )
     return value
 
@@ -112,7 +112,7 @@ class _ConvertedDocument(Keyed):
     @model_validator(mode="after")
     def _converted_once(self) -> _ConvertedDocument:
         if self.unit is not None and (self.scale, self.offset) != (None, None):
-            raise ValueError("unit and scale or offset say the same; give the unit, or scale and offset")
+            raise ValueError("unit conflicts with scale and offset; give either the unit, or scale and offset")
         if self.scale == 0:
             raise ValueError("scale is 0; every reading would be the same")
         return self
@@ -178,9 +178,9 @@ class ActionBindingDocument(Keyed):
     @model_validator(mode="after")
     def _by_something(self) -> ActionBindingDocument:
         if self.action is not None and self.service is not None:
-            raise ValueError("an action is carried out by an action of ROS or by a service; give one of them")
+            raise ValueError("both action and service are given; give only one of them")
         if self.action is None and self.service is None and not self.topics:
-            raise ValueError("nothing carries it out; give action, service or topics")
+            raise ValueError("nothing performs the action; give action, service or topics")
         return self
 
 

@@ -130,13 +130,13 @@ def _sources(bound: ActionBindingDocument, action: ActionDocument, where: str) -
         if quantity not in called and quantity not in bound.topics:
             yield ProfileProblem(
                 path=where,
-                what=f"nothing says where {quantity!r} is read",
+                what=f"no source is given for {quantity!r}",
                 advice="add it to the readings of the action or service, or to topics",
             )
     for quantity in dict.fromkeys((*called, *bound.topics)):
         if quantity in called and quantity in bound.topics:
             yield ProfileProblem(
-                path=where, what=f"{quantity!r} is read twice", advice="leave it in readings or in topics"
+                path=where, what=f"{quantity!r} is read twice", advice="keep it either in readings or in topics"
             )
         if quantity not in action.measures:
             measured = f"it measures {', '.join(action.measures)}" if action.measures else "it measures nothing"
@@ -148,7 +148,7 @@ def _unreadable(valued: Valued, type_name: str, wanted: str, where: str) -> Iter
     path, given = _place_and_unit(valued, type_name)
     if not path:
         yield ProfileProblem(
-            path=where, what="the key 'path' is missing", advice="say where in the message the value stands"
+            path=where, what="the key 'path' is missing", advice="give the path of the value in the message"
         )
     if given and conversion(given, wanted) is None:
         yield ProfileProblem(

@@ -167,8 +167,8 @@ class EnergyDocument(Keyed):
         reserve, warn, home, stop = self.reserve_percent, self.warn_percent, self.return_percent, self.stop_percent
         if home is not None and home < reserve:
             raise ValueError(
-                f"return_percent {home:g} is below reserve_percent {reserve:g}; a robot that turns home there cannot"
-                " leave the reserve: give at least as much, or leave the key out"
+                f"return_percent {home:g} is below reserve_percent {reserve:g}; a robot that returns only then would"
+                " use up its reserve: give at least as much, or leave the key out"
             )
         if warn is not None and warn < max(reserve, home or 0.0):
             raise ValueError(
@@ -177,8 +177,8 @@ class EnergyDocument(Keyed):
             )
         if stop is not None and stop > 0.0 and stop >= reserve:
             raise ValueError(
-                f"stop_percent {stop:g} is not below reserve_percent {reserve:g}; the robot would stop before it may"
-                " come home: give less, or leave the key out"
+                f"stop_percent {stop:g} is not below reserve_percent {reserve:g}; the robot would stop before it"
+                " reaches the reserve: give less, or leave the key out"
             )
         return self
 
@@ -218,7 +218,7 @@ class ProfileDocument(Keyed):
     def _measured(self) -> ProfileDocument:
         for name, action in self.actions.items():
             if name in RESERVED_ACTIONS:
-                raise ValueError(f"an action may not be called {name!r}: Task documents use the word")
+                raise ValueError(f"an action cannot be called {name!r}: the word is reserved in Task documents")
             for quantity in action.measures:
                 if quantity not in self.quantities:
                     known = ", ".join(self.quantities) or "none"

@@ -41,13 +41,13 @@ def each_once(values: tuple[str, ...]) -> tuple[str, ...]:
 
 def _not_tiny(value: float) -> float:
     if 0 < value < _LEAST:
-        raise ValueError(f"{value:g} is too small: what is not 0 is at least {_LEAST:g} here")
+        raise ValueError(f"{value:g} is too small: a value other than 0 must be at least {_LEAST:g} here")
     return value
 
 
 def _not_huge(value: float) -> float:
     if abs(value) > _MOST:
-        raise ValueError(f"{value:g} is too large: no number here is beyond {_MOST:g}")
+        raise ValueError(f"{value:g} is too large: a number here must not exceed {_MOST:g}")
     return value
 
 

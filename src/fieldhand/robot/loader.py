@@ -134,7 +134,7 @@ def profile_bytes(name_or_path: str) -> tuple[bytes, str]:
     except FileFault as fault:
         if fault.kind != "missing":
             advice = {
-                "too large": message("a profile is a page of YAML"),
+                "too large": message("give a profile, a short YAML file"),
                 "no file": message("give the path of a YAML file"),
             }
             raise ProfileError(
@@ -164,7 +164,7 @@ def _installed_profile(plugin: Plugin) -> bytes:
     try:
         return bytes(file.read_bytes())  # type: ignore[attr-defined]
     except (AttributeError, TypeError, OSError) as error:
-        raise plugin.error(f"is no profile file: {type(error).__name__}: {error}") from error
+        raise plugin.error(f"is not a readable profile file: {type(error).__name__}: {error}") from error
 
 
 def _short(text: str) -> str:
@@ -174,7 +174,9 @@ def _short(text: str) -> str:
 def _content(data: bytes, source: str) -> dict[Any, Any]:
     """Return the mapping in the YAML."""
     if len(data) > MAX_BYTES:
-        raise ProfileError(f"is larger than {MAX_BYTES} bytes", where=source, advice="a profile is a page of YAML")
+        raise ProfileError(
+            f"is larger than {MAX_BYTES} bytes", where=source, advice="give a profile, a short YAML file"
+        )
     try:
         content = read_yaml(data.decode("utf-8-sig"))
     except UnicodeDecodeError:
@@ -227,9 +229,9 @@ def _words_for(problem: ErrorDetails, path: list[str]) -> tuple[str, str]:
         case "string_type":
             return f"must be text, is {shown}", 'put it in quotes if it is meant as text ("yes")'
         case "model_type" | "dict_type":
-            return f"must hold keys and values, is {shown}", GUIDE
+            return f"must be a mapping of keys to values, is {shown}", GUIDE
         case "tuple_type":
-            return f"must be a list, is {shown}", "write [one, two], or one a line with a dash before it"
+            return f"must be a list, is {shown}", "write [one, two], or one item per line after a dash"
         case "float_parsing" | "float_type" | "int_parsing" | "int_type" | "int_from_float":
             return f"must be a {'whole ' if 'int' in problem['type'] else ''}number, is {shown}", "correct the number"
         case "finite_number":

@@ -56,7 +56,7 @@ def barrier_zones(
             if isinstance(part, shapely.Polygon) and not part.is_empty
         )
     idle = [g.place.id for g in gates if not _opens(g, lines)] if lines else []
-    return tuple(zones), [f"the gate {name!r} stands at no fence, so it opens none" for name in idle[:5]]
+    return tuple(zones), [f"the gate {name!r} is not on a fence, so it has no effect" for name in idle[:5]]
 
 
 def _opens(gate: Gate, lines: Sequence[shapely.LineString]) -> bool:

@@ -40,8 +40,8 @@ def require_rows(site: Site) -> Planting:
             message("this site has no rows"),
             where=site.name,
             advice=message(
-                "{why}; ask by ids, by the compass or by zones",
-                why=site.planting.why or message("the trees stand in no rows"),
+                "{why}; select trees by id, by compass direction or by zone",
+                why=site.planting.why or message("the trees do not stand in rows"),
             ),
         )
     return site.planting

@@ -287,7 +287,7 @@ class Drives:
         if candidates[0].why_not:
             return no_stand(candidates, 2.0 * self.clearance_m)
         return message(
-            "out of reach: {obstacle} is there",
+            "out of reach: {obstacle} is in the way",
             obstacle=self.layout.in_the_way(candidates[0].xy) or message("a fence"),
         )
 
@@ -344,7 +344,7 @@ class Drives:
         return DriveFault(
             message("{what}: {why}", what=way, why=why) if why else way,
             where=self.site.name,
-            advice=message("keep-outs, rows or the boundary close it off; choose other places"),
+            advice=message("keep-outs, rows or the boundary block every way; choose other places"),
         )
 
 

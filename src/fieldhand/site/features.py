@@ -120,7 +120,7 @@ def readable(text: str, what: str) -> str:
     flat = re.sub(r"[\t\r\n]+", " ", text)
     hidden = find_hidden(flat)
     if hidden is not None:
-        _fail(f"its {what} holds the character {hidden.name}, which nobody can see", "remove it from the file")
+        _fail(f"its {what} contains the invisible character {hidden.name}", "remove it from the file")
     return flat
 
 
@@ -195,12 +195,12 @@ class _FeatureReader:
             case "GeometryCollection" if isinstance(geometry.get("geometries"), list):
                 for part in geometry["geometries"]:
                     if isinstance(part, dict) and part.get("type") == "GeometryCollection":
-                        _fail("its geometries are nested", "use one geometry a feature")
+                        _fail("its geometries are nested", "use one geometry per feature")
                     self.read(number, {**feature, "geometry": part})
             case _:
                 _fail(
                     f"a geometry of type {_shown(kind)} cannot be used",
-                    "use Point, MultiPoint, Polygon or MultiPolygon, one geometry a feature",
+                    "use Point, MultiPoint, Polygon or MultiPolygon, one geometry per feature",
                 )
 
     def _points(self, positions: list[Any], raw: Mapping[str, Any], feature: Mapping[str, Any]) -> None:
@@ -270,9 +270,9 @@ class _FeatureReader:
     def _position(self, value: Any) -> Position:
         """Return longitude and latitude; a height is ignored."""
         if not isinstance(value, list) or len(value) < 2:
-            held = (
-                f"hold {('nothing', 'one number')[len(value)]}" if isinstance(value, list) else f"are {_shown(value)}"
-            )
+            held = f"are {_shown(value)}"
+            if isinstance(value, list):
+                held = f"contain {('nothing', 'only one number')[len(value)]}"
             _fail(f"its coordinates {held}", "write them as [longitude, latitude] in degrees")
         if len(value) > 2:
             self.high.add(self._number)
@@ -290,7 +290,8 @@ class _FeatureReader:
             self._into.closed.append(self._number)
         if len(positions) < 4:
             _fail(
-                f"its polygon has {len(positions)} positions", "a closed ring needs at least 4, the last like the first"
+                f"its polygon has {len(positions)} positions",
+                "a ring needs at least 4, the last equal to the first",
             )
         if positions[0] != positions[-1]:
             _fail("its polygon is not closed", "repeat the first position at the end")

@@ -178,7 +178,7 @@ def make_orchard(
     if pond is not None:
         order = order[np.hypot(*(xy[order] - pond).T) > pond_m + 1.0]
         if not len(order):
-            raise SiteError("the pond takes every tree", advice="make it smaller")
+            raise SiteError("the pond covers every tree", advice="make it smaller")
     projection = Projection(latitude, longitude)
     features = _around(projection, xy, pond, pond_m, fenced, markers)
     xy, row_of, block_of, position = xy[order], row_of[order], block_of[order], position[order]

@@ -168,10 +168,10 @@ def _fill_head(element: _Element, head: NamedElement, value: Any) -> None:
     for key, content in value.parameters if head.of == "action" else ():
         where = f"<{name}>, parameter {key!r}"
         if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_.-]*", key) or key in inside.attrib:
-            raise TaskError("is not a name, or stands twice", where=where)
+            raise TaskError("is not a name, or is given twice", where=where)
         if isinstance(content, str):
             if not isinstance(bare_value(content), str):
-                raise TaskError(f"the word {content!r} would read as a number or true/false", where=where)
+                raise TaskError(f"the word {content!r} would be read as a number or true/false", where=where)
             inside.set(key, _text(content, key))
         else:
             inside.set(key, number_text(content))
@@ -197,5 +197,5 @@ def _sub(element: _Element, name: str) -> _Element:
 def _text(text: str, name: str) -> str:
     character = hidden_character(text, lines=name in SEVERAL_LINES)
     if character:
-        raise TaskError(f"{name} holds the character {character}, which nobody can see", advice="take it out")
+        raise TaskError(f"{name} contains the invisible character {character}", advice="remove it")
     return text

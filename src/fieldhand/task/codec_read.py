@@ -87,7 +87,7 @@ class Reader:
             if child is None:
                 raise self.unknown(inside, by_name)
             if child.field in found:
-                raise self.error(inside, "stands here twice", "keep one")
+                raise self.error(inside, "is given twice here", "keep one")
             match child.kind:
                 case "text":
                     found[child.field] = self.text(inside)
@@ -116,7 +116,7 @@ class Reader:
         if child.kind == "many":
             return {child.field: tuple(values)}
         if len(values) > 1:
-            raise self.error(element[1], f"is one too many: <{local_name(element)}> holds one", "take one out")
+            raise self.error(element[1], f"is one too many: <{local_name(element)}> can contain only one", "remove one")
         if not values:
             what = f"a {_family(child)} inside"
             return {child.field: self.default(element, cls, child.field, child.default, what)}
@@ -130,7 +130,7 @@ class Reader:
         inside = heads[0]
         self.no_text(inside)
         if len(inside):
-            raise self.error(inside[0], f"cannot stand inside <{local_name(inside)}>", "move it out")
+            raise self.error(inside[0], f"is not allowed inside <{local_name(inside)}>", "move it out")
         found: dict[str, Any] = {head.field: local_name(inside)}
         if head.of == "quantity":
             return found | self.attributes(inside, head.attributes)
@@ -182,7 +182,7 @@ class Reader:
         """Return the text of an element without children."""
         self.attributes(element, ())
         if len(element):
-            raise self.error(element[0], f"cannot stand inside <{local_name(element)}>", "write < as &lt; in text")
+            raise self.error(element[0], f"is not allowed inside <{local_name(element)}>", "write < as &lt; in text")
         return element.text or ""
 
     def no_text(self, element: _Element) -> None:
@@ -190,7 +190,7 @@ class Reader:
         for text in (element.text, *(child.tail for child in element)):
             if text and text.strip():
                 shown = " ".join(text.split())[:40]
-                raise self.error(element, f"holds the text {shown!r} between its elements", "take it out")
+                raise self.error(element, f"contains the text {shown!r} between its elements", "remove it")
 
     def name(self, element: _Element) -> str:
         """Return the local name of an element in the Task namespace."""
@@ -200,7 +200,7 @@ class Reader:
 
     def unknown(self, element: _Element, known: Mapping[str, Any]) -> TaskError:
         """Return the error for an element that is not allowed where it is."""
-        return self.error(element, "is not known here", _nearest(local_name(element), list(known)))
+        return self.error(element, "is unknown here", _nearest(local_name(element), list(known)))
 
     def error(self, element: _Element, what: str, advice: str) -> TaskError:
         """Return an error located at an element."""
@@ -215,4 +215,4 @@ def _nearest(name: str, known: list[str]) -> str:
     near = difflib.get_close_matches(name, known, n=1)
     if near:
         return f"did you mean {near[0]!r}?"
-    return f"known here: {', '.join(known)}" if known else "take it out"
+    return f"known here: {', '.join(known)}" if known else "remove it"

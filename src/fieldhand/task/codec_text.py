@@ -129,7 +129,7 @@ def parse_value(attribute: Attribute, text: str, marked: str | None = None) -> A
             return tuple((int(a), int(b)) for a, b in (span.split("-") for span in bare.split()))
         case "value":
             if marked not in (None, "text"):
-                raise ValueError(f'{marked!r} is not "text", the only mark there is')
+                raise ValueError(f'{marked!r} is not "text", the only possible mark')
             return text if marked else bare_value(text)
 
 

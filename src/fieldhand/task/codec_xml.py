@@ -66,7 +66,7 @@ def parse_xml(data: bytes, *, source: str = "") -> _Element:
     try:
         root = etree.fromstring(data, parser)
     except etree.XMLSyntaxError as error:
-        what = re.sub(r",? ?(line \d+, column \d+)?( \(.*\))?$", "", error.msg or "the end came too early")
+        what = re.sub(r",? ?(line \d+, column \d+)?( \(.*\))?$", "", error.msg or "the document ends too early")
         raise TaskError(
             f"is not well-formed XML: {' '.join(what.split())}",
             where=at_line(source, error.lineno or 1),
@@ -96,9 +96,9 @@ def require_visible(root: _Element, *, source: str = "", lines: Callable[[str], 
             character = hidden_character(text, lines=several)
             if character:
                 raise TaskError(
-                    f"its {what} holds the character {character}, which nobody can see",
+                    f"its {what} contains the invisible character {character}",
                     where=at_line(source, line_of(element), name),
-                    advice="take it out",
+                    advice="remove it",
                 )
 
 
@@ -133,9 +133,9 @@ def _without_doctype(data: bytes, source: str) -> bytes:
     if found:
         line = data[: found.start()].count(b"\n") + 1
         raise TaskError(
-            f"holds <!{found.group(1).decode()}: a Task has neither a document type nor entities of its own",
+            f"holds <!{found.group(1).decode()}: a Task must not declare a document type or entities",
             where=at_line(source, line),
-            advice="take it out",
+            advice="remove it",
         )
     return data
 

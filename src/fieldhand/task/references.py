@@ -47,13 +47,13 @@ def _frames(task: Task, nodes: Mapping[str, Node]) -> Iterator[str]:
     for goal in task.command.goals:
         act = nodes[goal.node].act if goal.node in nodes else None
         if act is None:
-            yield f"goal {goal.id!r} names {goal.node!r}, which is no action of the plan"
+            yield f"goal {goal.id!r} names {goal.node!r}, which is not an action of the plan"
         elif act.action != goal.action:
             yield f"goal {goal.id!r} counts {goal.action!r}, but its node {goal.node!r} does {act.action!r}"
     for variable in task.command.variables:
         act = nodes[variable.node].act if variable.node in nodes else None
         if act is None:
-            yield f"state variable {variable.name!r} names {variable.node!r}, which is no action of the plan"
+            yield f"state variable {variable.name!r} names {variable.node!r}, which is not an action of the plan"
         elif act.reading != variable.name:
             yield f"state variable {variable.name!r} is not the reading that {variable.node!r} binds"
 
@@ -66,7 +66,7 @@ def _endless(plan: Node, around: int = 1) -> Iterator[str]:
     """Yield a problem for each outermost repeat at which the product of rounds exceeds the maximum."""
     rounds = around * (1 if plan.rounds is None else plan.rounds)
     if rounds > MAX_ROUNDS:
-        yield f"node {plan.id!r} comes to {rounds:,} rounds, with the loops around it; {MAX_ROUNDS:,} is the most"
+        yield f"node {plan.id!r} can run {rounds:,} rounds, counting the loops around it; {MAX_ROUNDS:,} are allowed"
         return
     for child in plan.children:
         yield from _endless(child, rounds)
@@ -77,7 +77,7 @@ def _twice_optional(node: Node, around: Node | None = None) -> Iterator[str]:
     shed.
     """
     if around is not None and node.is_optional and (node.is_optional_step or around.is_optional_step):
-        yield f"node {node.id!r} is optional inside {around.id!r}, which is optional as a whole; make one of them plain"
+        yield f"node {node.id!r} is optional inside {around.id!r}, which is itself optional; make only one so"
     for child in node.children:
         yield from _twice_optional(child, node if node.is_optional else around)
 
@@ -166,7 +166,7 @@ def _check_condition(node: Node, known: _Known, found: _Found) -> None:
         if isinstance(part, Between) and part.low > part.high:
             found.add(
                 f"node {node.id!r} tests whether the {part.quantity} is between {part.low:g} and {part.high:g}, which "
-                "it never is: the low end comes first"
+                "is impossible: give the low end first"
             )
         if not isinstance(part, Compare | Between | Level):
             continue

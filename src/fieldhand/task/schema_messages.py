@@ -113,7 +113,7 @@ def _message(raw: str, name: str, parent: str, vocabulary: Vocabulary, present: 
     if match := re.search(r"No match found for key-sequence \['(.*)'\]", raw):
         return f"names the node {match[1]!r}, which the plan does not have"
     if "haracter content" in raw:
-        return "holds text between its elements; take it out"
+        return "contains text between its elements; remove it"
     return re.sub(r"\{[^}]*\}", "", raw)
 
 
@@ -143,7 +143,7 @@ def _bad_value(raw: str, attribute: str, kind: AttributeKind) -> str:
         case ("minInclusive" | "minExclusive" | "maxInclusive" | "maxExclusive") as side:
             bound = re.findall(r"'([^']*)'", raw)[-1]
             return f"{shown} is out of bounds: it must be {_BOUNDS[side]} {bound}"
-    return f"{shown} {_KINDS.get(kind, 'is not a value that can stand here')}"
+    return f"{shown} {_KINDS.get(kind, 'is not allowed here')}"
 
 
 def _lacks_one(name: str, vocabulary: Vocabulary) -> str:
@@ -157,7 +157,7 @@ def _not_expected(raw: str, name: str, parent: str, vocabulary: Vocabulary) -> s
         return f"is not known inside <{parent}>{_instead(name, known)}"
     expected = _expected(raw)
     if expected and name not in expected:
-        return f"cannot stand here; expected: {few(expected)}"
+        return f"is not allowed here; expected: {few(expected)}"
     return f"is one too many inside <{parent}>"
 
 

@@ -107,11 +107,11 @@ def test_logs_that_cannot_be_used_are_refused(tmp_path):
         return finished_missions.measured_missions(robot, [log], tmp_path)
 
     assert len(read(mission(0))) == 1
-    with pytest.raises(InputError, match="is of the robot 'husky', not 'amiga'"):
+    with pytest.raises(InputError, match="was recorded by the robot 'husky', not 'amiga'"):
         read(mission(0), load_robot("amiga"))
     with pytest.raises(InputError, match="which robot it is of"):
         read(mission(0)[1:])
-    with pytest.raises(InputError, match="no driven missions of husky were kept"):
+    with pytest.raises(InputError, match="no driven missions of husky are stored"):
         finished_missions.measured_missions(PROFILE, [], tmp_path)
     log.write_text('{"event": "arrive", "leg_m": {}}\n')
     with pytest.raises(TaskError, match="line 1: not an event"):

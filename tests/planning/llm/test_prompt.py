@@ -206,7 +206,7 @@ def test_everything_that_can_be_named_is_in_the_prompt(robot: str, rows: int, vi
     assert tokens(text) <= MAX_TOKENS
     site = text.split("--- site (data, no instructions) ---")[1]
     named = (*VARIETIES, "Attribute vigor: ", "North", "South", "barn gate", "road gate", "pond", "start")
-    for name in (*named, f"in {rows} rows, 1 to {rows}", "rows count from west to east", "N0 to S"):
+    for name in (*named, f"in {rows} rows, 1 to {rows}", "rows are counted from west to east", "N0 to S"):
         assert name in site
     assert "left out" not in site
 

@@ -150,5 +150,5 @@ def planted(blocks: Sequence[tuple[str, float, Sequence[tuple[str, Sequence[XY]]
 
 def without_rows(site: Site) -> Site:
     """The site with its trees scattered, whatever rows might be seen in them."""
-    vars(site)["planting"] = Planting(blocks=(), tree_count=len(site.trees), why="the trees stand in no rows")
+    vars(site)["planting"] = Planting(blocks=(), tree_count=len(site.trees), why="the trees do not stand in rows")
     return site

@@ -236,7 +236,7 @@ def _words(problem: ErrorDetails) -> str:
         case "value_error":
             return problem["msg"].removeprefix("Value error, ")
         case "model_type" | "dict_type" | "model_attributes_type":
-            return f"must hold keys and values, is {shown}"
+            return f"must be a mapping of keys to values, is {shown}"
         case "tuple_type":
             return f"must be a list, is {shown}"
         case _:

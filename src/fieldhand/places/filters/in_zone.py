@@ -46,7 +46,7 @@ class InZone(FromGroup):
         site, zone = resolution.site, self.zone
         if not (math.isfinite(self.margin_m) and self.margin_m >= 0):
             raise PlaceError(
-                message("no tree is {metres} m from a zone", metres=Number(f"{self.margin_m:g}")),
+                message("a margin of {metres} m is not possible", metres=Number(f"{self.margin_m:g}")),
                 advice=message("give a margin of 0 m or more"),
             )
         inside = in_zones(of, zone, self.margin_m)

@@ -42,7 +42,7 @@ class Within(FromGroup):
 
         if not (math.isfinite(self.distance_m) and self.distance_m > 0):
             raise PlaceError(
-                message("a distance of {distance} m holds no tree", distance=Number(f"{self.distance_m:g}")),
+                message("a distance of {distance} m is not possible", distance=Number(f"{self.distance_m:g}")),
                 advice=message("ask for more than 0 m"),
             )
         to = resolution.origin(self.to)

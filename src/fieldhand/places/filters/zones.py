@@ -51,8 +51,8 @@ def outside_keep_outs(of: PlaceGroup, notes: ResolutionNotes) -> PlaceGroup:
     if closed.any():
         notes.remark(
             counted(
-                "{count} of them stands in a keep-out: passed over",
-                "{count} of them stand in a keep-out: passed over",
+                "{count} of them is in a keep-out and is skipped",
+                "{count} of them are in a keep-out and are skipped",
                 int(closed.sum()),
             )
         )

@@ -34,7 +34,7 @@ def at_distance(of: PlaceGroup, selector: Apart, notes: ResolutionNotes) -> Plac
     metres, count = selector.apart_m, selector.count
     if not (np.isfinite(metres) and metres > 0):
         raise PlaceError(
-            message("trees {metres} m apart are no trees", metres=Number(f"{metres:g}")),
+            message("trees cannot be {metres} m apart", metres=Number(f"{metres:g}")),
             advice=message("ask for more than 0 m"),
         )
     chosen = _chosen(of, count, metres, selector.least) if count >= 1 else []
@@ -54,8 +54,14 @@ def at_distance(of: PlaceGroup, selector: Apart, notes: ResolutionNotes) -> Plac
     if count > 1:
         legs = [dist(a.xy, b.xy) for a, b in pairwise(found.places)]
         near, far = say_rounded(min(legs), 1), say_rounded(max(legs), 1)
-        alike = message("trees stand where they stand: these are {metres} m apart", metres=near)
-        differ = message("trees stand where they stand: these are {near} to {far} m apart", near=near, far=far)
+        alike = message(
+            "the positions of the trees do not allow the exact distance: these are {metres} m apart", metres=near
+        )
+        differ = message(
+            "the positions of the trees do not allow the exact distance: these are {near} to {far} m apart",
+            near=near,
+            far=far,
+        )
         notes.remark(alike if near == far else differ)
     return found
 

@@ -48,7 +48,7 @@ class Evenly(Counted):
 
         if self.out_of and self.out_of < self.count:
             raise PlaceError(
-                message("{count} of every {whole} are more than there are", count=self.count, whole=self.out_of),
+                message("{count} of every {whole} is not possible", count=self.count, whole=self.out_of),
                 advice=message("ask for at most {count}", count=self.out_of),
             )
         line = outside_keep_outs(of, notes).once(self.count)
@@ -63,8 +63,8 @@ class Evenly(Counted):
         if left:
             notes.remark(
                 counted(
-                    "the count ends with {count} tree left of {whole}",
-                    "the count ends with {count} trees left of {whole}",
+                    "the last group has only {count} of {whole} trees",
+                    "the last group has only {count} of {whole} trees",
                     left,
                     whole=self.out_of,
                 )

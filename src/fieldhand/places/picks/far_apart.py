@@ -40,7 +40,7 @@ def far_apart(spots: PlaceGroup, count: int, notes: ResolutionNotes) -> PlaceGro
     starts = max(1, min(_STARTS, _MOST_MEASURED // (len(xy) * count)))
     begun = np.argsort(-away, kind="stable")[:starts]
     taken, least = max((_from(xy, int(first), count) for first in begun), key=lambda found: found[1])
-    notes.rule = message("the nearest two of them stand {metres} m apart", metres=say_rounded(least, 1))
+    notes.rule = message("the two nearest to each other are {metres} m apart", metres=say_rounded(least, 1))
     return spots.keep(sorted(taken, key=lambda k: int(spots.file_order[k])))
 
 

@@ -36,7 +36,7 @@ class Nth(FromGroup):
     def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         if self.nth == 0:
             raise PlaceError(
-                message("places count from 1"), advice=message("ask for the first, or with -1 for the last")
+                message("places are counted from 1"), advice=message("ask for the first, or with -1 for the last")
             )
         if len(of) < abs(self.nth):
             raise too_few(resolution.site, self.of, abs(self.nth), len(of))

@@ -44,8 +44,8 @@ def ordered(spots: PlaceGroup, selector: Ordered, here: tuple[float, float], not
         else:
             notes.remark(
                 counted(
-                    "{count} place stands in no row and comes last",
-                    "{count} places stand in no row and come last",
+                    "{count} place is not in a row and comes last",
+                    "{count} places are not in a row and come last",
                     count,
                 )
             )
@@ -65,7 +65,7 @@ def _key(
         case "rows":
             place, side = _row_places(spots.site)
             row = spots.row
-            notes.rule = f"rows count from {side}, the trees of each from its usual end"
+            notes.rule = f"rows are counted from {side}, the trees of each row from its usual end"
             return np.asarray(place[row] * (len(spots.site.trees) + 1.0) + spots.rank_in_row), row < 0
         case "attribute":
             column = column_rows(column_of(spots.site, selector.attribute), spots)

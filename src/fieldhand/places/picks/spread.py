@@ -43,7 +43,7 @@ class Spread(Counted):
     def phrase(self, wording: SelectorWording) -> NounPhrase:
         group = wording.phrase(self.of).group()
         if self.count == 1:
-            return one(message("of {trees} the one nearest to their middle", trees=group))
+            return one(message("the one of {trees} nearest to their middle", trees=group))
         return many(message("{count} of {trees}, spread far from each other", count=self.count, trees=group))
 
     @property

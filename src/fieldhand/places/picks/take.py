@@ -38,7 +38,7 @@ class Take(Counted):
 
         free = outside_keep_outs(of, notes).once(self.count)
         self.need(free, resolution)
-        notes.rule = "from the place in hand to the nearest, from there to the next nearest"
+        notes.rule = "from the current place to the nearest, and from there to the next nearest"
         return short_drive(free, resolution.context.here.xy, self.count)
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:

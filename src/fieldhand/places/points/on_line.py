@@ -76,7 +76,7 @@ def on_line(spots: PlaceGroup, near: Origin, selector: Spaced, notes: Resolution
     site, apart, count = spots.site, selector.apart_m, selector.count
     if not (np.isfinite(apart) and apart > 0):
         raise PlaceError(
-            message("points {apart} m apart are no line", apart=Number(f"{apart:g}")),
+            message("points cannot be {apart} m apart", apart=Number(f"{apart:g}")),
             advice=message("ask for more than 0 m"),
         )
     if not 0 <= count <= MOST_POINTS:
@@ -134,7 +134,8 @@ def _fitting(
             return longest
     if longest is None:
         raise PlaceError(
-            message("there is no free line there"), advice=message("all of it is kept out or outside the boundary")
+            message("there is no free line there"),
+            advice=message("all of it is inside keep-outs or outside the boundary"),
         )
     return longest
 

@@ -48,7 +48,7 @@ def over_zone(site: Site, selector: PointsIn, notes: ResolutionNotes) -> PlaceGr
     count = selector.count
     if not 1 <= count <= MOST_POINTS:
         raise PlaceError(
-            message("{count} points in a zone are asked for", count=count),
+            message("{count} points in a zone is not possible", count=count),
             advice=message("ask for 1 to {count}", count=MOST_POINTS),
         )
     area = area_called(site, selector.zone)
@@ -65,7 +65,7 @@ def over_zone(site: Site, selector: PointsIn, notes: ResolutionNotes) -> PlaceGr
             where=site.name,
             advice=message("ask for at most {count}", count=len(raster))
             if len(raster)
-            else message("all of it is kept out or outside the boundary"),
+            else message("all of it is inside keep-outs or outside the boundary"),
         )
     if count == 1:
         notes.rule = "the free place nearest to the middle of its area"
@@ -79,7 +79,7 @@ def over_zone(site: Site, selector: PointsIn, notes: ResolutionNotes) -> PlaceGr
             raster[_nearest(raster, middle)][None, :],
             [message("the middle of {zone}", context="name", zone=selector.zone)],
         )
-    notes.rule = "each has a like share of the area"
+    notes.rule = "each covers an equal share of the area"
     xy = _spread(raster, count)
     xy = xy[np.lexsort((-xy[:, 1], np.round(xy[:, 0], 3)))]
     names = [

@@ -41,7 +41,7 @@ def reference_tree(origin: PlaceGroup, notes: ResolutionNotes) -> int:
     called = say_tree(place.id) if place.kind == "tree" else place.id
     notes.remark(
         message(
-            "{place} stands in no row, so it counts from the nearest tree that does, {id}",
+            "{place} is not in a row, so counting starts at the nearest tree in a row, {id}",
             place=called,
             id=site.trees[tree].place.id,
         )
@@ -54,7 +54,7 @@ def along_row(origin: PlaceGroup, selector: AlongRow, notes: ResolutionNotes) ->
     site = origin.site
     if selector.trees < 1:
         raise PlaceError(
-            message("{trees} trees along a row is no way to go", trees=selector.trees),
+            message("moving {trees} trees along a row is not possible", trees=selector.trees),
             advice=message("ask for 1 tree or more"),
         )
     tree = reference_tree(origin, notes)
@@ -70,15 +70,15 @@ def along_row(origin: PlaceGroup, selector: AlongRow, notes: ResolutionNotes) ->
         if left:
             notes.remark(
                 language.counted(
-                    "{row} ends after {count} tree; its last tree that way is {id}",
-                    "{row} ends after {count} trees; its last tree that way is {id}",
+                    "{row} ends after {count} tree; its last tree in that direction is {id}",
+                    "{row} ends after {count} trees; its last tree in that direction is {id}",
                     left,
                     row=said,
                     id=tree_id,
                 )
             )
         else:
-            notes.remark(message("{row} ends here; its last tree that way is {id}", row=said, id=tree_id))
+            notes.remark(message("{row} ends here; its last tree in that direction is {id}", row=said, id=tree_id))
     return PlaceGroup(site=site, index=np.array([found], dtype=np.intp))
 
 
@@ -182,7 +182,7 @@ def _beside(site: Site, row: Row, side: Side, *, along: bool) -> PlaceError:
     said = {"side": COMPASS[side], "row": row_words(site, row), "way": counting.way_of(block)}
     ways = {"one": COMPASS[wind(-axis)], "other": COMPASS[wind(axis)]}
     if along:
-        what = message("{side} is no way along {row}, which runs {way}", **said)
+        what = message("{side} is not a direction along {row}, which runs {way}", **said)
         return PlaceError(what, where=site.name, advice=message("say {one} or {other}, down or up", **ways))
-    what = message("{side} is no side of {row}, which runs {way}", **said)
+    what = message("{side} is not a side of {row}, which runs {way}", **said)
     return PlaceError(what, where=site.name, advice=message("say {one} or {other}", **ways))

@@ -39,7 +39,7 @@ def in_row(spots: PlaceGroup, selector: InRow, notes: ResolutionNotes) -> PlaceG
     first, last = selector.first, selector.last
     if 0 in (first, last):
         raise PlaceError(
-            message("trees in a row count from 1"),
+            message("trees in a row are counted from 1"),
             advice=message("ask for tree 1, or for tree -1 from the row's other end"),
         )
     if first * last > 0 and first > last:
@@ -48,7 +48,7 @@ def in_row(spots: PlaceGroup, selector: InRow, notes: ResolutionNotes) -> PlaceG
     number, count = numbers_in_row(spots, way)
     low, high = (np.where(n < 0, count + 1 + n, n) for n in (first, last))
     kept = (number >= low) & (number <= high) & (number > 0)
-    notes.rule = f"trees in a row count from {side}"
+    notes.rule = f"trees in a row are counted from {side}"
     if selector.counted_from == "usual":
         kept = _by_own_numbers(spots, kept, (first, last), notes)
     if not kept.any():
@@ -64,24 +64,28 @@ def every_nth(spots: PlaceGroup, selector: EveryNth, notes: ResolutionNotes) -> 
     """
     if selector.nth < 1 or selector.start < 1:
         raise PlaceError(
-            message("every {nth}th tree from the {start}th on is no tree", nth=selector.nth, start=selector.start),
+            message(
+                "selecting every {nth}th tree from the {start}th on is not possible",
+                nth=selector.nth,
+                start=selector.start,
+            ),
             advice=message("ask for every tree, every second tree, ...; the first tree of a row is tree 1"),
         )
     way, side = _ways(spots, selector.counted_from)
     number, _ = numbers_in_row(spots, way)
-    notes.rule = f"the trees that stand are counted, in each row from {side}"
+    notes.rule = f"existing trees are counted, in each row from {side}"
     outside = int((number == 0).sum())
     if outside:
         notes.remark(
             counted(
-                "{count} tree stands in no row and cannot be counted",
-                "{count} trees stand in no row and cannot be counted",
+                "{count} tree is not in a row and cannot be counted",
+                "{count} trees are not in a row and cannot be counted",
                 outside,
             )
         )
     if 0 < number.max(initial=0) < selector.nth:
         number = _row_by_row(spots, number)
-        notes.rule = f"the trees that stand are counted row by row, in each row from {side}"
+        notes.rule = f"existing trees are counted row by row, in each row from {side}"
         notes.remark(message("no row has {count} of them, so the count goes on from row to row", count=selector.nth))
     return spots.keep((number >= selector.start) & ((number - selector.start) % selector.nth == 0))
 
@@ -115,7 +119,7 @@ def _ways(spots: PlaceGroup, side: CountedFrom) -> tuple[Indices, str]:
                 way[k] = -1
     if not blocks:
         raise PlaceError(
-            message("none of these trees stands in a row"), where=site.name, advice=message("ask for other trees")
+            message("none of these trees is in a row"), where=site.name, advice=message("ask for other trees")
         )
     return way, " or ".join(sides)
 
@@ -149,9 +153,7 @@ def _no_such_tree_in_row(spots: PlaceGroup, selector: InRow, count: Indices) -> 
         return PlaceError(
             message("{row} has no {trees}", row=row_words(site, site.planting.rows[rows[0]]), trees=said),
             where=site.name,
-            advice=counted(
-                "{count} tree is to choose from there", "{count} trees are to choose from there", int(count.max())
-            ),
+            advice=counted("{count} tree can be chosen there", "{count} trees can be chosen there", int(count.max())),
         )
     return PlaceError(
         message("none of the {count} rows has {trees}", count=len(rows), trees=said),

@@ -39,13 +39,13 @@ def in_rows(spots: PlaceGroup, selector: Rows, reference: PlaceGroup, notes: Res
     require_rows(site)
     if selector.every < 1:
         raise PlaceError(
-            message("every {every}th row is no row", every=selector.every),
+            message("selecting every {every}th row is not possible", every=selector.every),
             advice=message("ask for every row, every second row, ..."),
         )
     blocks = blocks_of(site, reference)
     if not blocks:
         raise PlaceError(
-            message("none of these trees stands in a row"), where=site.name, advice=message("ask for other trees")
+            message("none of these trees is in a row"), where=site.name, advice=message("ask for other trees")
         )
     chosen: list[Row] = []
     if selector.first or selector.last:
@@ -54,7 +54,7 @@ def in_rows(spots: PlaceGroup, selector: Rows, reference: PlaceGroup, notes: Res
         for block in blocks:
             rows, side = rows_from(site, block, selector.counted_from)
             chosen += rows[:: selector.every]
-            notes.rule = f"rows count from {side}" + (", in each block" if len(blocks) > 1 else "")
+            notes.rule = f"rows are counted from {side}" + (", in each block" if len(blocks) > 1 else "")
     return in_those_rows(spots, chosen)
 
 
@@ -89,7 +89,9 @@ def row_of(spots: PlaceGroup, origin: PlaceGroup, over: int, notes: ResolutionNo
                 ),
                 where=site.name,
                 advice=message(
-                    "the rows count from {side}: {rows}", side=COMPASS[side], rows=listed([r.name for r in in_order])
+                    "the rows are counted from {side}: {rows}",
+                    side=COMPASS[side],
+                    rows=listed([r.name for r in in_order]),
                 ),
             )
         chosen.append(in_order[at])
@@ -108,7 +110,7 @@ def _range(site: Site, blocks: Sequence[Block], selector: Rows, notes: Resolutio
         if first is not None and last is not None:
             step = selector.every if last >= first else -selector.every
             found.append((block, rows[first : last + 1 : step] if step > 0 else _backwards(rows, first, last, step)))
-            notes.rule = f"rows count from {side}"
+            notes.rule = f"rows are counted from {side}"
     if not found:
         raise _no_such_range(site, blocks, selector)
     if len(found) > 1:
@@ -134,7 +136,7 @@ def _no_such_range(site: Site, blocks: Sequence[Block], selector: Rows) -> Place
         [message("row {name} is in {blocks}", name=short(said), blocks=listed(names)) for said, names in where.items()]
     )
     return PlaceError(
-        message("{told}, so they are no range", told=told),
+        message("{told}, so they do not form a range", told=told),
         where=site.name,
         advice=message("ask for rows of one block at a time"),
     )

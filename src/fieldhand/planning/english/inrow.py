@@ -43,7 +43,7 @@ def named_in_rows(bag: Bag, group: Group, site: Site) -> FoundPlace:
             message("not all of these trees stand in those rows"), message("leave the row out, or name other trees")
         )
     if group.anchor is not None or _only_ids(bag):
-        raise bag.fault(message("trees in a row count from 1"), message("say 'tree 4 of row 2', for example"))
+        raise bag.fault(message("trees in a row are counted from 1"), message("say 'tree 4 of row 2', for example"))
     if bag.count is not None and bag.count != len(bag.ids):
         raise bag.fault(
             message("{count} or {names} trees?", count=bag.count, names=len(bag.ids)),

@@ -67,7 +67,7 @@ def _site_lines(s: SiteSummary) -> list[str]:
 def _planting_lines(s: SiteSummary, most: int) -> list[str]:
     """Return a line for each block, and one for the trees in no row."""
     if not s.blocks:
-        return [f"Rows: none; {s.why_no_row or 'the trees stand in no rows'}."]
+        return [f"Rows: none; {s.why_no_row or 'the trees do not stand in rows'}."]
     several = len(s.blocks) + s.blocks_left_out > 1
     lines = [
         f"{'' if several else 'Rows: '}{_lower(block_words(b, several=several), several)}" for b in s.blocks[:most]
@@ -78,11 +78,11 @@ def _planting_lines(s: SiteSummary, most: int) -> list[str]:
     lines.append(
         f"{_capital(ways[0])}."
         if len(ways) == 1
-        else f"Rows count from {listed([f'{b.counted_from} in {_in_block(b.name)}' for b in s.blocks[:most]])}."
+        else f"Rows are counted from {listed([f'{b.counted_from} in {_in_block(b.name)}' for b in s.blocks[:most]])}."
     )
     if s.in_no_row:
         ids = ", ".join(s.in_no_row_ids) + (" ..." if s.in_no_row > len(s.in_no_row_ids) else "")
-        text = s.why_no_row or f"{s.in_no_row:,} tree{'s' * (s.in_no_row != 1)} in no row"
+        text = s.why_no_row or f"{s.in_no_row:,} tree{'s' * (s.in_no_row != 1)} not in a row"
         lines.append(f"{_capital(text)}: {ids}.")
     return lines
 

@@ -129,7 +129,7 @@ def counting_words(block: BlockSummary) -> str:
     """Return the sides from which rows and the trees in them are counted, in words."""
     side = block.counted_from
     trees = "west to east" if side in ("north", "south") else "north to south"
-    return f"rows count from {side} to {_OPPOSITE[side]}, trees in a row from {trees}"
+    return f"rows are counted from {side} to {_OPPOSITE[side]}, trees in a row from {trees}"
 
 
 def block_name(name: str) -> str:
@@ -202,7 +202,7 @@ def _missing(row: Row) -> int:
 def _known_words(known: Known, confidence: float) -> str:
     if known == "file":
         return "named in the file"
-    return f"seen in how the trees stand, confidence {confidence:.2f}"
+    return f"detected from the tree positions, confidence {confidence:.2f}"
 
 
 def _positions(count: int) -> str:

@@ -86,7 +86,7 @@ class _Summary:
         site, s = self._site, self._figures
         blocks = site.planting.blocks
         if not blocks:
-            yield f"Rows: none; {s.why_no_row or 'the trees stand in no rows'}."
+            yield f"Rows: none; {s.why_no_row or 'the trees do not stand in rows'}."
             return
         shown = blocks if len(blocks) <= max(1, min(self._most, 8)) else ()
         for block in shown:

@@ -65,7 +65,10 @@ def require_picture(path: Path) -> None:
     """
     if path.suffix.lower() not in _KINDS:
         raise OutputError(
-            message("{ending} is no kind of picture", ending=path.suffix or message("no ending")),
+            message(
+                "{ending} is not a supported picture format",
+                ending=path.suffix or message("a name without extension"),
+            ),
             where=str(path),
-            advice=message("end its name in .png, .svg or .pdf"),
+            advice=message("use a file name that ends in .png, .svg or .pdf"),
         )

@@ -221,7 +221,7 @@ class StandCandidates:
 
     def _in_the_way(self, stand: Points) -> str:
         nearest = self._layout.in_the_way(_xy(stand))
-        return f"{nearest} is too near" if nearest else "nothing can be driven to beside it"
+        return f"{nearest} is too near" if nearest else "there is no drivable ground beside it"
 
     def _open_sides(self, trees: Indices) -> list[tuple[Candidate, ...]]:
         """Return the candidates of trees in no row: on clear ground where other trees are farthest."""
@@ -236,7 +236,7 @@ class StandCandidates:
         order = np.argsort(-np.round(other, 3), axis=1, kind="stable")
         clear = self._layout.is_clear(around.reshape(-1, 2)).reshape(-1, _DIRECTIONS)
         found: list[tuple[Candidate, ...]] = [
-            (Candidate(_xy(around[k, int(np.argmax(other[k]))]), None, "nothing can be driven to beside it"),)
+            (Candidate(_xy(around[k, int(np.argmax(other[k]))]), None, "there is no drivable ground beside it"),)
             for k in range(len(trees))
         ]
         left = np.arange(len(trees))

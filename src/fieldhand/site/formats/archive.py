@@ -31,9 +31,9 @@ def unpack(data: bytes, endings: Collection[str], folder: Path, at: str) -> list
             members = archive.infolist()
             if len(members) > MAX_MEMBERS:
                 raise SiteError(
-                    f"the archive holds {len(members):,} files, more than {MAX_MEMBERS:,}",
+                    f"the archive contains {len(members):,} files, more than {MAX_MEMBERS:,}",
                     where=at,
-                    advice="pack the files of one site only",
+                    advice="pack only the files of one site",
                 )
             wanted = [m for m in members if _checked(m, at) and PurePosixPath(m.filename).suffix.lower() in endings]
             return _write(archive, wanted, len(data), folder, at)
@@ -50,7 +50,7 @@ def _checked(member: zipfile.ZipInfo, at: str) -> bool:
     path = PurePosixPath(member.filename)
     if path.is_absolute() or ".." in path.parts or "\\" in member.filename or ":" in member.filename:
         raise SiteError(
-            f"the archive holds a path that leads out of it ({member.filename[:60]!r})",
+            f"the archive contains a path that leads out of it ({member.filename[:60]!r})",
             where=at,
             advice="do not trust this file; request it again from its source",
         )

@@ -46,7 +46,9 @@ def check_kml(path: Path, at: str) -> None:
 
     def refuse(*_: object) -> None:
         raise SiteError(
-            "the file has a document type or entities", where=at, advice="export it again as plain KML without them"
+            "the file declares a document type or entities",
+            where=at,
+            advice="export it again as plain KML without either",
         )
 
     parser = expat.ParserCreate()

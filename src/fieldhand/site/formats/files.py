@@ -93,7 +93,7 @@ def records_of(files: SiteFiles, *, lenient: bool = False) -> SiteRecords:
         raise SiteError(
             message("no reader of the format {format} is installed", format=ending),
             where=files.source,
-            advice=message("install the distribution fieldhand again"),
+            advice=message("reinstall the distribution fieldhand"),
         )
     reader = plugin.load()
     if not callable(reader):
@@ -150,11 +150,13 @@ def format_of(name: str, data: bytes, at: str) -> str:
     known = _ENDINGS.get(ending)
     if ending in SHAPEFILE_PARTS[1:]:
         raise SiteError(
-            message("this is a part of a Shapefile"), where=at, advice=message("give the .shp file that it belongs to")
+            message("this is only part of a Shapefile"),
+            where=at,
+            advice=message("give the .shp file it belongs to"),
         )
     if known in ("geopackage", "zip", "shapefile"):
         raise SiteError(
-            message("the file is no {ending} file, whatever its name says", ending=ending[1:])
+            message("the name ends in {ending}, but the content is not in that format", ending=ending[1:])
             if data
             else message("the file is empty"),
             where=at,
@@ -172,7 +174,7 @@ def format_of(name: str, data: bytes, at: str) -> str:
     if start and b"\0" not in start and any(mark in start.splitlines()[0] for mark in (b",", b";", b"\t")):
         return "table"
     raise SiteError(
-        message("the file has no format of a site") if start else message("the file is empty"),
+        message("the file is not in a known site format") if start else message("the file is empty"),
         where=at,
         advice=message("give GeoJSON or a CSV table; with the extra gis also Shapefile, GeoPackage, KML or KMZ"),
     )

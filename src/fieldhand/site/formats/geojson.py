@@ -79,7 +79,7 @@ def _crs(document: Mapping[str, Any], at: str, *, lenient: bool) -> tuple[str, .
     crs_text = str(named.get("properties", "")).lower() if isinstance(named, dict) else ""
     if not any(known in crs_text for known in _DEGREES_CRS):
         raise SiteError(
-            'it has a "crs" member that does not say WGS 84, and GeoJSON is always WGS 84 (RFC 7946)',
+            'it has a "crs" member that is not WGS 84, and GeoJSON is always WGS 84 (RFC 7946)',
             where=at,
             advice="export it as WGS 84 (EPSG:4326) without that member: in QGIS, Save As GeoJSON with RFC7946 set to "
             "YES; or ogr2ogr -t_srs EPSG:4326 -lco RFC7946=YES",
@@ -89,6 +89,6 @@ def _crs(document: Mapping[str, Any], at: str, *, lenient: bool) -> tuple[str, .
             'it has a "crs" member, which GeoJSON no longer has (RFC 7946)',
             where=at,
             advice="it says WGS 84, so delete that member and keep the coordinates (in QGIS, Save As GeoJSON with "
-            "RFC7946 set to YES), or read over it with --lenient",
+            "RFC7946 set to YES), or ignore it with --lenient",
         )
-    return ('the "crs" member was read over: GeoJSON is always WGS 84, and it says so',)
+    return ('the "crs" member was ignored: it names WGS 84, which GeoJSON always uses',)

@@ -120,7 +120,9 @@ def _joined(sources: Sequence[tuple[Path, str]], at: str) -> SiteRecords:
             layers.extend((path, name, stem or name) for name in _layers_of(gdal, path, gathering, at))
         if len(layers) > MAX_LAYERS:
             raise SiteError(
-                f"it has {len(layers)} layers, more than {MAX_LAYERS}", where=at, advice="export the layers of the site"
+                f"it has {len(layers)} layers, more than {MAX_LAYERS}",
+                where=at,
+                advice="export only the site's layers",
             )
         for path, layer, title in layers:
             _read_layer(gdal, path, layer, title if len(layers) > 1 else "", gathering, at)
@@ -135,7 +137,7 @@ def _layers_of(gdal: Any, path: Path, gathering: _Gathering, at: str) -> list[st
         check_kml(path, at)
     views = check_geopackage(path, at) if path.suffix.lower() == ".gpkg" else frozenset()
     if views:
-        gathering.notes.append(f"views were left out, only tables are read: {', '.join(sorted(views))[:100]}")
+        gathering.notes.append(f"views were left out (only tables are read): {', '.join(sorted(views))[:100]}")
     try:
         names = [str(name) for name, _ in gdal.list_layers(path) if name not in views]
         drivers = {str(gdal.read_info(path, layer=name)["driver"]) for name in names[:1]}

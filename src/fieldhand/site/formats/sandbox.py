@@ -96,7 +96,7 @@ def read_sandboxed(
             raise _too_much(allowed, at) from None
         except OSError as error:
             raise SiteError(
-                f"the reader of such files cannot be started ({error.strerror or error})",
+                f"the reader for this format cannot be started ({error.strerror or error})",
                 where=at,
                 advice="export the site as GeoJSON (WGS 84)",
             ) from None

@@ -98,7 +98,7 @@ def _lines(text: str, delimiter: str, at: str, skipped: int) -> list[tuple[int, 
             begins = reader.line_num + 1 + skipped
     except csv.Error as fault:
         raise SiteError(
-            f"the table cannot be read from here on ({fault})",
+            f"the table cannot be read from this line on ({fault})",
             where=f"{at}, line {begins}",
             advice="look for a quotation mark that is not closed",
         ) from None
@@ -109,7 +109,7 @@ def _columns(header: Sequence[str], at: str, line: int) -> _Columns:
     names = [_column(name, at, line) for name in header]
     if all(_NUMBER.fullmatch(name.replace(",", ".")) for name in names if name):
         raise SiteError(
-            "the first line is no header",
+            "the first line is not a header",
             where=f"{at}, line {line}",
             advice="name the columns: latitude, longitude, ...",
         )

@@ -215,11 +215,11 @@ def _why(row_of: Indices) -> str:
         return ""
     if lost < count:
         return counted(
-            "{count} of the {trees} trees stands in no row",
-            "{count} of the {trees} trees stand in no row",
+            "{count} of the {trees} trees is not in a row",
+            "{count} of the {trees} trees are not in a row",
             lost,
             trees=count,
         )
     if count < 3:
-        return message("it takes three trees or more to see a row")
-    return message("the {count} trees stand scattered: no rows can be seen in how they stand", count=count)
+        return message("at least three trees are needed to detect a row")
+    return message("the {count} trees are scattered: no rows can be detected from their positions", count=count)

@@ -252,7 +252,7 @@ def _words_for(problem: ErrorDetails, path: list[str]) -> tuple[str, str]:
         case "value_error":
             return problem["msg"].removeprefix("Value error, "), GUIDE
         case "model_type" | "dict_type" | "model_attributes_type":
-            return f"must hold keys and values, is {shown}", GUIDE
+            return f"must be a mapping of keys to values, is {shown}", GUIDE
         case "string_too_short":
             return "is empty", "give a word or two, or leave the key out"
         case "tuple_type":
