@@ -73,7 +73,11 @@ def test_the_demo_mission_is_driven_by_its_driver(installed: dict[str, str], tmp
 
 def test_a_wrong_option_is_an_error_in_one_line(installed: dict[str, str], tmp_path: Path) -> None:
     chosen = ("--site", "demo", "--robot", "cart", "--planner", "survey", "--on", "cart")
-    for option, said in (("pace=0", "no number above 0"), ("colour=red", "no option 'colour'"), ("pace", "name=value")):
+    for option, said in (
+        ("pace=0", "not a number above 0"),
+        ("colour=red", "no option 'colour'"),
+        ("pace", "name=value"),
+    ):
         done = fieldhand(installed, tmp_path, "run", "survey 5 trees", *chosen, "--yes", "--driver-option", option)
         assert done.returncode == 2
         assert said in done.stderr

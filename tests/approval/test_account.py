@@ -64,7 +64,7 @@ def test_a_step_that_is_gone_from_the_plan_leaves_a_warning_that_quotes_its_word
     (problem,) = unaccounted(cut)
     assert problem.severity == "warning"
     assert problem.where == "request"
-    assert problem.what == "nothing in the plan comes from 'If it is below 33 °C', 'measure CO2 at tree 5'"
+    assert problem.what == "nothing in the plan corresponds to 'If it is below 33 °C', 'measure CO2 at tree 5'"
     assert unaccounted(task) == ()
 
 
@@ -108,5 +108,5 @@ def test_the_checks_warn_of_lost_words_and_still_find_everything_else() -> None:
     longer = replace(task, command=replace(task.command, request=f"{task.command.request} Bring coffee."))
     assert check(task, SITE, HUSKY) == ()
     assert [(p.severity, p.what) for p in check(longer, SITE, HUSKY)] == [
-        ("warning", "nothing in the plan comes from 'Bring coffee'")
+        ("warning", "nothing in the plan corresponds to 'Bring coffee'")
     ]

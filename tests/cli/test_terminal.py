@@ -64,11 +64,11 @@ def test_a_terminal_is_told_that_the_program_plans_and_a_pipe_is_not(tmp_path: P
 def test_an_answer_that_nothing_asks_for_is_refused(tmp_path: Path) -> None:
     run = fieldhand(*WORDS, "--answer", "2")
     assert run.status == 2
-    assert "--answer: nothing was asked that '2' answers" in run.err
+    assert "--answer: no question was asked to which '2' is an answer" in run.err
     assert fieldhand(*WORDS, "-o", str(tmp_path / "task.xml")).status == 0
     run = fieldhand("run", str(tmp_path / "task.xml"), "--site", "demo", "--yes", "--answer", "2")
     assert run.status == 2
-    assert "is planned already" in run.err
+    assert "is already planned" in run.err
 
 
 @pytest.mark.parametrize("more", [(), ("--task", "task.xml", "--site", "demo")])

@@ -86,8 +86,8 @@ def test_a_sentence_from_a_file_is_known_again() -> None:
     said = "'come back' means back to the start."
     assert SPANISH.say(recalled(said, "assumption")) == "«come back» significa volver al inicio."
     far = (
-        "The way to the start alone is 1,250 m, much of what may be used: the robot stays where its last visit was."
-        " Ask for the return if it is wanted."
+        "The way to the start alone is 1,250 m, a large part of what it may use: the robot stays at its last place."
+        " Ask for the return if you want it."
     )
     assert SPANISH.say(recalled(far, "assumption")).startswith("Solo el camino al inicio son 1.250 m,")
     measured = "'the CO2' is measured first (read CO₂), there."

@@ -129,7 +129,7 @@ def test_here_and_bound_places_come_from_the_mission():
     context = Context(here=site.trees[4].place, bound={"hot": (site.trees[2].place, site.trees[0].place)})
     assert ids(Here(), site, context) == ["5"]
     assert ids(Bound(label="hot"), site, context) == ["3", "1"]
-    with pytest.raises(PlaceError, match=r"nothing is called 'cold'.*hot"):
+    with pytest.raises(PlaceError, match=r"no place is named 'cold'.*hot"):
         ids(Bound(label="cold"), site, context)
 
 

@@ -31,7 +31,7 @@ def unaccounted(task: Task) -> tuple[PlanProblem, ...]:
     return (
         PlanProblem(
             where=message("request"),
-            what=message("nothing in the plan comes from {words}", words=shown),
+            what=message("nothing in the plan corresponds to {words}", words=shown),
             advice=message("say it in other words, or approve only if the plan is right without it"),
             severity="warning",
         ),

@@ -248,7 +248,7 @@ def _resolved(node: Node, selector: Selector, site: Site) -> tuple[Place, ...]:
     places = tuple(resolve(selector, site, context))
     if not places:
         raise PlaceError(
-            message("no place of this site is meant"), where=site.name, advice=message("ask for other trees")
+            message("no place on this site is selected"), where=site.name, advice=message("ask for other trees")
         )
     return places
 

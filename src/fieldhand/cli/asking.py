@@ -84,8 +84,8 @@ def plan_and_ask(request: str, ground: SiteAndRobot, planner: Planner, replies: 
             outcome = mission.plan(request, ground.site, ground.robot, planner, answers)
         if not isinstance(outcome, Clarify):
             if given and isinstance(outcome, Planned):
-                what = message("nothing was asked that '{given}' answers", given=given[0])
-                raise RequestError(what, where="--answer", advice=message("leave it out, or say it in the request"))
+                what = message("no question was asked to which '{given}' is an answer", given=given[0])
+                raise RequestError(what, where="--answer", advice=message("leave it out, or write it in the request"))
             return request, outcome
         assumed = False
         if given:
@@ -107,7 +107,7 @@ def plan_and_ask(request: str, ground: SiteAndRobot, planner: Planner, replies: 
                 where="--answer",
                 advice=message("give one of: {choices}", choices=some_names(outcome.choices, 12, "; "))
                 if outcome.choices
-                else message("say it in the request"),
+                else message("write it in the request"),
             )
         else:
             request, answers = reply, ()
@@ -172,7 +172,9 @@ def require_no_answer(given: Sequence[str], words: str) -> None:
     """
     if given:
         what = message(
-            "{words} is planned already, nothing is asked that '{given}' answers", words=words, given=given[0]
+            "{words} is already planned, and there is no question to which '{given}' is an answer",
+            words=words,
+            given=given[0],
         )
         raise InputError(what, where="--answer", advice=message("leave it out"))
 
@@ -225,7 +227,7 @@ def _ask(question: Clarify, read: Callable[[], str], language: Language) -> str:
         reply = ""
     if not reply:
         raise RequestError(
-            message("no answer was given, nothing was planned"), advice=message("answer, or say it in the request")
+            message("no answer was given, nothing was planned"), advice=message("answer, or write it in the request")
         )
     return reply
 

@@ -60,7 +60,7 @@ def fail_outcome(request: str, outcome: Clarify | Refused, language: Language = 
     """Print the refusal or the question of a planner, and end the program with status 2."""
     if isinstance(outcome, Clarify):
         show_question(outcome, language)
-        err.print(language.say(message("Say it in the request and plan again, or give --answer.")))
+        err.print(language.say(message("Write it in the request and plan again, or give --answer.")))
         raise SystemExit(2)
     spans = [span for reason in outcome.reasons for span in reason.said]
     if spans:

@@ -179,7 +179,7 @@ def places_of(node: Node, selector: Selector, site: Site, context: Context) -> t
         raise at_node(error, node) from error
     if not places:
         raise PlaceError(
-            message("no place of this site is meant"),
+            message("no place on this site is selected"),
             where=node.id,
             advice=message("check what the words select"),
         )

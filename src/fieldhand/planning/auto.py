@@ -83,7 +83,7 @@ def _warn(planned: Planned, warning: str) -> Planned:
 def _advise(refused: Refused) -> Refused:
     """The refusal with how to get a second opinion, said once."""
     *others, last = refused.reasons
-    second = message("or name a language model that may try it in FIELDHAND_MODEL (docs/planning-llm.md)")
+    second = message("or set FIELDHAND_MODEL to a language model that may try it (docs/planning-llm.md)")
     advice = joined("; ", (last.advice, second)) if last.advice else second
     return replace(refused, reasons=(*others, replace(last, advice=advice)))
 

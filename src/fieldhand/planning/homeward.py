@@ -17,10 +17,13 @@ from fieldhand.task.build import FAULTED_EXITS
 from fieldhand.task.frames import FaultedExit, Task, Then
 
 _HOMEWARD: dict[Then, str] = {
-    "return_to_end": message("When all is done the robot drives to the end marker.", context="assumption"),
-    "return_to_start": message("When all is done the robot drives back to the start marker.", context="assumption"),
+    "return_to_end": message("When everything is done, the robot drives to the end marker.", context="assumption"),
+    "return_to_start": message(
+        "When everything is done, the robot drives back to the start marker.", context="assumption"
+    ),
     "stay": message(
-        "The site has no start or end marker: the robot stays where it is when all is done.", context="assumption"
+        "The site has no start or end marker: when everything is done, the robot stays where it is.",
+        context="assumption",
     ),
 }
 
@@ -50,15 +53,15 @@ def with_assumed_exit(task: Task, site: Site, robot: RobotProfile) -> Task:
     said = _HOMEWARD[then]
     if metres is not None and then == "return_to_end":
         said = message(
-            "The way to the end marker alone is {metres} m, much of what may be used: the robot stays where its last"
-            " visit was. Ask for the return if it is wanted.",
+            "The way to the end marker alone is {metres} m, a large part of what it may use: the robot stays at its"
+            " last place. Ask for the return if you want it.",
             context="assumption",
             metres=say_rounded(metres),
         )
     elif metres is not None:
         said = message(
-            "The way to the start alone is {metres} m, much of what may be used: the robot stays where its last visit"
-            " was. Ask for the return if it is wanted.",
+            "The way to the start alone is {metres} m, a large part of what it may use: the robot stays at its last"
+            " place. Ask for the return if you want it.",
             context="assumption",
             metres=say_rounded(metres),
         )

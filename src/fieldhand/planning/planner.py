@@ -66,7 +66,7 @@ class Clarify:
             message("a question first: {question}", question=self.question),
             advice=message("answer it: {choices}", choices="; ".join(self.choices))
             if self.choices
-            else message("answer it, or say it in the request"),
+            else message("answer it, or write it in the request"),
         )
 
 

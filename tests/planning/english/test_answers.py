@@ -99,7 +99,7 @@ def test_an_answer_that_is_no_choice_is_refused_with_the_choices() -> None:
 def test_a_choice_whose_place_in_the_request_is_not_known_is_refused_with_what_to_do() -> None:
     refused = answered("If the battery allows, go to tree 5. Take a picture there.", "at a tree that you name")
     assert isinstance(refused, Refused)
-    assert refused.reasons[0].advice == "say it there, and plan again"
+    assert refused.reasons[0].advice == "write it there, and plan again"
 
 
 def test_an_answer_to_another_question_changes_nothing() -> None:

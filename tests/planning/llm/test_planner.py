@@ -91,7 +91,7 @@ def test_quoted_words_are_found_in_the_request_whatever_their_case_and_white_spa
         ["come home"],
         ["at most half"],
     ]
-    assert [problem.what for problem in unaccounted(task)] == ["nothing in the plan comes from 'battery'"]
+    assert [problem.what for problem in unaccounted(task)] == ["nothing in the plan corresponds to 'battery'"]
 
 
 def test_words_that_stand_twice_are_found_in_their_order() -> None:

@@ -83,7 +83,7 @@ def test_no_other_key_of_the_environment_is_sent_to_a_keyless_endpoint(monkeypat
 @pytest.mark.parametrize(
     ("status", "word", "sent"),
     [
-        (400, "did not take", 1),
+        (400, "rejected", 1),
         (401, "refused the key", 1),
         (403, "refused the key", 1),
         (404, "no model", 1),

@@ -1009,19 +1009,19 @@ PLANNED = [
 
 #: Words of a planned request that nothing comes from, which a person has to confirm.
 WARNED = {
-    "CO2 readings at the corners: first the south-west corner, then the north-west, then the north-east and the south-east last.": "nothing in the plan comes from 'corners', 'corner', 'last'",
-    "Take a thermal picture of any 4 trees in the south-east quarter. If one of them is too hot, meaning over 40 degrees C, take an air temperature reading at that tree too.": "nothing in the plan comes from 'hot'",
-    "For the irrigation report, photograph tree 3.": "nothing in the plan comes from 'irrigation report'",
-    "We had a leak last week. Take a picture of tree 4.": "nothing in the plan comes from 'leak last week'",
-    "Could you take thermal photos of four trees along the western edge, so we can check for water stress?": "nothing in the plan comes from 'water stress'",
-    "Please collect leaves from any 6 Carmel trees for the lab, one sample per tree.": "nothing in the plan comes from 'lab', 'per'",
+    "CO2 readings at the corners: first the south-west corner, then the north-west, then the north-east and the south-east last.": "nothing in the plan corresponds to 'corners', 'corner', 'last'",
+    "Take a thermal picture of any 4 trees in the south-east quarter. If one of them is too hot, meaning over 40 degrees C, take an air temperature reading at that tree too.": "nothing in the plan corresponds to 'hot'",
+    "For the irrigation report, photograph tree 3.": "nothing in the plan corresponds to 'irrigation report'",
+    "We had a leak last week. Take a picture of tree 4.": "nothing in the plan corresponds to 'leak last week'",
+    "Could you take thermal photos of four trees along the western edge, so we can check for water stress?": "nothing in the plan corresponds to 'water stress'",
+    "Please collect leaves from any 6 Carmel trees for the lab, one sample per tree.": "nothing in the plan corresponds to 'lab', 'per'",
 }
 
 ASKED = [
     (
         "amiga",
         "if the soil moisture at tree 9 is dry, take a picture",
-        "what is a low soil moisture? amiga gives no such word for it; say a threshold in percent",
+        "what is a low soil moisture? amiga does not define that level; say a threshold in percent",
     ),
     (
         "husky",
@@ -1098,54 +1098,58 @@ REFUSED = [
     (
         "husky",
         "If the battery is below 30 %, return.",
-        "'the battery' does not fit where it stands in 'If the battery is below 30 %, return'",
+        "'the battery' does not fit at this point in 'If the battery is below 30 %, return'",
     ),
     (
         "husky",
         "If the battery allows, take a picture of tree 5, otherwise return.",
-        "'otherwise': a step for which too little is left is left out, and nothing stands in for it",
+        "'otherwise': a step that the budget does not allow is left out; nothing can replace it",
     ),
     (
         "husky",
         "If the battery allows, go home.",
-        "'If the battery allows': what may be left out does not stand there",
+        "'If the battery allows': it does not say what may be left out",
     ),
     (
         "husky",
         "At every yellow tree, if the battery allows, take a picture.",
-        "'if the battery allows': is it said of all these places, or of each of them?",
+        "'if the battery allows': does it apply to all these places together, or to each of them?",
     ),
     (
         "husky",
         "At as many trees as possible take a picture and, if the battery allows, measure CO2.",
-        "'if the battery allows': what it is said of may be left out already",
+        "'if the battery allows': what it applies to may already be left out",
     ),
     (
         "husky",
         "If the battery allows, take a picture of tree 5. Do the same at tree 9.",
-        "'Do the same at tree 9': whether that may be left out too is not clear",
+        "'Do the same at tree 9': it is not clear whether that may be left out too",
     ),
-    ("husky", "Take a picture of two trees at each corner.", "'two trees': so many at each place cannot be said yet"),
+    (
+        "husky",
+        "Take a picture of two trees at each corner.",
+        "'two trees': a number of captures at each place is not supported here yet",
+    ),
     ("husky", "take a picture at tree 4 instead of tree 5", "'instead of' is not possible yet"),
     (
         "husky",
         "take a picture of tree 4 without taking a CO2 reading",
-        "'without' does not fit where it stands in 'take a picture of tree 4 without taking a CO2 reading'",
+        "'without' does not fit at this point in 'take a picture of tree 4 without taking a CO2 reading'",
     ),
     (
         "husky",
         "take a picture of tree 4 but do not measure CO2",
-        "'do not' does not fit where it stands in 'take a picture of tree 4 but do not measure CO2'",
+        "'do not' does not fit at this point in 'take a picture of tree 4 but do not measure CO2'",
     ),
     (
         "husky",
         "do not take a picture of tree 4",
-        "'do not' does not fit where it stands in 'do not take a picture of tree 4'",
+        "'do not' does not fit at this point in 'do not take a picture of tree 4'",
     ),
     (
         "husky",
         "never go to tree 5. Take a picture of tree 4.",
-        "'never' does not fit where it stands in 'never go to tree 5'",
+        "'never' does not fit at this point in 'never go to tree 5'",
     ),
     ("husky", "Take a picture at 12 corners", "'12 corners': there are 4 such corners, not 12"),
     (
@@ -1156,14 +1160,14 @@ REFUSED = [
     (
         "husky",
         "take a picture at tree 4. If it is between 40 and 30, take a CO2 reading",
-        "'it is between 40 30': nothing lies between 40 and 30",
+        "'it is between 40 30': no value lies between 40 and 30",
     ),
     ("husky", "dig a hole at tree 4", "not understood: 'dig', 'hole'"),
     ("husky", "measure soil moisture at tree 4", "not understood: 'soil', 'moisture'"),
     (
         "husky",
         "take a picture of every tree in the dry corner",
-        "'dry' does not fit where it stands in 'take a picture of every tree in the dry corner'",
+        "'dry' does not fit at this point in 'take a picture of every tree in the dry corner'",
     ),
     ("husky", "take a picture of the trees with the most sugar", "not understood: 'sugar'"),
     ("husky", "take a picture of tree 9999", "there is no tree '9999'"),
@@ -1186,7 +1190,7 @@ REFUSED = [
     ),
     ("husky", "take a picture of tree 4, wait 5 minutes and take another", "'wait' is not possible yet"),
     ("husky", "Take a photo of them.", "'Take a photo of them': which places are meant?"),
-    ("husky", "Take pictures of 0 trees.", "'0 trees': how many is not clear"),
+    ("husky", "Take pictures of 0 trees.", "'0 trees': it is not clear how many"),
     (
         "husky",
         "Take pictures of trees older than 10 years and younger than 5 years.",
@@ -1201,7 +1205,7 @@ REFUSED = [
     (
         "husky",
         "take a picture of every Carmel and Nonpareil tree",
-        "'every Carmel': which place or which trees are meant does not stand there",
+        "'every Carmel': it does not say which place or which trees",
     ),
     (
         "husky",
@@ -1222,19 +1226,19 @@ REFUSED = [
     (
         "husky",
         "Take a picture every 5 minutes.",
-        "'every' does not fit where it stands in 'Take a picture every 5 minutes'",
+        "'every' does not fit at this point in 'Take a picture every 5 minutes'",
     ),
     (
         "husky",
         "Take a picture of tree 4 or, if that fails, of tree 5.",
-        "'or ,' does not fit where it stands in 'Take a picture of tree 4 or, if that fails, of tree 5'",
+        "'or ,' does not fit at this point in 'Take a picture of tree 4 or, if that fails, of tree 5'",
     ),
     (
         "husky",
         "If the CO2 at tree 4 is low and the CO2 at tree 9 is high, take a picture of tree 12.",
-        "'high' does not fit where it stands in 'If the CO2 at tree 4 is low and the CO2 at tree 9 is high, take a picture of tree 12'",
+        "'high' does not fit at this point in 'If the CO2 at tree 4 is low and the CO2 at tree 9 is high, take a picture of tree 12'",
     ),
-    ("husky", "Take no pictures.", "'no' does not fit where it stands in 'Take no pictures'"),
+    ("husky", "Take no pictures.", "'no' does not fit at this point in 'Take no pictures'"),
     ("husky", "Stop.", "the request asks for nothing to be done"),
     (
         "husky",
@@ -1249,16 +1253,16 @@ REFUSED = [
     (
         "husky",
         "Read co2 at 10 trees, then pictures at 5 of them.",
-        "'pictures at 5 of them': which of them is not clear",
+        "'pictures at 5 of them': it is not clear which of them",
     ),
     (
         "husky",
         "Photograph 3 yellow trees and read co2 at the last of them.",
-        "'read co2 at the last of them': which of them is not clear",
+        "'read co2 at the last of them': it is not clear which of them",
     ),
     (
         "husky",
         "Visit all yellow trees but photograph only the Carmel ones.",
-        "'the Carmel ones': which trees are meant by it?",
+        "'the Carmel ones': which trees does it refer to?",
     ),
 ]

@@ -185,7 +185,7 @@ def _pace(by: Connection) -> float:
         pace = math.nan
     if unknown or not 0 < pace < math.inf:
         raise InputError(
-            f"the cart has no option '{min(unknown)}'" if unknown else "the pace is no number above 0",
+            f"the cart has no option '{min(unknown)}'" if unknown else "the pace is not a number above 0",
             where="--driver-option",
             advice="give pace=1 for real time, pace=100 for a hundred times as fast",
         )

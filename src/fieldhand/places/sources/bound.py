@@ -38,7 +38,7 @@ class Bound(Selector):
         if not places:
             known = listed(list(bound)) or message("nothing yet")
             raise PlaceError(
-                message("nothing is called '{label}' at this point", label=short(self.label)),
+                message("no place is named '{label}' at this point", label=short(self.label)),
                 advice=message("named so far: {known}", known=known),
             )
         return resolution.group(*places)

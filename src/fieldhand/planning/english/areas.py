@@ -79,7 +79,7 @@ def _stop_along(lead: ClausePart, part: ClausePart) -> ClausePart | None:
 def _merged(lead: ClausePart, part: ClausePart, site: Site) -> ClausePart | None:
     """A command with the area, the rows or the spacing in front of it; None if they do not belong to it."""
     if lead.spacing is not None and part.spacing is not None:
-        raise unclear(lead.terms, message("two distances between stops cannot be kept"), message("say one"))
+        raise unclear(lead.terms, message("stops cannot have two different distances"), message("say one"))
     spacing = part.spacing or lead.spacing
     whole = replace(part, spacing=spacing, terms=(*lead.terms, *part.terms), then=lead.then)
     if lead.places is None:
@@ -95,11 +95,15 @@ def _merged(lead: ClausePart, part: ClausePart, site: Site) -> ClausePart | None
     areal = ("AT", "INSIDE", "ALONG", "FOR") if found.rows else ("AT", "INSIDE")
     if lead.kind == "lead" and (lead.relation is None or lead.relation.kind not in areal):
         raise unclear(
-            lead.terms, message("it is not clear what that area is of"), message("say 'the trees in the northern half'")
+            lead.terms,
+            message("it is not clear to what that area belongs"),
+            message("say 'the trees in the northern half'"),
         )
     if len(lead.places.chains) != 1:
         raise unclear(
-            lead.terms, message("it is not clear what that area is of"), message("say 'the trees in the northern half'")
+            lead.terms,
+            message("it is not clear to what that area belongs"),
+            message("say 'the trees in the northern half'"),
         )
     area = lead.places.chains[0]
     some = _some_of_them(whole, area) or _in_each(whole, lead, area)

@@ -139,7 +139,7 @@ def without_filler(terms: Iterable[Term], request: str) -> Asked:
         elif term.kind == "INSTEAD":
             if not _contrasted(kept):
                 raise unclear(
-                    [term], message("it does not say what is replaced"), message("say only what is to be done")
+                    [term], message("it does not say what to replace"), message("say only what is to be done")
                 )
             filler.append(term.span)
         elif term.kind == "PURPOSE":
@@ -155,7 +155,7 @@ def without_filler(terms: Iterable[Term], request: str) -> Asked:
                 kept.append(replace(term, kind="AND"))
             elif any(t.kind in _MORE_THAN_A_REASON for t in clause):
                 advice = message("say what is to be done in a sentence of its own, and leave the reason out")
-                raise unclear([term, *clause], message("a reason or something to do?"), advice)
+                raise unclear([term, *clause], message("is this a reason, or something to do?"), advice)
             else:
                 last = clause[-1] if clause else term
                 filler.append((term.start, last.end))

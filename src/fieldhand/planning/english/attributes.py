@@ -43,7 +43,7 @@ def filtered(bag: Bag, of: s.Selector, site: Site) -> s.Selector:
     word = bag.take("ATTR") if values and bag.has("ATTR") else None
     meant = next((v for v in values if word is not None and any(n in word.value for n, _ in v.value)), None)
     if word is not None and meant is None:
-        raise bag.fault(message("'{said}' is no {kind}", said=values[0].text, kind=word.text))
+        raise bag.fault(message("'{said}' is not a {kind}", said=values[0].text, kind=word.text))
     for value in values:
         of = s.Where(attribute=_one(value, word if value is meant else None), test="eq", value=_text(value, bag), of=of)
     return of
@@ -68,7 +68,7 @@ def attribute_of(bag: Bag, hint: str, amount: Term | None, site: Site) -> str:
         hint = _UNIT_HINTS.get(amount.value.unit, "")
     if not hint:
         raise bag.fault(
-            message("which attribute is compared does not stand there"),
+            message("it does not say which attribute to compare"),
             message("say which: {known}", known=known(site)),
         )
     return hinted(hint, bag.phrase.terms, site)
@@ -102,13 +102,13 @@ def _compared(group: tuple[Term, ...], bag: Bag, of: s.Selector, site: Site) -> 
     if head.kind == "ATTRVAL":
         word = bag.take("ATTR") if bag.has("ATTR") else None
         if word is not None and not any(name in word.value for name, _ in head.value):
-            raise bag.fault(message("'{said}' is no {kind}", said=head.text, kind=word.text))
+            raise bag.fault(message("'{said}' is not a {kind}", said=head.text, kind=word.text))
         return s.Where(attribute=_one(head, word), test="ne", value=_text(head, bag), of=of)
     if head.kind == "BETWEEN":
         low, high = number_of(terms[1]), number_of(terms[2])
         if low > high:
             raise bag.fault(
-                message("nothing lies between {low} and {high}", low=Number(f"{low:g}"), high=Number(f"{high:g}")),
+                message("no value lies between {low} and {high}", low=Number(f"{low:g}"), high=Number(f"{high:g}")),
                 message("put the lower number first"),
             )
         if negated:
@@ -130,7 +130,7 @@ def _one(value: Term, named: Term | None) -> str:
     if len(names) > 1:
         raise Question(
             message(
-                "'{said}' stands under {names}: which is meant?",
+                "'{said}' is a value of {names}: which is meant?",
                 context="question",
                 said=value.text,
                 names=listed(names),

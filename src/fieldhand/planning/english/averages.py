@@ -43,7 +43,8 @@ def check_averages(root: d.DraftBlock, request: str, robot: RobotProfile) -> Non
         if not single or (several and not _OF_ONE.search(request)):
             words = request[said[0][0] : said[0][1]]
             what = message(
-                "'{words}': each reading is tested by itself, and no average of several is known", words=words
+                "'{words}': each reading is tested by itself; averages of several readings are not supported",
+                words=words,
             )
             raise Unclear(Reason(what=what, said=said, advice=message("say what one reading has to be")))
     choices[0].said = (*choices[0].said, *said)

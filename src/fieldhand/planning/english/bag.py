@@ -120,7 +120,7 @@ class Bag:
             left += [t for t in self.phrase.quantity if t.kind in ("UPTO", "ASMANY", "MORE")]
         if left:
             words = ", ".join(f"'{t.text}'" for t in left)
-            what = message("{words} could not be placed in '{said}'", words=words, said=text_of(self.phrase.terms))
+            what = message("{words} could not be interpreted in '{said}'", words=words, said=text_of(self.phrase.terms))
             raise Unclear(Reason(what=what, said=spans_of(left), advice=message("say it in simpler words")))
 
     def fault(self, what: str, advice: str = PLAINLY) -> Unclear:
@@ -151,7 +151,7 @@ def _quantify(bag: Bag, term: Term) -> None:
     match term.kind:
         case "NUM":
             if bag.count is not None or term.value != int(term.value) or term.value < 1:
-                raise unclear(bag.phrase.terms, message("how many is not clear"), message("say one whole number"))
+                raise unclear(bag.phrase.terms, message("it is not clear how many"), message("say one whole number"))
             bag.count = int(term.value)
         case "EACH":
             bag.each = True

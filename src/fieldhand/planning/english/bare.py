@@ -17,7 +17,7 @@ def named_trees(bag: Bag) -> FoundPlace:
     if bag.count is not None and bag.count != len(bag.ids):
         raise bag.fault(
             message("{count} or {names} trees?", count=bag.count, names=len(bag.ids)),
-            message("let the number and the names agree"),
+            message("make the number and the names agree"),
         )
     if bag.any:
         raise Question(
@@ -34,7 +34,7 @@ def named_trees(bag: Bag) -> FoundPlace:
 def quantity_alone(bag: Bag, group: Group, phrase: PlacePhrase, relations: list[Term]) -> FoundPlace:
     """ "Another", "two more", "each": of what, the verb before says; of whom, what describes it."""
     if bag.up_to or bag.as_many:
-        raise bag.fault(message("of what does not stand there"), message("say 'as many trees as you can', for example"))
+        raise bag.fault(message("it does not say of what"), message("say 'as many trees as you can', for example"))
     if bag.pointing and bag.plural_article and bag.count is None and not group.empty:
         return FoundPlace(selector=nested(group, s.Trees()), many=True)  # "all trees except | those in row 3"
     if bag.article and bag.count is None and not (bag.another or bag.each or bag.any):

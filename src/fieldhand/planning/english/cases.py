@@ -238,13 +238,13 @@ class Cases(Hand):
         places = parse_places(terms[1:])
         if places is None or terms[0].kind not in ("AT", "OF", "FROM", "NEXTTO", "NEAR", "INSIDE"):
             raise unclear(
-                part.terms, message("where is not clear"), message("measure there first, then say 'if it is ...'")
+                part.terms, message("it is not clear where"), message("measure there first, then say 'if it is ...'")
             )
         found = find(places, self._site)
         if found.many or found.object_only:
             raise unclear(
                 part.terms,
-                message("a condition is about one place"),
+                message("a condition has to be about one place"),
                 message("say 'at each of them ..., if it is ...'"),
             )
         if found.here:
@@ -311,7 +311,7 @@ class Cases(Hand):
         if choice is None:
             raise unclear(part.terms, message("there is no 'if' before it"))
         if choice.otherwise is not None:
-            raise unclear(part.terms, message("the 'if' before it has an 'otherwise' already"))
+            raise unclear(part.terms, message("the 'if' before it already has an 'otherwise'"))
         holder = next((b for st, b in d.walk(self.told.root) if st is choice), None)
         at = holder.steps.index(choice) if holder is not None else 0
         if holder is not None and at and isinstance(holder.steps[at - 1], d.Choice) and part.said:

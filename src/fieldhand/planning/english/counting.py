@@ -26,14 +26,14 @@ def number_of_objects(thing: Object) -> int | None:
     for term in thing.quantity:
         if term.kind == "NUM":
             if number is not None or term.value != int(term.value) or not 1 <= term.value <= 1000:
-                raise unclear(thing.terms, message("how many is not clear"), message("say one whole number"))
+                raise unclear(thing.terms, message("it is not clear how many"), message("say one whole number"))
             number = int(term.value)
         elif term.kind == "UPTO":
             raise unclear(thing.terms, message("captures need one number"), message("say 'of up to 6 trees'"))
         elif term.kind == "ORD" and term.value != 1 and thing.quantity[0].text.lower() in ("a", "an"):
             continue  # "a second reading" is one more
         elif term.kind == "ORD" and term.value != 1:
-            raise unclear(thing.terms, message("a rank does not fit there"), message("say how many"))
+            raise unclear(thing.terms, message("a number is needed there, not a rank"), message("say how many"))
     return number
 
 

@@ -218,7 +218,7 @@ class Discourse(Elliptic):
         if found is not None and not found.here and any(t.kind == "THERE" for t in part.tails):
             raise unclear(
                 part.terms,
-                message("which of them is not clear"),
+                message("it is not clear which of them"),
                 message("name the trees, or say how many in one sentence"),
             )
         if found is not None and found.object_only and found.each:
@@ -297,7 +297,7 @@ class Discourse(Elliptic):
     def _order(self, part: ClausePart) -> None:
         if part.terms[0].kind == "ORDERED":
             if self._pending is not None:
-                raise unclear(part.terms, message("two orders cannot be kept"), message("say one"))
+                raise unclear(part.terms, message("the places cannot have two different orders"), message("say one"))
             if self._loop is not None and self._loop in self._sentence_steps:
                 self._in_order(self._loop, part.terms[0])
                 self._loop.said += part.said
@@ -322,7 +322,7 @@ class Discourse(Elliptic):
         if any(isinstance(step, d.Maybe) for step, _ in d.walk(passage)):
             raise unclear(
                 part.terms,
-                message("whether that may be left out too is not clear"),
+                message("it is not clear whether that may be left out too"),
                 message("say what is to be done again"),
             )
         times = next((int(t.value) for t in part.tails if t.kind == "COUNT"), None)

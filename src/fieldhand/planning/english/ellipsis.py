@@ -30,10 +30,10 @@ class Elliptic(Leaving):
         found = find(part.places, self._site)
         if any(t.kind == "THERE" for t in part.tails) and found.counted != 1:
             raise unclear(
-                part.terms, message("which of them is not clear"), message("say how many trees in one sentence")
+                part.terms, message("it is not clear which of them"), message("say how many trees in one sentence")
             )
         if len(part.places.chains) > 1:
-            raise unclear(part.terms, message("of what is not clear"), message("say each in a sentence of its own"))
+            raise unclear(part.terms, message("it is not clear of what"), message("say each in a sentence of its own"))
         if len({action for action, _ in self._objects}) > 1:
             names = choices_of_actions(action for action, _ in self._objects)
             raise Question(message("'{said}': another of which?", context="question", said=text_of(part.terms)), names)
@@ -150,7 +150,7 @@ class Elliptic(Leaving):
             return times
         if said.split()[-1] in ("all", "total", "altogether", "overall"):
             if times < 2:
-                raise unclear(part.terms, message("once in all is what is done already"))
+                raise unclear(part.terms, message("it is already done once"))
             return times - 1
         again = say_times(times)
         raise Question(

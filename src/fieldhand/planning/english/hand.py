@@ -190,11 +190,11 @@ class Hand:
         if loop.optional or loop.at_most is not None:
             raise unclear(
                 [term],
-                message("an order and a choice of how many do not go together"),
+                message("an order of places cannot be combined with a choice of how many"),
                 message("leave one of them out"),
             )
         if isinstance(loop.select, s.Ordered):
-            raise unclear([term], message("two orders cannot be kept"), message("say one"))
+            raise unclear([term], message("the places cannot have two different orders"), message("say one"))
         side: Side = "south" if str(by).startswith("south") else "east" if str(by).startswith("east") else "north"
         if side in ("south", "east") and any(_counts(part, side) for part in loop.select.walk()):
             if not any(skips_rows(part) for part in loop.select.walk()):

@@ -47,7 +47,7 @@ def named_in_rows(bag: Bag, group: Group, site: Site) -> FoundPlace:
     if bag.count is not None and bag.count != len(bag.ids):
         raise bag.fault(
             message("{count} or {names} trees?", count=bag.count, names=len(bag.ids)),
-            message("let the number and the names agree"),
+            message("make the number and the names agree"),
         )
     if bag.any:
         raise Question(
@@ -173,22 +173,19 @@ def ranked_in_rows(bag: Bag, of: s.Selector, group: Group, site: Site) -> FoundP
     check_rows(bag, site)
     rank, last, behind = bag.take("ORD"), bag.take("LAST"), bag.take("BACKORD")
     if group.anchor is not None:
-        raise bag.fault(
-            message("which tree of the row is meant is said in two ways"), message("say 'the third tree of row 2'")
-        )
+        raise bag.fault(message("it names two different trees of the row"), message("say 'the third tree of row 2'"))
     counted = bag.take("COUNTEDFROM")
     start: From = counted.value if counted is not None else From()
     if sum(t is not None for t in (rank, last, behind)) != 1 or (start.far and rank is None):
-        raise bag.fault(
-            message("which tree of the row is meant is said in two ways"), message("say 'the third tree of row 2'")
-        )
+        raise bag.fault(message("it names two different trees of the row"), message("say 'the third tree of row 2'"))
     tree = bag.take("TREE", "PLACE")
     if tree is None:
-        raise bag.fault(message("which trees are meant does not stand there"), message("say 'the third tree of row 2'"))
+        raise bag.fault(message("it does not say which trees"), message("say 'the third tree of row 2'"))
     number = int(rank.value) if rank is not None else int(behind.value) if behind is not None else 1
     if bag.count is not None and number > 1:
         raise bag.fault(
-            message("a rank and several trees at once"), message("say which one, or how many: 'trees 4 to 6 of row 2'")
+            message("a rank cannot be combined with several trees"),
+            message("say which one, or how many: 'trees 4 to 6 of row 2'"),
         )
     if tree.plural and bag.count is None and number == 1:
         raise how_many(bag.phrase)
@@ -227,9 +224,7 @@ def ends_of_rows(bag: Bag, group: Group, site: Site) -> FoundPlace:
     each = bag.each or bool(group.one_by_one)
     if group.anchor is not None:  # "the end of row 3 nearest to the charger"
         if plural or bag.each or bag.any or start is not None or side != "usual" or several:
-            raise bag.fault(
-                message("which end is meant is said in two ways"), message("say 'the northern end of row 3'")
-            )
+            raise bag.fault(message("it names two different ends"), message("say 'the northern end of row 3'"))
         bag.take("NEAREST")
         nearest = s.Nearest(to=group.anchor, of=s.UnionOf(parts=(first, last)))
         return FoundPlace(selector=nearest, counted=1, assumed=group.assumed)
@@ -254,14 +249,17 @@ def every_nth(bag: Bag, group: Group, site: Site) -> FoundPlace:
     tree = bag.take("TREE", "PLACE")
     if every is None or tree is None or bag.count is not None or group.anchor is not None:
         raise bag.fault(
-            message("every how many of which trees?"), message("say 'every third tree of row 2', for example")
+            message("every second, third, ... tree, and of which trees?"),
+            message("say 'every third tree of row 2', for example"),
         )
     if bag.has("ORD", "LAST", "SUPER", "NEAREST", "NEARBY", "FARTHEST", "FAR", "OTHER", "DIR"):
-        raise bag.fault(message("every how many of which trees?"), message("say it in two requests"))
+        raise bag.fault(
+            message("every second, third, ... tree, and of which trees?"), message("say it in two requests")
+        )
     kind, start = begin.value if begin is not None else ("tree", "1")
     if kind == "row":
         raise bag.fault(
-            message("the count of trees begins with a tree"), message("say 'starting with the second tree'")
+            message("counting trees has to begin at a tree"), message("say 'starting with the second tree'")
         )
     behind, compared = bag.take_behind("ATTRVAL", tree.start), bag.compared
     bag.compared = [group_ for group_ in compared if group_[0].start < tree.start]
@@ -313,7 +311,7 @@ def stepped(bag: Bag, group: Group, site: Site) -> FoundPlace:
     bag.take("OTHER")
     if bag.count is not None or bag.each or bag.any or bag.has("NEAREST", "NEARBY") or not group.plain:
         raise bag.fault(
-            message("which tree is meant is not clear"), message("say 'the tree 5 trees down the row from tree 12'")
+            message("it is not clear which tree is meant"), message("say 'the tree 5 trees down the row from tree 12'")
         )
     origin = group.anchor or s.Here()
     if steps.towards not in ("down", "up"):
@@ -355,7 +353,7 @@ def opposite(bag: Bag, group: Group, site: Site) -> FoundPlace:
     side: CountedFrom = "usual" if said is None else said.value
     bag.take("TREE", "PLACE")
     if bag.count not in (None, 1) or bag.plural or bag.each or bag.any or not group.plain:
-        raise bag.fault(message("one tree stands opposite"), message("say 'the tree opposite tree 12'"))
+        raise bag.fault(message("only one tree stands opposite"), message("say 'the tree opposite tree 12'"))
     origin = group.anchor or s.Here()
     if side != "usual":
         check_over(bag, side, origin, site, message("no aisle lies to the {side}", side=COMPASS[side]))
@@ -368,7 +366,8 @@ def successive_trees(bag: Bag, group: Group) -> FoundPlace:
     bag.take("CONSECUTIVE")
     if not bag.only("TREE") or bag.count is None or group.anchor is not None or bag.definite or bag.each:
         raise bag.fault(
-            message("which trees of a row are meant is not clear"), message("say '4 trees in a row', or name the row")
+            message("it is not clear which trees of a row are meant"),
+            message("say '4 trees in a row', or name the row"),
         )
     bag.any = False
     bag.finish()
@@ -378,4 +377,4 @@ def successive_trees(bag: Bag, group: Group) -> FoundPlace:
 
 def _check_origin(bag: Bag, origin: s.Selector) -> None:
     if origin.named_marker or isinstance(origin, s.PointsIn | s.Spaced):
-        raise bag.fault(message("a marker stands in no row"), message("name the tree to count from"))
+        raise bag.fault(message("a marker is not in a row"), message("name the tree to count from"))

@@ -39,7 +39,7 @@ class Leaving(Motion):
             said, first, last = text_of(part.terms), text_of(before[-1].terms), text_of(ahead[0].terms)
             raise Question(
                 message(
-                    "'{said}': is that said of '{first}' or of '{last}'?",
+                    "'{said}': does that apply to '{first}' or to '{last}'?",
                     context="question",
                     said=said,
                     first=first,
@@ -71,11 +71,13 @@ class Leaving(Motion):
         """ "At every yellow tree, if the battery allows, ...": it can be said of the round, or of each visit."""
         if any(isinstance(step, d.Loop) for step, _ in d.walk(self.told.root) if id(step) not in known):
             advice = message("say 'at as many of them as you can', or begin the sentence with it")
-            raise unclear(part.terms, message("is it said of all these places, or of each of them?"), advice)
+            raise unclear(
+                part.terms, message("does it apply to all these places together, or to each of them?"), advice
+            )
 
     def _otherwise(self, part: ClausePart) -> None:
         if self._choice is None and self._allowances:
-            what = message("a step for which too little is left is left out, and nothing stands in for it")
+            what = message("a step that the budget does not allow is left out; nothing can replace it")
             raise unclear(part.terms, what, message("leave the 'otherwise' out"))
         super()._otherwise(part)
 
@@ -97,14 +99,14 @@ class Leaving(Motion):
         outer = [(step, block) for step, block in placed if id(step) not in inner]
         if not outer:
             raise unclear(
-                part.terms, message("what may be left out does not stand there"), message("say what is to be done then")
+                part.terms, message("it does not say what may be left out"), message("say what is to be done then")
             )
         holder = outer[0][1]
         at = holder.steps.index(outer[0][0])
         whole = [step for step, _ in outer]
         if holder.steps[at : at + len(whole)] != whole:
             raise unclear(
-                part.terms, message("what may be left out is not clear"), message("say it in a sentence of its own")
+                part.terms, message("it is not clear what may be left out"), message("say it in a sentence of its own")
             )
         if len(whole) == 1 and isinstance(whole[0], d.Loop) and whole[0].optional:
             whole[0].said += part.said
@@ -116,13 +118,13 @@ class Leaving(Motion):
                 message("leave it out"),
             )
         if any(self._may_be_left_out(step) for step, _ in placed) or self._inside_optional(holder):
-            advice = message("say it of the one or of the other")
-            raise unclear(part.terms, message("what it is said of may be left out already"), advice)
+            advice = message("apply it to only one of the two")
+            raise unclear(part.terms, message("what it applies to may already be left out"), advice)
         if any(isinstance(step, d.Loop) for step, _ in placed):
             said = text_of(part.terms)
             self.told.assumptions.append(
                 message(
-                    "'{said}' is said of all of it: it is done as a whole, or left out as a whole.",
+                    "'{said}' applies to the whole: all of it is done, or all of it is left out.",
                     context="assumption",
                     said=said,
                 )

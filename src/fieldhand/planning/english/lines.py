@@ -74,7 +74,7 @@ def stops_of(found: FoundPlace | None, part: ClausePart, wanted: Wanted, site: S
     if count == 1:
         raise unclear(
             part.terms,
-            message("one stop has no distance to another"),
+            message("a single stop cannot have a distance to another"),
             message("say how many, or leave the distance out"),
         )
     if found is None:
@@ -96,7 +96,7 @@ def stops_of(found: FoundPlace | None, part: ClausePart, wanted: Wanted, site: S
     number = count or found.counted or 0
     if number < 2 or spacing is None or (count and found.counted not in (None, count)):
         raise unclear(
-            part.terms, message("how many trees are that?"), message("say 'three trees 15 m apart', for example")
+            part.terms, message("how many trees is that?"), message("say 'three trees 15 m apart', for example")
         )
     area = selector.any_of or selector
     return FoundPlace(
@@ -137,7 +137,7 @@ def points_over(found: FoundPlace, part: ClausePart, wanted: Wanted) -> FoundPla
     if not zone:
         raise unclear(
             part.terms,
-            message("only over a zone of the site can points be spread"),
+            message("points can be spread only over a zone of the site"),
             message("name a zone, or say how many trees"),
         )
     counts = {count for _, count in wanted}

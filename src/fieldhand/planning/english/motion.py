@@ -27,7 +27,7 @@ class Motion(Until):
         if self._sentence_steps and part.verb is not None and part.verb.text.lower() in ("starting", "beginning"):
             raise unclear(
                 part.terms,
-                message("where to begin cannot be said behind the work"),
+                message("where to begin has to be said before the work"),
                 message("name the first tree first"),
             )
         found = self._related(part)
@@ -84,7 +84,7 @@ class Motion(Until):
                 self.told.no_part += part.said
                 return
         if part.relation is not None and part.relation.kind == "EXCEPT":
-            raise unclear(part.terms, message("an exception must stand right behind what it is taken from"))
+            raise unclear(part.terms, message("an exception has to follow directly after what it restricts"))
         found = self._related(part)
         if found.object_only:
             raise unclear(part.terms, message("a place was expected"))

@@ -56,7 +56,7 @@ def distributed(found: FoundPlace, group: Group, bag: Bag) -> FoundPlace:
     """ "The oldest tree of each row": a pick that is said of each row, said once for each of them."""
     if group.one_by_one and found.at_most is not None:
         raise bag.fault(
-            message("up to so many in each row cannot be said yet"),
+            message("a largest number for each row is not supported yet"),
             message("say how many in each row, or up to how many in all"),
         )
     one = found.selector.any_of is not None and found.selector.single and not found.many
@@ -73,7 +73,7 @@ def distributed(found: FoundPlace, group: Group, bag: Bag) -> FoundPlace:
         return found
     if len(group.one_by_one) > MOST_ONE_BY_ONE:
         raise bag.fault(
-            message("there are {count} of them, too many to be told one by one", count=len(group.one_by_one)),
+            message("there are {count} of them, too many to handle one by one", count=len(group.one_by_one)),
             message("name some rows"),
         )
     parts = tuple(swapped(found.selector, group.rows, one) for one in group.one_by_one)

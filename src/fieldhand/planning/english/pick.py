@@ -55,7 +55,7 @@ def picked(bag: Bag, group: Group, site: Site) -> FoundPlace:
         found = _trees(bag, group, site)
     bag.finish()
     if group.anchor is not None and not any(part == group.anchor for part in found.selector.walk()):
-        raise bag.fault(message("what is near to what is not clear"), message("say it in two steps"))
+        raise bag.fault(message("it is not clear what is near to what"), message("say it in two steps"))
     found = distributed(found, group, bag)
     return replace(found, assumed=(*found.assumed, *group.assumed)) if group.assumed else found
 
@@ -122,7 +122,7 @@ def _trees(bag: Bag, group: Group, site: Site) -> FoundPlace:
     tree = bag.take("TREE", "PLACE")
     if tree is not None and tree.kind == "PLACE" and tree.plural and (group.empty or tree.text.lower() != "ones"):
         raise bag.fault(
-            message("which trees are meant by it?"),
+            message("which trees does it refer to?"),
             message("say 'trees', or name a zone: '4 points in the wet corner'"),
         )
     plural = bag.plural and bag.count is None
@@ -140,7 +140,7 @@ def _trees(bag: Bag, group: Group, site: Site) -> FoundPlace:
     if tree is None and (plot is not None or zoned) and not (bag.as_many or bag.count):
         return FoundPlace(selector=of, region=True, many=True)
     if tree is None:
-        raise bag.fault(message("which place or which trees are meant does not stand there"))
+        raise bag.fault(message("it does not say which place or which trees"))
     return _some_of(bag, of, plural=tree.plural, site=site, single=group.single)
 
 
@@ -172,7 +172,7 @@ def _by_nearness(bag: Bag, of: s.Selector, group: Group, plural: bool) -> FoundP
         side = group.side
         if side != "any" and (plural or (bag.count or 1) > 1):
             raise bag.fault(
-                message("one tree is next to it on that side"), message("say 'the tree next to it on the east'")
+                message("only one tree is next to it on that side"), message("say 'the tree next to it on the east'")
             )
         return _ranked(
             bag, of, plural, lambda n, base: s.Nearest(to=near, count=n, adjacent=beside, side=side, of=base)
@@ -235,7 +235,9 @@ def _ranked(bag: Bag, of: s.Selector, plural: bool, pick: Callable[[int, s.Selec
     rank = bag.take("ORD")
     if rank is not None and rank.value > 1:
         if bag.count is not None or plural:
-            raise bag.fault(message("a rank and several trees at once"), message("say which one, or how many"))
+            raise bag.fault(
+                message("a rank cannot be combined with several trees"), message("say which one, or how many")
+            )
         return FoundPlace(selector=pick(1, s.Excluding(places=pick(rank.value - 1, of), of=of)), counted=1)
     if plural:
         raise how_many(bag.phrase)

@@ -116,16 +116,14 @@ def find(places: Places, site: Site) -> FoundPlace:
     check_comma(places, found)
     found = from_each_other(found)
     if any(f.object_only or f.optional or f.at_most for f in found):
-        raise unclear(
-            places.terms, message("these cannot be said together"), message("say each in a sentence of its own")
-        )
+        raise unclear(places.terms, message("these cannot be combined"), message("say each in a sentence of its own"))
     found = [_after(f, found[k - 1] if k else None, places) for k, f in enumerate(found)]
     if any(f.here for f in found):
         found = [replace(f, selector=s.Here()) if f.here else f for f in found]
     rows = all(f.rows for f in found)
     if rows and any(isinstance(f.selector, s.Successive) for f in found):
         raise unclear(
-            places.terms, message("these rows cannot be said together"), message("say each in a sentence of its own")
+            places.terms, message("these rows cannot be combined"), message("say each in a sentence of its own")
         )
     return FoundPlace(
         selector=s.UnionOf(parts=tuple(f.selector for f in found)),
@@ -213,7 +211,9 @@ def _chain(chain: Chain, excepted: tuple[Chain, ...], site: Site) -> FoundPlace:
         if line[-1].closed and not (plot and line[-1].is_marker):
             raise unclear(
                 chain.terms,
-                message("'{said}' is one place: nothing more can be said of it", said=text_of(line[-1].phrase.terms)),
+                message(
+                    "'{said}' is a single place and cannot be restricted further", said=text_of(line[-1].phrase.terms)
+                ),
             )
         line[-1].described.append((relation, part))
         line.append(part)
@@ -305,7 +305,7 @@ def _side_of_anchor(part: _PlacePart) -> AnySide:
     """Return the side of its anchor that a phrase speaks of."""
     found = [inner for relation, inner in part.described if _is_side_of_anchor(part, relation, inner)]
     if len(found) > 1:
-        raise unclear(part.phrase.terms, message("two sides at once"), message("say one of them"))
+        raise unclear(part.phrase.terms, message("two sides cannot be combined"), message("say one of them"))
     side: AnySide = found[0].bag.words("DIR")[0].value if found else "any"
     return side
 
@@ -347,7 +347,7 @@ def _describe(
         bag.join(inner.bag)
         return
     if kind == "WITH":
-        raise unclear([relation, *inner.phrase.terms], message("what is meant by this does not stand there"))
+        raise unclear([relation, *inner.phrase.terms], message("it does not say what this refers to"))
     sided = bag.has("MIDDLE") and inner.bag.has("SIDE")
     behind = _read(inner, (), site)
     if sided and isinstance(behind.selector, s.Half):  # "the middle of the north side" is on the edge
@@ -401,7 +401,7 @@ def _row_of(bag: Bag, group: Group, relation: Term, behind: FoundPlace, inner: _
     ranks = bag.has("ORD", "LAST", "MOST", "BACKORD", "EVERYNTH", "COUNTEDFROM")
     if relation.kind != "OF" or behind.many or bag.plural or ranks or not bag.has("ROW", "OVER"):
         terms = [relation, *inner.phrase.terms]
-        raise unclear(terms, message("of which row is not clear"), message("say 'every third tree of row 3'"))
+        raise unclear(terms, message("it is not clear of which row"), message("say 'every third tree of row 3'"))
     group.row_of = behind.selector
 
 
@@ -422,7 +422,9 @@ def _among(bag: Bag, group: Group, relation: Term, behind: FoundPlace, inner: _P
     if at_each and behind.many and not (behind.region or bag.as_many or bag.up_to):
         if bag.count not in (None, 1):
             raise unclear(
-                bag.phrase.terms, message("so many at each place cannot be said yet"), message("name each place")
+                bag.phrase.terms,
+                message("a number of captures at each place is not supported here yet"),
+                message("name each place"),
             )
         bag.each, bag.count = True, None  # "the tree at each corner"
     group.add(behind, inner.phrase)
@@ -447,7 +449,7 @@ def _near_zone(zone: str, relation: Term) -> FoundPlace:
 def _single(found: FoundPlace, inner: _PlacePart) -> s.Selector:
     if found.many and not found.selector.whole_zone:
         advice = message("name one tree, corner, marker or zone")
-        raise unclear(inner.phrase.terms, message("one place is needed to measure from"), advice)
+        raise unclear(inner.phrase.terms, message("distances have to be measured from a single place"), advice)
     return found.selector
 
 

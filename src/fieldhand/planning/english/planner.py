@@ -67,12 +67,12 @@ def _unanswered(question: Question, given: Answer, *, known: bool) -> Reason:
     """Why an answer does not help: it is none of the choices, or nobody knows where its words would stand."""
     if known:
         return Reason(
-            what=message("'{answer}' has to be said in the request", answer=given.answer),
-            advice=message("say it there, and plan again"),
+            what=message("'{answer}' has to be part of the request", answer=given.answer),
+            advice=message("write it there, and plan again"),
         )
     what = message("'{answer}' does not answer '{question}'", answer=given.answer, question=question.question)
     if not question.choices:
-        return Reason(what=what, advice=message("say it in the request, and plan again"))
+        return Reason(what=what, advice=message("write it in the request, and plan again"))
     choices = joined(", ", (message("'{said}'", said=choice) for choice in question.choices))
     return Reason(what=what, advice=message("choose: {choices}", choices=choices))
 
@@ -85,7 +85,7 @@ def _check_text(request: str) -> None:
     if len(request) > LONGEST_REQUEST:
         raise RequestError(
             message(
-                "the request has {count} characters, at most {most} are read",
+                "the request has {count} characters, more than {most}",
                 count=Number(f"{len(request):,}"),
                 most=Number(f"{LONGEST_REQUEST:,}"),
             ),
@@ -94,7 +94,7 @@ def _check_text(request: str) -> None:
     odd = hidden_character(request, lines=True)
     if odd is not None:
         raise RequestError(
-            message("the request holds the character {odd}, which nobody can see", odd=odd),
+            message("the request contains the invisible character {odd}", odd=odd),
             advice=message("leave it out"),
         )
 
@@ -103,7 +103,7 @@ def _check_length(words: Sequence[Word]) -> None:
     if len(words) > MOST_WORDS:
         raise RequestError(
             message(
-                "the request has {count} words and signs, at most {most} are read",
+                "the request has {count} words and punctuation marks, more than {most}",
                 count=Number(f"{len(words):,}"),
                 most=Number(f"{MOST_WORDS:,}"),
             ),

@@ -195,7 +195,9 @@ def _all_accounted(words: Sequence[Word], arranged: Arranged) -> None:
     if lost:
         text = " ".join(w.text for w in lost)
         raise Unclear(
-            Reason(what=message("'{said}' could not be placed", said=text), said=tuple((w.start, w.end) for w in lost))
+            Reason(
+                what=message("'{said}' could not be interpreted", said=text), said=tuple((w.start, w.end) for w in lost)
+            )
         )
 
 
@@ -241,7 +243,9 @@ def _told(arranged: Arranged, request: str, robot: RobotProfile, site: Site) -> 
         )
     for remark in arranged.remarks:
         discourse.told.assumptions.append(
-            message("'{said}' is taken as a remark: nothing is done about it.", context="assumption", said=remark)
+            message(
+                "'{said}' is taken as a remark: the robot does nothing about it.", context="assumption", said=remark
+            )
         )
     return discourse.told
 
@@ -258,5 +262,5 @@ def _misfit(wrong: NotParsed, request: str) -> Reason:
     advice = message("say it in shorter sentences, one thing after the other")
     if wrong.term.kind in ("WITHOUT", "NOT", "ISNOT"):
         advice = message("the robot does only what is asked of it: leave out what it is not to do, or say 'except'")
-    what = message("'{said}' does not fit where it stands in '{short}'", said=wrong.term.text, short=short)
+    what = message("'{said}' does not fit at this point in '{short}'", said=wrong.term.text, short=short)
     return Reason(what=what, said=(wrong.term.span,), advice=advice)

@@ -145,7 +145,9 @@ def extremes(bag: Bag, kept: Callable[[s.Selector], s.Selector], of: s.Selector)
     compass = _one_side(bag, side)
     if rank is not None and rank.value > 1:
         if bag.count is not None or (tree is not None and tree.plural):
-            raise bag.fault(message("a rank and several trees at once"), message("say which one, or how many"))
+            raise bag.fault(
+                message("a rank cannot be combined with several trees"), message("say which one, or how many")
+            )
         nearer = s.Extreme(side=compass, count=rank.value - 1, of=of)
         return FoundPlace(selector=s.Extreme(side=compass, of=s.Excluding(places=nearer, of=of)))
     if bag.any or (bag.article in ("a", "an") and bag.count is None):
@@ -174,10 +176,8 @@ def region(bag: Bag, of: s.Selector) -> s.Selector:
             sides: tuple[Side, ...] = ("north", "east", "south", "west")
             return s.UnionOf(parts=tuple(s.Edge(side=side, of=of) for side in sides))
         if bag.has("FINISH"):
-            raise bag.fault(
-                message("which trees are meant does not stand there"), message("say 'the tree nearest to the end'")
-            )
-        raise bag.fault(message("which side is meant does not stand there"), SIDE_ADVICE)
+            raise bag.fault(message("it does not say which trees"), message("say 'the tree nearest to the end'"))
+        raise bag.fault(message("it does not say which side"), SIDE_ADVICE)
     side = direction.value
     if bag.take("EDGE", "FINISH") is not None:
         area: s.Selector = s.Edge(side=_one_side(bag, side), of=of)

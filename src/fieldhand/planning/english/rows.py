@@ -40,9 +40,7 @@ def rows_meant(bag: Bag, group: Group, size: int | None, site: Site) -> FoundPla
     """
     check_rows(bag, site)
     if group.anchor is not None:
-        raise bag.fault(
-            message("which row is meant does not stand there"), message("say 'the next row', or 'two rows to the east'")
-        )
+        raise bag.fault(message("it does not say which row"), message("say 'the next row', or 'two rows to the east'"))
     head = next(word for kind in ("ROW", "ROWIDS", "BLOCKIDS", "OVER") for word in bag.words(kind))
     valued = bag.take_behind("ATTRVAL", head.start)  # "the rows ... that are yellow": their trees are
     compared, bag.compared = bag.compared, []
@@ -56,16 +54,14 @@ def rows_meant(bag: Bag, group: Group, size: int | None, site: Site) -> FoundPla
         found = _described(bag, group, size, site)
         size = None
     if size is not None:
-        raise bag.fault(
-            message("how many trees a row has is not what it is chosen by"), message("leave the number out")
-        )
+        raise bag.fault(message("rows cannot be selected by their number of trees"), message("leave the number out"))
     bag.put("ATTRVAL", valued)
     bag.compared = [terms for terms in compared if terms[0].start > head.start]
     tested = filtered(bag, found.selector, site)
     bag.compared = [terms for terms in compared if terms[0].start < head.start]
     bag.finish()
     if group.row_of is not None and all(part.row_of is None for part in found.selector.walk()):
-        raise bag.fault(message("which row is meant is said in two ways"), _WHICH)
+        raise bag.fault(message("it names two different rows"), _WHICH)
     found = replace(found, assumed=(*found.assumed, *group.assumed))
     kept = group.kept(tested)
     return found if kept == found.selector else replace(found, selector=kept, one_by_one=_each(found, kept, site))
@@ -78,7 +74,7 @@ def check_rows(bag: Bag, site: Site) -> None:
         Unclear: It has none.
     """
     if not site.planting.blocks:
-        why = message("no rows are known on this site")
+        why = message("no rows were found on this site")
         if site.planting.why:
             why = message("{what} ({why})", what=why, why=site.planting.why)
         advice = message("name trees by id, side, corner or attribute, or give the rows in the site's file")
@@ -195,12 +191,13 @@ def _numbered(bag: Bag, of: s.Selector, site: Site) -> FoundPlace:
     if bag.count is not None and len(ranges) != bag.count and all(first == last for first, last in ranges):
         raise bag.fault(
             message("{count} or {names} rows?", count=bag.count, names=len(ranges)),
-            message("let the number and the names agree"),
+            message("make the number and the names agree"),
         )
     nth = 1 if every is None else int(every.value)
     if every is not None and (len(ranges) > 1 or ranges[0][0] == ranges[0][1]):
         raise bag.fault(
-            message("every how many of which rows?"), message("say 'every third row starting with row 2', for example")
+            message("every second, third, ... row, and of which rows?"),
+            message("say 'every third row starting with row 2', for example"),
         )
     areas = of.members if all(isinstance(part, s.InBlock) for part in of.members) else (of,)
     parts = tuple(s.Rows(first=first, last=last, every=nth, of=area) for area in areas for first, last in ranges)
@@ -222,7 +219,8 @@ def _described(bag: Bag, group: Group, size: int | None, site: Site) -> FoundPla
         kind, first = begin.value if begin is not None else ("row", "")
         if kind == "tree" or bag.count is not None or start.far:
             raise bag.fault(
-                message("every how many rows, and from where?"), message("say 'every third row starting with row 2'")
+                message("every second, third, ... row, and counted from where?"),
+                message("say 'every third row starting with row 2'"),
             )
         called = f"row {first}"
         if kind == "parity":
@@ -239,7 +237,7 @@ def _described(bag: Bag, group: Group, size: int | None, site: Site) -> FoundPla
     if ranked is not None:
         return ranked
     if counted is not None or bag.any:
-        raise bag.fault(message("which row is meant does not stand there"), _WHICH)
+        raise bag.fault(message("it does not say which row"), _WHICH)
     if bag.has("MIDDLE"):
         return _middle(bag, of, site)
     if (bag.each or (plural and bag.definite)) and not bag.pointing:
@@ -284,9 +282,7 @@ def _check_numbers(bag: Bag, of: s.Selector, site: Site) -> None:
 def _of_size(bag: Bag, of: s.Selector, size: int) -> FoundPlace:
     """ "A row of 5 trees": 5 trees of one row, one after the other."""
     if bag.definite or bag.each or bag.count not in (None, 1) or not bag.only():
-        raise bag.fault(
-            message("which rows are meant does not stand there"), message("say 'a row of 5 trees', or name the row")
-        )
+        raise bag.fault(message("it does not say which rows"), message("say 'a row of 5 trees', or name the row"))
     bag.any = False
     return FoundPlace(selector=s.Successive(count=size, of=of), many=size > 1, region=True, rows=True, counted=size)
 
@@ -298,17 +294,17 @@ def _ranked(bag: Bag, start: From, of: s.Selector, site: Site) -> FoundPlace | N
     if most is None and rank is None and behind is None and last is None:
         return None
     if sum(t is not None for t in (last, behind)) + (start.far and rank is not None) > 1 or bag.has("EVERYNTH"):
-        raise bag.fault(message("which row is meant is said in two ways"), _WHICH)
+        raise bag.fault(message("it names two different rows"), _WHICH)
     side: CountedFrom = start.side
     if most is not None:
         if start != From() or len(most.value) == 2 or last is not None or behind is not None:
-            raise bag.fault(message("which row is meant is said in two ways"), _WHICH)
+            raise bag.fault(message("it names two different rows"), _WHICH)
         side = most.value
     side = side_across(bag, side, of, site)
     number = int(rank.value) if rank is not None else int(behind.value) if behind is not None else 1
     count = bag.count or 1
     if count > 1 and number > 1:
-        raise bag.fault(message("a rank and several rows at once"), message("say which one, or how many"))
+        raise bag.fault(message("a rank cannot be combined with several rows"), message("say which one, or how many"))
     if bag.plural and bag.count is None:
         raise how_many(bag.phrase)
     first, end = (number, number + count - 1)

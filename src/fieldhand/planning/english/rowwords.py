@@ -68,7 +68,7 @@ def with_row_ids(terms: list[Term]) -> list[Term]:
             after = terms[at + 1] if at + 1 < len(terms) else None
             if (block or term.kind == "ROW") and after is not None and after.kind == "UNIT" and len(after.text) == 1:
                 raise unclear(
-                    [term, after], message("this site has none of that name")
+                    [term, after], message("nothing on this site has that name")
                 )  # "block C": no degrees are meant
             found.append(term)
             at += 1
@@ -126,7 +126,7 @@ def with_row_words(terms: list[Term]) -> list[Term]:
     terms = _starts(rewritten(terms, _RULES))
     aisles = [t for t in terms if t.kind == "AISLE"]
     if aisles:
-        raise unclear(aisles, message("an aisle is no place to do something at"), _AISLE_ADVICE)
+        raise unclear(aisles, message("an aisle is not a place where something can be done"), _AISLE_ADVICE)
     return _with_relations(terms)
 
 

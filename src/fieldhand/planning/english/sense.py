@@ -37,7 +37,7 @@ def check_sense(root: d.DraftBlock, request: str) -> None:
             ends before it is over.
     """
     if _is_announced(root):
-        what = message("is it what follows, or is it to be done beside that?")
+        what = message("is it explained by what follows, or is it a task of its own?")
         raise _unclear(_said(root.steps[0]), request, what, message("leave it out, or say at which trees"))
     captures = any(isinstance(step, d.DraftCapture) for step, _ in d.walk(root))
     for block in _blocks(root):
@@ -54,7 +54,7 @@ def check_sense(root: d.DraftBlock, request: str) -> None:
                 raise _unclear(_said(after), request, what, message("say 'as many vines of row 3 as you can'"))
             if _is_mixed(step):
                 raise _unclear(
-                    _said(step), request, message("which places are meant is not clear"), message("name them all")
+                    _said(step), request, message("it is not clear which places are meant"), message("name them all")
                 )
             if _is_far_for_nothing(step, after):
                 raise _unclear(
@@ -68,7 +68,7 @@ def check_sense(root: d.DraftBlock, request: str) -> None:
                     _said(after),
                     request,
                     message("the same is tested twice"),
-                    message("say of which reading it is meant"),
+                    message("say which reading it refers to"),
                 )
             if _is_twice(step, after) and not _says_again(step, after, request):
                 raise _unclear(

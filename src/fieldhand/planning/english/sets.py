@@ -83,14 +83,16 @@ class Group:
             if selector.count > 1:
                 raise unclear(
                     phrase.terms,
-                    message("points are no trees"),
+                    message("points are not trees"),
                     message("say 'at 4 points in the wet corner', for example"),
                 )
             selector = s.Middle(of=s.InZone(zone=selector.zone))
         self.assumed += found.assumed
         if found.rows:
             if self.rows is not None:
-                raise unclear(phrase.terms, message("rows of rows"), message("name the rows once"))
+                raise unclear(
+                    phrase.terms, message("rows cannot be selected within rows"), message("name the rows once")
+                )
             self.rows, self.one_by_one = selector, found.one_by_one
         before = self.area
         self.area = both(before, selector, phrase)
@@ -163,7 +165,9 @@ def _checked(selector: s.Selector, outer: s.Selector, phrase: PlacePhrase) -> s.
     """Nothing that was said may be lost where two selections are made one."""
     if selector == outer:
         raise unclear(
-            phrase.terms, message("it is not clear which trees that are of"), message("say it in a sentence of its own")
+            phrase.terms,
+            message("it is not clear which trees these belong to"),
+            message("say it in a sentence of its own"),
         )
     return selector
 

@@ -112,13 +112,13 @@ def one_after_another(loop: d.Loop, holder: d.DraftBlock, site: Site, said: Sequ
     if places is None:
         raise unclear(
             said,
-            message("how many readings these are cannot be told before the robot is there"),
+            message("the number of readings is not known before the robot is there"),
             message("name the trees"),
         )
     if len(places) > MOST_READINGS:
         raise unclear(
             said,
-            message("{count} readings are too many to be compared", count=len(places)),
+            message("{count} readings are too many to compare", count=len(places)),
             message("test each of them by itself"),
         )
     at = holder.steps.index(loop)

@@ -143,7 +143,7 @@ def _attribute_of(group: Sequence[Term], site: Site) -> str:
             if len(names) > 1:
                 raise Question(
                     message(
-                        "'{said}' stands under {names}: which is meant?",
+                        "'{said}' is a value of {names}: which is meant?",
                         context="question",
                         said=term.text,
                         names=listed(names),
@@ -171,7 +171,7 @@ def _tree_predicate(group: Sequence[Term], attribute: str) -> Predicate:
         case _:
             raise unclear(
                 group,
-                message("what is asked of the tree does not stand there"),
+                message("it does not say what the tree has to be like"),
                 message("say 'older than 8 years', for example"),
             )
 
@@ -197,7 +197,7 @@ def quantities_of(group: Sequence[Term], subject: Sequence[Term], robot: RobotPr
         if term.kind == "NOUN" and isinstance(term.value, Naming):
             named = [*term.value.quantities, *(m for a in term.value.actions for m in robot.action[a].measures)]
             if not set(wanted) & set(named):
-                raise unclear([term], message("nothing is measured by it on {name}", name=robot.name), _reports(robot))
+                raise unclear([term], message("{name} cannot measure this", name=robot.name), _reports(robot))
             wanted = [q for q in wanted if q in named]
     if any(t.kind in ("CMP", "LEVEL") and any(w in t.text.lower() for w in _TEMPERATURE_WORDS) for t in group):
         wanted = [q for q in wanted if robot.quantity[q].unit == "degC"]
@@ -208,7 +208,7 @@ def quantities_of(group: Sequence[Term], subject: Sequence[Term], robot: RobotPr
     if amount is not None:
         fitting = [q for q in wanted if robot.quantity[q].unit == amount.value.unit]
         if not fitting:
-            raise unclear([amount], message("that unit does not fit what is measured"), _reports(robot, wanted))
+            raise unclear([amount], message("that unit does not match what is measured"), _reports(robot, wanted))
         wanted = fitting
     return wanted
 
@@ -286,7 +286,7 @@ def _comparison(group: Sequence[Term], quantity: str, robot: RobotProfile) -> tu
             if low > high:
                 raise unclear(
                     group,
-                    message("nothing lies between {low} and {high}", low=Number(f"{low:g}"), high=Number(f"{high:g}")),
+                    message("no value lies between {low} and {high}", low=Number(f"{low:g}"), high=Number(f"{high:g}")),
                     message("put the lower number first"),
                 )
             return c.Between(reading="", quantity="", low=low, high=high, unit=unit), negated
@@ -295,7 +295,7 @@ def _comparison(group: Sequence[Term], quantity: str, robot: RobotProfile) -> tu
         case _:
             raise unclear(
                 group,
-                message("what is asked of the reading does not stand there"),
+                message("it does not say what the reading has to be"),
                 message("say 'below 33 °C', or 'low'"),
             )
 
@@ -310,7 +310,7 @@ def _level(word: Term, quantity: str, robot: RobotProfile) -> c.Condition:
     level = name if name in levels else word.value
     if level not in levels:
         what = message(
-            "what is a {level} {quantity}? {name} gives no such word for it",
+            "what is a {level} {quantity}? {name} does not define that level",
             level=named(level, "level"),
             quantity=say_name(quantity),
             name=robot.name,

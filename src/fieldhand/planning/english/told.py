@@ -71,7 +71,7 @@ def settle(told: Told) -> None:
         told.nominal = "stay"
         told.assumptions.append(
             message(
-                "Where the mission ends depends on the case; in a case that says nothing of it, the robot stays.",
+                "Where the mission ends depends on the case; in a case that does not say where, the robot stays.",
                 context="assumption",
             )
         )
@@ -95,7 +95,7 @@ def _without_questions(told: Told, block: d.DraftBlock) -> None:
             told.no_part += step.said
             told.assumptions.append(
                 message(
-                    "What is asked about a reading is answered by the reading; nothing is done about it.",
+                    "A question about a reading is answered by the reading itself; the robot does nothing more.",
                     context="assumption",
                 )
             )

@@ -69,4 +69,4 @@ def _no_such(head: Term, name: Term, lexicon: Lexicon) -> Reason:
     else:
         what = message("there is no block '{said}'", said=name.text)
         has = message("this site has block {there}", there=there)
-    return Reason(what=what, said=(name.span,), advice=has if names else message("no rows are known on this site"))
+    return Reason(what=what, said=(name.span,), advice=has if names else message("no rows were found on this site"))

@@ -24,7 +24,9 @@ class Until(Cases):
         terms, place = place_in(part.terms[1:])
         if place:
             raise unclear(
-                part.terms, message("a round ends by a reading of its own"), message("say 'until one is below 33 °C'")
+                part.terms,
+                message("a repetition has to end on a reading taken during it"),
+                message("say 'until one is below 33 °C'"),
             )
         known = [step for step, _ in d.walk(self.told.root) if isinstance(step, d.DraftCapture)]
         tested = read_condition(terms, known, self._robot, self._site)
@@ -32,7 +34,7 @@ class Until(Cases):
         if any(capture is None for capture in captures):
             raise unclear(
                 part.terms,
-                message("a round ends by a reading, not by what a tree is"),
+                message("a repetition can end on a reading, not on an attribute of a tree"),
                 message("name the trees instead"),
             )
         round_ = self._round_of([capture for capture in captures if capture is not None])
@@ -41,7 +43,9 @@ class Until(Cases):
                 message("'{said}': at which trees, or how often at most?", context="question", said=text_of(part.terms))
             )
         if round_.until is not None or (isinstance(round_, d.Loop) and round_.optional):
-            raise unclear(part.terms, message("that round ends for another reason already"), message("say one of them"))
+            raise unclear(
+                part.terms, message("that repetition already ends for another reason"), message("say one of them")
+            )
         condition = tested.condition([self._bound(capture) for capture in captures])
         round_.until = condition
         round_.said += part.said
@@ -79,7 +83,7 @@ class Until(Cases):
         if found.at_most is None or found.selector != s.Trees():
             return False
         if round_.at_most is not None or round_.optional:
-            raise unclear(part.terms, message("how many is said already"), message("say it once"))
+            raise unclear(part.terms, message("the number is already given"), message("say it once"))
         round_.at_most = found.at_most
         round_.said += part.said
         return True

@@ -42,7 +42,11 @@ def describe_language() -> str:
         ModelError: Python runs with ``-OO``, which removes the docstrings that the description is made from.
     """
     if plan.__doc__ is None:
-        raise ModelError("the plan language cannot be described", where="python -OO", advice="run Python without -OO")
+        raise ModelError(
+            "the plan language cannot be described without docstrings",
+            where="python -OO",
+            advice="run Python without -OO",
+        )
     sections = (
         ("Nodes (N), what is done", get_args(Node)),
         ("Conditions (C), what an if or an until tests", get_args(Condition)),

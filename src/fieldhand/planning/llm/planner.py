@@ -161,12 +161,12 @@ class LlmPlanner:
         if any(problem.kind == "answer" and "cut off" in problem.message for problem in problems):
             advice = message("set FIELDHAND_MODEL_MAX_TOKENS higher, or give the model a larger context")
         if self._transcript_path is not None:
-            kept = message("all that was said is in {file}", file=str(self._transcript_path))
+            kept = message("{file} contains the whole conversation", file=str(self._transcript_path))
             advice = joined("; ", (advice, kept))
         tries = self._settings.repairs + 1
         return ModelError(
             message(
-                "none of {tries} answers could be used; what was wrong with the last: {shown}", tries=tries, shown=shown
+                "none of {tries} answers could be used; the last had these problems: {shown}", tries=tries, shown=shown
             ),
             where=f"{self._settings.name} at {self._settings.endpoint}",
             advice=advice,
@@ -190,7 +190,7 @@ def _check(request: str) -> None:
         )
     odd = hidden_character(request, lines=True)
     if odd is not None:
-        what = message("the request holds the character {odd}, which nobody can see", odd=odd)
+        what = message("the request contains the invisible character {odd}", odd=odd)
         raise RequestError(what, advice=message("leave it out"))
 
 

@@ -60,7 +60,7 @@ def replay(session: Session, site: Site, robot: RobotProfile) -> Outcome:
         answers = tuple(Answer(**given) for given in session.about.get("answers", ()))
         outcome = LlmPlanner(settings).plan(session.request, site, robot, answers)
         if session.request not in endpoint.requests[0].text:
-            raise ModelError("the request was not asked word for word", where="replay")
+            raise ModelError("the prompt does not contain the request word for word", where="replay")
         if endpoint.unused:
             raise ModelError(
                 f"{endpoint.unused} of {len(session.exchanges)} recorded answers were not needed",

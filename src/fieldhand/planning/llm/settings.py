@@ -25,8 +25,8 @@ Provider = Literal["openai", "anthropic", "google", "openai-compatible"]
 
 #: Configuration advice for error messages.
 HOW_TO_CONFIGURE = message(
-    "name a language model in FIELDHAND_MODEL (openai:NAME, anthropic:NAME, google:NAME, or openai-compatible:NAME "
-    "with FIELDHAND_BASE_URL), and its key in FIELDHAND_API_KEY"
+    "set FIELDHAND_MODEL to a language model (openai:NAME, anthropic:NAME, google:NAME, or openai-compatible:NAME "
+    "with FIELDHAND_BASE_URL), and FIELDHAND_API_KEY to its key"
 )
 
 #: Environment variables for each provider's key. An OpenAI key is never sent to another service with its protocol.
@@ -133,7 +133,7 @@ def _provider_and_name(wanted: str) -> tuple[Provider, str]:
     if not colon or not name.strip() or provider not in get_args(Provider):
         known = ", ".join(f"{p}:NAME" for p in get_args(Provider))
         raise ModelError(
-            message("{wanted} does not name a model", wanted=repr(wanted)),
+            message("{wanted} is not the name of a model", wanted=repr(wanted)),
             where="FIELDHAND_MODEL",
             advice=message("write one of {known}", known=known),
         )
@@ -181,7 +181,7 @@ def _number(environ: Mapping[str, str], variable: str, default: float) -> float:
         value = 0.0
     if not 0 < value < 1e7:
         raise ModelError(
-            message("{text} is no number above 0", text=repr(text)),
+            message("{text} is not a number above 0", text=repr(text)),
             where=variable,
             advice=message("give a number, or unset it"),
         )

@@ -126,7 +126,7 @@ def read_transcript(path: Path) -> tuple[Session, ...]:
             _take(json.loads(line), sessions)
         except (ValueError, KeyError, TypeError, IndexError) as error:
             raise InputError(
-                f"not a line of a transcript ({type(error).__name__}: {error})",
+                f"this is not a transcript line ({type(error).__name__}: {error})",
                 where=f"{path}, line {number}",
                 advice=f"record it again; the format is {FORMAT}",
             ) from error

@@ -221,7 +221,7 @@ def _about_status(status: int, body: str, settings: LlmSettings) -> tuple[str, s
             return f"too many requests, or the account has no credit left (HTTP {status}){said}", "wait, or use another"
         case 400 | 413 | 422:
             return (
-                f"the endpoint did not take the request (HTTP {status}){said}",
+                f"the endpoint rejected the request (HTTP {status}){said}",
                 "check that the model's context holds 8,000 tokens and that it is a chat model",
             )
         case _ if status >= 500:
