@@ -91,8 +91,8 @@ def test_nothing_is_read_of_what_is_not_taken(empty: RobotAgentInProcess, header
     [
         (pack_mission(key=signing_key(2, "Eve")), "not trusted here"),
         (b"", "is empty"),
-        (b"PK\x03\x04", "cut off"),
-        (pack_mission(at="2026-05-03T00:00:00+00:00"), "the clock of this machine says"),
+        (b"PK\x03\x04", "truncated"),
+        (pack_mission(at="2026-05-03T00:00:00+00:00"), "the clock of this machine shows"),
     ],
 )
 def test_what_may_not_run_here_is_not_kept(empty: RobotAgentInProcess, data: bytes, said: str) -> None:

@@ -88,7 +88,7 @@ def test_a_task_that_carries_no_ranges_is_said_to_carry_none_and_one_without_a_r
     task = planned("Take a picture of tree 4.")
     composition = replace(task.composition, plan=bare(task.composition.plan))
     (problem,) = unaccounted(replace(task, composition=composition))
-    assert problem.what == "the Task does not say which of its words became what"
+    assert problem.what == "the Task does not record which words of the request became which part of the plan"
     assert unaccounted(replace(task, composition=composition, command=replace(task.command, request=""))) == ()
 
 

@@ -46,7 +46,7 @@ def test_a_task_is_approved_once_each_of_its_warnings_is_confirmed_and_they_are_
     read = decode(encode(DOUBTED))  # as it comes out of a file: nobody knows who planned it
     warnings = [str(p) for p in check(read, SITE, ROBOT) if p.severity == "warning"]
     assert any("read by a model" in w for w in warnings)
-    assert any("perhaps not what was asked" in w and "'3 co2 readings'" in w for w in warnings)
+    assert any("this may not be what was asked" in w and "'3 co2 readings'" in w for w in warnings)
     for confirmed in ((), warnings[1:], warnings[:-1], ["the gate is narrow"], [w.upper() for w in warnings]):
         with pytest.raises(NotConfirmedError) as refused:
             approve(examine(read, SITE, ROBOT), by="Ada", at=WHEN, confirmed=confirmed)

@@ -171,7 +171,7 @@ def test_a_budget_in_which_no_optional_visit_fits_is_an_error_with_the_numbers()
     plan = ForEach(id="", select=TreeIs(tree="20"), body=PICTURE, optional=True)
     (error,) = errors(plan, constraints=constraints)
     assert "24 m is too small for a single visit" in error.what
-    metres = int(re.search(r"about (\d+) m with the way home", error.what)[1])
+    metres = int(re.search(r"about (\d+) m, including the way home", error.what)[1])
     start, end, tree = SITE.start, SITE.markers["end"], SITE.by_id["20"].place
     drives = drives_for(SITE, ROBOT)
     there = drives.between(start, tree)

@@ -96,13 +96,13 @@ def test_a_key_that_was_made_is_sound_and_so_is_no_sum_with_a_small_one(seed: in
 
 NAMES = {
     "hidden": ["A\u200bda", "Ada\u202e", "Ada\u00ad", "A\u0007da", "Ada\u3164", "Ada\ufe0f", "\u2066Ada\u2069"],
-    "stands for another": ["Ａda", "Ａｄａ", "ﬁona", "Ⓐda", "Ada²", "𝐀𝐝𝐚", "𝒜da", "𝟏da", "ℵda", "ſam"],
+    "variant of another": ["Ａda", "Ａｄａ", "ﬁona", "Ⓐda", "Ada²", "𝐀𝐝𝐚", "𝒜da", "𝟏da", "ℵda", "ſam"],
     "mixes the scripts": ["Аda", "Аdа", "Adа", "Αda", "Ada山", "Αдa"],
     "no living language": ["ᎪᎠᎪ", "ᎠᎳᎢ", "ɑda", "ᴀᴅᴀ", "ǃda", "ⲀⲆⲀ", "ꓐꓲꓡꓡ", "𐐀𐐁", "Ѡда", "ꙁда", "Aԁa", "𐌀𐌁"],
     "mark without a letter": ["\u0301", "\u0301Ada", "1\u0301"],
-    "stands for another|space": ["Ada\u00a0L", "Ada\u2003L", "Ada\u3000L"],
+    "variant of another|space": ["Ada\u00a0L", "Ada\u2003L", "Ada\u3000L"],
     "two spaces": ["Ada  L"],
-    "no letter and no digit": ["-", "...", "()"],
+    "neither a letter nor a digit": ["-", "...", "()"],
     "digit": ["Ada ٣"],
     "empty": ["", "   "],
     "more than 80": ["A" * 81],

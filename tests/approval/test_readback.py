@@ -85,12 +85,12 @@ def test_conditions_are_indented_and_name_the_place_of_their_reading():
 def test_few_places_are_named_and_many_are_counted():
     corner, *_ = steps(ForEach(id="", select=Corners(), body=act()))
     match = re.fullmatch(
-        r"At each of the 4 corner trees \((.*)\), in the order that drives least: take a thermal picture\.", corner
+        r"At each of the 4 corner trees \((.*)\), in the order with the least driving: take a thermal picture\.", corner
     )
     assert match
     assert set(re.findall(r"\d+", match[1])) == {"1", "5", "16", "20"}
     everything, *_ = steps(ForEach(id="", select=Trees(), body=act()))
-    assert everything == "At each of the 20 trees, in the order that drives least: take a thermal picture."
+    assert everything == "At each of the 20 trees, in the order with the least driving: take a thermal picture."
 
 
 def test_a_loop_with_more_than_one_action_keeps_them_on_lines_of_their_own():
@@ -146,7 +146,8 @@ def test_a_relative_place_after_optional_visits_is_never_promised():
 
 
 @pytest.mark.parametrize(
-    ("metres", "expected"), [(500.0, "by the estimate it does"), (40.0, "by the estimate it does not")]
+    ("metres", "expected"),
+    [(500.0, "according to the estimate, it does"), (40.0, "according to the estimate, it does not")],
 )
 def test_an_optional_step_is_said_to_hang_on_the_budget_and_whether_it_fits_by_the_estimate(metres, expected):
     plan = InOrder(id="", steps=(act(at=TreeIs(tree="1")), OptionalStep(id="", body=act(CO2, at=TreeIs(tree="20")))))
@@ -166,8 +167,8 @@ def test_an_optional_step_at_each_place_says_how_often_it_fits():
     time = estimate(task_for(SITE, ForEach(id="", select=Corners(), body=act())), SITE, husky()).worst.seconds.p90
     more = 2.5 * 9 * husky().action[CO2].duration_s
     found = steps(loop, constraints=Constraints(budgets=(Budget(kind="duration_s", limit=time + more),)))
-    assert "If the budget allows (about 2 of 4 times by the estimate):" in found
-    assert "If the budget allows (by the estimate it does):" in steps(loop)
+    assert "If the budget allows (according to the estimate, about 2 of 4 times):" in found
+    assert "If the budget allows (according to the estimate, it does):" in steps(loop)
 
 
 def test_after_an_optional_step_it_is_not_promised_where_the_robot_is_nor_where_readings_were_taken():
@@ -180,7 +181,7 @@ def test_after_an_optional_step_it_is_not_promised_where_the_robot_is_nor_where_
         ),
     )
     found = steps(plan)
-    assert found[1] == "If the budget allows, worth 2 (by the estimate it does):"
+    assert found[1] == "If the budget allows, worth 2 (according to the estimate, it does):"
     assert found[3] == "If the canopy temperature of step 1 is below 33 °C:"
     assert "decided on the way" in found[4]
 
@@ -188,7 +189,7 @@ def test_after_an_optional_step_it_is_not_promised_where_the_robot_is_nor_where_
 @pytest.mark.parametrize(
     ("plan", "text"),
     [
-        (AnyOrder(id="", steps=(act(at=TreeIs(tree="1")),)), "In whichever order drives least:"),
+        (AnyOrder(id="", steps=(act(at=TreeIs(tree="1")),)), "In the order with the least driving:"),
         (Repeat(id="", times=3, body=act(at=TreeIs(tree="1"))), "Do this 3 times:"),
         (
             Repeat(id="", times=2, body=act(at=TreeIs(tree="1"), reading="r"), until=below("r")),
@@ -204,7 +205,8 @@ def test_after_an_optional_step_it_is_not_promised_where_the_robot_is_nor_where_
         ),
         (
             ForEach(id="", select=Where(attribute="leaf_color", test="eq", value="yellow"), at_most=2, body=act()),
-            "At no more than 2 of the yellow trees (1 and 7), in the order that drives least: take a thermal picture.",
+            "At no more than 2 of the yellow trees (1 and 7), in the order with the least driving:"
+            " take a thermal picture.",
         ),
     ],
 )

@@ -241,5 +241,5 @@ def test_a_folder_of_keys_that_cannot_be_read(tmp_path: Path, monkeypatch: pytes
         raise PermissionError(13, "Permission denied", str(self))
 
     monkeypatch.setattr(Path, "exists", refused)
-    with pytest.raises(KeyFileError, match="keys: cannot be read: Permission denied; check the rights"):
+    with pytest.raises(KeyFileError, match="keys: cannot be read: Permission denied; check the permissions"):
         SigningKeys(tmp_path).held()

@@ -23,7 +23,7 @@ from support.processes.command import fieldhand
 
 GROUND = open_ground("demo", "husky")
 REQUEST = "Take 2 pictures of tree 4."
-LOST = "perhaps not what was asked: the request says '3 pictures'"
+LOST = "this may not be what was asked: the request says '3 pictures'"
 
 
 @pytest.fixture

@@ -298,7 +298,7 @@ def test_a_journal_that_is_damaged_keeps_no_robot_from_working(robot_agent: Robo
 
 def test_a_clock_that_was_set_back_is_said(robot_agent: RobotAgentInProcess) -> None:
     robot_agent.now = lambda: NOW - timedelta(days=30)
-    with pytest.raises(FieldhandError, match="the clock of this machine says"):
+    with pytest.raises(FieldhandError, match="the clock of this machine shows"):
         tell(robot_agent, good(), "start")
     robot_agent.now = lambda: NOW
     tell(robot_agent, good(), "start")

@@ -90,7 +90,7 @@ def test_the_opposite_of_a_comparison_that_cannot_be_made_does_not_hold() -> Non
     ):
         truth, why = finding(Not(condition=one))
         assert truth is None
-        assert "cannot be ordered against" in why
+        assert "cannot be compared with" in why
 
 
 def test_a_marker_has_no_attributes() -> None:

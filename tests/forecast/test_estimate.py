@@ -234,7 +234,7 @@ def test_a_forecast_that_exceeds_what_is_accepted_is_said_of_optional_visits_too
         branches = (found.worst, replace(found.worst, chances=said))
         (sentence,) = limit_problems(task, SITE, drives, resources, branches)
         assert words in sentence
-        assert "44% chance of running short where 10% is accepted" in sentence
+        assert "44% chance of running short, but only 10% is accepted" in sentence
 
 
 def test_branches_that_took_the_same_share_what_is_expected_of_optional_visits(monkeypatch) -> None:

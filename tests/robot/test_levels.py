@@ -54,7 +54,7 @@ def test_a_task_that_leaves_less_than_the_robot_stops_at_is_not_approved(reserve
     plan = Act(id="", action="read_co2", at=TreeIs(tree="12"))
     constraints = Constraints(reserve_percent=reserve)
     found = review(make_task(request="", plan=plan, measures={}, constraints=constraints), site, robot)
-    said = [p.what for p in found.errors if "stops where it stands at 8 %" in p.what]
+    said = [p.what for p in found.errors if "stops on the spot at 8 %" in p.what]
     assert bool(said) == refused
 
 

@@ -219,7 +219,7 @@ def test_what_may_not_run_is_refused_with_its_reason(executor: Executor, mission
     spoilt = tmp_path / "spoilt.mission"
     spoilt.write_bytes(mission.read_bytes()[:-100])
     for name, value, why in (
-        ("mission", str(spoilt), "is cut off"),
+        ("mission", str(spoilt), "is truncated"),
         ("mission", "", "the parameter mission is not set"),
         ("mission", str(mission), ""),
         ("robot", "amiga", "amiga"),

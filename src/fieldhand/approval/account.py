@@ -20,7 +20,7 @@ def unaccounted(task: Task) -> tuple[PlanProblem, ...]:
         return (
             PlanProblem(
                 where=message("request"),
-                what=message("the Task does not say which of its words became what"),
+                what=message("the Task does not record which words of the request became which part of the plan"),
                 advice=message("compare the plan with every word of the request"),
                 severity="warning",
             ),

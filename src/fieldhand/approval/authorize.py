@@ -45,10 +45,14 @@ def approve(
         NotApprovedError: A check fails, ``by`` is empty, or ``at`` is not a time with a time zone.
     """
     if not by.strip():
-        raise NotApprovedError(message("nobody approves"), where="by", advice=message("say who approves"))
+        raise NotApprovedError(
+            message("no approver is given"), where="by", advice=message("give the name of whoever approves")
+        )
     _require_moment(at)
     if examined.errors:
-        raise NotApprovedError(joined("; ", map(str, examined.errors)), advice=message("mend this and approve again"))
+        raise NotApprovedError(
+            joined("; ", map(str, examined.errors)), advice=message("correct this and approve again")
+        )
     lines = tuple(p.line() for p in examined.problems if p.severity == "warning")
     warnings = open_language(language).read(lines)
     _require_confirmed(warnings, confirmed)
@@ -114,7 +118,7 @@ def _require_confirmed(warnings: tuple[str, ...], confirmed: Container[str]) -> 
         raise NotConfirmedError(
             message("not confirmed: {warnings}", warnings=joined("; ", left)),
             left,
-            advice=message("confirm each if the plan is right in spite of it, or plan it anew"),
+            advice=message("confirm each one if the plan is right in spite of it, or plan again"),
         )
 
 
@@ -125,7 +129,7 @@ def _require_moment(at: str) -> None:
         moment = None
     if moment is None or moment.tzinfo is None:
         raise NotApprovedError(
-            message("'{at}' is no moment", at=at),
+            message("'{at}' is not a valid date and time", at=at),
             where="at",
             advice=message("give date, time and time zone, as in 2026-05-01T08:00:00+02:00"),
         )

@@ -19,10 +19,10 @@ def battery_problems(task: Task, robot: RobotProfile) -> Iterator[PlanProblem]:
         yield PlanProblem(
             where=message("battery"),
             what=message(
-                "the mission leaves {reserve} % charge, and {robot} stops where it stands at {stop} %",
+                "the mission leaves only {reserve} % charge, but {robot} stops on the spot at {stop} %",
                 reserve=say_number(reserve),
                 robot=robot.name,
                 stop=say_number(stop),
             ),
-            advice=message("leave more than that"),
+            advice=message("set a larger reserve"),
         )

@@ -41,8 +41,8 @@ def branch_problems(explored: Branches, task: Task, site: Site, robot: RobotProf
     if not explored.complete:
         yield PlanProblem(
             where=message("plan"),
-            what=message("it has more branches than were looked at ({count})", count=len(explored.walks)),
-            advice=message("nest fewer conditions, or watch the mission"),
+            what=message("the plan has more branches than the {count} that were checked", count=len(explored.walks)),
+            advice=message("nest fewer conditions, or supervise the mission"),
             severity="warning",
         )
 
@@ -58,7 +58,7 @@ def exit_problems(forecast: Estimate, site: Site) -> Iterator[PlanProblem]:
                 home=say_place(home),
                 why=error.what,
             ),
-            advice=message("correct the site; else the robot will stop where it is then"),
+            advice=message("correct the site; otherwise the robot will stop where it is at that moment"),
             severity="warning",
         )
     for node, through in driven_through(forecast.exits.steps, site):
@@ -78,12 +78,14 @@ def _unread(walks: Sequence[Walk], task: Task, robot: RobotProfile) -> Iterator[
             found.setdefault((node, reading), walked)
     for (node, reading), walked in found.items():
         on = say_decisions(walked.decisions, task, robot)
-        what = message("it tests the reading '{reading}', which nothing has taken", reading=reading)
+        what = message("it tests the reading '{reading}', which has not been taken by then", reading=reading)
         yield PlanProblem(
             node=node,
             where=message("plan"),
             what=message("{what} (on the branch: {branch})", what=what, branch=on) if on else what,
-            advice=message("read it on every branch before it is tested; what is not known does not hold"),
+            advice=message(
+                "take the reading on every branch before it is tested; a test of an unknown reading is not met"
+            ),
             severity="warning" if _troubled(walked) else "error",
         )
 

@@ -73,7 +73,7 @@ def _nothing_fits(task: Task, site: Site, robot: RobotProfile) -> Iterator[PlanP
                 node=node.id,
                 where=message("budget"),
                 what=message(
-                    "{limit} is too small for a single visit: the nearest takes about {amount} with the way home",
+                    "{limit} is too small for a single visit: the nearest takes about {amount}, including the way home",
                     limit=limit,
                     amount=amount,
                 ),
@@ -84,8 +84,8 @@ def _nothing_fits(task: Task, site: Site, robot: RobotProfile) -> Iterator[PlanP
             elif resource.kind != "reserve":
                 high = _exceeded(metres, robot, resource.failure_probability) * resource.per_metre + work
                 what = message(
-                    "{limit} does not last for a single visit: the nearest takes about {amount} with the way home on"
-                    " average, and more than {high} in {chance} of 100 missions",
+                    "{limit} is not enough for a single visit: the nearest takes about {amount} on average, including"
+                    " the way home, and more than {high} in {chance} of 100 missions",
                     limit=limit,
                     amount=amount,
                     high=_amount(resource, high),

@@ -158,10 +158,10 @@ def _resources(task: Task, site: Site, robot: RobotProfile) -> Iterator[PlanProb
             if resource.name == name:
                 planned_for = message("planned for another version of {name}", name=name)
             else:
-                planned_for = message("planned for {other}, and this is {name}", other=resource.name, name=name)
+                planned_for = message("planned for {other}, but this is {name}", other=resource.name, name=name)
             advice = {
-                "site": message("plan it again for this site, or give that one"),
-                "robot": message("plan it again for this robot, or give that one"),
+                "site": message("plan it again for this site, or give the site it was planned for"),
+                "robot": message("plan it again for this robot, or give the robot it was planned for"),
             }
             yield PlanProblem(where=message("resources"), what=planned_for, advice=advice[kind])
 
@@ -231,12 +231,12 @@ def _exits(task: Task, site: Site, drives: Drives) -> Iterator[PlanProblem]:
             yield PlanProblem(
                 where=site.name,
                 what=message(
-                    "{place}, to which the robot is to go on the fault {fault}, is {reason}",
+                    "{place}, where the robot has to go after the fault {fault}, is {reason}",
                     place=say_place(home),
                     fault=named(taken.fault, "fault"),
                     reason=reason,
                 ),
-                advice=message("correct the site; else the robot will stop where it is then"),
+                advice=message("correct the site; otherwise the robot will stop where it is at that moment"),
                 severity="warning",
             )
 

@@ -50,10 +50,10 @@ def say_condition(
             return message("{reading} is {low} {threshold}", **fills)
         case c.TreeHas():
             clause = say_of_tree(condition.attribute, condition.test, condition.value)
-            return message("it is not so that {clause}", clause=clause) if negated else clause
+            return message("it is not the case that {clause}", clause=clause) if negated else clause
         case c.AllOf() | c.AnyOf():
             whole = _joined(condition, places, robot)
-            return message("it is not so that {clause}", clause=whole) if negated else whole
+            return message("it is not the case that {clause}", clause=whole) if negated else whole
         case c.Not(condition=inner_condition):
             return say_condition(inner_condition, places, robot, negated=not negated)
         case _:

@@ -92,7 +92,7 @@ class ApprovalMemory:
             if before is not None and manifest.number < before.number:
                 raise NotApprovedError(
                     message(
-                        "is approval number {number} of this mission, and number {seen} was seen here",
+                        "is approval number {number} of this mission, but number {seen} was already seen here",
                         number=manifest.number,
                         seen=before.number,
                     ),
@@ -159,11 +159,9 @@ class ApprovalMemory:
                 found = _Remembered.model_validate_json(read_guarded(file, private=False, most=64_000_000))
             except (ValidationError, ValueError, RecursionError):
                 raise KeyFileError(
-                    message("what was remembered of approvals is damaged"),
+                    message("the record of approvals seen on this machine is damaged"),
                     where=str(file),
-                    advice=message(
-                        "bring it back; if you remove it, look at the trusted keys with fieldhand keys confirm"
-                    ),
+                    advice=message("restore it; if you remove it, check the trusted keys with fieldhand keys confirm"),
                 ) from None
             merged.latest = max(merged.latest, found.latest)
             merged.trusted = max(merged.trusted, found.trusted)
@@ -214,13 +212,15 @@ def require_unexpired(manifest: Manifest, now: datetime, clock: datetime, source
         behind = clock < now
         raise NotApprovedError(
             message(
-                "could be begun until {until}, and it is {now} by what this machine has seen", until=until, now=said
+                "could be started until {until}, but this machine has already seen the time {now}",
+                until=until,
+                now=said,
             )
             if behind
-            else message("could be begun until {until}, and it is {now}", until=until, now=said),
+            else message("could be started until {until}, but it is {now}", until=until, now=said),
             where=source,
             advice=message(
-                "have it approved again; if that time was never true, set the clock and give fieldhand keys confirm"
+                "have it approved again; if that time was wrong, set the clock and run fieldhand keys confirm"
             )
             if behind
             else message("have it approved again"),

@@ -17,8 +17,8 @@ from fieldhand.task.frames import Fault, Task
 FAULTS: dict[Fault, str] = {
     "action_failed": message("an action fails for good"),
     "drive_failed": message("a way cannot be driven"),
-    "low_budget": message("what is left only just lasts for the way home"),
-    "aborted": message("somebody aborts the mission"),
+    "low_budget": message("what is left of the budget is only just enough for the way home"),
+    "aborted": message("someone aborts the mission"),
 }
 
 #: Maximum number of decisions described for a branch.
@@ -64,7 +64,7 @@ def _said(
         case "blocked":
             what = message("the way there is blocked")
         case _:
-            what = message("what the budget decides on is done")
+            what = message("an optional step is done")
     return message("{what} ({node}): {answers}", what=what, node=node.id, answers=_answers(answers))
 
 

@@ -43,7 +43,7 @@ def require_unsigned_allowed(environ: Mapping[str, str], *, asked: bool = False)
     """
     if in_production(environ) or asked:
         raise NotTrustedError(
-            message("in production only signed missions run, and this is none"),
+            message("in production only signed missions run, and this one is not signed"),
             advice=message(
                 "have it approved (fieldhand approve) with a key that is trusted here, and run the .mission file"
             ),

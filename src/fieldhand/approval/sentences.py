@@ -126,7 +126,7 @@ class _LineWriter:
                 for step in steps:
                     self.node(step, indent)
             case AnyOrder(steps=steps):
-                self._open(node.id, indent, message("In whichever order drives least:"))
+                self._open(node.id, indent, message("In the order with the least driving:"))
                 for step in steps:
                     self.node(step, indent + 1)
             case ForEach():

@@ -19,8 +19,10 @@ def say_expected(found: ResolvedPlaces | None) -> str:
         return ""
     fit, times = sum(bool(visit) for visit in found.visits), len(found.visits)
     if times > 1 and 0 < fit < times:
-        return message("(about {count} of {total} times by the estimate)", count=fit, total=times)
-    return message("(by the estimate it does)") if fit else message("(by the estimate it does not)")
+        return message("(according to the estimate, about {count} of {total} times)", count=fit, total=times)
+    return (
+        message("(according to the estimate, it does)") if fit else message("(according to the estimate, it does not)")
+    )
 
 
 def say_expected_visits(found: ResolvedPlaces | None) -> str:
@@ -38,9 +40,9 @@ def say_expected_visits(found: ResolvedPlaces | None) -> str:
         return message("({expectation})", expectation=chance)
     ids, count = say_places(tuple(place for _, place in doubtful)), len(doubtful)
     if {place.kind for place in (*found.places, *found.shed)} == {"tree"}:
-        first = counted("tree {ids} goes first", "trees {ids} go first", count, ids=ids)
+        first = counted("tree {ids} is left out first", "trees {ids} are left out first", count, ids=ids)
     else:
-        first = counted("{ids} goes first", "{ids} go first", count, ids=ids)
+        first = counted("{ids} is left out first", "{ids} are left out first", count, ids=ids)
     return message("({expectation}; {gone_first})", expectation=chance, gone_first=first)
 
 
@@ -62,4 +64,4 @@ def in_order(node: ForEach, at: str, count: int) -> str:
         return at
     if node.order == "given":
         return message("{at_places}, in that order", at_places=at)
-    return message("{at_places}, in the order that drives least", at_places=at)
+    return message("{at_places}, in the order with the least driving", at_places=at)

@@ -141,7 +141,7 @@ def _level(condition: Level, facts: ConditionInputs) -> ConditionResult:
     level = None if quantity is None else quantity.levels.get(condition.level)
     if quantity is None or level is None:
         why = message(
-            "the robot has no word '{word}' for {name}",
+            "the robot does not define the level '{word}' for {name}",
             context="log",
             word=named(condition.level, "level"),
             name=say_name(condition.quantity),
@@ -161,14 +161,14 @@ def _attribute(condition: TreeHas, facts: ConditionInputs) -> ConditionResult:
     known = {phrase(key): value for key, value in tree.properties.items()}
     value = tree.properties.get(condition.attribute, known.get(phrase(condition.attribute)))
     if value is None:
-        why = message("the site does not say the {name} of tree {id}", context="log", name=name, id=tree.place.id)
+        why = message("the site does not record the {name} of tree {id}", context="log", name=name, id=tree.place.id)
         return ConditionResult(truth=None, why=why)
     selector = Where(
         attribute=condition.attribute, test=condition.test, value=condition.value, of=TreeIs(tree=tree.place.id)
     )
     fills = {"name": name, "id": tree.place.id, "has": say_value(value), "bound": say_value(condition.value)}
     if condition.test not in ("eq", "ne") and not (_is_number(value) and _is_number(condition.value)):
-        why = message("the {name} of tree {id}, {has}, cannot be ordered against {bound}", context="log", **fills)
+        why = message("the {name} of tree {id}, {has}, cannot be compared with {bound}", context="log", **fills)
         return ConditionResult(truth=None, why=why)
     try:
         truth = bool(resolve(selector, facts.site, Context(here=facts.here)))

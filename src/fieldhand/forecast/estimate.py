@@ -228,8 +228,8 @@ def limit_problems(
         elif chance.exceeded and worst.visits:
             found.append(
                 message(
-                    "{budget} of {limit} {unit} may not last for the visits that are forecast: {chance}% chance of"
-                    " running short where {accepted}% is accepted",
+                    "{budget} of {limit} {unit} may not be enough for the visits that are forecast: {chance}% chance of"
+                    " running short, but only {accepted}% is accepted",
                     budget=name,
                     limit=say_rounded(resource.limit),
                     unit=unit,
@@ -241,9 +241,9 @@ def limit_problems(
             used = {"distance_m": worst.metres, "duration_s": worst.seconds}.get(resource.kind, worst.percent)
             found.append(
                 message(
-                    "{budget} of {limit} {unit} does not last for what must be done: it takes {need} {unit} on average"
-                    " and up to {high} {unit} nine times out of ten, {chance} % chance of running short where"
-                    " {accepted} % is accepted",
+                    "{budget} of {limit} {unit} is not enough for what must be done: it takes {need} {unit} on average"
+                    " and up to {high} {unit} nine times out of ten, {chance} % chance of running short, but"
+                    " only {accepted} % is accepted",
                     budget=name,
                     limit=say_rounded(resource.limit),
                     unit=unit,

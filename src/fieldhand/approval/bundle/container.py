@@ -53,7 +53,7 @@ def wrap(members: Mapping[str, bytes]) -> bytes:
             archive.writestr(info, members[name], zipfile.ZIP_STORED)
     data = packed.getvalue()
     if len(data) > MAX_BYTES:
-        raise BundleError(f"the bundle has {len(data):,} bytes, more than {MAX_BYTES:,}", advice="cut the site smaller")
+        raise BundleError(f"the bundle has {len(data):,} bytes, more than {MAX_BYTES:,}", advice="use a smaller site")
     return data
 
 
@@ -80,7 +80,7 @@ def unwrap(data: bytes, *, source: str) -> dict[str, bytes]:
     except (zipfile.BadZipFile, zipfile.LargeZipFile, NotImplementedError, EOFError, ValueError, RuntimeError) as fault:
         raise BundleError(f"is damaged ({fault})", where=source, advice=_AGAIN) from None
     if wrap(members) != data:
-        raise BundleError("is not as it was written when it was approved", where=source, advice=_AGAIN)
+        raise BundleError("was changed after it was approved", where=source, advice=_AGAIN)
     return members
 
 
@@ -98,7 +98,9 @@ def read_bundle_file(path: Path) -> bytes:
             raise too_big(fault.size, at) from None
         found = fault.kind == "unreadable"
         advice = (
-            message("check the path and its rights") if found else message("give a file that fieldhand approve wrote")
+            message("check the path and its permissions")
+            if found
+            else message("give a file that fieldhand approve wrote")
         )
         raise BundleError(recalled(fault.what, "file"), where=at, advice=advice) from None
 
@@ -119,16 +121,16 @@ def _in_order(members: Mapping[str, bytes]) -> list[str]:
 def _require_plain_end(data: bytes, source: str) -> None:
     """Check the end-of-archive record before the zip reader does, which would trust any member count in it."""
     if not data.startswith(b"PK\x03\x04"):
-        what = "is empty" if not data else "is no mission bundle: not a zip file"
+        what = "is empty" if not data else "is not a mission bundle: it is not a zip file"
         raise BundleError(what, where=source, advice="give a file that fieldhand approve wrote")
     end = data[-_END.size :]
     if len(end) < _END.size or not end.startswith(b"PK\x05\x06"):
-        raise BundleError("is cut off, or something was added to it", where=source, advice=_AGAIN)
+        raise BundleError("is truncated, or something was added to it", where=source, advice=_AGAIN)
     _, disk, first_disk, here, members, directory, _, comment = _END.unpack(end)
     if disk or first_disk or comment or here != members or data[-_END.size - 20 :].startswith(b"PK\x06\x07"):
         raise BundleError("is a zip file of another kind", where=source, advice=_AGAIN)
     if members > MAX_MEMBERS or directory > _MAX_DIRECTORY:
-        raise BundleError(f"holds {members} files; a mission has at most {MAX_MEMBERS}", where=source, advice=_AGAIN)
+        raise BundleError(f"contains {members} files; a mission has at most {MAX_MEMBERS}", where=source, advice=_AGAIN)
 
 
 def _require_names(infos: list[zipfile.ZipInfo], source: str) -> None:
@@ -138,12 +140,14 @@ def _require_names(infos: list[zipfile.ZipInfo], source: str) -> None:
         path = PurePosixPath(name)
         if path.is_absolute() or ".." in path.parts or "\\" in name or ":" in name:
             raise BundleError(
-                f"holds a path that leads out of it ({name[:60]!r})", where=source, advice="do not trust this file"
+                f"contains a path that leads out of it ({name[:60]!r})", where=source, advice="do not trust this file"
             )
         if name not in _FIRST and not SITE_MEMBER.fullmatch(name):
-            raise BundleError(f"holds a file that is no part of a mission ({name[:60]!r})", where=source, advice=_AGAIN)
+            raise BundleError(
+                f"contains a file that does not belong to a mission ({name[:60]!r})", where=source, advice=_AGAIN
+            )
         if names.count(name) > 1:
-            raise BundleError(f"holds {name} twice", where=source, advice="do not trust this file")
+            raise BundleError(f"contains {name} twice", where=source, advice="do not trust this file")
     missing = [name for name in _FIRST if name not in names]
     if not any(SITE_MEMBER.fullmatch(name) for name in names):
         missing.append("the site")
@@ -158,7 +162,7 @@ def _require_plain(info: zipfile.ZipInfo, source: str) -> None:
     if stat.S_IFMT(info.external_attr >> 16) not in (0, stat.S_IFREG):
         raise BundleError(f"{info.filename} is a link, not a file", where=source, advice="do not trust this file")
     if info.compress_type != zipfile.ZIP_STORED or info.compress_size != info.file_size:
-        raise BundleError(f"{info.filename} is compressed, so it was packed anew", where=source, advice=_AGAIN)
+        raise BundleError(f"{info.filename} is compressed, so the bundle was repacked", where=source, advice=_AGAIN)
     most = _MOST.get(info.filename, MAX_BYTES)
     if info.file_size > most:
         raise BundleError(f"{info.filename} has more than {most:,} bytes", where=source, advice=_AGAIN)

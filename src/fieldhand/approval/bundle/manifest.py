@@ -24,13 +24,13 @@ def _printable(text: str) -> str:
     """Return the text if every character is visible; line breaks are allowed."""
     hidden = find_hidden(text, lines=True)
     if hidden is not None:
-        raise ValueError(f"holds the character {hidden.name}, which nobody can see")
+        raise ValueError(f"contains the invisible character {hidden.name}")
     return text
 
 
 def _one_line(text: str) -> str:
     if not text.strip() or "\n" in text or "\t" in text:
-        raise ValueError("is empty, or stands on several lines")
+        raise ValueError("is empty, or has several lines")
     return _printable(text)
 
 
@@ -39,13 +39,13 @@ def _moment(text: str) -> str:
     if moment.tzinfo is None:
         raise ValueError("has no time zone")
     if not 2000 <= moment.year <= 2999:  # the first and the last year have no time in some zones
-        raise ValueError("is in no year from 2000 to 2999")
+        raise ValueError("is not in the years 2000 to 2999")
     return text
 
 
 def _file_name(text: str) -> str:
     if set(text) & set("/\\\n\t") or text in (".", ".."):
-        raise ValueError("is no name of a file")
+        raise ValueError("is not a file name")
     return _printable(text)
 
 
@@ -185,7 +185,7 @@ def _content(data: bytes, at: str) -> Mapping[str, Any]:
     try:
         content = json.loads(data.decode(), parse_constant=_no_number, object_pairs_hook=_each_once)
     except RecursionError:
-        raise BundleError("is nested too deep", where=at, advice="approve the mission again") from None
+        raise BundleError("is nested too deeply", where=at, advice="approve the mission again") from None
     except ValueError as error:  # no UTF-8, no JSON, a number of thousands of digits
         raise BundleError(f"is not JSON: {str(error)[:80]}", where=at, advice="approve the mission again") from None
     if not isinstance(content, dict):
@@ -194,11 +194,11 @@ def _content(data: bytes, at: str) -> Mapping[str, Any]:
 
 
 def _no_number(text: str) -> NoReturn:
-    raise ValueError(f"{text} is no number")
+    raise ValueError(f"{text} is not a number")
 
 
 def _each_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     found = dict(pairs)
     if len(found) != len(pairs):
-        raise ValueError("a key stands twice")
+        raise ValueError("a key is given twice")
     return found

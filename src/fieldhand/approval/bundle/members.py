@@ -47,5 +47,7 @@ def site_files_of(members: Mapping[str, bytes], file: str, *, source: str) -> Si
         if f"site{ending}" in held:
             parts[f"{stem}{ending}"] = held.pop(f"site{ending}")
     if held:
-        raise BundleError(f"holds {min(held)}, which is no part of the site", where=source, advice="do not trust it")
+        raise BundleError(
+            f"contains {min(held)}, which does not belong to the site", where=source, advice="do not trust it"
+        )
     return SiteFiles(parts=parts, source=f"{source}, {main}")

@@ -138,7 +138,7 @@ def require_trusted(sealed: Sealed, known: Mapping[str, KnownKey]) -> KnownKey:
             message("signed with a key that is not trusted here ({fingerprint})", fingerprint=fingerprint),
             where=sealed.source,
             advice=message(
-                "if you know whose it is, compare the fingerprint with its owner and give fieldhand keys trust"
+                "if you know whose key it is, compare the fingerprint with its owner and run fieldhand keys trust"
             ),
         )
     if key.state != "trusted":
@@ -186,10 +186,12 @@ def content_of(sealed: Sealed, *, now: datetime, stranger: bool = False) -> Cont
     files = site_files_of(members, manifest.site.file, source=source)
     if stranger and not is_plain(files):
         raise NotTrustedError(
-            message("its site is read only if someone trusted has signed it (Shapefile, GeoPackage, KML, zip)"),
+            message(
+                "its site is not read before a trusted key has signed the mission (Shapefile, GeoPackage, KML, zip)"
+            ),
             where=files.source,
             advice=message(
-                "compare the fingerprint with the owner of the key and give fieldhand keys trust, then look again"
+                "compare the fingerprint with the owner of the key, run fieldhand keys trust, and try again"
             ),
         )
     site = site_of(files, lenient=manifest.site.lenient)
@@ -237,13 +239,13 @@ def _require_past(manifest: Manifest, now: datetime, source: str) -> None:
     if datetime.fromisoformat(manifest.approved.at) > now + FUTURE_ALLOWED:
         raise BundleError(
             message(
-                "was approved at {at}, and the clock of this machine says {now}",
+                "was approved at {at}, but the clock of this machine shows {now}",
                 at=manifest.approved.at,
                 now=now.isoformat(timespec="seconds"),
             ),
             where=source,
             advice=message(
-                "set the clock that is wrong: this one, or that of whoever approves, who then approves again"
+                "correct the clock that is wrong: if it is the approver's, have the mission approved again afterwards"
             ),
         )
 
@@ -252,7 +254,7 @@ def _require_the_same(source: str, *parts: tuple[str, object, object]) -> None:
     for name, approved, here in parts:
         if approved != here:
             raise BundleError(
-                message("the {name} is read here as something else than was approved", name=name),
+                message("this program reads the {name} differently from what was approved", name=name),
                 where=source,
                 advice=message(
                     "use the version of the program that it was approved with, or approve it again with this one"

@@ -61,7 +61,7 @@ def clean_name(name: str, source: str = "--name") -> str:
     why = _fault(name)
     if why:
         raise KeyFileError(
-            f"this is no name for a key: {why}",
+            f"this is not a valid name for a key: {why}",
             where=source,
             advice=f"give one line of at most {MAX_NAME} characters, with letters of one script, digits, single spaces",
         )
@@ -94,11 +94,11 @@ def _fault(name: str) -> str:
         return f"it has more than {MAX_NAME} characters"
     hidden = find_hidden(name)
     if hidden is not None:
-        return f"it holds a hidden character ({hidden.name})"
+        return f"it contains a hidden character ({hidden.name})"
     if unicodedata.normalize("NFKC", name) != name:
-        return f"it holds a character that stands for another one ({visible(_compatible(name))})"
+        return f"it contains a character that is a variant of another one ({visible(_compatible(name))})"
     if "  " in name:
-        return "it holds two spaces in a row"
+        return "it contains two spaces in a row"
     scripts: set[str] = set()
     before = ""
     for character in name:
@@ -107,18 +107,18 @@ def _fault(name: str) -> str:
             scripts.add(_script(character))
         elif kind[0] == "M":
             if before not in ("L", "M"):
-                return f"it holds a mark without a letter ({_named(character)})"
+                return f"it contains a combining mark without a letter ({_named(character)})"
         elif kind[0] == "N" and not character.isascii():
-            return f"it holds a digit that is none of 0 to 9 ({_named(character)})"
+            return f"it contains a digit other than 0 to 9 ({_named(character)})"
         elif kind[0] == "Z" and character != " ":
-            return f"it holds a space that is none ({_named(character)})"
+            return f"it contains a space character other than the plain space ({_named(character)})"
         before = kind[0]
     if not any(c.isalnum() for c in name):
-        return "it holds no letter and no digit"
+        return "it contains neither a letter nor a digit"
     bare = (c for c in unicodedata.normalize("NFD", name) if unicodedata.category(c)[0] == "L")
     strange = next((c for c in bare if not _is_used(c)), "")
     if strange:
-        return f"it holds a letter that no living language writes names with ({_named(strange)})"
+        return f"it contains a letter that no living language uses in names ({_named(strange)})"
     if len(scripts) > 1 and not any(scripts <= together for together in _TOGETHER):
         return f"it mixes the scripts {' and '.join(sorted(s.title() for s in scripts))}"
     return ""

@@ -71,7 +71,7 @@ def parse_public(text: str, *, source: str) -> PublicKey:
     lines = (_LINE.fullmatch(line.rstrip()) for line in text.split("\n"))
     found = {match.groups() for match in lines if match is not None}
     if len(found) != 1:
-        what = "no public key stands here" if not found else f"{len(found)} public keys stand here"
+        what = "there is no public key here" if not found else f"{len(found)} public keys are here"
         raise KeyFileError(what, where=source, advice=f"give a file with one line that begins with {MARK}")
     encoded, name = found.pop()
     return PublicKey(raw=_raw(encoded, source), name=clean_name(name or "", source) if name else "")
@@ -86,7 +86,7 @@ def parse_fingerprint(text: str) -> str:
     plain = re.sub(r"[\s-]", "", text).upper()
     if not re.fullmatch(r"[A-Z2-7]{32}", plain):
         raise KeyFileError(
-            "this is no fingerprint",
+            "this is not a fingerprint",
             where=repr(text[:60]),
             advice="give all eight groups of four, as fieldhand keys list shows them",
         )
@@ -117,7 +117,7 @@ def require_sound(raw: bytes, source: str) -> None:
     """
     if not is_sound(raw):
         raise KeyFileError(
-            "this is no Ed25519 public key that anyone can own: anybody could sign with it",
+            "this Ed25519 public key is invalid: anybody could sign with it",
             where=source,
             advice="do not trust whoever sent it; a key is made with fieldhand keys new",
         )

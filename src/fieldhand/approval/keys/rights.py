@@ -33,7 +33,7 @@ def read_guarded(path: Path, *, private: bool, most: int = MAX_BYTES) -> bytes:
 
 def not_a_key(path: Path, fault: FileFault) -> KeyFileError:
     """Return the error for a file that cannot be read or is too large for a key."""
-    what = "is no key: it is too large" if fault.kind == "too large" else fault.what
+    what = "is not a key: it is too large" if fault.kind == "too large" else fault.what
     return KeyFileError(what, where=str(path), advice="check the path")
 
 
@@ -46,12 +46,14 @@ def require_own(status: os.stat_result, path: Path, *, private: bool) -> None:
     if os.name != "posix":
         return  # permissions are access control lists there, inherited from the user's folder
     if status.st_uid not in (0, os.geteuid()):
-        raise KeyFileError("belongs to another user", where=str(path), advice="take only what is your own")
+        raise KeyFileError("belongs to another user", where=str(path), advice="use only keys that belong to you")
     wide = stat.S_IRWXG | stat.S_IRWXO if private else stat.S_IWGRP | stat.S_IWOTH
     if status.st_mode & wide:
         what = "can be read by others" if private else "can be written by others"
         mode = "600" if private else "go-w"
-        raise KeyFileError(what, where=str(path), advice=f"chmod {mode} {path}; if others use this machine, doubt it")
+        raise KeyFileError(
+            what, where=str(path), advice=f"chmod {mode} {path}; if others use this machine, do not trust it"
+        )
 
 
 def require_own_folder(path: Path) -> None:
@@ -67,7 +69,7 @@ def require_own_folder(path: Path) -> None:
         require_guarded(path)
     except Unguarded as fault:
         raise KeyFileError(
-            fault.what, where=str(fault.path), advice=f"{fault.advice}; if others use this machine, doubt it"
+            fault.what, where=str(fault.path), advice=f"{fault.advice}; if others use this machine, do not trust it"
         ) from None
 
 
@@ -94,7 +96,9 @@ def write_new(path: Path, data: bytes) -> None:
     try:
         write_stored(path, data, mode=0o600, new=True)
     except FileExistsError:
-        raise KeyFileError("there is such a key already", where=str(path), advice="choose another --name") from None
+        raise KeyFileError(
+            "there is already a key with this name", where=str(path), advice="choose another --name"
+        ) from None
     except OSError as error:
         raise _unwritable(path, error) from None
 

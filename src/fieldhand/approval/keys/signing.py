@@ -83,7 +83,9 @@ class SigningKeys:
         file = self.folder / f"{_file_name(name)}.key"
         shared = file.with_suffix(".pub")
         if shared.exists():
-            raise KeyFileError("there is such a key already", where=str(shared), advice="choose another --name")
+            raise KeyFileError(
+                "there is already a key with this name", where=str(shared), advice="choose another --name"
+            )
         write_new(file, pem)
         write_new(shared, f"{key.public.line()}\n".encode())
         return key, shared
@@ -102,7 +104,9 @@ class SigningKeys:
             files = sorted(self.folder.glob("*.key"))
         except OSError as error:
             raise KeyFileError(
-                f"cannot be read: {error.strerror}", where=str(self.folder), advice="check the rights on the folder"
+                f"cannot be read: {error.strerror}",
+                where=str(self.folder),
+                advice="check the permissions of the folder",
             ) from None
         for file in files:
             shared = file.with_suffix(".pub")
@@ -140,7 +144,7 @@ class SigningKeys:
             last = int(read_guarded(file, private=False)) if file.exists() else 0
         except ValueError:
             raise KeyFileError(
-                "holds no number", where=str(file), advice="remove it; the time takes its place"
+                "holds no number", where=str(file), advice="remove it; the current time is then used instead"
             ) from None
         number = max(last + 1, int(at.timestamp()), 1)
         replace(file, f"{number}\n".encode())
@@ -165,7 +169,7 @@ class SigningKeys:
         said = passphrase() if key.encrypted else None
         if key.encrypted and not said:
             raise KeyFileError(
-                "the key takes a passphrase",
+                "the key needs a passphrase",
                 where=at,
                 advice="type it when asked, or put it in FIELDHAND_KEY_PASSPHRASE",
             )
@@ -174,7 +178,7 @@ class SigningKeys:
         except (ValueError, TypeError, UnsupportedAlgorithm):
             if key.encrypted:
                 raise KeyFileError("the passphrase is wrong, or the file is damaged", where=at) from None
-            raise KeyFileError("is no private key (PKCS #8, PEM)", where=at, advice=_MAKE_ONE) from None
+            raise KeyFileError("is not a private key (PKCS #8, PEM)", where=at, advice=_MAKE_ONE) from None
         if not isinstance(private, Ed25519PrivateKey):
             raise KeyFileError("is a key of another kind, not Ed25519", where=at, advice=_MAKE_ONE)
         opened = _signing(private, key.public.name)
@@ -190,7 +194,7 @@ def _signing(private: Ed25519PrivateKey, name: str) -> SigningKey:
 def _file_name(name: str) -> str:
     plain = re.sub(r"[^\w.-]+", "-", name.lower()).strip(".-")
     if not plain:
-        raise KeyFileError("this is no name for a file", where="--name", advice="give a name with a letter in it")
+        raise KeyFileError("this cannot be a file name", where="--name", advice="give a name with a letter in it")
     return plain
 
 

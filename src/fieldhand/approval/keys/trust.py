@@ -140,15 +140,16 @@ class TrustStore:
         found = self._with_revoked(seen)
         if listed.number < seen.number:
             raise KeyFileError(
-                f"the list of trusted keys is an older copy: it has number {listed.number}, and {seen.number} was seen",
+                f"the list of trusted keys is an older copy: it has number {listed.number},"
+                f" but {seen.number} was already seen",
                 where=str(self.folder),
-                advice="bring the later one back, or look at the keys and give fieldhand keys confirm",
+                advice="restore the later one, or check the keys and run fieldhand keys confirm",
             )
         if listed.until is not None and self._memory.time(self._clock()) > datetime.fromisoformat(listed.until):
             raise KeyFileError(
-                f"the list of trusted keys ran out at {listed.until}",
+                f"the list of trusted keys expired at {listed.until}",
                 where=str(self.folder),
-                advice="look at the keys and give fieldhand keys confirm",
+                advice="check the keys and run fieldhand keys confirm",
             )
         return found
 
@@ -285,7 +286,7 @@ def _read(path: Path) -> KnownKey:
 
 
 def _damaged(path: Path) -> KeyFileError:
-    return KeyFileError("is damaged", where=str(path), advice="take the file away, and trust or revoke the key again")
+    return KeyFileError("is damaged", where=str(path), advice="move the file away, and trust or revoke the key again")
 
 
 def _require_other_name(name: str, fingerprint: str, known: Mapping[str, KnownKey]) -> None:
