@@ -59,7 +59,7 @@ def test_a_mission_goes_on_on_what_it_was_begun(tmp_path: Path) -> None:
     missions.begin(tmp_path, "m1", inputs())
     error = refused("resume", "m1", "--missions", str(tmp_path), "--on", "dds")
     assert error.exit_status == 1
-    assert "begun in simulation and cannot be gone on with on a robot" in str(error)
+    assert "started in simulation and cannot be continued on a robot" in str(error)
 
     by = Connection(transport="dds", domain=4, namespace="/a", sim_time=True)
     begun = missions.RobotAtStart(by=by, charge_percent=90.0)

@@ -58,7 +58,7 @@ def files(tmp_path: Path) -> Path:
         (export, {"source": "text.mcap", "to": "csv"}, "no event|damaged"),
         (replay, {"source": "events.jsonl", "site": "demo", "output": Path("m.avi")}, ".avi is no kind of animation"),
         (import_tree, {"tree": "none.xml"}, "cannot be read"),
-        (import_tree, {"tree": "task.xml"}, "is no tree of BehaviorTree.CPP"),
+        (import_tree, {"tree": "task.xml"}, "is not a tree of BehaviorTree.CPP"),
     ],
 )
 def test_bad_input_gets_one_line(files: Path, command: Command, given: dict[str, object], said: str) -> None:

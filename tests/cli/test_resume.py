@@ -78,7 +78,7 @@ def test_paused_killed_twice_and_resumed(missions: Path, tmp_path: Path) -> None
     assert status()["state"] == "interrupted"
     assert "interrupted" in fieldhand("status").out
     unheard = fieldhand("pause")
-    assert (unheard.status, "is cut off; the order stands" in unheard.out) == (1, True)
+    assert (unheard.status, "was interrupted; the order remains in force" in unheard.out) == (1, True)
     kill(under_way("resume", "--speed", "10", captures=2))
     done = fieldhand("resume", "--json", "-o", str(tmp_path / "out"), "--events", str(tmp_path / "e.jsonl"))
     assert done.status == 0, (done.out, done.err)

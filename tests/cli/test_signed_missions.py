@@ -316,7 +316,7 @@ def test_a_changed_byte_of_the_bundle_in_the_folder_ends_a_mission(
         _declare(cut_off, signed=bytes(data))
     else:
         (cut_off / "signed.mission").write_bytes(data)
-    refuses(trusting("resume"), 2, "signed.mission" if declared else "not the one that the mission began with")
+    refuses(trusting("resume"), 2, "signed.mission" if declared else "not the file that the mission started with")
     assert _events(cut_off) == before
 
 
@@ -332,7 +332,7 @@ def test_a_site_that_was_replaced_in_the_folder_ends_a_mission(
         refuses(trusting("resume"), 1, "the site in the mission's folder is not what was signed")
     else:
         file.write_bytes(other)
-        refuses(trusting("resume"), 2, "not the one that the mission began with")
+        refuses(trusting("resume"), 2, "not the file that the mission started with")
     assert _events(cut_off) == before
 
 

@@ -80,7 +80,7 @@ def test_a_mission_whose_folder_goes_away_stops_and_says_so(tmp_path: Path, harm
         process.wait()
     assert process.returncode == 2, err
     assert "Traceback" not in err
-    assert "is not at its place any more" in err or "cannot be written" in err
+    assert "is no longer in its place" in err or "cannot be written" in err
     if harm == "deleted":
         return
     (tmp_path / "elsewhere").rename(folder)

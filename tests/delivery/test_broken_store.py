@@ -169,5 +169,5 @@ def test_a_store_that_is_not_there_any_more_takes_nothing(tmp_path: Path) -> Non
         (folder / "store" / "depot.sqlite").unlink()
         with pytest.raises(StoreError, match="another agent"):
             depot_in(folder)
-        with pytest.raises(StoreError, match="is not at its place any more"):
+        with pytest.raises(StoreError, match="is no longer in its place"):
             deliver(mission_store)

@@ -225,7 +225,7 @@ def test_an_outbox_that_was_meddled_with(tmp_path: Path, robot_agent: RobotAgent
     entry = sender.put(good())
     path = tmp_path / "outbox" / f"{entry.sha256}.mission"
     path.write_bytes(other_mission())
-    assert "not what was put in" in sender.outbox_sender.post(entry).said
+    assert "differs from what was queued" in sender.outbox_sender.post(entry).said
     assert robot_agent.is_empty()
     (tmp_path / "outbox" / "outbox.sqlite").write_bytes(b"garbage" * 999)
     with pytest.raises(StoreError, match="outbox cannot be used"):

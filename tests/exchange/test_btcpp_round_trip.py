@@ -24,7 +24,7 @@ def carried(task: Task) -> bytes:
         return write_tree(task, ROVER)
     except TaskError as error:
         refused = str(error)
-    assert "a tree cannot carry" in refused
+    assert "a tree cannot contain" in refused
     return reject()
 
 

@@ -241,7 +241,7 @@ def test_a_journal_that_goes_from_its_place_ends_the_mission_in_order(tmp_path: 
                 HARMS[harm](field.folder)
             super().commit(order=order)
 
-    with pytest.raises(JournalError, match=r"is not at its place any more|cannot be written"):
+    with pytest.raises(JournalError, match=r"is no longer in its place|cannot be written"):
         field.fly(journal=Harmed)
     assert field.driver.poll().over, "no wheel turns"
     assert told == 8, "nothing is begun behind it"

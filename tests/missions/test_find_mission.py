@@ -1,4 +1,4 @@
-"""Which mission is meant, and folders that cannot be looked into."""
+"""Which mission is meant, and folders that cannot be read."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from fieldhand.execution.drivers.simulation.world_file import load_world
 def test_a_folder_that_is_none_is_named(tmp_path: Path) -> None:
     file = tmp_path / "file"
     file.touch()
-    with pytest.raises(JournalError, match="file: cannot be looked into"):
+    with pytest.raises(JournalError, match="file: cannot be read"):
         missions.find(file, None)
 
 
 def test_where_nothing_was_begun_no_mission_is_found(tmp_path: Path) -> None:
     assert missions.all_missions(tmp_path / "none") == ()
-    with pytest.raises(JournalError, match="no mission was begun"):
+    with pytest.raises(JournalError, match="no mission has been started"):
         missions.find(tmp_path, None)
     with pytest.raises(JournalError, match="no mission 'x'"):
         missions.find(tmp_path, "x")

@@ -169,7 +169,7 @@ def test_simulation_and_robot_are_not_mistaken_for_each_other(tmp_path: Path) ->
     in_simulation = missions.begin(tmp_path, "m2", inputs())
     with pytest.raises(ExecutionError, match=r"begun on a robot \(dds, domain 7 as /east\).*resume it on that robot"):
         missions.carry_out(on_robot, emit=print)
-    with pytest.raises(ExecutionError, match=r"begun in simulation and cannot be gone on with on a robot"):
+    with pytest.raises(ExecutionError, match=r"started in simulation and cannot be continued on a robot"):
         missions.carry_out(in_simulation, vehicle=robot.vehicle, emit=print)
     assert missions.events_of(on_robot.folder) == missions.events_of(in_simulation.folder) == ()
 

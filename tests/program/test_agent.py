@@ -101,7 +101,7 @@ def _await(agent: subprocess.Popen[str], port: int) -> None:
 def _try_what_is_refused(folder: Path, url: str, run: Callable[..., Run]) -> None:
     """Another certificate than the robot's, and a second agent on its store."""
     _, _, other = certificate(folder, "other")
-    for wrong, said in ((("--pin", other), "another certificate"), (("--ca", "other.crt"), "not trusted")):
+    for wrong, said in ((("--pin", other), "a different certificate"), (("--ca", "other.crt"), "not trusted")):
         refused = run("send", "tree4.mission", "--to", url, "--token-file", "token", *wrong)
         assert refused.status == 1
         assert said in refused.out

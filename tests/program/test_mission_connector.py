@@ -150,7 +150,7 @@ def test_a_mission_of_the_simulation_does_not_go_on_on_the_robot(agent: Agent) -
     assert agent.tell(good(), "start").state == "interrupted"
     agent.begin()
     found = agent.tell(good(), "resume")
-    assert "begun in simulation and cannot be gone on with on a robot" in found.fault
+    assert "started in simulation and cannot be continued on a robot" in found.fault
     assert agent.reached == 0
     given = missions.open_mission(agent.mission_store.folder_of(agent.mission_store.get(sha256_of(good()))))
     assert given.started_on is None

@@ -88,9 +88,11 @@ def tell(
     elif heard:
         show.out.print(language.say(message("mission {id}: {done}", id=folder.name, done=done)))
     elif missions.is_running(folder):
-        waits = message("mission {id} has not answered yet; the order stands", id=folder.name)
+        waits = message("mission {id} has not answered yet; the order remains in force", id=folder.name)
         show.out.print(language.say(waits))
     else:
-        cut = message("mission {id} is cut off; the order stands, and holds when it is resumed", id=folder.name)
+        cut = message(
+            "mission {id} was interrupted; the order remains in force and applies when it is resumed", id=folder.name
+        )
         show.out.print(language.say(cut))
     raise SystemExit(0 if heard else 1)

@@ -30,7 +30,7 @@ def read_token(environ: Mapping[str, str], file: Path | None) -> str | None:
             return None
     if not SHORTEST <= len(text) <= LONGEST or not text.isascii() or not text.isprintable() or " " in text:
         raise InputError(
-            f"a token has {SHORTEST} letters and digits at least, no blanks",
+            f"a token has at least {SHORTEST} letters and digits, and no spaces",
             where=where,
             advice="make a random one: openssl rand -hex 32",
         )

@@ -108,7 +108,7 @@ def sha256_of(data: bytes) -> str:
 
 def _for_another(what: str, approved: str, here: str, source: str) -> BundleError:
     return BundleError(
-        f"was approved for another {what}: {approved}, byte by byte; here it is {here}",
+        f"was approved for another {what}: {approved}, byte by byte; the one here is {here}",
         where=source,
         advice=f"approve the mission for the {what} that is here, or give the agent that one with --{what}",
     )

@@ -133,7 +133,7 @@ class MissionStore:
     def _verified(self, data: bytes, sha256: str) -> Bundle:
         bundle = self._accept(data, f"mission {sha256[:16]}")
         if bundle.hashes["bundle"] != sha256:
-            raise StoreError("the disk gives back other bytes than were written", where=str(self._folder))
+            raise StoreError("the disk returns different bytes from those that were written", where=str(self._folder))
         return bundle
 
     def _put(self, incoming: IncomingFile, sha256: str) -> None:
@@ -215,7 +215,7 @@ class MissionStore:
         received = self.get(sha256)
         if received.begun_at is not None:
             raise ExecutionError(
-                f"this mission was begun at {received.begun_at}; it does not run twice", where=received.name
+                f"this mission was started at {received.begun_at}; it does not run twice", where=received.name
             )
         later = self._database.later(received.task, received.approved_at)
         if later is not None:
@@ -228,7 +228,7 @@ class MissionStore:
                 f"the bundle cannot be read: {error.strerror}", where=str(path), advice="send it again"
             ) from None
         if hashlib.sha256(data).hexdigest() != sha256:
-            raise StoreError("the bundle is not what arrived", where=str(path), advice="send it again")
+            raise StoreError("the bundle differs from what arrived", where=str(path), advice="send it again")
         bundle = self._verified(data, sha256)
         self._admit(bundle)
         return bundle

@@ -213,7 +213,7 @@ class MissionSupervisor:
                     self._begin(received)
                 return True
             if not known:
-                raise ExecutionError("the mission was not begun", where=received.name, advice="start it first")
+                raise ExecutionError("the mission has not been started", where=received.name, advice="start it first")
             if self.active != received.sha256 and not missions.is_running(folder):
                 return self._go_on(received, folder, command, reason)
         if command == "resume":
@@ -345,11 +345,11 @@ class MissionSupervisor:
             under_way = self.active
         other = self._interrupted() if under_way is None else self._mission_store.get(under_way)
         if other is not None and other.sha256 != received.sha256:
-            how = "was cut off" if under_way is None else "is under way"
+            how = "was interrupted" if under_way is None else "is under way"
             raise ExecutionError(
                 f"another mission {how}: {other.name}",
                 where=received.name,
-                advice="let it end first, or tell it to return or abort",
+                advice="wait until it ends, or tell it to return or abort",
             )
 
     def _interrupted(self) -> ReceivedMission | None:

@@ -159,7 +159,7 @@ class Outbox:
                 f"the mission cannot be read: {error.strerror}", where=str(path), advice="send the file again"
             ) from None
         if hashlib.sha256(data).hexdigest() != entry.sha256:
-            raise StoreError("the mission is not what was put in", where=str(path), advice="send the file again")
+            raise StoreError("the mission differs from what was queued", where=str(path), advice="send the file again")
         return data
 
     def _bundle(self, sha256: str) -> Path:

@@ -83,13 +83,13 @@ class OutboxSender:
         with closing(self.connect(entry)) as link:
             receipt = link.deliver(data, hashes)
             if not entry.start:
-                return f"has arrived whole; the robot says {receipt.mission.state}"
+                return f"has arrived complete; the robot reports {receipt.mission.state}"
             waited = self.clock() - entry.queued_at
             if not 0 <= waited <= START_WITHIN_S:
                 at = datetime.fromtimestamp(entry.queued_at, UTC).isoformat(timespec="minutes")
-                return f"has arrived whole, and was not started: it was sent at {at}, too long ago; send it again"
+                return f"has arrived complete, but was not started: it was sent at {at}, too long ago; send it again"
             mission = link.order(entry.sha256, "start", "sent with --start").mission
-            return f"has arrived whole, and was told to start; the robot says {mission.state}"
+            return f"has arrived complete and was told to start; the robot reports {mission.state}"
 
     def _pause_s(self, tries: int) -> float:
         most = min(LONGEST_S, FIRST_S * 2.0 ** min(tries - 1, 20))

@@ -152,9 +152,9 @@ class ReceivedMissions:
             in_place = False
         if not in_place:
             raise StoreError(
-                "the database of the store is not at its place any more",
+                "the database of the store is no longer in its place",
                 where=str(self._path),
-                advice="bring the folder of the store back as it was, and start the agent again",
+                advice="restore the folder of the store as it was, and start the agent again",
             )
 
     def _open(self) -> sqlite3.Connection:
@@ -195,7 +195,7 @@ class ReceivedMissions:
             raise StoreError(
                 f"the store cannot be used: {error.strerror or error}",
                 where=str(self._path),
-                advice="see to its rights",
+                advice="check its permissions",
             ) from None
         except (sqlite3.Error, ValueError, FolderTaken) as error:
             if isinstance(error, FolderTaken) or "locked" in str(error):

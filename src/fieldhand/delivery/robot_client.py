@@ -92,9 +92,9 @@ class RobotClient:
         if receipt.hashes != dict(hashes) or receipt.mission.bundle != sha256:
             wrong = sorted(n for n in {*receipt.hashes, *hashes} if receipt.hashes.get(n) != hashes.get(n))
             raise DeliveryError(
-                f"the robot says that something else has arrived ({', '.join(wrong) or 'another mission'})",
+                f"the robot reports that something else has arrived ({', '.join(wrong) or 'another mission'})",
                 where=self._at,
-                advice="do not start it; see whether this is your robot",
+                advice="do not start it; check whether this is your robot",
             )
         return receipt
 
@@ -131,7 +131,7 @@ class RobotClient:
             Events, "GET", f"/agent/missions/{sha256}/events", params={"after": after, "wait": wait_s}
         )  # fmt: skip
         if [event.n for event in found.events] != list(range(after + 1, after + 1 + len(found.events))):
-            raise DeliveryError(f"an event behind number {after} is missing", where=self._at)
+            raise DeliveryError(f"an event after number {after} is missing", where=self._at)
         return found
 
     def _ask(self, model: type[A], method: str, path: str, **more: object) -> A:
@@ -158,7 +158,7 @@ class RobotClient:
                 ) from None
             why = str(error) or type(error).__name__
             raise UnreachableError(
-                f"does not answer: {why}", where=self._at, advice="see whether it is switched on and in reach"
+                f"does not answer: {why}", where=self._at, advice="check whether it is switched on and in reach"
             ) from None
         except httpx.HTTPError as error:
             raise DeliveryError(f"the answer cannot be read: {error}", where=self._at) from None
@@ -171,9 +171,9 @@ class RobotClient:
         except ValidationError as error:
             first = error.errors()[0]
             raise DeliveryError(
-                f"answers something else than an agent does ({'.'.join(map(str, first['loc']))}: {first['msg']})",
+                f"does not answer as an agent does ({'.'.join(map(str, first['loc']))}: {first['msg']})",
                 where=self._at,
-                advice="see whether this is the address of fieldhand agent",
+                advice="check whether this is the address of a fieldhand agent",
             ) from None
 
     def _problem(self, status: int, body: bytes) -> DeliveryError:

@@ -37,7 +37,7 @@ def parse_pin(text: str) -> str:
     pin = text.strip().lower().removeprefix("sha256 fingerprint=").removeprefix("sha256:").replace(":", "")
     if len(pin) != 64 or set(pin) - set("0123456789abcdef"):
         raise InputError(
-            "is no SHA-256 of a certificate",
+            "is not the SHA-256 of a certificate",
             where="--pin",
             advice="openssl x509 -in cert.pem -noout -fingerprint -sha256 prints it",
         )
@@ -56,15 +56,15 @@ def require_address(url: str, trust: ServerTrust) -> str:
     except ValueError:
         host, parts = None, urlsplit("")
     if parts.scheme not in ("http", "https") or not host or parts.query or parts.fragment or parts.username:
-        raise InputError(f"'{url[:80]}' is no address of a robot", advice="give one like https://robot:8443")
+        raise InputError(f"'{url[:80]}' is not the address of a robot", advice="give one like https://robot:8443")
     if parts.scheme == "http" and not trust.plain and host not in ("localhost", "127.0.0.1", "::1"):
         raise InputError(
-            "everyone on the way could read the token", where=url, advice="use https, or say --insecure if you mean it"
+            "everyone on the network path could read the token",
+            where=url,
+            advice="use https, or give --insecure to accept that",
         )
     if parts.scheme == "http" and (trust.ca or trust.pin):
-        raise InputError(
-            "there is no certificate without TLS", where=url, advice="use https, or leave out --ca and --pin"
-        )
+        raise InputError("certificates apply only with TLS", where=url, advice="use https, or leave out --ca and --pin")
     return url.rstrip("/")
 
 
@@ -112,10 +112,10 @@ def _pinned(url: str, pin: str) -> ssl.SSLContext:
         shown = hashlib.sha256(ssl.PEM_cert_to_DER_cert(pem)).hexdigest()
     except (OSError, ValueError) as error:
         why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        raise UnreachableError(f"does not answer: {why}", where=url, advice="see whether it is switched on") from None
+        raise UnreachableError(f"does not answer: {why}", where=url, advice="check whether it is switched on") from None
     if shown != pin:
         raise DeliveryError(
-            f"shows another certificate than the one that was pinned (SHA-256 {shown})",
+            f"presents a different certificate from the one that was pinned (SHA-256 {shown})",
             where=url,
             advice="do not send; if the robot's certificate was renewed, give the new one's with --pin",
         )

@@ -124,7 +124,7 @@ def _require_visible_words(request: str, answers: Sequence[Answer]) -> None:
         if hidden is not None:
             where = message("the {what}, character {number}", what=what, number=hidden.at + 1)
             raise RequestError(
-                message("nobody can see the character {name}", name=hidden.name),
+                message("the character {name} is invisible", name=hidden.name),
                 where=where,
                 advice=message("leave it out"),
             )

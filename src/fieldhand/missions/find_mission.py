@@ -39,7 +39,7 @@ def find(under: Path, name: str | None) -> Path:
     folders = all_missions(under)
     if not folders:
         raise JournalError(
-            message("no mission was begun"), where=str(under), advice=message("fieldhand run begins one")
+            message("no mission has been started"), where=str(under), advice=message("start one with fieldhand run")
         )
     return folders[-1]
 
@@ -78,12 +78,16 @@ def begun_at(folder: Path) -> datetime:
 
 def _closed(folder: Path, error: OSError) -> JournalError:
     return JournalError(
-        message("cannot be looked into: {why}", why=named(error.strerror or str(error), "reason")),
+        message("cannot be read: {why}", why=named(error.strerror or str(error), "reason")),
         where=str(folder),
-        advice=message("see to its rights, or give another folder with --missions"),
+        advice=message("check its permissions, or give another folder with --missions"),
     )
 
 
 def _known(under: Path) -> str:
     names = [folder.name for folder in all_missions(under)]
-    return message("there are {names}", names=", ".join(names[-5:])) if names else message("none was begun there")
+    return (
+        message("there are {names}", names=", ".join(names[-5:]))
+        if names
+        else message("no mission was started in this folder")
+    )

@@ -109,7 +109,7 @@ class Inputs:
                 )
         if self.bundle is not None and self.authorized != self.bundle.authorized:
             raise NotApprovedError(
-                message("the Task is not the one that was signed"), advice=message("carry out the signed mission")
+                message("the Task is not the one that was signed"), advice=message("run the signed mission")
             )
 
     @property
@@ -229,7 +229,9 @@ def begin(under: Path, name: str, inputs: Inputs) -> StoredMission:
     whole = json_text(about, indent=1).encode()
     if (folder / ABOUT).exists():
         raise JournalError(
-            message("there is a mission of that name already"), where=str(folder), advice=message("fieldhand resume it")
+            message("there is already a mission with this name"),
+            where=str(folder),
+            advice=message("continue it with fieldhand resume"),
         )
     try:
         for one in (under, folder, folder / "site"):
@@ -448,7 +450,7 @@ def read_about(folder: Path) -> tuple[dict[str, Any], bytes]:
     except ValueError as error:
         raise _no_mission(folder, f"{ABOUT} is not JSON: {error}") from None
     except RecursionError:
-        raise _no_mission(folder, f"{ABOUT} is nested too deep") from None
+        raise _no_mission(folder, f"{ABOUT} is nested too deeply") from None
     if not isinstance(about, dict) or about.get("format") not in (FORMAT, ON_ROBOT):
         raise _no_mission(folder, f"{ABOUT} has not the format {FORMAT} or {ON_ROBOT} that this version reads")
     return about, whole
@@ -462,7 +464,7 @@ def read_kept(folder: Path, file: str, sha256: str) -> bytes:
     """
     path = folder / file
     if path.resolve() != folder.resolve() / file:
-        raise _no_mission(folder, f"{file} leads elsewhere")
+        raise _no_mission(folder, f"{file} points outside the folder")
     try:
         data = read_file(path, _MOST_BYTES, plain=True, look=lambda status: require_own_file(path, status))
     except Unguarded as fault:
@@ -471,9 +473,9 @@ def read_kept(folder: Path, file: str, sha256: str) -> bytes:
         raise _no_mission(folder, f"{file} {fault.what}") from None
     if _sha256(data) != sha256:
         raise JournalError(
-            message("{file} is not the one that the mission began with", file=file),
+            message("{file} is not the file that the mission started with", file=file),
             where=str(folder),
-            advice=message("bring the file back, or carry the Task out as a new mission"),
+            advice=message("restore the file, or run the Task as a new mission"),
         )
     return data
 
@@ -501,9 +503,9 @@ def _unguarded(fault: Unguarded) -> JournalError:
 
 def _no_mission(folder: Path, why: str) -> JournalError:
     return JournalError(
-        message("this is no mission: {why}", why=why),
+        message("this is not a mission: {why}", why=why),
         where=str(folder),
-        advice=message("give the folder that run has made"),
+        advice=message("give a folder that fieldhand run created"),
     )
 
 

@@ -50,5 +50,5 @@ def require_signed(
             raise NotApprovedError(
                 f"the {what} in the mission's folder is not what was signed",
                 where=str(folder),
-                advice="carry the signed mission out as a new one",
+                advice="run the signed mission as a new one",
             )

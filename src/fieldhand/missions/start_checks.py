@@ -38,12 +38,12 @@ def require_in_place(site: Site, robot: RobotProfile, driver: Driver) -> float:
     if stopped is not None:
         raise ExecutionError(
             message("the robot will not move: {why}", why=kept_in_log(stopped)),
-            advice=message("mend that, then try again"),
+            advice=message("correct that, then try again"),
         )
     if lost is not None:
         raise ExecutionError(
             message("the robot does not know where it is: {why}", why=kept_in_log(lost)),
-            advice=message("mend that, then try again"),
+            advice=message("correct that, then try again"),
         )
     at, drives = driver.position(), drives_for(site, robot)
     start = start_place(drives)
@@ -54,14 +54,14 @@ def require_in_place(site: Site, robot: RobotProfile, driver: Driver) -> float:
     if why:
         raise ExecutionError(
             message(
-                "the robot stands {metres} m from the start, at {lat}, {lon}, and that is {why}",
+                "the robot is {metres} m from the start, at {lat}, {lon}, which is {why}",
                 metres=Number(f"{away_m:,.0f}"),
                 lat=Number(f"{at.lat:.6f}"),
                 lon=Number(f"{at.lon:.6f}"),
                 why=why,
             ),
             where=site.name,
-            advice=message("drive it into an aisle, onto a headland or to the start; or give the site where it is"),
+            advice=message("drive it into an aisle, onto a headland or to the start; or give the site that it is on"),
         )
     return away_m
 
@@ -100,7 +100,7 @@ def require_charged(
         raise NotConfirmedError(
             message("not confirmed: {warnings}", warnings=joined("; ", lines)),
             lines,
-            advice=message("charge it first, or give --confirm if it shall set out nevertheless"),
+            advice=message("charge it first, or give --confirm to start nevertheless"),
         )
 
 

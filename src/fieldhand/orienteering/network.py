@@ -43,7 +43,7 @@ class Network:
 
     def __post_init__(self) -> None:
         if self.nodes < 2:
-            raise ProblemError(f"{self.nodes} nodes are no network", advice="give a start and an end at least")
+            raise ProblemError(f"{self.nodes} nodes are not a network", advice="give a start and an end at least")
         if self.edges.ndim != 2 or self.edges.shape[1] != 2 or self.lengths.shape != (len(self.edges),):
             raise ProblemError(f"edges of shape {self.edges.shape} and {self.lengths.shape[0]} lengths do not fit")
         wrong = ~((self.edges >= 0) & (self.edges < self.nodes)).all(axis=1)
@@ -118,7 +118,7 @@ class Network:
             raise ProblemError(f"rewards of shape {rewards.shape} do not fit {self.nodes} nodes")
         for name, node in (("start", start), ("end", end)):
             if not 0 <= node < self.nodes:
-                raise ProblemError(f"the {name} is node {node}, which is none of 0 to {self.nodes - 1}")
+                raise ProblemError(f"the {name} is node {node}, which is not in 0 to {self.nodes - 1}")
         wanted = ~(rewards == 0.0)
         wanted[[start, end]] = True
         kept = np.flatnonzero(wanted)

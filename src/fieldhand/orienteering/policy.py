@@ -253,10 +253,11 @@ class Policy:
         size, limits = self._problem.size, len(self._problem.limits)
         for vertex in (state.vertex, *state.visited, *state.given_up):
             if not 0 <= vertex < size:
-                raise ProblemError(f"the mission knows vertex {vertex}, which is none of 0 to {size - 1}")
+                raise ProblemError(f"the mission knows vertex {vertex}, which is not in 0 to {size - 1}")
         if len(state.left) != limits or not np.isfinite(state.left).all():
             raise ProblemError(
-                f"of the limits is left: {', '.join(f'{x:g}' for x in state.left)}", advice=f"give {limits} numbers"
+                f"these amounts of the limits are left: {', '.join(f'{x:g}' for x in state.left)}",
+                advice=f"give {limits} numbers",
             )
 
     def _priced(self, search: DecisionSearch, collected: float, safe: Sequence[int]) -> float:

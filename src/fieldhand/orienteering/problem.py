@@ -123,7 +123,7 @@ def _check_graph(problem: Problem) -> None:
     d, rewards = problem.distances, problem.rewards
     n = len(rewards)
     if n < 2:
-        raise ProblemError(f"{n} vertices are no problem", advice="give a start and an end at least")
+        raise ProblemError(f"{n} vertices are not a problem", advice="give a start and an end at least")
     if (len(d) > 0) + (problem.coordinates is not None) + (problem.table is not None) > 1:
         raise ProblemError("lengths are given in more than one way", advice="give distances, coordinates or a table")
     if problem.coordinates is not None:
@@ -149,7 +149,7 @@ def _check_graph(problem: Problem) -> None:
         raise ProblemError(f"its reward is {rewards[vertex]:g}", where=f"vertex {vertex}", advice="give 0 or more")
     for name, vertex in (("start", problem.start), ("end", problem.end)):
         if not 0 <= vertex < n:
-            raise ProblemError(f"the {name} is vertex {vertex}, which is none of 0 to {n - 1}")
+            raise ProblemError(f"the {name} is vertex {vertex}, which is not in 0 to {n - 1}")
     if not 0.0 <= problem.alpha <= 1.0:
         raise ProblemError(f"alpha is {problem.alpha:g}", advice="give a number from 0 to 1")
     max_visits = problem.max_visits

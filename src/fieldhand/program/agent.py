@@ -168,9 +168,9 @@ def _require_protected(host: str, *, token: bool, tls: bool, insecure: bool) -> 
         return
     missing = " and ".join([*([] if token else ["a token"]), *([] if tls else ["TLS"])])
     raise InputError(
-        f"others can reach this address, and there is no {missing}".replace("no a ", "no "),
+        f"others can reach this address, but there is no {missing}".replace("no a ", "no "),
         where="--host",
-        advice="give --token-file, --cert and --key; or --insecure if you mean it",
+        advice="give --token-file, --cert and --key; or --insecure to accept that",
     )
 
 
@@ -183,6 +183,6 @@ def _serve(app: FastAPI, host: str, port: int, tls: tuple[Path, Path] | None, to
     shown = f"[{host}]" if ":" in host else host
     print_error(f"The agent is at http{'s' if tls else ''}://{shown}:{port} (Ctrl-C to stop)")
     if token is None:
-        print_error("warning: there is no token; who reaches this address can tell the robot to run")
+        print_error("warning: there is no token; anyone who reaches this address can start missions on the robot")
     with suppress(KeyboardInterrupt):
         make_server(app, host, port, tls=tls).run()

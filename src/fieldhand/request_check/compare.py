@@ -62,7 +62,7 @@ def _sensors(said: RequestFacts, plan: PlanFacts, robot: RobotProfile) -> Iterat
         words = " ".join(t.text for t in said.said[k : k + noun.length])
         able = listed([say_name(name) for name in sorted(noun.actions)], "or")
         yield PlanMismatch(
-            kind="sensor", message=f"the request says '{words}', and nothing in the plan does that ({able})"
+            kind="sensor", message=f"the request says '{words}', but nothing in the plan does that ({able})"
         )
     if not spoken or said.unknown:
         return
@@ -71,7 +71,7 @@ def _sensors(said: RequestFacts, plan: PlanFacts, robot: RobotProfile) -> Iterat
         if one.action in spoken or one.action not in robot.action or hints(robot.action[one.action], robot) & stems:
             continue
         yield PlanMismatch(
-            kind="sensor", message=f"the plan does '{say_name(one.action)}', of which the request says nothing",
+            kind="sensor", message=f"the plan does '{say_name(one.action)}', which the request does not mention",
             node=one.node,
         )  # fmt: skip
 
@@ -85,14 +85,14 @@ def _counts(said: RequestFacts, plan: PlanFacts, sizes: SelectorSizes) -> Iterat
         if amount.compared or n in _explained(plan, amount) or n in _visited(plan, sizes):
             continue
         yield PlanMismatch(
-            kind="count", message=f"the request says '{_phrase(said, amount)}', and no steps of the plan come to {n}"
+            kind="count", message=f"the request says '{_phrase(said, amount)}', but no steps of the plan add up to {n}"
         )
     for number in plan.numbers:
         if number.kind != "count" or int(number.value) in _allowed(said, number) or _by_itself(said, number.what):
             continue
         if number.what.endswith(" count") and _comes_to_what_is_said(said, plan, number.node, sizes):
             continue
-        message = f"the plan holds the number {number.value:g} ({number.what}), which the request does not say"
+        message = f"the plan holds the number {number.value:g} ({number.what}), which the request does not mention"
         yield PlanMismatch(kind="count", message=message, node=number.node)
 
 

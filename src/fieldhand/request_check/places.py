@@ -54,7 +54,7 @@ def _trees(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
         n = int(amount.values[0])
         if amount.kind != "id" or str(n) in named or n in counted or any(a <= n <= b for a, b in map(sorted, spans)):
             continue
-        yield PlanMismatch(kind="place", message=f"the request names tree {n}, and the plan does not")
+        yield PlanMismatch(kind="place", message=f"the request names tree {n}, but the plan does not")
     if said.spaced:
         return  # the trees at that distance depend on the site
     spoken = said.text.replace(" ", "")
@@ -64,7 +64,7 @@ def _trees(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
         if _digits(tree) in numbers or tree.lower() in spoken or spelt in "".join(c for c in spoken if c.isalnum()):
             continue
         yield PlanMismatch(
-            kind="place", message=f"the plan names tree {tree[:40]!r}, and the request does not", node=node
+            kind="place", message=f"the plan names tree {tree[:40]!r}, but the request does not", node=node
         )
 
 
@@ -83,7 +83,7 @@ def _rows(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMisma
         if not _is_row(said, amount) or _of_named_tree(said, plan, amount):
             continue
         if not any(_holds(row, amount) for _, row in rows) and not _has_named_tree(amount, plan, site):
-            message = f"the request names row {amount.values[0]:g}, and the plan does not"
+            message = f"the request names row {amount.values[0]:g}, but the plan does not"
             yield PlanMismatch(kind="place", message=message)
     if said.unknown or _SOME_ROWS.search(said.text):
         return
@@ -91,7 +91,7 @@ def _rows(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMisma
         for name in dict.fromkeys((row.first, row.last)):
             if int(name) > 1 and int(name) not in said.whole_numbers:
                 yield PlanMismatch(
-                    kind="place", message=f"the plan names row {name}, and the request does not", node=node
+                    kind="place", message=f"the plan names row {name}, but the request does not", node=node
                 )
 
 
@@ -133,14 +133,14 @@ def _areas(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMism
         if name in w.COMPASS and w.COMPASS[name] <= pointed:
             continue  # "from the north" or "the northernmost" does not mean a block called "North"
         if not any(name in other for other in held) and not _stands_in(plan, name, site):
-            yield PlanMismatch(kind="place", message=f"the request names '{name}', and the plan does not")
+            yield PlanMismatch(kind="place", message=f"the request names '{name}', but the plan does not")
     for node, name in plan.areas:
         words = {t.text for t in _tokens(name)}
         if said.unknown or words & said.words or name.isdecimal() or said.words & {"each", "every", "all", "both"}:
             continue
-        yield PlanMismatch(kind="place", message=f"the plan names {name[:40]!r}, and the request does not", node=node)
+        yield PlanMismatch(kind="place", message=f"the plan names {name[:40]!r}, but the request does not", node=node)
     if said.words & _CHARGER and "charger" not in plan.markers and not said.words & {"recharge", "recharging"}:
-        yield PlanMismatch(kind="place", message="the request names the charger, and the plan does not")
+        yield PlanMismatch(kind="place", message="the request names the charger, but the plan does not")
 
 
 def _pointed(plan: PlanFacts) -> set[Side]:
@@ -179,11 +179,11 @@ def _gates(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMism
     held = {_said(x.gate): node for node, x in plan.having(s.GateIs) if isinstance(x, s.GateIs)}
     for name in dict.fromkeys(_said(gate.place.id) for gate in site.gates):
         if f" {name} " in f" {said.text} " and not held and name not in said.zones:
-            yield PlanMismatch(kind="place", message=f"the request names '{name}', and the plan does not")
+            yield PlanMismatch(kind="place", message=f"the request names '{name}', but the plan does not")
     for name, node in held.items():
         if not said.unknown and not set(name.split()) & said.words:
             yield PlanMismatch(
-                kind="place", message=f"the plan names {name[:40]!r}, and the request does not", node=node
+                kind="place", message=f"the plan names {name[:40]!r}, but the request does not", node=node
             )
 
 
@@ -207,7 +207,7 @@ def _sides(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
     )
     if not any(x.counts_from_a_side for _, x in plan.selectors):
         for side in sorted(spoken - held):
-            yield PlanMismatch(kind="side", message=f"the request says '{side}', and no place of the plan is there")
+            yield PlanMismatch(kind="side", message=f"the request says '{side}', but no place of the plan is there")
     if said.unknown or said.words & w.VAGUE_SIDES or _OTHER_PART.search(said.text):
         return
     around = len(plan.sides) == 4 and not spoken  # each quarter, or the whole edge
@@ -215,12 +215,12 @@ def _sides(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
     for side, node in plan.sides.items():
         if side not in said.sides and not around and side not in ends:
             yield PlanMismatch(
-                kind="side", message=f"the plan goes to the {side}, of which the request says nothing", node=node
+                kind="side", message=f"the plan goes to the {side}, which the request does not mention", node=node
             )
     for by in sorted(orders):
         if "_to_" in by and not any(side in by for side in said.sides):
             yield PlanMismatch(
-                kind="order", message=f"the plan goes {by.replace('_', ' ')}, and the request does not say so"
+                kind="order", message=f"the plan goes {by.replace('_', ' ')}, but the request does not say so"
             )
 
 
@@ -230,7 +230,7 @@ def _attributes(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
     for word in said.attributes:
         if not any(word in other or other in word for other in held):
             yield PlanMismatch(
-                kind="attribute", message=f"the request says '{word}', and the plan does not ask for that"
+                kind="attribute", message=f"the request says '{word}', but the plan does not ask for that"
             )
     if said.unknown:
         return
@@ -242,7 +242,7 @@ def _attributes(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
         if isinstance(value, str) and not words & said.words:
             yield PlanMismatch(
                 kind="attribute",
-                message=f"the plan asks for {attribute} {value[:40]!r}, of which the request says nothing",
+                message=f"the plan asks for {attribute} {value[:40]!r}, which the request does not mention",
                 node=node,
             )
 
@@ -256,7 +256,7 @@ def _ends(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMisma
         n.only_drives and n.selector is not None and n.selector.named_marker == said.returns for n in plan.nodes
     )
     if plan.task.composition.nominal != wanted and not driven:
-        yield PlanMismatch(kind="return", message=f"the request ends at the {said.returns}, and the plan does not")
+        yield PlanMismatch(kind="return", message=f"the request ends at the {said.returns}, but the plan does not")
 
 
 def _faults(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
@@ -267,7 +267,7 @@ def _faults(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMis
     for chosen in plan.task.composition.faulted:
         if chosen.then not in (usual[chosen.fault], plan.task.composition.nominal):
             what = f"{chosen.fault} is answered by {chosen.then}".replace("_", " ")
-            message = f"the plan changes what is done about a fault ({what}), unasked"
+            message = f"the plan changes what happens after a fault ({what}), which the request does not ask for"
             yield PlanMismatch(kind="return", message=message)
 
 
@@ -285,5 +285,5 @@ def _order(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
     given = any(n.keeps_order for n in plan.nodes)
     if free and not given:
         yield PlanMismatch(
-            kind="order", message="the request fixes an order, and the plan leaves it open", node=free[0].id
+            kind="order", message="the request fixes an order, but the plan leaves it open", node=free[0].id
         )

@@ -144,7 +144,7 @@ def _invented(said: RequestFacts, robot: RobotProfile, test: PlannedTest) -> Ite
         told = say_quantity(value, test.unit)
         yield PlanMismatch(
             kind="threshold",
-            message=f"the plan compares the {what} with {told}, which the request does not say",
+            message=f"the plan compares the {what} with {told}, which the request does not mention",
             node=test.node,
         )
 
@@ -164,12 +164,12 @@ def _levels(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
     tested = {t.level: t.node for t in plan.tests if t.test == "level"}
     if said.levels and not said.unknown:
         for word in sorted(tested.keys() - said.words):
-            message = f"the plan tests for '{word}', of which the request says nothing"
+            message = f"the plan tests for '{word}', which the request does not mention"
             yield PlanMismatch(kind="condition", message=message, node=tested[word])
     if tested or any(t.quantity for t in plan.tests):
         return
     for word in sorted(said.levels):
-        message = f"the request makes something depend on '{word}', and the plan tests no reading"
+        message = f"the request makes something depend on '{word}', but the plan tests no reading"
         yield PlanMismatch(kind="condition", message=message)
 
 

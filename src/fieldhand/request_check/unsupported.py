@@ -49,9 +49,9 @@ def _pattern(forms: tuple[str, ...]) -> re.Pattern[str]:
 
 
 _KINDS = (
-    (_pattern(_SCHEDULES), "a plan holds no times and no days: it runs once, when it is approved"),
-    (_pattern(_PAST), "a plan knows nothing of earlier missions"),
-    (_pattern(_WAITING), "a plan holds no waiting"),
+    (_pattern(_SCHEDULES), "a plan cannot contain times or days: it runs once, when it is approved"),
+    (_pattern(_PAST), "a plan has no access to earlier missions"),
+    (_pattern(_WAITING), "a plan cannot contain waiting"),
 )
 #: References to the past, which are harmless in a sentence without a request ("We had a leak last week.").
 _REMARKS = _KINDS[1][0]

@@ -84,7 +84,7 @@ class Elements:
         if kind not in self.known and kind not in STANDARD:
             near = difflib.get_close_matches(kind, [*self.known, *STANDARD], n=1)
             advice = f"did you mean {near[0]}?" if near else f"known leaves: {', '.join(self.known)}"
-            raise self.error(element, f"the node {kind!r} is not known for this robot", advice)
+            raise self.error(element, f"the node {kind!r} is unknown for this robot", advice)
         ports = {str(k): str(v) for k, v in element.attrib.items() if not str(k).startswith("_")}
         ports.pop("name", None)
         if str(element.tag) in _GENERIC:
@@ -100,18 +100,18 @@ class Elements:
         """
         for name in tag.ports:
             if name not in known:
-                raise self.error(tag.element, f"the port {name!r} is not known", f"known: {', '.join(known) or 'none'}")
+                raise self.error(tag.element, f"the port {name!r} is unknown", f"known: {', '.join(known) or 'none'}")
         for name in _SCRIPTS:
             if name in tag.element.attrib and f"{name}={tag.element.get(name)}" not in scripts:
                 raise self.error(
-                    tag.element, f"a Task cannot say the script {name}", "say it with nodes, or take it out"
+                    tag.element, f"a Task cannot express the script {name}", "express it with nodes, or remove it"
                 )
 
     def children(self, tag: Tag, count: int) -> list[_Element]:
         """Return the child nodes after checking their number."""
         found = list(tag.element)
         if len(found) != count:
-            raise self.error(tag.element, f"holds {len(found)} nodes, needs {count}", "correct it")
+            raise self.error(tag.element, f"contains {len(found)} nodes, needs {count}", "correct it")
         return found
 
     def fields(self, tag: Tag, cls: type, *, beside: Collection[str] = ()) -> dict[str, Any]:
@@ -127,10 +127,10 @@ class Elements:
         where = f"{at_line(self.source, tag.line, tag.kind)}, {port}"
         text = tag.ports.get(port, "")
         if not text.lstrip().startswith("<"):
-            raise TaskError(f"{text!r} is no selector", where=where, advice="write for instance <trees/>, as XML")
+            raise TaskError(f"{text!r} is not a selector", where=where, advice="write for instance <trees/>, as XML")
         found = decode_parts(text, options, source=where)
         if len(found) != 1:
-            raise TaskError(f"holds {len(found)} selectors", where=where, advice="write one")
+            raise TaskError(f"contains {len(found)} selectors", where=where, advice="write one")
         return found[0]
 
     def spans(self, tag: Tag, name: str) -> tuple[Span, ...]:

@@ -72,7 +72,9 @@ class NodeReader:
                 return p.GoTo(**beside, place=place, **self.elements.fields(tag, p.GoTo))
             case str() if tag.kind in self.elements.capabilities.actions:
                 return self._act(tag, beside | {"at_said": self.elements.spans(tag, "_at_said")})
-        raise self.elements.error(element, f"<{tag.kind}> cannot stand here", "a Task has no step that is this alone")
+        raise self.elements.error(
+            element, f"<{tag.kind}> is not allowed here", "a Task has no step that consists of this alone"
+        )
 
     def _sequence(self, tag: Tag, beside: dict[str, Any]) -> p.Node:
         inside = [self.elements.tag(child) for child in tag.element]
@@ -112,7 +114,7 @@ class NodeReader:
         shape = [one.kind for one in inside]
         if shape not in ([RESOLVE, "LoopString"], [RESOLVE, "Script", "LoopString"]):
             raise self.elements.error(
-                tag.element, f"behind <{RESOLVE}> stands a <LoopString> over its places", "add it"
+                tag.element, f"after <{RESOLVE}> a <LoopString> over its places is needed", "add it"
             )
         self.elements.ports(resolve, self.elements.known[RESOLVE])
         self.elements.ports(loop, ("queue", "value", "if_empty"))
@@ -126,11 +128,11 @@ class NodeReader:
         if visit.kind == "IfThenElse":
             asked, once, _ = self.elements.children(visit, 3)
             if self.elements.tag(asked).kind != ALLOWS:
-                raise self.elements.error(asked, f"an optional visit asks <{ALLOWS}>", "put it first")
+                raise self.elements.error(asked, f"an optional visit has to test <{ALLOWS}>", "put it first")
             visit = self.elements.tag(once)
         steps = list(visit.element)
         if visit.kind != "Sequence" or len(steps) not in (2, 3) or self.elements.tag(steps[0]).kind != GO_TO:
-            what = f"a visit is a <Sequence> of <{GO_TO}>, one node and perhaps a test"
+            what = f"a visit is a <Sequence> of <{GO_TO}>, one node and optionally a test"
             raise self.elements.error(visit.element, what, "put what is done there into one <Sequence>")
         go = self.elements.tag(steps[0])
         return p.ForEach(
@@ -161,7 +163,7 @@ class NodeReader:
     def _fallback(self, tag: Tag, beside: dict[str, Any]) -> p.Node:
         """Convert a fallback; with more than two children, each replaces those before it."""
         if len(tag.element) < 2:
-            raise self.elements.error(tag.element, "holds less than two nodes", "add what to do if the first fails")
+            raise self.elements.error(tag.element, "contains fewer than two nodes", "add what to do if the first fails")
         tried = [self.node(child, _AFTER_STOP) for child in tag.element]
         rest = tried[-1]
         for body in reversed(tried[1:-1]):
@@ -170,14 +172,16 @@ class NodeReader:
 
     def _if(self, tag: Tag, beside: dict[str, Any]) -> p.Node:
         if len(tag.element) == 2:
-            what = "fails where its condition does not hold, which a Task cannot say"
+            what = "fails where its condition is not met, which a Task cannot express"
             raise self.elements.error(tag.element, what, "give it a third node: <AlwaysSuccess/>")
         first, then, other = self.elements.children(tag, 3)
         asked = self.elements.tag(first)
         if asked.kind == ALLOWS:
             self.elements.ports(asked, self.elements.known[ALLOWS])
             if other.tag != "AlwaysSuccess":
-                raise self.elements.error(other, "instead of an optional step nothing is done", "use <AlwaysSuccess/>")
+                raise self.elements.error(
+                    other, "the alternative to an optional step must be to do nothing", "use <AlwaysSuccess/>"
+                )
             return p.OptionalStep(**beside, body=self.node(then), **self.elements.fields(asked, p.OptionalStep))
         otherwise = None if other.tag == "AlwaysSuccess" else self.node(other)
         return p.If(**beside, condition=self._condition(first), then=self.node(then), otherwise=otherwise)
@@ -195,7 +199,9 @@ class NodeReader:
                 return Not(condition=self._condition(inner))
         cls = next((cls for cls, kind in CONDITIONS.items() if kind == tag.kind), None)
         if cls is None:
-            raise self.elements.error(element, f"<{tag.kind}> is no condition", f"use {', '.join(CONDITIONS.values())}")
+            raise self.elements.error(
+                element, f"<{tag.kind}> is not a condition", f"use {', '.join(CONDITIONS.values())}"
+            )
         tag.ports.pop(IF_UNKNOWN, None)
         found = self.elements.fields(tag, cls, beside=("reading",))
         if shape_of(cls).head is not None:
@@ -225,7 +231,7 @@ class NodeReader:
         code = script.ports.get("code", "")
         found = re.fullmatch(rf"{EXIT_ENTRY} := '(nominal|faulted)'", code.strip())
         if found is None:
-            raise self.elements.error(script.element, f"a Task cannot say the script {code!r}", "take it out")
+            raise self.elements.error(script.element, f"a Task cannot express the script {code!r}", "take it out")
         return p.StopMission(**beside, exit="nominal" if found[1] == "nominal" else "faulted")
 
     def _times(self, tag: Tag) -> int:
@@ -239,7 +245,7 @@ class NodeReader:
         if name not in self._trees:
             raise self.elements.error(tag.element, f"there is no tree {name!r} in this document", "add it")
         if name in self._inside:
-            raise self.elements.error(tag.element, f"the tree {name!r} holds itself", "end the circle")
+            raise self.elements.error(tag.element, f"the tree {name!r} contains itself", "remove the recursion")
         self._inside.append(name)
         self._depth += _depth(tag.element)
         found = self.node(self._trees[name][0])

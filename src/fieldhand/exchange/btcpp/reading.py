@@ -102,7 +102,9 @@ def _fits(command: Command, plan: p.Node) -> bool:
 def _trees(root: _Element, elements: Elements) -> tuple[_Element, dict[str, _Element]]:
     """Return the main tree and all trees by name."""
     if root.tag != "root":
-        raise elements.error(root, "is no tree of BehaviorTree.CPP", 'its outermost element is <root BTCPP_format="4">')
+        raise elements.error(
+            root, "is not a tree of BehaviorTree.CPP", 'its outermost element is <root BTCPP_format="4">'
+        )
     if root.get("BTCPP_format") != "4":
         said = root.get("BTCPP_format") or "no format, as version 3 did"
         raise elements.error(root, f"names {said}; format 4 can be read", "convert it with convert_v3_to_v4.py first")
@@ -115,7 +117,7 @@ def _trees(root: _Element, elements: Elements) -> tuple[_Element, dict[str, _Ele
             if name in trees:
                 raise elements.error(child, f"there are two trees called {name!r}", "rename one")
             if len(child) != 1:
-                raise elements.error(child, f"holds {len(child)} nodes, a tree holds one", "correct it")
+                raise elements.error(child, f"contains {len(child)} nodes, a tree contains one", "correct it")
             trees[name] = child
     main = root.get("main_tree_to_execute")
     if main is None and len(trees) == 1:
@@ -142,7 +144,7 @@ def _mission(tree: _Element, reader: NodeReader, frames: _Frames) -> tuple[_Fram
     if len(rest) == 1 and rest[0].kind == "IfThenElse" and len(rest[0].element) == 3:
         return _exits(rest[0], elements, frames), reader.node(rest[0].element[0])
     if not rest:
-        raise elements.error(top, "holds no plan", f"put the plan behind <{BEGIN}>")
+        raise elements.error(top, "contains no plan", f"put the plan after <{BEGIN}>")
     steps = tuple(reader.node(one.element) for one in rest)
     return frames, steps[0] if len(steps) == 1 else p.InOrder(id=top.get("name") or "", steps=steps)
 
@@ -152,7 +154,7 @@ def _begun(begin: Tag, elements: Elements, frames: _Frames) -> _Frames:
         where = f"{at_line(elements.source, begin.line, begin.kind)}, {port}"
         found = decode_parts(begin.ports.get(port, ""), (cls,), source=where)
         if not least <= len(found) <= most:
-            raise TaskError(f"holds {len(found)} of <{port}>", where=where, advice="take it from an exported tree")
+            raise TaskError(f"contains {len(found)} of <{port}>", where=where, advice="take it from an exported tree")
         return found
 
     command = parts("command", Command, 0, 1)
@@ -171,7 +173,7 @@ def _exits(ending: Tag, elements: Elements, frames: _Frames) -> _Frames:
     """Return the exits defined after the plan."""
     done, over = elements.tag(ending.element[1]), elements.tag(ending.element[2])
     if done.kind != EXIT or over.kind != "Fallback" or len(over.element) != 2:
-        what = f"behind the plan stand <{EXIT}> and a <Fallback> for what went otherwise"
+        what = f"after the plan, <{EXIT}> and a <Fallback> for other endings are needed"
         raise elements.error(ending.element, what, "take them from an exported tree")
     elements.ports(done, ("then",))
     fault = elements.tag(over.element[1])
@@ -181,11 +183,11 @@ def _exits(ending: Tag, elements: Elements, frames: _Frames) -> _Frames:
         name, _, then = pair.partition(":")
         if name not in get_args(Fault) or then not in get_args(Then):
             raise elements.error(
-                fault.element, f"{pair!r} is no fault and exit", "write for instance drive_failed:stay"
+                fault.element, f"{pair!r} is not a fault and an exit", "write for instance drive_failed:stay"
             )
         faulted.append(FaultedExit(fault=name, then=then))  # type: ignore[arg-type]  # both were looked up
     then = done.ports.get("then", "")
     if then not in get_args(Then):
-        raise elements.error(done.element, f"{then!r} is no exit", f"write one of {', '.join(get_args(Then))}")
+        raise elements.error(done.element, f"{then!r} is not an exit", f"write one of {', '.join(get_args(Then))}")
     nominal: Any = then
     return replace(frames, nominal=nominal, nominal_said=elements.spans(done, "_said"), faulted=tuple(faulted))

@@ -192,7 +192,7 @@ class _TreeWriter:
             ports["reading"] = _reading(node.reading, node.id)
         for key, value in node.parameters:
             if key in ports or key in ("name", "ID", "count", "label", "reading"):
-                raise TaskError(f"a tree cannot carry a parameter called {key!r}", where=node.id)
+                raise TaskError(f"a tree cannot contain a parameter called {key!r}", where=node.id)
             ports[key] = _plain(value, node.id) if isinstance(value, str) else number_text(value)
         act = _element(node.action, **ports)
         if node.at is None:
@@ -277,16 +277,18 @@ def _plain(text: str, where: str) -> str:
     """Return a text protected from blackboard substitution, which would replace anything in braces."""
     bare = text.strip()
     if not text:
-        raise TaskError("a tree cannot carry an empty text", where=where)
+        raise TaskError("a tree cannot contain an empty text", where=where)
     if bare.startswith("{") and bare.endswith("}"):
-        what = f"a tree cannot carry the text {text!r}: in braces it means a blackboard entry"
+        what = f"a tree cannot contain the text {text!r}: in braces it means a blackboard entry"
         raise TaskError(what, where=where, advice="write it without braces")
     return text
 
 
 def _reading(name: str, where: str) -> str:
     if "{" in name or "}" in name:
-        raise TaskError(f"a tree cannot carry a reading called {name!r}", where=where, advice="name it without braces")
+        raise TaskError(
+            f"a tree cannot contain a reading called {name!r}", where=where, advice="name it without braces"
+        )
     return f"{{reading_{name}}}"
 
 

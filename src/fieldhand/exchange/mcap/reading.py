@@ -92,7 +92,7 @@ def _records(file: _Whole, path: Path) -> Iterator[Any]:
     except EndOfFile:
         return
     except (McapError, ZstdError, ValueError, struct.error, RuntimeError) as error:
-        raise _unusable(path, f"is damaged, or no MCAP file ({error or type(error).__name__})") from None
+        raise _unusable(path, f"is damaged, or not an MCAP file ({error or type(error).__name__})") from None
 
 
 class _Whole(io.BufferedIOBase):
@@ -130,7 +130,7 @@ def _unpacked(chunk: Chunk) -> Chunk:
     else:
         return chunk
     if len(data) != chunk.uncompressed_size:
-        raise ValueError("a chunk unpacks to another size than it says")
+        raise ValueError("a chunk unpacks to a different size from the one it states")
     return replace(chunk, data=data, compression="")
 
 

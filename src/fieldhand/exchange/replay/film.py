@@ -145,13 +145,13 @@ def film_of(events: Sequence[Event], site: Site, *, tell: Callable[[Event], str 
         ):
             charge.append((event.t, event.charge_percent))
     if not track.corners:
-        what = "the log does not say where the robot was"
+        what = "the log does not record where the robot was"
         raise InputError(what, advice="give a log that fieldhand run --events or --mcap wrote")
     count = Counter(q for c in captures if c.good for q in c.readings)
     found = np.array(track.corners, dtype=np.float64)
     far = float(np.abs(found[:, 1:]).max())
     if far > 100_000:
-        raise InputError("the mission was on another site than this one", advice="give the site that it was driven on")
+        raise InputError("the mission took place on another site", advice="give the site of the mission")
     return Film(
         signs=_signs(events, site, tell, found),
         title=_title(events),

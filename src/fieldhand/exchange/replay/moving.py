@@ -46,7 +46,7 @@ def save_animation(film: Film, site: Site, path: Path, *, seconds: float = 10.0)
 
     if path.suffix.lower() == ".mp4" and not animation.FFMpegWriter.isAvailable():
         what = "an MP4 needs the program ffmpeg, which is not installed"
-        raise OutputError(what, where=str(path), advice="install ffmpeg, or end the name in .gif or .html")
+        raise OutputError(what, where=str(path), advice="install ffmpeg, or use a file name that ends in .gif or .html")
     kind = animation.FFMpegWriter if path.suffix.lower() == ".mp4" else animation.PillowWriter
     frames = _MovingScene(film, site)
     writer = kind(fps=_FRAMES_A_SECOND)

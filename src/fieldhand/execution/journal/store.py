@@ -195,7 +195,7 @@ class Journal:
         if _identity(self._path) != self._files:
             self._failed = True
             raise JournalError(
-                "the journal that this mission writes is not at its place any more",
+                "the journal that this mission writes is no longer in its place",
                 where=str(self._path),
                 advice="bring the mission's folder back as it was, then fieldhand resume",
             )
