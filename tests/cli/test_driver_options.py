@@ -51,7 +51,7 @@ def test_a_profile_that_does_not_say_how_its_robot_is_reached(tmp_path: Path) ->
     profile.write_bytes(profile_bytes("husky")[0].partition(b"\nros2:")[0] + b"\n")
     error = refused(*RUN, "--missions", str(tmp_path / "missions"), "--on", "dds", "--robot", str(profile))
     assert error.exit_status == 2
-    assert "does not say how the robot is reached over ROS 2" in str(error)
+    assert "does not define how the robot is reached over ROS 2" in str(error)
     assert not (tmp_path / "missions").exists()
 
 

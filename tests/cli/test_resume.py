@@ -72,7 +72,7 @@ def test_paused_killed_twice_and_resumed(missions: Path, tmp_path: Path) -> None
     process = under_way(*MISSION, "--speed", "5", captures=2)
     assert "paused" in fieldhand("pause", "--because", "lunch").out
     assert status()["state"] == "paused"
-    assert "goes on" in fieldhand("resume").out
+    assert "continues" in fieldhand("resume").out
     assert status()["state"] == "running"
     kill(process)
     assert status()["state"] == "interrupted"

@@ -46,7 +46,7 @@ def test_a_second_process_never_drives_beside_the_first(tmp_path: Path) -> None:
         (folder / "lock").touch()
         (folder / "lock").unlink()
         assert missions.is_running(folder)
-        with pytest.raises(JournalError, match="another process is carrying this mission out"):
+        with pytest.raises(JournalError, match="another process is running this mission"):
             missions.carry_out(missions.open_mission(folder), speed=None, emit=lambda _: None)
         # The same files in another folder of the same name: there is no lock on that, and the journal is the same.
         old = folder.rename(tmp_path / "old")

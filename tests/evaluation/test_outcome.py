@@ -51,7 +51,7 @@ def test_a_mission_without_faults_meets_every_goal_and_wants_what_was_done(seed)
         assert outcome.wanted == paper.wanted[goal.node]
         assert outcome.outcome == "success", outcome
         if outcome.wanted == 0:
-            assert outcome.why.startswith(("not called for", "left out"))
+            assert outcome.why.startswith(("not needed", "left out"))
 
 
 @settings(max_examples=120, deadline=None)
@@ -199,7 +199,7 @@ def test_a_branch_that_was_not_taken_is_met_with_none_wanted_and_says_why():
     decided = Decided(t=2, node="n3", holds=False, why="canopy temperature 35 °C is not below 33 °C")
     outcome = judge(task, [acted("n2"), decided, ended()])[1]
     assert (outcome.outcome, outcome.wanted) == ("success", 0)
-    assert outcome.why == "not called for: canopy temperature 35 °C is not below 33 °C"
+    assert outcome.why == "not needed: canopy temperature 35 °C is not below 33 °C"
 
 
 def test_what_stands_behind_a_stop_is_not_wanted():

@@ -112,7 +112,7 @@ def test_a_sensor_can_be_silent_or_absurd() -> None:
         ),
         (
             World(readings={"co2": Truth(trees=((TreeRef(lat=10.0, lon=10.0), 1.0),))}),
-            "is it the world of another site?",
+            "check that the world file belongs to this site",
         ),
         (World(faults=(ActionFails(action="fly"),)), "faults[0]: the robot husky has no action 'fly'"),
         (World(faults=(SensorSilent(quantity="fly"),)), "faults[0]: the robot husky has no quantity 'fly'"),

@@ -108,7 +108,7 @@ def test_another_task_or_journal_is_refused(tmp_path: Path) -> None:
     field = Field(tmp_path)
     with pytest.raises(PowerCut):
         field.fly(cut=6)
-    with pytest.raises(JournalError, match="does not go as the journal says"):
+    with pytest.raises(JournalError, match="does not proceed as the journal records it"):
         field.fly(Act(id="", action="read_co2", at=TreeIs(tree="r3c3")))
     with pytest.raises(JournalError, match="another mission"):
         Journal(tmp_path / "journal.sqlite", "other", tmp_path / "log", print)

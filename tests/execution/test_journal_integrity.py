@@ -115,7 +115,7 @@ def test_an_acted_on_journal_that_lost_its_latest_rows_does_not_begin_anew(
         with opened(folder) as journal:
             assert len(journal.before) > 5, "the log and the index of the write-ahead log are made anew"
         return
-    with pytest.raises(JournalError, match=r"older than the mission|mark of how far the journal had come"):
+    with pytest.raises(JournalError, match=r"older than the mission|high-water mark of the journal"):
         opened(folder)
 
 
@@ -160,7 +160,7 @@ def test_one_writer_at_a_time(tmp_path: Path) -> None:
     with opened(field.folder):
         (field.folder / "lock").touch()
         (field.folder / "lock").unlink()
-        with pytest.raises(JournalError, match="another process is carrying this mission out"):
+        with pytest.raises(JournalError, match="another process is running this mission"):
             opened(field.folder)
     opened(field.folder).close()
 
@@ -184,7 +184,7 @@ def test_of_two_writers_that_no_lock_keeps_apart_the_earlier_stops(tmp_path: Pat
     with opened(field.folder) as two:
         for _ in range(2):
             one.append(Record(kind="sight", body="one again"))
-            with pytest.raises(JournalError, match=r"taken this mission over|could not be written before"):
+            with pytest.raises(JournalError, match=r"taken over this mission|could not be written before"):
                 one.commit()
         two.append(Record(kind="sight", body="two"))
         two.commit()

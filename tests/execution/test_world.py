@@ -86,8 +86,8 @@ BAD = {
     "seed: 1\nseed: 2": "line 2: is not YAML: the key 'seed' is given twice",
     "seed: 2024-13-45": "is not YAML",
     "seed: \x00": "is not YAML",
-    "begins: 0001-01-01T00:00:00+14:00": "begins: the year 1 is not one from 2000 to 2999",
-    "begins: 9999-12-31T23:59:59-12:00": "is not one from 2000 to 2999",
+    "begins: 0001-01-01T00:00:00+14:00": "begins: the year 1 is not in 2000 to 2999",
+    "begins: 9999-12-31T23:59:59-12:00": "is not in 2000 to 2999",
     "faults: [{fault: blocked, at: {id: a}, within_m: 1e308}]": "within_m: must be less than or equal to 100000",
     "faults: [{fault: localisation_lost, at: {id: a}, within_m: 1e308}]": "within_m: must be less than or equal to",
     "readings: {co2: &x 1, b: *x}": "line 1: is not YAML: aliases",
@@ -123,12 +123,12 @@ BAD = {
     "faults: [{fault: robot_stops, at_s: 1, str: 2}]": "faults[0].str: there is no key 'str' here; known here: fault",
     "faults: [{fault: blocked, at: {id: 4, bool: 1}}]": "faults[0].at.bool: there is no key 'bool' here",
     "faults: [{fault: robot_stops, at_s: 1, why: ''}]": "faults[0].why: is empty",
-    "faults: [{fault: blocked}]": "faults[0]: give the tree that it stands at, or the two that it stands between",
-    "faults: [{fault: blocked, at: {id: 1}, between: [{id: 1}, {id: 2}]}]": "faults[0]: give the tree that it stands",
+    "faults: [{fault: blocked}]": "faults[0]: give the tree that it is at, or the two trees that it is between",
+    "faults: [{fault: blocked, at: {id: 1}, between: [{id: 1}, {id: 2}]}]": "faults[0]: give the tree that it is",
     "faults: [{fault: blocked, at: {id: 1}, from_s: 9, until_s: 9}]": "faults[0]: until_s 9 is not after from_s 9",
     "faults: [{fault: blocked, between: [{id: 1}, {ix: 2}]}]": "faults[0].between[1].ix: there is no key 'ix' here",
     "faults: [{fault: blocked, between: [{id: 1}]}]": "faults[0].between: has 1 of its entries, and needs more",
-    "faults: [{fault: localisation_lost}]": "faults[0]: give the second at which it happens, at_s, or the tree, at",
+    "faults: [{fault: localisation_lost}]": "faults[0]: give the time with at_s, in seconds, or the tree with at",
     "faults: [{fault: clock_jumps, at_s: 3}]": "faults[0]: the key 'by_s' is missing",
     "faults: [{fault: clock_jumps, at_s: 3, by_s: .nan}]": "faults[0].by_s",
     "faults: [{fault: disk_full, at_s: -1}]": "faults[0].at_s: must be greater than or equal to 0",
@@ -167,7 +167,7 @@ READINGS = (
 )
 FAULTS = (
     ("{fault: fly}", "there is no fault 'fly'"),
-    ("{fault: blocked}", "give the tree that it stands at"),
+    ("{fault: blocked}", "give the tree that it is at"),
     ("{fault: robot_stops, at_s: -1}", "at_s: must be greater than or equal to 0, is -1"),
 )
 

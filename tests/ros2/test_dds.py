@@ -97,7 +97,7 @@ def test_messages_arrive_in_their_order_and_of_many_the_newest_are_kept(node: Dd
     until(lambda: heard.extend(m["data"] for m in echo.take() if m["data"] != "hello") or len(heard) >= 30)
     assert heard == said
     assert [m["data"] for m in until(newest.take)] == said[-3:]
-    with pytest.raises(Ros2Error, match=r"^data: '3' \(int\) is no string"):
+    with pytest.raises(Ros2Error, match=r"^data: '3' \(int\) is not a string"):
         say.send({"data": 3})
     say.close()
     say.send({"data": "after its end"})
@@ -180,7 +180,7 @@ def test_a_reply_waits_until_its_client_can_hear_it(node: DdsTransport, monkeypa
 
 def test_a_network_that_cannot_be_used_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("CYCLONEDDS_URI", os.environ["CYCLONEDDS_URI"].replace('"lo"', '"no-such-one"'))
-    with pytest.raises(Ros2Error, match="no node can be made on DDS domain 99; look at the network's interfaces"):
+    with pytest.raises(Ros2Error, match="no node can be created on DDS domain 99; check the network interfaces"):
         open_dds(Interfaces.of("humble"), 99)
 
 

@@ -198,7 +198,7 @@ def test_a_drive_that_takes_too_long_is_cancelled_and_has_failed() -> None:
     slow = replace(drive(), length_m=5.0)
     driver.start_drive(slow)
     progress = finish(driver, w.clock)
-    assert (progress.state, progress.what) == ("failed", "the drive is not over after 7 s")
+    assert (progress.state, progress.what) == ("failed", "the drive did not end within 7 s")
     assert not w.robot.navigation.executing
 
 
@@ -370,9 +370,9 @@ def test_a_capture_that_is_not_bound_fails_and_is_named_before_a_mission_that_ne
     w = world(bindings(actions={}))
     driver = w.connect()
     driver.start_action(capture())
-    said = "the profile does not say how read_co2 is done over ROS 2"
+    said = "the profile does not define how read_co2 is done over ROS 2"
     assert finish(driver, w.clock).what == said
-    with pytest.raises(Ros2Error, match="does not say how it does read_co2"):
+    with pytest.raises(Ros2Error, match="does not define how the robot does read_co2"):
         w.connect(actions=["read_co2"])
 
 
@@ -381,7 +381,7 @@ def test_an_action_that_takes_too_long_is_cancelled() -> None:
     driver = w.connect()
     driver.start_action(capture())
     progress = finish(driver, w.clock)
-    assert (progress.state, progress.what) == ("failed", "/husky/sample is not done after 20 s")
+    assert (progress.state, progress.what) == ("failed", "/husky/sample did not end within 20 s")
     assert not w.robot.sampler.executing
 
 
@@ -786,7 +786,7 @@ def test_an_emergency_stop_that_cannot_be_read_is_none_that_is_not_pressed() -> 
 def test_a_profile_that_says_nothing_of_ros_is_refused() -> None:
     w = world()
     w.profile = replace(husky(), ros2=None)
-    with pytest.raises(Ros2Error, match="does not say how it is reached over ROS 2"):
+    with pytest.raises(Ros2Error, match="does not define how the robot is reached over ROS 2"):
         Ros2Driver(w.computer, SITE, w.profile, clock=w.clock)
 
 

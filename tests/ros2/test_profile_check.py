@@ -215,7 +215,7 @@ def test_types_are_checked_without_a_robot() -> None:
     assert "has no 'done'" in found.what
     (unknown,) = check_types(profile, Interfaces.of("humble")).missing
     assert unknown.what == "the type fieldhand_husky/action/TakeThermalPicture is not known here"
-    with pytest.raises(ProfileError, match="does not say how the robot is reached over ROS 2"):
+    with pytest.raises(ProfileError, match="does not define how the robot is reached over ROS 2"):
         check_types(replace(HUSKY, ros2=None), INTERFACES)
 
 

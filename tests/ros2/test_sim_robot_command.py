@@ -113,8 +113,11 @@ def test_a_killed_robot_goes_on_where_it_stood_and_a_told_one_ends_in_order(tmp_
         (("--speed", "0"), "--speed: 0 is no speed; give a number above 0"),
         (("--speed", "nan"), "--speed: nan is no speed; give a number above 0"),
         (("--namespace", "a b"), "--namespace: 'a b' is not a name of ROS; use letters"),
-        (("--robot", "plain.yaml"), "plain.yaml: the robot husky has no part ros2 in its profile; name its topics"),
-        (("--state", "state.json"), "state.json: is no state of a simulated robot: format Field required; remove it"),
+        (("--robot", "plain.yaml"), "plain.yaml: the robot husky has no ros2 section in its profile; name its topics"),
+        (
+            ("--state", "state.json"),
+            "state.json: is not the state of a simulated robot: format Field required; remove it",
+        ),
         (("--world", "no.yaml"), "no.yaml: cannot be read"),
     ],
 )

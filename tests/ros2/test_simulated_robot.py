@@ -408,10 +408,10 @@ def test_what_is_written_of_a_robot_is_read_again(tmp_path: Path) -> None:
     ("change", "said"),
     [
         ({"robot": "x"}, "of a robot with another robot"),
-        ({"format": 2}, "is no state of a simulated robot: format"),
-        ({"charge_percent": 101}, "is no state of a simulated robot: charge_percent"),
-        ({"x": "east"}, "is no state of a simulated robot: x"),
-        ({"more": 1}, "is no state of a simulated robot: more"),
+        ({"format": 2}, "is not the state of a simulated robot: format"),
+        ({"charge_percent": 101}, "is not the state of a simulated robot: charge_percent"),
+        ({"x": "east"}, "is not the state of a simulated robot: x"),
+        ({"more": 1}, "is not the state of a simulated robot: more"),
     ],
 )
 def test_what_is_no_state_of_this_robot_is_refused(tmp_path: Path, change: dict, said: str) -> None:

@@ -85,11 +85,11 @@ class EventText:
             case InDoubt():
                 fills = {"capture": noun(self._robot, event.action), "what": kept_in_log(event.what)}
                 if event.then == "repeat":
-                    return message("{capture} in doubt: {what}; it is made again", **fills)
-                return message("{capture} in doubt: {what}; it is not made again", **fills)
+                    return message("{capture} in doubt: {what}; it is taken again", **fills)
+                return message("{capture} in doubt: {what}; it is not taken again", **fills)
             case Resumed():
                 charge = f"{event.charge_percent:.0f}"
-                return message("goes on after a power cut, battery at {charge} %", charge=charge)
+                return message("continues after a power cut, battery at {charge} %", charge=charge)
             case Paused():
                 return message("paused ({reason})", reason=kept_in_log(event.reason))
             case Continued():
@@ -107,8 +107,10 @@ class EventText:
             case ClockSet():
                 by = clock_time(abs(event.by_s))
                 if event.by_s > 0:
-                    return message("the wall clock was set forward by {time}; the mission's time goes on", time=by)
-                return message("the wall clock was set back by {time}; the mission's time goes on", time=by)
+                    return message(
+                        "the wall clock was set forward by {time}; the mission's time is not affected", time=by
+                    )
+                return message("the wall clock was set back by {time}; the mission's time is not affected", time=by)
             case Faulted(handled=True):
                 return message("fault: {what} (handled)", what=kept_in_log(event.what))
             case Faulted():
@@ -177,10 +179,10 @@ def _obstructed(event: Obstructed) -> str:
 def _waited(event: Waited) -> str:
     time = clock_time(event.seconds)
     if event.wanted == "way":
-        return message("waited {time} for a way to come free", time=time)
+        return message("waited {time} for a way to become free", time=time)
     if event.over:
         return message("waited {time} for its position: it is back", time=time)
-    return message("waited {time} for its position: in vain", time=time)
+    return message("waited {time} for its position without success", time=time)
 
 
 def _exited(event: Exited) -> str:

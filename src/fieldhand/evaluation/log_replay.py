@@ -281,7 +281,7 @@ class _Replay:
 
     def _went_well(self, frame: StackFrame) -> None:
         for count in self._counts.under(*frame.instead):
-            count.skipped.append(message("what it stands in for went well", context="log"))
+            count.skipped.append(message("the step it replaces succeeded", context="log"))
 
     def _absent(self, node: Node) -> Exception:
         """Count a node to which the log never came, and give what to throw to go on behind it."""

@@ -101,7 +101,7 @@ def _why(goal: Goal, tally: CaptureCount, verdict: Verdict, ended: Ended | None,
     if tally.done == 0 and tally.wanted == 0 and verdict == "success":
         return _not_called_for(tally)
     if tally.in_doubt:
-        parts.append(message("{count} in doubt (the power was cut while it was made)", count=tally.in_doubt))
+        parts.append(message("{count} in doubt (the power was cut during the capture)", count=tally.in_doubt))
     if tally.failed:
         parts.append(counted("failed for good {count} time", "failed for good {count} times", tally.failed))
     if tally.given_up:
@@ -118,11 +118,11 @@ def _why(goal: Goal, tally: CaptureCount, verdict: Verdict, ended: Ended | None,
     if ended is None:
         parts.append(message("the log ends before the mission does"))
     elif not tally.reached and not tally.given_up:
-        parts.append(message("never reached, the mission was over before ({why})", why=_said(ended)))
+        parts.append(message("never reached: the mission ended before ({why})", why=_said(ended)))
     elif tally.open and not tally.given_up and not tally.failed:
-        parts.append(message("cut off ({why})", why=_said(ended)))
+        parts.append(message("interrupted ({why})", why=_said(ended)))
     if tally.undecided and verdict == "indeterminate":
-        parts.append(message("whether more was called for was never tested"))
+        parts.append(message("it was never tested whether more was needed"))
     return joined("; ", parts)
 
 
@@ -130,7 +130,9 @@ def _counted(goal: Goal, tally: CaptureCount) -> str:
     if goal.optional or tally.open:
         return say_captures(goal.action, tally.done)
     if tally.done > tally.wanted:
-        return message("{captures}, {count} wanted", captures=say_captures(goal.action, tally.done), count=tally.wanted)
+        return message(
+            "{captures}, {count} requested", captures=say_captures(goal.action, tally.done), count=tally.wanted
+        )
     return message("{count} of {captures}", count=tally.done, captures=say_captures(goal.action, tally.wanted))
 
 
@@ -140,22 +142,22 @@ def _not_called_for(tally: CaptureCount) -> str:
             ": ",
             (
                 joined("", (message("left out", context="goal"), _because(tally))),
-                message("it was to be done only if the budget allowed"),
+                message("it was optional, to be done only if the budget allowed"),
             ),
         )
     if tally.skipped:
         reasons = list(dict.fromkeys(reason for reason in tally.skipped if reason))
         if not reasons:
-            return message("not called for")
+            return message("not needed")
         why = kept_in_log(reasons[0])
         if len(reasons) > 2:
-            return message("not called for: {why}, and {count} more times", why=why, count=len(reasons) - 1)
+            return message("not needed: {why}, and {count} more times", why=why, count=len(reasons) - 1)
         if len(reasons) == 2:
-            return message("not called for: {why} and once more", why=why)
-        return message("not called for: {why}", why=why)
+            return message("not needed: {why} and once more", why=why)
+        return message("not needed: {why}", why=why)
     if tally.stopped:
-        return message("not called for: the plan ended before it, as it says")
-    return message("not called for")
+        return message("not needed: the plan ended before it, as planned")
+    return message("not needed")
 
 
 def _because(tally: CaptureCount) -> str:

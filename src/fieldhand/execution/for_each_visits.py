@@ -179,7 +179,7 @@ class ForEachVisits:
         visits = {(v.place.kind, v.place.id): v for v in (*self.left, *self.cut_off)}
         near, far = self._parted([v.place for v in visits.values()])
         if node.optional and far:
-            self._give_up(far, "no way to it is left: what the robot found in its way closes it off")
+            self._give_up(far, "no way to it is left: obstacles that the robot found block it")
             far = ()
         open_ = [replace(p, stand=None) if p.kind == "tree" else p for p in near]
         ordered = with_stands(mission.drives, mission.standing, open_)

@@ -60,7 +60,9 @@ def parse_agent_command(word: str) -> AgentCommand:
     for command in AGENT_COMMANDS:
         if command == word:
             return command
-    raise InputError(f"no order '{word[:40]}'", where="order", advice=f"give one of {', '.join(AGENT_COMMANDS)}")
+    raise InputError(
+        f"there is no order '{word[:40]}'", where="order", advice=f"give one of {', '.join(AGENT_COMMANDS)}"
+    )
 
 
 class CommandFile:
@@ -104,7 +106,7 @@ class CommandFile:
                 db.execute("BEGIN IMMEDIATE")
                 number, last = self._last(db)
                 if command not in _AFTER[last]:
-                    raise ExecutionError(f"the mission was told to {last} already")
+                    raise ExecutionError(f"the mission was already told to {last}")
                 db.execute("INSERT INTO orders VALUES (?, ?, ?)", [number + 1, command, reason])
                 db.execute("COMMIT")
                 return number + 1

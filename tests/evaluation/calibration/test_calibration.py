@@ -95,7 +95,7 @@ def test_steps_whose_figures_are_no_numbers_are_left_out():
     events = mission(0, stops=30)
     broken = [replace(e, leg_m=math.nan) if isinstance(e, Arrived) and k < 9 else e for k, e in enumerate(events)]
     found = calibrate(PROFILE, [measure_mission(broken)])
-    assert found.left_out["figures that are no numbers"] == 3
+    assert found.left_out["values that are not numbers"] == 3
     assert math.isfinite(found.fit.legs.alpha.value)
 
 
@@ -109,7 +109,7 @@ def test_logs_that_cannot_be_used_are_refused(tmp_path):
     assert len(read(mission(0))) == 1
     with pytest.raises(InputError, match="was recorded by the robot 'husky', not 'amiga'"):
         read(mission(0), load_robot("amiga"))
-    with pytest.raises(InputError, match="which robot it is of"):
+    with pytest.raises(InputError, match="identifies its robot"):
         read(mission(0)[1:])
     with pytest.raises(InputError, match="no driven missions of husky are stored"):
         finished_missions.measured_missions(PROFILE, [], tmp_path)
@@ -156,7 +156,7 @@ def test_a_damaged_history_is_one_clear_line(tmp_path):
     history.history_file(tmp_path, "husky").write_bytes(b"no database at all" * 100)
     with pytest.raises(InputError, match="is not a history of missions"):
         history.load_missions(tmp_path, "husky")
-    with pytest.raises(OutputError, match="cannot be kept"):
+    with pytest.raises(OutputError, match="cannot be stored"):
         finished_missions.save_history(tmp_path, PROFILE, mission(0, stops=1), NOW)
 
 

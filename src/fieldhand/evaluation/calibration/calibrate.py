@@ -130,7 +130,7 @@ def calibrate(robot: RobotProfile, missions: Sequence[MeasuredMission], *, seed:
     if fit is None:
         legs = len(_legs(steps))
         raise InputError(
-            f"{legs} legs of at least {SHORTEST_M:g} m are too few to fit to",
+            f"{legs} legs of at least {SHORTEST_M:g} m are too few for a fit",
             where=robot.name,
             advice=f"drive more: {LEAST_LEGS} legs are the least, 200 give useful figures",
         )
@@ -143,7 +143,7 @@ def calibrate(robot: RobotProfile, missions: Sequence[MeasuredMission], *, seed:
         known = other.profile(robot)
         after += [(steps[k], known) for k in part.tolist() if _comparable(steps[k])]
     left_out = {
-        "figures that are no numbers": sum(m.left_out for m in missions),
+        "values that are not numbers": sum(m.left_out for m in missions),
         "legs too short": sum(s.kind == "leg" and s.done and 0 < s.planned_m < SHORTEST_M for s in steps),
         "not timed, or charge not known": sum(
             s.kind != "rest" and not (s.sure and math.isfinite(s.seconds)) for s in steps
@@ -220,13 +220,13 @@ def _with_energy(fit: CostModelFit, robot: RobotProfile, steps: Sequence[Measure
     causes = [metres, *(counts[name] for name in asked)]
     with_time = np.column_stack([*causes, seconds]) if len(rows) else np.zeros((0, 0))
     if len(rows) < len(causes) + 1 + LEAST_LEGS or not apart(with_time[:, :-1]):
-        return replace(fit, kept=("energy: the log tells too little of the charge",))
+        return replace(fit, kept=("energy: the log contains too few charge values",))
     if apart(with_time):
         found = fit_shares(with_time, joules)
         return replace(fit, drive=found[0], idle=found[-1], energies=dict(zip(asked, found[1:-1], strict=True)))
     found = fit_shares(with_time[:, :-1], joules - robot.energy.idle_w * seconds)
     why = (
-        "idle_w: it cannot be told apart from driving and capturing, which always took the same time; drive some"
+        "idle_w: it cannot be separated from driving and capturing, which always took the same time; drive some"
         " missions slower, or let the robot wait"
     )
     return replace(fit, drive=found[0], energies=dict(zip(asked, found[1:], strict=True)), kept=(why,))

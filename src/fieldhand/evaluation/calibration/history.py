@@ -62,7 +62,7 @@ def save_mission(folder: Path, robot: RobotProfile, driven: MeasuredMission, at:
         return True
     except (OSError, sqlite3.Error) as error:
         raise OutputError(
-            f"what the mission cost cannot be kept: {error}",
+            f"the costs of the mission cannot be stored: {error}",
             where=str(path),
             advice="give --no-history, or delete the file if it is damaged",
         ) from None

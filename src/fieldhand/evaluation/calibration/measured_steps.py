@@ -86,7 +86,7 @@ def measure_mission(events: Sequence[Event], *, where: str = "the log") -> Measu
     """
     started = next((e for e in events if isinstance(e, Started)), None)
     if started is None:
-        raise InputError("has no line that says which robot it is of", where=where, advice="give a whole event log")
+        raise InputError("has no line that identifies its robot", where=where, advice="give a whole event log")
     found = _LogReader(started).read(events)
     sound = tuple(step for step in found if _finite(step))
     digest = hashlib.sha256("\n".join(to_json(e) for e in events).encode("utf-8", errors="replace"))

@@ -26,7 +26,7 @@ _MARKS = {"success": "✓ met", "failure": "✗ not met", "indeterminate": "? no
 HEADINGS = {
     "page": "Mission report",
     "asked": "What was asked",
-    "words": "What became of the words",
+    "words": "How the words were planned",
     "maps": "Map",
     "readings": "Readings",
     "goals": "What was done",
@@ -35,15 +35,15 @@ HEADINGS = {
     "lines": "All of them",
     "faults": "Faults, doubts and interruptions",
     "conditions": "Conditions",
-    "took": "What it took, and what was forecast",
-    "bars": "Dark: used. Dark grey: what every other mission stays within; light grey: nine in ten."
+    "took": "What it took, and the forecast",
+    "bars": "Dark: used. Dark grey: what half of the missions stay within; light grey: nine in ten."
     " Orange: the average. Red: the budget.",
     "table": "Every reading",
     "warnings": "Warnings that were confirmed",
     "record": "Record",
 }
 GOAL_HEAD = ("Goal", "Done", "Wanted", "Outcome")
-TABLE_HEAD = ("Time", "Place", "Reading", "Against its threshold")
+TABLE_HEAD = ("Time", "Place", "Reading", "Compared with its threshold")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -234,7 +234,7 @@ def _bar(name: str, value: float, figure: Figure | None, limit: float | None, un
 
     words = []
     if figure:
-        often = f"at most {say(figure.p50)} every other time, {say(figure.p90)} nine times in ten"
+        often = f"at most {say(figure.p50)} half of the time, {say(figure.p90)} nine times in ten"
         words.append(f"forecast {say(figure.mean)} on average, {often}")
     if limit is not None:
         words.append(f"budget {say(limit)}")
@@ -272,7 +272,7 @@ def _record(
     yield "Robot", f"{robot.name}{seed}"
     yield "Site", site.name
     if authorization is None:
-        yield "Approved by", "not known: the report was made from a log and a Task document"
+        yield "Approved by", "unknown: the report was made from a log and a Task document"
     else:
         yield "Approved by", f"{authorization.by}, {authorization.at}"
     if signed:

@@ -84,12 +84,12 @@ def faults(robot: RobotProfile, events: Sequence[Event], names: PlaceNames) -> F
             worked = " (worked around)" if event.handled else ""
             lines.append(f"{clock_time(event.t)}: {event.what or event.fault}{worked}")
         elif isinstance(event, InDoubt):
-            then = "it was made again" if event.then == "repeat" else "it was not made again"
+            then = "it was taken again" if event.then == "repeat" else "it was not taken again"
             what = f"{say_action(event.action)} at {names.name(event.kind, event.place)} is in doubt; {then}"
             lines.append(f"{clock_time(event.t)}: {what}: {event.what}")
         elif isinstance(event, Obstructed | Waited | LimitCrossed | ClockSet | Resumed | Paused | Continued):
             lines.append(f"{clock_time(event.t)}: {text.brief(event)}")
-    return _folded(lines, f"{say_count(len(lines), 'line')}, failed tries included.")
+    return _folded(lines, f"{say_count(len(lines), 'line')}, including failed tries.")
 
 
 def conditions(events: Sequence[Event], names: PlaceNames) -> FoldedLines:
@@ -126,7 +126,7 @@ def _given_up(group: Sequence[Shed], *, optional: bool, cut_off: bool, names: Pl
     done = "left out" if optional else "given up, though to be done,"
     where = f": {names.many(places)}" if places else ""
     them = "it" if len(places) == 1 else "them"
-    why = f"no way led to {them}" if cut_off else f"the budget would hardly have lasted{_chances(group)}"
+    why = f"no way led to {them}" if cut_off else f"the budget would probably not have been enough{_chances(group)}"
     details = [f"{clock_time(event.t)}  {' '.join(event.reason.split())}" for event in group[:_MOST_DETAILS]]
     if len(group) > _MOST_DETAILS:
         details.append(f"and {len(group) - _MOST_DETAILS} more in the event log")

@@ -65,13 +65,13 @@ def driver_kind(name: str) -> DriverKind:
     plugins = active("fieldhand.drivers")
     if name not in plugins:
         raise InputError(
-            message("a mission cannot be carried out on '{on}'", on=name[:80]),
+            message("a mission cannot run on '{on}'", on=name[:80]),
             where="--on",
             advice=message("choose one of {what}", what=", ".join(("simulation", *plugins))),
         )
     kind = plugins[name].load()
     if not isinstance(kind, DriverKind):
-        raise plugins[name].error("is no DriverKind")
+        raise plugins[name].error("is not a DriverKind")
     return replace(kind, connect=_explained(kind.connect, plugins[name]))
 
 

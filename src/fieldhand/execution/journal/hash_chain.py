@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from fieldhand.errors import JournalError
 
-_ANEW = "carry the Task out as a new mission"
+_ANEW = "run the Task as a new mission"
 
 
 @dataclass(frozen=True, kw_only=True)

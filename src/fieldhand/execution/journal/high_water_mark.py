@@ -105,15 +105,15 @@ def read_mark(path: Path) -> HighWaterMark:
     Raises:
         JournalError: It is missing or damaged.
     """
-    advice = "bring it back with the rest of the folder, or carry the Task out as a new mission"
+    advice = "restore it with the rest of the folder, or run the Task as a new mission"
     try:
         found = _latest(path.read_bytes())[1]
     except OSError as error:
         raise JournalError(
-            f"the mark of how far the journal had come cannot be read: {error.strerror}", where=str(path), advice=advice
+            f"the high-water mark of the journal cannot be read: {error.strerror}", where=str(path), advice=advice
         ) from None
     if found is None:
-        raise JournalError("the mark of how far the journal had come is damaged", where=str(path), advice=advice)
+        raise JournalError("the high-water mark of the journal is damaged", where=str(path), advice=advice)
     return found
 
 

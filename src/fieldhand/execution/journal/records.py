@@ -212,13 +212,13 @@ def _error(said: Sequence[str]) -> FieldhandError:
 def invalid_record(why: object) -> JournalError:
     """Return the error for a record that is invalid."""
     return JournalError(
-        f"the journal holds something that no mission wrote ({why})", advice="carry the Task out as a new mission"
+        f"the journal contains something that no mission wrote ({why})", advice="run the Task as a new mission"
     )
 
 
 def divergence(why: str) -> JournalError:
     """Return the error for a mission that deviates from its record."""
     return JournalError(
-        f"the mission does not go as the journal says: {why}",
-        advice="resume it with the version of Fieldhand that began it, or carry the Task out as a new mission",
+        f"the mission does not proceed as the journal records it: {why}",
+        advice="resume it with the version of Fieldhand that started it, or run the Task as a new mission",
     )

@@ -45,15 +45,15 @@ _TABLES = (
 _COLUMNS = {"tape": "CAST(kind AS TEXT), CAST(body AS TEXT)", "events": "CAST(at AS TEXT), CAST(line AS TEXT)"}
 #: Signs in SQLite's messages of a sound file that cannot be written, and advice.
 _CANNOT = {
-    "full": "free some space, then fieldhand resume",
-    "disk I/O": "see whether the disk is sound, then fieldhand resume",
-    "readonly": "let the user who carries out the mission write there",
-    "unable to open": "let the user who carries out the mission write there",
+    "full": "free some space, then run fieldhand resume",
+    "disk I/O": "check whether the disk is sound, then run fieldhand resume",
+    "readonly": "let the user who runs the mission write there",
+    "unable to open": "let the user who runs the mission write there",
     "locked": "end the other program that has it open",
 }
-_ANEW = "carry the Task out as a new mission"
-_RESUME = "see whether the disk is sound and has space, then fieldhand resume"
-_OLDER = "bring the journal back with its -wal file, or carry out what is left as a new mission"
+_ANEW = "run the Task as a new mission"
+_RESUME = "check whether the disk is sound and has space, then run fieldhand resume"
+_OLDER = "restore the journal with its -wal file, or run what is left as a new mission"
 
 
 def create(path: Path, mission: str) -> None:
@@ -195,18 +195,18 @@ class Journal:
         if _identity(self._path) != self._files:
             self._failed = True
             raise JournalError(
-                "the journal that this mission writes is no longer in its place",
+                "the journal of this mission is no longer in its place",
                 where=str(self._path),
-                advice="bring the mission's folder back as it was, then fieldhand resume",
+                advice="restore the mission's folder as it was, then run fieldhand resume",
             )
 
     def _require_own_epoch(self) -> None:
         found = self._db.execute("SELECT value FROM about WHERE key = 'epoch'").fetchone()
         if found != (str(self._epoch),):
             raise JournalError(
-                "another process has taken this mission over, and this one stops",
+                "another process has taken over this mission, so this one stops",
                 where=str(self._path),
-                advice="fieldhand status says what the other one does",
+                advice="fieldhand status shows what the other one does",
             )
 
     def close(self) -> None:
@@ -353,9 +353,9 @@ def _locked(folder: Path) -> FolderLock:
         return FolderLock(folder)
     except FolderTaken:
         raise JournalError(
-            "another process is carrying this mission out",
+            "another process is running this mission",
             where=str(folder),
-            advice="fieldhand status says what it does",
+            advice="fieldhand status shows what it does",
         ) from None
 
 
@@ -394,9 +394,9 @@ def repaired_log(path: Path, lines: Sequence[str]) -> EventLog:
         more = held[size:].partition(b"\n")
         if more[1] and more[0].startswith(b'{"event"'):
             raise JournalError(
-                "the journal lacks events that the log holds: it is older than the mission, and would do them again",
+                "the journal lacks events that the log contains: it is older than the mission, which would repeat them",
                 where=str(path),
-                advice="bring the journal back with its -wal file, or carry out what is left as a new mission",
+                advice="restore the journal with its -wal file, or run what is left as a new mission",
             )
     kept = held[:size].count(b"\n")
     log = EventLog(path, begun=size)
@@ -478,7 +478,7 @@ def _require_plain(path: Path) -> None:
         raise JournalError("the mission has no journal", where=str(path), advice=_ANEW) from None
     if not stat.S_ISREG(found.st_mode) or found.st_nlink != 1:
         raise JournalError(
-            "the journal is a link, or has a second name", where=str(path), advice="bring back the file itself"
+            "the journal is a link, or has a second name", where=str(path), advice="restore the file itself"
         )
     try:
         require_own_file(path, found)
@@ -491,13 +491,13 @@ def _require_about(about: Mapping[str, str], mission: str | None, path: Path) ->
         raise JournalError(
             f"the journal has format {about.get('format')}, this version reads {WITHOUT_CHECKSUMS} and {FORMAT}",
             where=str(path),
-            advice="resume with the version of Fieldhand that began it",
+            advice="resume with the version of Fieldhand that started it",
         )
     if mission is not None and about.get("mission") != mission:
         raise JournalError(
-            "this is the journal of another mission: Task, site, robot, world or approval are not those it began with",
+            "this is the journal of another mission: its Task, site, robot, world or approval are different",
             where=str(path),
-            advice="bring back the folder as the mission left it",
+            advice="restore the folder as the mission left it",
         )
 
 
@@ -508,7 +508,7 @@ def _as_journal_error(path: Path) -> Iterator[None]:
         yield
     except sqlite3.IntegrityError as error:
         raise JournalError(
-            f"the journal holds rows that another process has written ({error})", where=str(path), advice=_ANEW
+            f"the journal contains rows that another process has written ({error})", where=str(path), advice=_ANEW
         ) from None
     except (sqlite3.DatabaseError, ValueError) as error:
         for sign, advice in _CANNOT.items():

@@ -165,7 +165,7 @@ class RunningCapture:
     def _carry_out(self) -> Steps:
         bound = self._captures.bound.get(self._goal.action)
         if bound is None:
-            return _failed(f"the profile does not say how {self._goal.action} is done over ROS 2")
+            return _failed(f"the profile does not define how {self._goal.action} is done over ROS 2")
         ending = GoalEnd(state="succeeded")
         call, latest = bound.binding.call, _LatestMessages(bound.topics)
         latest.forget()
@@ -206,7 +206,7 @@ class RunningCapture:
             if self._cancelled:
                 client.cancel()
             elif limit.over:
-                client.cancel(f"{client.name} is not done after {limit.seconds:g} s")
+                client.cancel(f"{client.name} did not end within {limit.seconds:g} s")
             yield
             latest.listen()
         return self._ending_of(outcome, call, client.name)

@@ -317,14 +317,14 @@ def _bindings_of(robot: RobotProfile, actions: Collection[str] | None) -> Ros2Bi
     """
     if robot.ros2 is None:
         raise Ros2Error(
-            f"the profile of {robot.name} does not say how it is reached over ROS 2",
+            f"the profile of {robot.name} does not define how the robot is reached over ROS 2",
             where=robot.source,
-            advice="give it a ros2 part (docs/formats.md)",
+            advice="add a ros2 section (docs/formats.md)",
         )
     unbound = [name for name in actions or () if name not in robot.ros2.actions]
     if unbound:
         raise Ros2Error(
-            f"the profile of {robot.name} does not say how it does {', '.join(unbound)} over ROS 2",
+            f"the profile of {robot.name} does not define how the robot does {', '.join(unbound)} over ROS 2",
             where=robot.source,
             advice="name them under ros2: actions",
         )

@@ -195,7 +195,7 @@ class SubscriberCheck:
     def report(self) -> EndpointReport:
         if self.look():
             return EndpointReport(binding=self.binding, usable=True, what="heard")
-        advice = "check whether its node is active, and hears it under this name and type"
+        advice = "check whether its node is active, and subscribes under this name and type"
         return EndpointReport(binding=self.binding, usable=False, what="there is no subscriber", advice=advice)
 
 

@@ -43,7 +43,7 @@ class EndpointProblem:
 
 def rmw_package(rmw: Rmw) -> str:
     """Return the package name that a robot sets as ``RMW_IMPLEMENTATION``."""
-    return _PACKAGES.get(rmw, "an RMW that is not known")
+    return _PACKAGES.get(rmw, "an unknown RMW")
 
 
 def topic_problem(

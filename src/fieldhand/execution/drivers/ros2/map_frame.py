@@ -64,7 +64,9 @@ def query_map_points(
     for reply in replies:
         x, y = number_at(reply, _X), number_at(reply, _Y)
         if x is None or y is None:
-            raise Ros2Error(f"{name} gave no point", advice="check whether navsat_transform knows the robot's datum")
+            raise Ros2Error(
+                f"{name} returned no point", advice="check whether navsat_transform knows the robot's datum"
+            )
         points.append((x, y))
     legs = zip(itertools.pairwise(points), itertools.pairwise(goal.path_m), strict=True)
     for (a, b), (here, there) in legs:

@@ -151,7 +151,9 @@ class NavigationClient:
         """
         if self.speed is not None:
             if self.speed.subscribers() == 0:
-                raise Ros2Error(f"nobody hears {self.speed_name}", advice="check whether Nav2's controller is active")
+                raise Ros2Error(
+                    f"nothing subscribes to {self.speed_name}", advice="check whether Nav2's controller is active"
+                )
             self.speed.send({"percentage": False, "speed_limit": speed_m_s})
         elif speed_m_s < self.speed_m_s:
             raise Ros2Error(
@@ -223,7 +225,7 @@ class RunningDrive:
             if self._cancelled:
                 client.cancel()
             elif self._limit.over:
-                client.cancel(f"the drive is not over after {self._limit.seconds:.0f} s")
+                client.cancel(f"the drive did not end within {self._limit.seconds:.0f} s")
             elif (why := self._wrong_place(plan)) is not None:
                 client.cancel(why)
             yield

@@ -81,9 +81,9 @@ def bindings_of(profile: RobotProfile) -> Ros2Bindings:
     """
     if profile.ros2 is None:
         raise ProfileError(
-            f"the profile of {profile.name} does not say how the robot is reached over ROS 2",
+            f"the profile of {profile.name} does not define how the robot is reached over ROS 2",
             where=profile.source,
-            advice="add a part ros2 (docs/formats.md)",
+            advice="add a ros2 section (docs/formats.md)",
         )
     return profile.ros2
 

@@ -32,9 +32,9 @@ def effective_bindings(robot: RobotProfile, by: Connection) -> Ros2Bindings:
     """
     if robot.ros2 is None:
         raise ProfileError(
-            message("the profile of {name} does not say how the robot is reached over ROS 2", name=robot.name),
+            message("the profile of {name} does not define how the robot is reached over ROS 2", name=robot.name),
             where=robot.source,
-            advice=message("add a part ros2 (docs/formats.md), or carry the mission out in simulation"),
+            advice=message("add a ros2 section (docs/formats.md), or run the mission in simulation"),
         )
     namespace = robot.ros2.namespace if by.namespace is None else by.namespace
     return replace(robot.ros2, namespace=namespace, use_sim_time=robot.ros2.use_sim_time or by.sim_time)

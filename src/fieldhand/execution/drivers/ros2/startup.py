@@ -93,7 +93,7 @@ class Startup:
         if (why := self._far()) is not None:
             yield why, ""
         if (pressed := self._telemetry.stopped()) is not None:
-            yield pressed, "release it and begin again"
+            yield pressed, "release it and start again"
         for name, bound in self._captures.bound.items():
             yield from self._missing_capture(name, bound)
 

@@ -328,7 +328,7 @@ def fix_problem(fix: Message, binding: PositionBinding) -> str | None:
     if isinstance(covariance, tuple) and len(covariance) == 9 and isinstance(known, int) and known > 0:
         worse = max(float(covariance[0]), float(covariance[4]))
         if not worse <= binding.most_sigma_m**2:
-            sigma = f"{math.sqrt(worse):.1f} m" if worse >= 0 else "nobody knows what"
+            sigma = f"{math.sqrt(worse):.1f} m" if worse >= 0 else "an unknown amount"
             return f"the position is uncertain by {sigma}, at most {binding.most_sigma_m:g} m are allowed"
         return None
     return None if isinstance(status, int) and status > _NO_FIX else "no satellite fix"

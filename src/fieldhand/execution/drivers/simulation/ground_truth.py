@@ -287,7 +287,7 @@ class GroundTruth:
             raise WorldError(
                 f"{site.name} has no tree at {reference}: the nearest is {away[nearest]:.0f} m away",
                 where=f"{self._source}: {where}",
-                advice="is it the world of another site?",
+                advice="check that the world file belongs to this site",
             )
         return site.trees[nearest].place
 

@@ -61,7 +61,7 @@ def _writing_in(world: World, write: Writer) -> Writer:
             raise OutputError(
                 "the event log cannot be written: no space left on the disk",
                 where=f"{event.t:.0f} s into the mission",
-                advice="the robot was stopped where it was; make room, what was written before is kept",
+                advice="the robot was stopped where it was; free some space; what was written before is kept",
             )
         write(event)
 

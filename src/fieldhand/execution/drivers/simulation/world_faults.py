@@ -121,7 +121,7 @@ class BlockedModel(Strict):
     @model_validator(mode="after")
     def _somewhere(self) -> BlockedModel:
         if (self.at is None) == (self.between is None):
-            raise ValueError("give the tree that it stands at, or the two that it stands between")
+            raise ValueError("give the tree that it is at, or the two trees that it is between")
         if self.until_s is not None and self.until_s <= self.from_s:
             raise ValueError(f"until_s {self.until_s:g} is not after from_s {self.from_s:g}")
         return self
@@ -151,7 +151,7 @@ class LocalisationLostModel(Strict):
     @model_validator(mode="after")
     def _sometime(self) -> LocalisationLostModel:
         if (self.at_s is None) == (self.at is None):
-            raise ValueError("give the second at which it happens, at_s, or the tree, at")
+            raise ValueError("give the time with at_s, in seconds, or the tree with at")
         return self
 
     def to_fault(self) -> WorldFault:

@@ -70,7 +70,7 @@ _KINDS_OF_FAULT: dict[str, type[BaseModel]] = {
 def _of_our_time(begins: datetime) -> datetime:
     """Require a year in which every time zone is defined, even at the end of a long mission."""
     if not 2000 <= begins.year <= 2999:
-        raise ValueError(f"the year {begins.year} is not one from 2000 to 2999")
+        raise ValueError(f"the year {begins.year} is not in 2000 to 2999")
     return begins
 
 
@@ -96,7 +96,7 @@ def load_world(path: Path) -> World:
     except FileFault as fault:
         advice = message("give the path of a YAML file")
         if fault.kind == "too large":
-            advice = message("is it a world file?")
+            advice = message("check that it is a world file")
         raise WorldError(recalled(fault.what, "file"), where=str(path), advice=advice) from None
 
 
@@ -130,7 +130,7 @@ def parse_world(content: Mapping[str, Any], *, source: str = "world") -> World:
     found = find_hidden_within(content)
     if found is not None:
         place, hidden = found
-        what = f"holds the character {hidden.name}, which nobody can see"
+        what = f"contains the invisible character {hidden.name}"
         raise WorldError(what, where=": ".join(filter(None, (source, place))), advice="take it out")
     try:
         model = WorldModel.model_validate(content)
@@ -158,10 +158,10 @@ def _content(text: str, source: str) -> dict[Any, Any]:
         advice = "correct that line" if fault.line else "see docs/formats.md, 'World file'"
         raise WorldError(f"is not YAML: {fault.what}", where=where, advice=advice) from None
     if content is None:
-        raise WorldError("is empty", where=source, advice="leave --world out for a world without surprises")
+        raise WorldError("is empty", where=source, advice="leave --world out for a world without faults")
     if not isinstance(content, dict):
         raise WorldError(
-            "is not a mapping of keys to values", where=source, advice="begin with readings:, faults: or seed:"
+            "is not a mapping of keys to values", where=source, advice="start with readings:, faults: or seed:"
         )
     return content
 
@@ -256,7 +256,7 @@ def _words_for(problem: ErrorDetails, path: list[str]) -> tuple[str, str]:
         case "string_too_short":
             return "is empty", "give a word or two, or leave the key out"
         case "tuple_type":
-            return f"must be a list, is {shown}", "begin each entry with a dash"
+            return f"must be a list, is {shown}", "start each entry with a dash"
         case "bool_type" | "float_type" | "float_parsing" if path[:1] == ["readings"]:
             return f"must be a number, true or false, is {shown}", _CORRECT
         case _:

@@ -58,8 +58,8 @@ class DdsTransport:
             self._discovery = DdsDiscovery(self._participant)
         except DDSException as error:
             raise Ros2Error(
-                f"no node can be made on DDS domain {self.domain}",
-                advice="look at the network's interfaces and at CYCLONEDDS_URI, if it is set",
+                f"no node can be created on DDS domain {self.domain}",
+                advice="check the network interfaces, and CYCLONEDDS_URI if it is set",
             ) from error
 
     @property

@@ -94,7 +94,9 @@ def read_definitions(name: str, text: str, *, where: str) -> tuple[Definition, .
         ProfileError: The text cannot be parsed; the line is named if it is known.
     """
     if not INTERFACE_NAME.fullmatch(name):
-        raise ProfileError(f"{name!r} is no interface", where=where, advice="call it package/msg/Name, srv or action")
+        raise ProfileError(
+            f"{name!r} is not an interface", where=where, advice="call it package/msg/Name, srv or action"
+        )
     if len(text) > _LONGEST:
         raise ProfileError(f"{len(text)} characters: no definition has more than {_LONGEST}", where=f"{where}: {name}")
     package, kind, short = name.split("/")

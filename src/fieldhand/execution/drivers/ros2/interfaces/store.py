@@ -164,7 +164,7 @@ class Interfaces:
             if not kind.primitive and kind.base not in self._definitions:
                 wide = kind.base.endswith("/wstring")
                 raise ProfileError(
-                    f"{name} is a wide string, which is not read here"
+                    f"{name} is a wide string, which is not supported"
                     if wide
                     else f"{kind.base} is unknown in {distro}",
                     where=f"ros2: interfaces: {definition.name}",

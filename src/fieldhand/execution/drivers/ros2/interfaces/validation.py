@@ -114,7 +114,7 @@ def _integer(kind: FieldType, value: object, path: str) -> int:
     bits = INTEGERS[kind.base]
     least, most = (-(1 << bits - 1), (1 << bits - 1) - 1) if kind.base.startswith("int") else (0, (1 << bits) - 1)
     if not least <= value <= most:
-        raise Ros2Error(f"{value} is no {kind.base}: that is {least} to {most}", where=path)
+        raise Ros2Error(f"{value} does not fit in {kind.base}, which ranges from {least} to {most}", where=path)
     return value
 
 
@@ -131,4 +131,4 @@ def _float(kind: FieldType, value: object, path: str) -> float:
 
 
 def _unfit(kind: FieldType, value: object, path: str) -> Ros2Error:
-    return Ros2Error(f"{str(value)[:60]!r} ({type(value).__name__}) is no {kind}", where=path)
+    return Ros2Error(f"{str(value)[:60]!r} ({type(value).__name__}) is not a {kind}", where=path)

@@ -50,7 +50,7 @@ def class_of(name: str) -> Any:
     except Exception as error:  # an incompletely built package may raise anything
         raise Ros2Error(
             f"the sourced ROS has {outer}, but it cannot be loaded ({error})",
-            advice=f"build the package {package} anew",
+            advice=f"rebuild the package {package}",
         ) from error
     return found
 
@@ -136,7 +136,7 @@ def _field_type(slot: Any, where: str) -> FieldType:
         return FieldType(base="string", most_characters=getattr(slot, "maximum_size", 0))
     base = _BASICS.get(slot.typename, slot.typename) if isinstance(slot, idl.BasicType) else "wide string"
     if base not in PRIMITIVES:
-        raise Ros2Error(f"{where} is a {base}, which is not read here")
+        raise Ros2Error(f"{where} is a {base}, which is not supported")
     return FieldType(base=base)
 
 

@@ -59,8 +59,8 @@ class RclpyTransport:
         except (RCLError, RuntimeError) as error:
             self._context.try_shutdown()
             raise Ros2Error(
-                f"rclpy can make no node on domain {self.domain} ({error})",
-                advice="look at RMW_IMPLEMENTATION, at the network's interfaces, and at the middleware's configuration",
+                f"rclpy cannot create a node on domain {self.domain} ({error})",
+                advice="check RMW_IMPLEMENTATION, the network interfaces and the middleware's configuration",
             ) from error
         self._discovery = RclpyDiscovery(self._node)
 

@@ -219,7 +219,7 @@ def _first(goal: Message) -> int:
 def _geographic(pose: object) -> tuple[float, float]:
     lat, lon = _numbers(_part(pose, "position"), "latitude", "longitude")
     if not (abs(lat) <= 90 and abs(lon) <= 180):
-        raise Ros2Error(f"{lat}, {lon} is no place on earth")
+        raise Ros2Error(f"{lat}, {lon} is not a place on earth")
     _upright(_part(pose, "orientation"))
     return lat, lon
 
@@ -228,7 +228,7 @@ def _upright(orientation: Message) -> None:
     """Raise an error unless the quaternion has length 1; one that was never filled in is all zeros."""
     length = math.hypot(*_numbers(orientation, "x", "y", "z", "w"))
     if not abs(length - 1.0) <= _OFF:
-        raise Ros2Error(f"the orientation is no quaternion: its length is {length:g}")
+        raise Ros2Error(f"the orientation is not a unit quaternion: its length is {length:g}")
 
 
 def _numbers(message: Message, *names: str) -> tuple[float, ...]:

@@ -289,7 +289,7 @@ def bindings_of(profile: RobotProfile) -> Ros2Bindings:
     """
     if profile.ros2 is None:
         raise InputError(
-            f"the robot {profile.name} has no part ros2 in its profile",
+            f"the robot {profile.name} has no ros2 section in its profile",
             where=profile.source,
             advice="name its topics, services and actions there (docs/add-a-robot.md)",
         )

@@ -80,7 +80,7 @@ def read_state(path: Path, identity: Identity) -> SimulationState | None:
     Raises:
         InputError: The file cannot be read, is malformed, or belongs to another robot.
     """
-    advice = "remove it, and the robot begins at the site's start"
+    advice = "remove it, and the robot starts at the site's start marker"
     try:
         document = _Document.model_validate_json(read_file(path, _MOST_BYTES, plain=True))
     except FileFault as fault:
@@ -91,7 +91,7 @@ def read_state(path: Path, identity: Identity) -> SimulationState | None:
         first = error.errors(include_url=False)[0]
         key = ".".join(str(part) for part in first["loc"])
         raise InputError(
-            f"is no state of a simulated robot: {key} {first['msg']}", where=str(path), advice=advice
+            f"is not the state of a simulated robot: {key} {first['msg']}", where=str(path), advice=advice
         ) from None
     for part, given in asdict(identity).items():
         if getattr(document, part) != given:
