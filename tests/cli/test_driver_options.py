@@ -28,11 +28,11 @@ def refused(*words: str) -> FieldhandError:
     ("words", "said"),
     [
         (("--on", "submarine"), "cannot be carried out on 'submarine'.*simulation, dds"),
-        (("--domain", "3"), "the simulation has no domain; give --on dds"),
-        (("--on", "simulation", "--namespace", "a"), "the simulation has no namespace"),
-        (("--sim-time",), "the simulation has no sim-time"),
+        (("--domain", "3"), "the simulation does not support domain; use it together with --on dds"),
+        (("--on", "simulation", "--namespace", "a"), "the simulation does not support namespace"),
+        (("--sim-time",), "the simulation does not support sim-time"),
         (("--on", "dds", "--namespace", "a b"), "--namespace: 'a b' is not a name of ROS"),
-        (("--on", "dds", "--speed", "10"), "cannot be driven faster than time passes"),
+        (("--on", "dds", "--speed", "10"), "runs only in real time"),
         (("--on", "dds", "--world", "w.yaml"), "a world file is for the simulation"),
     ],
 )

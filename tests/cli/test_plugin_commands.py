@@ -68,7 +68,7 @@ def test_a_function_becomes_a_command_and_a_typer_app_a_group(
     [
         ("import nothing_of_this_name", "cannot be loaded: ModuleNotFoundError"),
         ("tools = 7", "neither a typer.Typer nor a function"),
-        ("def tools(what: str | int) -> None: ...", "is no command"),
+        ("def tools(what: str | int) -> None: ...", "is not a command"),
     ],
 )
 def test_a_broken_one_fails_alone_and_is_named(

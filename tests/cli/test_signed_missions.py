@@ -92,7 +92,7 @@ def test_the_whole_way(fieldhand: Command, tmp_path: Path) -> None:
     Path("mail.txt").write_text(f"Hello,\n> {made['public_key']}\nAda\n")
     wrong = signing_key(9).public.fingerprint
     refuses(fieldhand("keys", "trust", "mail.txt", "--fingerprint", wrong), 2, "another fingerprint")
-    refuses(fieldhand("keys", "trust", "mail.txt"), 1, "nobody is here to compare")
+    refuses(fieldhand("keys", "trust", "mail.txt"), 1, "needs a terminal")
     assert json.loads(fieldhand("keys", "list", "--json").out)["known"] == []
     trusted = fieldhand("keys", "trust", "mail.txt", "--fingerprint", made["fingerprint"], "--name", "Ada L.", "--json")
     assert json.loads(trusted.out)["state"] == "trusted"
@@ -437,8 +437,10 @@ def test_a_signed_mission_and_its_folder_are_reported_exported_and_replayed_with
     for words in ((str(tmp_path / "missions" / name),), ("m.jsonl", "--site", "m.mission")):
         facts = json.loads(trusting("replay", *words, "-o", "m.html", "--json").out)
         assert (facts["events"], facts["captures"]) == (len(log), 1)
-    refuses(trusting("report", name, "--site", "demo"), 2, "--site", "brings its own")
-    refuses(trusting("report", "m.jsonl", "--task", "m.mission", "--robot", "husky"), 2, "--robot", "brings its own")
+    refuses(trusting("report", name, "--site", "demo"), 2, "--site", "already contains it")
+    refuses(
+        trusting("report", "m.jsonl", "--task", "m.mission", "--robot", "husky"), 2, "--robot", "already contains it"
+    )
     refuses(trusting("report", "m.jsonl"), 2, "--task", "not given")
     refuses(trusting("replay", "nowhere", "-o", "x.html"), 2, "no mission 'nowhere'")
     assert trusting("keys", "revoke", key["fingerprint"]).status == 0

@@ -257,7 +257,8 @@ def test_what_the_budget_left_out_is_folded_into_a_line(tmp_path):
     (said,) = [li for li in page_of(files).iter("li") if "left out because" in li.text_content()]
     line = " ".join(said.find("span").text_content().split())
     assert line.startswith(
-        "4 places left out because the budget would probably not have been enough (91 to 97 % chance of running short): "
+        "4 places left out because the budget would probably not have been enough"
+        " (91 to 97 % chance of running short): "
     )
     assert len(line) < 220
     assert len(said.findall(".//details//li")) == 4
@@ -447,8 +448,8 @@ def faulty_log():
 def test_faults_doubts_and_interruptions_stand_under_right_headings(tmp_path):
     read = text_of(written(tmp_path, faulty_log()))
     told = read[read.index("Faults, doubts and interruptions") : read.index("What it took")]
-    for said in ("a ladder", "waited 1:00", "at tree 5 is in doubt; it was not taken again", "continues after a power cut",
-                 "clock was set back", "paused (lunch)", "continued"):  # fmt: skip
+    for said in ("a ladder", "waited 1:00", "at tree 5 is in doubt; it was not taken again",
+                 "continues after a power cut", "clock was set back", "paused (lunch)", "continued"):  # fmt: skip
         assert said in told
     left = read[read.index("What was not done") : read.index("Faults, doubts")]
     assert "2 places given up, though to be done, because no way led to them" in left

@@ -147,7 +147,7 @@ def test_an_agent_that_is_killed_within_an_upload_has_nothing(tmp_path: Path) ->
         (("--site", "nowhere.geojson"), "nowhere.geojson"),
         (("--store", "token"), "cannot be written"),
         (("--world", "robot.crt"), "robot.crt"),
-        (("--speed", "-1"), "no speed"),
+        (("--speed", "-1"), "not a valid speed"),
     ],
 )
 def test_what_would_be_unguarded_or_cannot_be_used_is_refused(

@@ -285,4 +285,4 @@ def test_fieldhand_robot_shows_how_it_is_reached(tmp_path: Path) -> None:
     document = yaml.safe_load(profile_bytes("husky")[0])
     del document["ros2"]
     path.write_text(yaml.safe_dump(document))
-    assert "ROS 2: its profile does not say how it is reached" in fieldhand("robot", str(path)).out
+    assert "ROS 2: the profile does not define how the robot is reached" in fieldhand("robot", str(path)).out

@@ -110,8 +110,8 @@ def test_a_killed_robot_goes_on_where_it_stood_and_a_told_one_ends_in_order(tmp_
     ("words", "said"),
     [
         (("--on", "pigeon"), "--on: there is no transport 'pigeon'; give dds or rclpy"),
-        (("--speed", "0"), "--speed: 0 is no speed; give a number above 0"),
-        (("--speed", "nan"), "--speed: nan is no speed; give a number above 0"),
+        (("--speed", "0"), "--speed: 0 is not a valid speed; give a number above 0"),
+        (("--speed", "nan"), "--speed: nan is not a valid speed; give a number above 0"),
         (("--namespace", "a b"), "--namespace: 'a b' is not a name of ROS; use letters"),
         (("--robot", "plain.yaml"), "plain.yaml: the robot husky has no ros2 section in its profile; name its topics"),
         (

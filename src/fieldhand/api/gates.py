@@ -76,7 +76,9 @@ class LastResort:
             if started or scope["type"] != "http":
                 raise
             log.exception("%s %s failed", scope["method"], scope["path"])
-            response = problem(500, "the server made a mistake", advice="its log says more; please report it")
+            response = problem(
+                500, "an internal error occurred in the server", advice="see its log, and please report it"
+            )
             await response(scope, receive, send)
 
 
@@ -96,7 +98,7 @@ class CallerGate:
             headers = Headers(scope=scope)
             host, origin = headers.get("host", ""), headers.get("origin")
             if self._hosts is not None and _name(f"//{host}") not in self._hosts:
-                response = problem(403, "this server is not known by that name", "Host", "call it as localhost")
+                response = problem(403, "this server does not answer under that name", "Host", "call it as localhost")
                 await response(scope, receive, send)
                 return
             if origin is not None and _origin_host(origin) != host.lower():

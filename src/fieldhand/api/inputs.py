@@ -39,7 +39,7 @@ def _whole(text: str) -> str:
 def _on_one_line(text: str) -> str:
     hidden = find_hidden(text)
     if hidden is not None:
-        raise ValueError(f"this holds the character {hidden.name}, which nobody can see")
+        raise ValueError(f"this contains the invisible character {hidden.name}")
     return text
 
 

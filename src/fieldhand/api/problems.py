@@ -102,7 +102,7 @@ def answer_problems(app: FastAPI) -> None:
         if error.status_code == 413:
             return too_big()
         if error.status_code == 408:
-            return problem(408, "the body came too slowly", "body", "send it again")
+            return problem(408, "the body arrived too slowly", "body", "send it again")
         if error.status_code == 503:
             return problem(503, "too many large requests at once", "body", "try again in a moment")
         return problem(error.status_code, HTTPStatus(error.status_code).phrase.lower())
@@ -114,7 +114,7 @@ def _error_text(error: dict[str, Any]) -> str:
         case "missing":
             return "this is missing"
         case "extra_forbidden":
-            return "this is not known here"
+            return "this field is unknown"
         case "json_invalid":
             return f"the body is not JSON: {error['ctx']['error']}"
         case "value_error":

@@ -118,7 +118,7 @@ def parse_validity(text: str) -> timedelta:
     lasting = timedelta(minutes=int(found[1]) * {"m": 1, "h": 60, "d": 1440}[found[2]]) if found else None
     if lasting is None or lasting > LONGEST_VALID:
         raise InputError(
-            message("'{text}' is no time for which a mission may be begun", text=text[:40]),
+            message("'{text}' is not a valid period", text=text[:40]),
             where="--valid-for",
             advice=message("give minutes, hours or days: 30m, 12h, 90d; at most {days}d", days=LONGEST_VALID.days),
         )

@@ -28,7 +28,7 @@ def review_plan(ground: SiteAndRobot, task: Task, document: bytes | None, displa
     if not display.json:
         show.show_review(review, display.language)
         if review.errors:
-            raise NotApprovedError(message("not approved: mend the errors above first"))
+            raise NotApprovedError(message("not approved: correct the errors above first"))
     elif review.errors:
         raise NotApprovedError(some_names([p.line() for p in review.errors], 3, "; "))
     return review
@@ -52,7 +52,7 @@ def approve_plan(
     ask, language = not approval.yes, display.language
     if ask and not may_ask():
         raise NotApprovedError(
-            message("nobody is here to approve"), advice=message("give --yes if you have read the plan")
+            message("approval needs a terminal to ask at"), advice=message("give --yes if you have read the plan")
         )
     if review.warnings and not approval.confirm:
         _confirm(language.read(review.warnings), language, ask=ask)
@@ -78,7 +78,7 @@ def _confirm(warnings: tuple[str, ...], language: Language, *, ask: bool) -> Non
         raise NotConfirmedError(
             message("not confirmed: {warnings}", warnings=joined("; ", warnings)),
             warnings,
-            advice=message("give --confirm, too, if the plan is right in spite of that"),
+            advice=message("give --confirm as well if the plan is right in spite of that"),
         )
     question = counted(
         "Is the plan right in spite of the warning above?",

@@ -137,7 +137,7 @@ def plan_or_read(
     if is_bundle(words):
         what = message("is a signed mission, neither a request nor a Task")
         raise InputError(
-            what, where=words, advice=message("say what is in it with fieldhand inspect, carry it out with run")
+            what, where=words, advice=message("show its contents with fieldhand inspect, or run it with fieldhand run")
         )
     if words.lower().endswith(".xml") and "\n" not in words:
         require_no_answer(replies.given, words)
@@ -196,18 +196,18 @@ def _require_words(request: str) -> None:
     if begins.startswith(b"PK"):
         what, advice = (
             message("is a zip file, perhaps a signed mission, not what the robot should do"),
-            message("give a signed mission, whose name ends in .mission, to run"),
+            message("pass a signed mission (.mission) to fieldhand run"),
         )
     elif begins.removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"<"):
         what = message("is an XML file, not what the robot should do")
-        advice = message("give a Task, whose name ends in .xml, to check, approve or run")
+        advice = message("pass a Task (.xml) to fieldhand check, approve or run")
     elif begins.lstrip().startswith(b"{"):
         what = message("is a JSON file, not what the robot should do")
-        advice = message("give a site with --site, an event log to fieldhand report")
+        advice = message("pass a site with --site, or an event log to fieldhand report")
     else:
         what, advice = (
             message("is a file, not what the robot should do"),
-            message('give the words that stand in it: "$(cat {file})"', file=shlex.quote(request)),
+            message('give the words in the file: "$(cat {file})"', file=shlex.quote(request)),
         )
     raise RequestError(what, where=request, advice=advice)
 

@@ -12,7 +12,7 @@ def binding_lines(profile: RobotProfile) -> Iterator[str]:
     """Yield lines that describe the ``ros2`` part of a profile, or that it has none."""
     ros2 = profile.ros2
     if ros2 is None:
-        yield "ROS 2: its profile does not say how it is reached"
+        yield "ROS 2: the profile does not define how the robot is reached"
         return
     time = ", time from /clock" if ros2.use_sim_time else ""
     yield f"ROS 2: {ros2.distro}, names below {ros2.namespace or '/'}{time}"
@@ -27,7 +27,7 @@ def binding_lines(profile: RobotProfile) -> Iterator[str]:
     for action in profile.actions:
         bound = ros2.actions.get(action.name)
         if bound is None:
-            yield f"  {action.name}: nothing carries it out"
+            yield f"  {action.name}: nothing performs it"
         else:
             yield from _action(ros2, action.name, bound)
     for name in ros2.interfaces:

@@ -119,7 +119,7 @@ def require_ending(path: Path) -> None:
     if path != STANDARD and path.suffix.lower() != ENDING:
         better = path.with_suffix(ENDING) if path.name else f"a file such as mission{ENDING}"
         raise InputError(
-            message("a signed mission ends in .mission"),
+            message("the file name of a signed mission ends in .mission"),
             where=str(path),
             advice=message("write it to {better}", better=str(better)),
         )
@@ -176,10 +176,10 @@ def require_site(site: str | None) -> str:
 def _mismatch(where: str, given: str, approved: str) -> BundleError:
     return BundleError(
         message(
-            "{given} is not what the mission was approved for ({approved}, byte by byte)",
+            "{given} differs from what the mission was approved for ({approved}, compared byte by byte)",
             given=given,
             approved=approved,
         ),
         where=where,
-        advice=message("leave it out, and what was approved is used; or approve the mission for this one"),
+        advice=message("leave it out to use what was approved, or approve the mission for this one"),
     )

@@ -53,7 +53,7 @@ def calibrate(
         show.out.print(line, highlight=False)
     if output is not None:
         show.out.print_lines("", f"Profile: {output}")
-        show.out.print("  It is another profile than before: what was approved for the old one must be approved again.")
+        show.out.print("  This is a new profile: missions that were approved for the old one must be approved again.")
     else:
         show.out.print_lines("", "Give -o profile.yaml to write the new profile.")
 

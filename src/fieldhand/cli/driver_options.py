@@ -81,7 +81,7 @@ def connection_of(options: DriverOptions, environ: Mapping[str, str]) -> Connect
         _refuse_ros2_options(options)
     if options.driver_option and (kind is None or kind.ros2):
         raise InputError(
-            message("{on} has no such options", on=on or SIMULATION),
+            message("{on} does not support such options", on=on or SIMULATION),
             where="--driver-option",
             advice=message("leave it out; it is for drivers of plugins"),
         )
@@ -109,11 +109,11 @@ def _refuse_ros2_options(options: DriverOptions) -> None:
     ):
         if is_given:
             raise InputError(
-                message("the simulation has no {option}", option=option[2:])
+                message("the simulation does not support {option}", option=option[2:])
                 if options.on in (None, SIMULATION)
-                else message("the driver {name} has no {option}", name=str(options.on), option=option[2:]),
+                else message("the driver {name} does not support {option}", name=str(options.on), option=option[2:]),
                 where=option,
-                advice=message("give --on dds with it"),
+                advice=message("use it together with --on dds"),
             )
 
 
@@ -129,7 +129,7 @@ def _named_values(options: Sequence[str]) -> dict[str, str]:
         if not name or not equals or name in found:
             what = message("'{option}' is given twice", option=name) if name in found else None
             raise InputError(
-                what or message("'{option}' has not the form name=value", option=option[:80]),
+                what or message("'{option}' is not of the form name=value", option=option[:80]),
                 where="--driver-option",
                 advice=message("give each option once, as name=value"),
             )
@@ -183,7 +183,7 @@ def parse_speed(text: str | None) -> float | None:
         speed = math.nan
     if not 0 < speed < math.inf:
         raise InputError(
-            message("'{text}' is no speed", text=text),
+            message("'{text}' is not a valid speed", text=text),
             where="--speed",
             advice=message("give max, or a number above 0 (1 is real time)"),
         )
@@ -206,9 +206,9 @@ def refuse_simulation_options(connection: Connection | None, *, world: Path | No
         )
     if speed is not None:
         raise InputError(
-            message("a robot cannot be driven faster than time passes"),
+            message("a robot runs only in real time"),
             where="--speed",
-            advice=message("leave it out; --sim-time follows a robot that is a simulation"),
+            advice=message("leave it out; use --sim-time for a robot that is itself a simulation"),
         )
 
 
@@ -257,7 +257,7 @@ def check_start(
     charge = vehicle.driver.charge_percent()
     if not display.json:
         position = message(
-            "{robot} stands {metres} m from the start, battery at {charge} %",
+            "{robot} is {metres} m from the start, battery at {charge} %",
             robot=ground.robot.name,
             metres=Number(f"{away_m:.1f}"),
             charge=f"{charge:.0f}",

@@ -120,18 +120,20 @@ def _export_task(source: str, folder: Path | None, recorded: RecordedOptions, to
         plan_file = write_plan(route, ground.site)
         if not plan_file.stops:
             raise InputError(
-                "no part of this mission is straight: its first stop hangs on a reading or on the budget",
+                "this mission has no fixed route: its first stop depends on a reading or on the budget",
                 where=source,
                 advice="choose another format",
             )
-        left = f"left out: {plan_file.left_out} stops that hang on a reading or on the budget"
-        notes = ("a plan holds drives and waits; what is done at a stop is not in it",)
+        left = f"left out: {plan_file.left_out} stops that depend on a reading or on the budget"
+        notes = ("the exported plan contains drives and waits, but not what is done at a stop",)
         return _Exported(
             data=plan_file.data,
             facts=facts | {"stops": plan_file.stops, "left_out": plan_file.left_out},
             notes=(*notes, left) if plan_file.left_out else notes,
         )
-    note = f"{len(open_)} stops hang on a reading or on the budget; shown is the branch on which every condition holds"
+    note = (
+        f"{len(open_)} stops depend on a reading or on the budget; the branch on which every condition is met is shown"
+    )
     return _Exported(data=_WRITERS[to](route), facts=facts, notes=(note,) if open_ else ())
 
 

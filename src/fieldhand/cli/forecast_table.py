@@ -84,12 +84,13 @@ def _covered(forecast: Estimate) -> str:
             return message("{count} branches, all there are", count=count)
         case "bounded":
             return message(
-                "{count} branches; of conditions that only decide work on the spot the extremes, of all others each",
+                "{count} branches: all outcomes of the conditions, but only the extremes of those that decide only"
+                " work on the spot",
                 count=count,
             )
         case "sampled":
             return message(
-                "{count} branches of more than could be looked at: the extremes, and others by chance", count=count
+                "{count} branches out of more than could be examined: the extremes, and others at random", count=count
             )
 
 

@@ -132,7 +132,7 @@ def _show_manifest(manifest: Manifest, content: Content | None) -> None:
 
     approved = manifest.approved
     show.out.print(f"Approved by {approved.by} at {approved.at}, read in {approved.language}")
-    show.out.print(f"  number {manifest.number}, may be begun until {manifest.until.isoformat(timespec='seconds')}")
+    show.out.print(f"  number {manifest.number}, may be started until {manifest.until.isoformat(timespec='seconds')}")
     show.out.print(f"  planned by {manifest.task.planner}, signed with {manifest.program}, format {manifest.format}")
     trees = "" if content is None else f", {len(content.site.trees)} trees"
     show.out.print(f"  site {manifest.site.name}{trees}{' (lenient)' * manifest.site.lenient}")

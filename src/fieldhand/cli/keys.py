@@ -53,12 +53,12 @@ def new(
     show.out.print(f"A key for {public.name}, in {file.with_suffix('.key')}")
     show.out.print_lines(
         "",
-        "Send this line to whoever looks after the robot (it is no secret); it also stands in",
+        "Send this line to whoever looks after the robot (it is not a secret); it is also in",
         f"{file}:",
         "",
         f"  {public.line()}",
         "",
-        "They give it to fieldhand keys trust, and compare the fingerprint with you:",
+        "They pass it to fieldhand keys trust and compare the fingerprint with you:",
         "",
         f"  {public.fingerprint}",
     )
@@ -76,7 +76,7 @@ def list_keys(json: JsonOption = False) -> None:
         return
     show.out.print("Your own keys" if held else "No key of your own; fieldhand keys new makes one.")
     for key in held:
-        guarded = "takes a passphrase" if key.encrypted else "no passphrase"
+        guarded = "has a passphrase" if key.encrypted else "no passphrase"
         show.out.print(f"  {key.public.fingerprint}  {key.public.name}  ({guarded})")
     show.out.print()
     show.out.print("Trusted here" if known else "No key is trusted here; fieldhand keys trust FILE trusts one.")
@@ -120,7 +120,9 @@ def trust(
         )
     whose = name or public.name
     if not whose:
-        raise KeyFileError("the line does not say whose it is", where=str(file), advice="say it with --name")
+        raise KeyFileError(
+            "the line does not name the owner of the key", where=str(file), advice="give the name with --name"
+        )
     if fingerprint is None and not yes:
         _require_comparison(public.fingerprint, whose)
     known = _folders()[1].trust(public, name=whose, at=datetime.now(UTC))
@@ -177,7 +179,7 @@ def confirm(
             show.out.print(f"  {key.fingerprint}  {key.name}  since {key.since}  {key.state}")
     if not yes:
         if not may_ask():
-            raise NotApprovedError("nobody is here to confirm the trusted keys", advice="give --yes")
+            raise NotApprovedError("confirming the trusted keys needs a terminal to ask at", advice="give --yes")
         if not typer.confirm("Are these the keys that you trust, and is the clock right?"):
             raise NotApprovedError("not confirmed, nothing was changed")
     trust.confirm(until)
@@ -206,11 +208,11 @@ def _require_comparison(fingerprint: str, whose: str) -> None:
 
     if not may_ask():
         raise NotApprovedError(
-            f"nobody is here to compare the fingerprint {fingerprint}",
+            f"comparing the fingerprint {fingerprint} needs a terminal to ask at",
             advice="give --fingerprint as its owner read it to you, or --yes if you have compared it",
         )
     show.out.print(f"The fingerprint of this key: {fingerprint}")
-    if not typer.confirm(f"Has {whose} told you the same?"):
+    if not typer.confirm(f"Did {whose} read the same fingerprint to you?"):
         raise NotApprovedError("not trusted, nothing was changed")
 
 

@@ -41,5 +41,5 @@ def order(
     else:
         show.out.print(state_line(heard.mission))
         if not heard.heard:
-            show.note("the mission has not answered yet; the order stands")
+            show.note("the mission has not answered yet; the order remains in force")
     raise SystemExit(0 if heard.heard else 1)

@@ -142,8 +142,8 @@ def _take_standard_output(ctx: typer.Context, param: typer.CallbackParam) -> Non
     other = "--json" if "--json" in sys.argv else ctx.meta.setdefault(_OPTIONS, {}).setdefault(str(STANDARD), option)
     if other != option:
         raise OutputError(
-            message("standard output is asked for by {other} and by {option}", other=other, option=option),
-            advice=message("name a file for one"),
+            message("both {other} and {option} write to standard output", other=other, option=option),
+            advice=message("give a file name for one of them"),
         )
     out.stderr = True
     ctx.call_on_close(lambda: setattr(out, "stderr", False))
@@ -157,7 +157,7 @@ def refuse_standard_output(path: Path | None, option: str) -> None:
     """
     if path == STANDARD:
         raise OutputError(
-            message("cannot go to standard output"), where=f"{option} -", advice=message("give it a name")
+            message("cannot be written to standard output"), where=f"{option} -", advice=message("give a file name")
         )
 
 
@@ -194,9 +194,9 @@ def _require_own(ctx: typer.Context, param: typer.CallbackParam, path: Path) -> 
     other = ctx.meta.setdefault(_OPTIONS, {}).setdefault(os.path.realpath(path), option)
     if other != option:
         raise OutputError(
-            message("is given for {other} and for {option}", other=other, option=option),
+            message("is given for both {other} and {option}", other=other, option=option),
             where=str(path),
-            advice=message("give each its own"),
+            advice=message("give each its own file"),
         )
 
 

@@ -102,4 +102,4 @@ def _command_of(plugin: Plugin) -> Any:
     try:
         return get_group(app).commands[plugin.name]
     except Exception as error:
-        raise plugin.error(f"is no command: {type(error).__name__}: {error}") from error
+        raise plugin.error(f"is not a command: {type(error).__name__}: {error}") from error

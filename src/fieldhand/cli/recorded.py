@@ -64,7 +64,7 @@ def recorded_mission(
         return plan_of_folder(folder), log_of_folder(folder)
     if task is None:
         raise InputError(
-            message("what was carried out is not given"),
+            message("the Task that was run is not given"),
             where="--task",
             advice=message("give the Task document or the signed mission; or the mission by its name"),
         )
@@ -128,7 +128,7 @@ def log_of_folder(folder: Path) -> MissionLog:
     events = missions.events_of(folder)
     if not events:
         raise InputError(
-            message("the mission has done nothing yet"), where=str(folder), advice=message("give one that has begun")
+            message("the mission has done nothing yet"), where=str(folder), advice=message("give one that has started")
         )
     return MissionLog(events=events, where=str(folder))
 
@@ -192,5 +192,7 @@ def require_nothing_beside(brings: Path, **given: object) -> None:
     for option, value in given.items():
         if value is not None:
             raise InputError(
-                message("{name} brings its own", name=brings.name), where=f"--{option}", advice=message("leave it out")
+                message("{name} already contains it", name=brings.name),
+                where=f"--{option}",
+                advice=message("leave it out"),
             )

@@ -38,8 +38,8 @@ def replay(
     from fieldhand.finished_missions import read_log
 
     if output.suffix.lower() not in _ENDINGS:
-        what = f"{output.suffix or 'no ending'} is no kind of animation"
-        raise OutputError(what, where=str(output), advice=f"end its name in {', '.join(_ENDINGS)}")
+        what = f"{output.suffix or 'a name without extension'} is not a supported animation format"
+        raise OutputError(what, where=str(output), advice=f"use a file name that ends in {', '.join(_ENDINGS)}")
     folder = folder_of(source, recorded.missions)
     if folder is not None:
         require_nothing_beside(folder, site=recorded.site, robot=recorded.robot)

@@ -58,7 +58,7 @@ def report(
     how = None if assessment.status is None else say_status(assessment.status)
     end = message("Mission {how}.", how=how) if how else message("The log ends before the mission does.")
     show.out.print_lines("", language.say(end))
-    show.heading(language.say(message("Where to look")))
+    show.heading(language.say(message("Files")))
     for path in files.paths:
         show.out.print(f"  {path}")
     raise SystemExit(status)

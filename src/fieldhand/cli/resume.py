@@ -38,7 +38,7 @@ def resume(
     simulation_speed = parse_speed(speed)
     folder = stored_missions.find(store.missions or stored_missions.missions_folder(os.environ), mission)
     if stored_missions.is_running(folder):
-        tell(str(folder), folder.parent, "continue", "the operator", message("goes on"), display)
+        tell(str(folder), folder.parent, "continue", "the operator", message("continues"), display)
         return
     contents = stored_missions.read_folder(folder)
     connection = connection_again(folder.name, contents.started_on, driver, os.environ)

@@ -142,7 +142,7 @@ def _begin(
     stored = missions.begin(folder.parent, missions.new_id(datetime.now(UTC)), inputs)
     if not settings.display.json:
         named = message(
-            "mission {id}; fieldhand status, pause, resume, abort and return know it by this name", id=stored.id
+            "mission {id}; use this name with fieldhand status, pause, resume, abort and return", id=stored.id
         )
         show.note(named, settings.display.language)
     return stored
@@ -195,9 +195,9 @@ def _print_beginning(before: Sequence[Event], display: DisplayOptions) -> None:
     if not before:
         return
     if isinstance(before[-1], Ended):
-        summary = message("{count} events before; nothing is left to do", count=len(before))
+        summary = message("{count} events so far; nothing is left to do", count=len(before))
     else:
-        summary = message("{count} events before; it goes on from there", count=len(before))
+        summary = message("{count} events so far; it continues from there", count=len(before))
     show.out.print(f"          {display.language.say(summary)}")
 
 
@@ -264,7 +264,7 @@ def _print_result(
         show.out.print()
         show.out.print(language.say(_end_text(assessment.status, assessment.reason, ended)))
     if written:
-        show.heading(language.say(message("Where to look")))
+        show.heading(language.say(message("Files")))
         for path in written:
             show.out.print(f"  {path}")
 

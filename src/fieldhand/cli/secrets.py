@@ -27,7 +27,7 @@ def new_passphrase(*, asked: bool) -> str | None:
     if not asked:
         return None
     if not may_ask():
-        raise KeyFileError("nobody is here to type a passphrase", advice=f"put it in {VARIABLE}")
+        raise KeyFileError("a passphrase cannot be asked for without a terminal", advice=f"put it in {VARIABLE}")
     typed: str = typer.prompt("Passphrase", hide_input=True, confirmation_prompt=True, err=True)
     return typed
 

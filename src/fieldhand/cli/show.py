@@ -216,7 +216,7 @@ def show_problems(review: Review, language: Language = ENGLISH) -> None:
 def show_outcomes(found: Assessment, name: Callable[[str], str], language: Language = ENGLISH) -> None:
     """Print the outcome of each goal, and each exceeded limit; ``name`` returns the words for a goal's id."""
     say = language.say
-    heading(say(message("What came of it")))
+    heading(say(message("Result")))
     for outcome in found.outcomes:
         mark, style = MARK[outcome.outcome]
         out.print(Words(f"  {mark} ", style=style) + Words(f"{say(name(outcome.goal))}: {say(outcome.why)}"))

@@ -112,7 +112,9 @@ def _checked_speed(speed: float) -> float:
     from fieldhand.errors import InputError
 
     if not 0 < speed <= _FASTEST:
-        raise InputError(f"{speed:g} is no speed", where="--speed", advice=f"give a number above 0, to {_FASTEST:g}")
+        raise InputError(
+            f"{speed:g} is not a valid speed", where="--speed", advice=f"give a number above 0, to {_FASTEST:g}"
+        )
     return speed
 
 
@@ -135,8 +137,8 @@ def _print_ready(
             goes_on=goes_on,
         )
         return
-    at = "where it stood before" if goes_on else "at the start"
-    _print(f"{site}: {profile.name} stands {at} and answers over DDS, names below {bindings.namespace or '/'}")
+    at = "where it was before" if goes_on else "at the start"
+    _print(f"{site}: {profile.name} is {at} and answers over DDS, names below {bindings.namespace or '/'}")
     _print(f"  drives by {bindings.whole_name(bindings.navigation.action)} ({bindings.navigation.type})")
     if sim_time:
         _print("  its time is on /clock: take it from there (use_sim_time)")

@@ -74,7 +74,10 @@ def _lines(found: Status) -> Iterator[tuple[str, str]]:
     now = found.now
     yield message("asked", context="status"), found.request
     if now.status:
-        yield message("reason", context="status"), kept_in_log(now.reason) if now.reason else message("all is done")
+        yield (
+            message("reason", context="status"),
+            kept_in_log(now.reason) if now.reason else message("everything is done"),
+        )
     elif now.state == "interrupted":
         yield message("before", context="status"), now.doing
     else:
@@ -101,7 +104,7 @@ def _lines(found: Status) -> Iterator[tuple[str, str]]:
     if found.report:
         yield message("report", context="status"), found.report
     if found.order:
-        heard = message("{order}, not heard yet", order=named(found.order, "order"))
+        heard = message("{order}, not received yet", order=named(found.order, "order"))
         yield message("order", context="status"), heard
     if now.state == "interrupted":
         yield message("next", context="status"), f"fieldhand resume {found.mission}"

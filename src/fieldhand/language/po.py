@@ -59,7 +59,7 @@ def read_entries(text: str) -> tuple[Entry, ...]:
         elif stripped.startswith('"') and last:
             held[last] += _unquoted(stripped, number)
         else:
-            raise InputError("this is no line of a .po file", where=f"line {number}", advice="see docs/languages.md")
+            raise InputError("this is not a line of a .po file", where=f"line {number}", advice="see docs/languages.md")
     return tuple(found)
 
 

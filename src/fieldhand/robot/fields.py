@@ -35,7 +35,7 @@ def each_once(values: tuple[str, ...]) -> tuple[str, ...]:
     """Reject lists with duplicates."""
     twice = sorted({v for v in values if values.count(v) > 1})
     if twice:
-        raise ValueError(f"{twice[0]!r} stands here twice")
+        raise ValueError(f"{twice[0]!r} is given twice here")
     return values
 
 

@@ -28,7 +28,7 @@ function words({ words: pieces }) {
   const shown = pieces.map((piece) => (piece.name ? el("span", { class: `word ${piece.role}`, title: piece.name }, piece.text) : piece.text));
   const names = new Map(pieces.filter((piece) => piece.name).map((piece) => [piece.role, piece.name]));
   const legend = [...names].map(([role, name]) => el("li", {}, el("span", { class: `word ${role}` }, name)));
-  return [el("blockquote", { class: "said" }, shown), el("ul", { class: "word-legend", "aria-label": "What the words became" }, legend)];
+  return [el("blockquote", { class: "said" }, shown), el("ul", { class: "word-legend", "aria-label": "How the words were used" }, legend)];
 }
 
 // The choices are buttons: a click plans again with the answer. Other words go into the request, or, where the planner
@@ -43,7 +43,7 @@ function question({ question: asked, choices, free, places }, map, reply) {
   };
   const parts = [el("p", { class: "question" }, asked), el("ol", { class: "choices" }, choices.map(choice))];
   if (places.length) parts.push(el("p", { class: "hint" }, "Or tap its place on the map."));
-  if (!free) return [...parts, el("p", { class: "hint" }, "Or say it in the request, and plan again.")];
+  if (!free) return [...parts, el("p", { class: "hint" }, "Or write it in the request, and plan again.")];
   const words = el("input", { id: "other-words", maxlength: 2000, required: true });
   const send = (event) => (event.preventDefault(), reply(asked, words.value));
   const label = el("label", { for: "other-words" }, "In other words");
