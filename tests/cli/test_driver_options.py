@@ -27,11 +27,11 @@ def refused(*words: str) -> FieldhandError:
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (("--on", "submarine"), "cannot be carried out on 'submarine'.*simulation, dds"),
+        (("--on", "submarine"), "cannot run on 'submarine'.*simulation, dds"),
         (("--domain", "3"), "the simulation does not support domain; use it together with --on dds"),
         (("--on", "simulation", "--namespace", "a"), "the simulation does not support namespace"),
         (("--sim-time",), "the simulation does not support sim-time"),
-        (("--on", "dds", "--namespace", "a b"), "--namespace: 'a b' is not a name of ROS"),
+        (("--on", "dds", "--namespace", "a b"), "--namespace: 'a b' is not a ROS name"),
         (("--on", "dds", "--speed", "10"), "runs only in real time"),
         (("--on", "dds", "--world", "w.yaml"), "a world file is for the simulation"),
     ],

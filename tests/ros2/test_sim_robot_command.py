@@ -112,7 +112,7 @@ def test_a_killed_robot_goes_on_where_it_stood_and_a_told_one_ends_in_order(tmp_
         (("--on", "pigeon"), "--on: there is no transport 'pigeon'; give dds or rclpy"),
         (("--speed", "0"), "--speed: 0 is not a valid speed; give a number above 0"),
         (("--speed", "nan"), "--speed: nan is not a valid speed; give a number above 0"),
-        (("--namespace", "a b"), "--namespace: 'a b' is not a name of ROS; use letters"),
+        (("--namespace", "a b"), "--namespace: 'a b' is not a ROS name; use letters"),
         (("--robot", "plain.yaml"), "plain.yaml: the robot husky has no ros2 section in its profile; name its topics"),
         (
             ("--state", "state.json"),
