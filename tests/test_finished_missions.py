@@ -42,7 +42,7 @@ def test_a_log_is_judged_and_reported(log, tmp_path):
     assert assessment.success
     assert end_of(events).status == "completed"
     page = files.page.read_text()
-    assert "not known: the report was made from a log" in page
+    assert "unknown: the report was made from a log" in page
     assert SITE.sha256 in page
     assert ROBOT.sha256 in page
 

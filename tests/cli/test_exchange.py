@@ -56,7 +56,11 @@ def files(tmp_path: Path) -> Path:
         (export, {"source": "empty.jsonl", "to": "csv"}, "contains no events"),
         (export, {"source": "binary.jsonl", "to": "csv"}, "cannot be read"),
         (export, {"source": "text.mcap", "to": "csv"}, "no event|damaged"),
-        (replay, {"source": "events.jsonl", "site": "demo", "output": Path("m.avi")}, ".avi is no kind of animation"),
+        (
+            replay,
+            {"source": "events.jsonl", "site": "demo", "output": Path("m.avi")},
+            ".avi is not a supported animation format",
+        ),
         (import_tree, {"tree": "none.xml"}, "cannot be read"),
         (import_tree, {"tree": "task.xml"}, "is not a tree of BehaviorTree.CPP"),
     ],

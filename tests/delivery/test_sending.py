@@ -262,7 +262,7 @@ def test_addresses_pins_and_tokens(tmp_path: Path) -> None:
     assert require_address("http://localhost:8443", ServerTrust()) == "http://localhost:8443"
     assert require_address("http://robot:8443", ServerTrust(plain=True)) == "http://robot:8443"
     for trust in (ServerTrust(pin="ab" * 32), ServerTrust(ca="ca.crt")):
-        with pytest.raises(InputError, match="without TLS"):
+        with pytest.raises(InputError, match="only with TLS"):
             require_address("http://localhost:8443", trust)
     assert parse_pin("SHA256 Fingerprint=" + ":".join(["AB"] * 32)) == "ab" * 32
     for text in ("", "ab" * 31, "xy" * 32):
