@@ -64,7 +64,7 @@ def changed(log, event, fields):
 
 
 BAD = [
-    ("started", {"robot": "other"}, "was recorded by the robot 'other', not 'husky'"),
+    ("started", {"robot": "other"}, "was recorded with the robot 'other', not 'husky'"),
     ("started", {"site": "\u001b[31m"}, "was recorded with the site"),
     ("started", {"task": "<b>"}, "was recorded with the Task"),
     ("started", {"event": "unheard of"}, "has no line that identifies its mission"),

@@ -203,12 +203,12 @@ MANIFESTS: dict[str, tuple[Callable[[], bytes], str]] = {
     "a site file elsewhere": (lambda: changed(site__file="../site.geojson"), "site.file"),
     "a site file of another format": (lambda: changed(site__file="orchard.csv"), "lacks site.csv"),
     "lenient where it was not": (lambda: changed(site__lenient="yes"), "site.lenient"),
-    "another site": (lambda: changed(site__sha256="0" * 64), "the site file is read here as something else"),
-    "a site of other content": (lambda: changed(site__content_sha256="0" * 64), "the site is read here as"),
-    "another site's name": (lambda: changed(site__name="Home"), "the site file is read here as"),
-    "another robot": (lambda: changed(robot__sha256="0" * 64), "the robot profile is read"),
-    "another Task": (lambda: changed(task__sha256="0" * 64), "the Task document is read"),
-    "another request": (lambda: changed(task__request="Go home."), "the request is read"),
+    "another site": (lambda: changed(site__sha256="0" * 64), "reads the site file differently"),
+    "a site of other content": (lambda: changed(site__content_sha256="0" * 64), "reads the site differently"),
+    "another site's name": (lambda: changed(site__name="Home"), "reads the site file differently"),
+    "another robot": (lambda: changed(robot__sha256="0" * 64), "reads the robot profile differently"),
+    "another Task": (lambda: changed(task__sha256="0" * 64), "reads the Task document differently"),
+    "another request": (lambda: changed(task__request="Go home."), "reads the request differently"),
     "a file that is not there": (lambda: changed(files__more="0" * 64), "more is not what was approved"),
     "a hash that is none": (lambda: changed(files={"task.xml": "abc"}), "files.task.xml"),
     "no files": (lambda: changed(files={}), "is not what was approved"),
@@ -277,7 +277,7 @@ def test_a_task_for_another_robot_is_refused_by_its_schema() -> None:
 
 def test_a_task_that_is_written_otherwise_is_not_the_one_that_was_approved() -> None:
     """The hash in the approval is of the Task as this program writes it: a comment more is another document."""
-    with pytest.raises(BundleError, match="the Task document is read"):
+    with pytest.raises(BundleError, match="reads the Task document differently"):
         opened(hashed(**{TASK: members_of(good())[TASK].replace(b"<plan>", b"<!-- and then --><plan>")}))
 
 
@@ -315,7 +315,7 @@ def test_a_revoked_key_counts_no_more_whenever_it_signed() -> None:
 def test_an_approval_dated_ahead_is_refused_where_no_time_zone_explains_it() -> None:
     early = NOW - timedelta(hours=20)
     assert opened(good(), now=early).manifest.approved.by == "Ada"
-    with pytest.raises(BundleError, match="the clock of this machine says 2026-04-29"):
+    with pytest.raises(BundleError, match="the clock of this machine shows 2026-04-29"):
         opened(good(), now=NOW - timedelta(days=2))
 
 

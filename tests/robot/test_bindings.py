@@ -256,7 +256,12 @@ def test_every_problem_is_told_at_once() -> None:
     )
     with pytest.raises(ProfileError) as error:
         parse_profile(data)
-    for part in ("V cannot be turned", "'$b' is neither", "where 'moisture' is read", "(and 2 more after it: "):
+    for part in (
+        "V cannot be turned",
+        "'$b' is neither",
+        "no source is given for 'moisture'",
+        "(and 2 more after it: ",
+    ):
         assert part in str(error.value)
 
 

@@ -41,7 +41,7 @@ def test_the_good_document_is_read():
         ("<stop/>", "line 4, <stop>: the attribute id is missing"),
         ('<stop id="n1" exit="now"/>', "exit: 'now' is not one of nominal, faulted"),
         ('<stop id="n1">now</stop>', "contains the text 'now' between its elements"),
-        ('<stop id="n1"/><stop id="n2"/>', "<stop>: is one too many: <plan> holds one"),
+        ('<stop id="n1"/><stop id="n2"/>', "<stop>: is one too many: <plan> can contain only one"),
         ('<stop id="n1" said="3"/>', "said: '3' is not a list of character ranges"),
         ('<act id="n1"/>', "has 0 elements that name the action"),
         ('<act id="n1"><a/><b/></act>', "has 2 elements that name the action"),

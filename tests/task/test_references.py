@@ -132,7 +132,7 @@ def test_the_low_end_of_a_range_comes_first(low, high, wrong):
 @pytest.mark.parametrize(("times", "wrong"), [(100, False), (101, True)])
 def test_nested_repeats_do_not_multiply_without_end(times, wrong):
     plan = Repeat(id="", times=10, body=Repeat(id="", times=times, body=Repeat(id="", times=100, body=probe())))
-    expected = "node 'n4' comes to 101,000 rounds, with the loops around it; 100,000 is the most"
+    expected = "node 'n4' can run 101,000 rounds, including the loops around it; 100,000 is the most"
     assert references(task_of(plan)) == ((expected,) if wrong else ())
 
 
@@ -146,7 +146,7 @@ def test_nested_repeats_do_not_multiply_without_end(times, wrong):
 )
 def test_nothing_optional_stands_inside_an_optional_step_nor_it_inside_optional_visits(inner, outer):
     (problem,) = references(task_of(outer(inner)))
-    assert "is optional inside 'n2', which is optional as a whole" in problem
+    assert "is optional inside 'n2', which is itself optional" in problem
 
 
 @pytest.mark.parametrize(("order", "optional", "wrong"), [("given", True, 1), ("best", True, 0), ("given", False, 0)])

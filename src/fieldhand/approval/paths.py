@@ -17,7 +17,7 @@ from fieldhand.task.frames import Fault, Task
 FAULTS: dict[Fault, str] = {
     "action_failed": message("an action fails for good"),
     "drive_failed": message("a way cannot be driven"),
-    "low_budget": message("what is left of the budget is only just enough for the way home"),
+    "low_budget": message("what is left is only just enough for the way home"),
     "aborted": message("someone aborts the mission"),
 }
 

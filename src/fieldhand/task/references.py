@@ -66,7 +66,7 @@ def _endless(plan: Node, around: int = 1) -> Iterator[str]:
     """Yield a problem for each outermost repeat at which the product of rounds exceeds the maximum."""
     rounds = around * (1 if plan.rounds is None else plan.rounds)
     if rounds > MAX_ROUNDS:
-        yield f"node {plan.id!r} can run {rounds:,} rounds, counting the loops around it; {MAX_ROUNDS:,} are allowed"
+        yield f"node {plan.id!r} can run {rounds:,} rounds, including the loops around it; {MAX_ROUNDS:,} is the most"
         return
     for child in plan.children:
         yield from _endless(child, rounds)
