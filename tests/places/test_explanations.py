@@ -171,8 +171,11 @@ def test_each_part_says_what_it_left_of_what():
 @pytest.mark.parametrize(
     ("selector", "note"),
     [
-        (s.AlongRow(trees=9, origin=s.TreeIs(tree="3")), "row 1 ends after 2 trees; its last tree that way is 5"),
-        (s.AlongRow(trees=1, origin=s.TreeIs(tree="5")), "row 1 ends here; its last tree that way is 5"),
+        (
+            s.AlongRow(trees=9, origin=s.TreeIs(tree="3")),
+            "row 1 ends after 2 trees; its last tree in that direction is 5",
+        ),
+        (s.AlongRow(trees=1, origin=s.TreeIs(tree="5")), "row 1 ends here; its last tree in that direction is 5"),
         (s.InRow(first=1, last=4), "row 2 has fewer than 4 trees to choose from"),
         (
             s.Across(origin=s.TreeIs(tree="5")),

@@ -168,7 +168,7 @@ WRONG = [
         "Measure CO2 at 4 vines, N12 and its neighbours.",
         '<sequence><act><read_co2/><at><tree-is tree="N12"/></at></act><for-each><select><nearest count="2" '
         f'adjacent="true"><to><tree-is tree="N12"/></to></nearest></select>{CO2}</for-each></sequence>',
-        "no steps of the plan come to 4",
+        "no steps of the plan add up to 4",
     ),
     (
         "Go to the gate and take a picture of N1.",
@@ -178,7 +178,7 @@ WRONG = [
     (
         "Take pictures of 4 vines of a row, every second one.",
         f'<for-each><select><every-nth nth="2"><successive count="5"/></every-nth></select>{PICTURE}</for-each>',
-        "no steps of the plan come to 4",
+        "no steps of the plan add up to 4",
     ),
     ("Take a picture of every vine.", '<sequence><go-to><gate-is gate="gate"/></go-to></sequence>', "gate"),
     (
