@@ -151,9 +151,9 @@ def test_nobody_there_to_approve_is_no_approval() -> None:
 @pytest.mark.parametrize(
     ("words", "says"),
     [
-        (("run",), "fieldhand: run: missing argument 'request'; fieldhand run --help says more"),
-        (("fly",), "fieldhand: no such command 'fly'; fieldhand --help says more"),
-        (("keys", "lend"), "fieldhand: keys: no such command 'lend'; fieldhand keys --help says more"),
+        (("run",), "fieldhand: run: missing argument 'request'; see fieldhand run --help"),
+        (("fly",), "fieldhand: no such command 'fly'; see fieldhand --help"),
+        (("keys", "lend"), "fieldhand: keys: no such command 'lend'; see fieldhand keys --help"),
         (("robot", "husky", "--xml", "a"), "fieldhand: robot show: no such option: --xml"),
         (("plan", "--site"), "requires an argument"),
         (("run", "Read CO2 at tree 4.", "--site", "demo", "--seed", "-1"), "invalid value for '--seed'"),
@@ -163,7 +163,7 @@ def test_nobody_there_to_approve_is_no_approval() -> None:
 )
 def test_a_command_that_is_called_as_it_cannot_be(words: tuple[str, ...], says: str) -> None:
     run = fieldhand(*words)
-    assert is_one_clear_line(run, says, "--help says more")
+    assert is_one_clear_line(run, says, "; see fieldhand ", "--help")
     assert (run.out, run.err.count("\n")) == ("", 1)
 
 

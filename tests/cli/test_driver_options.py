@@ -71,7 +71,7 @@ def test_a_mission_goes_on_on_what_it_was_begun(tmp_path: Path) -> None:
 
     assert again() == again("dds") == by
     assert again(domain=5, namespace="/") == Connection(transport="dds", domain=5, namespace="", sim_time=True)
-    with pytest.raises(ExecutionError, match=r"begun on a robot \(dds, domain 4 as /a\)"):
+    with pytest.raises(ExecutionError, match=r"started on a robot \(dds, domain 4 as /a\)"):
         again("simulation")
 
 
