@@ -182,7 +182,7 @@ def test_an_event_that_is_missing_is_noticed(robot_agent: RobotAgentInProcess) -
         return httpx.Response(200, json=found)
 
     link = RobotClient(httpx.Client(transport=httpx.MockTransport(answer), base_url="http://robot"))
-    with pytest.raises(DeliveryError, match="behind number 0 is missing"):
+    with pytest.raises(DeliveryError, match="after number 0 is missing"):
         link.events(sha256_of(good()), 0, 0.0)
 
 
