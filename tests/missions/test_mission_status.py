@@ -46,7 +46,7 @@ def test_a_mission_from_its_folder_alone(tmp_path: Path) -> None:
     assert missions.find(tmp_path, None) == missions.find(tmp_path, "m1") == missions.find(tmp_path, str(folder))
     with pytest.raises(ExecutionError, match="has ended"):
         missions.send_command(folder, "pause", "")
-    with pytest.raises(JournalError, match="of that name already"):
+    with pytest.raises(JournalError, match="already a mission with this name"):
         missions.begin(tmp_path, "m1", inputs())
 
 

@@ -56,7 +56,7 @@ class CommandHandler:
             ExecutionError: The command comes too late, or another mission is running.
         """
         if bundle is None and order.order == "start":
-            raise RefusedRequest(422, "no mission is named", "name the one to start")
+            raise RefusedRequest(422, "no mission is named", "name the mission to start")
         reason = order.because or f"{order.order} from elsewhere"
         active = self._supervisor.under_way
         direct = None
@@ -97,6 +97,6 @@ class CommandHandler:
         received = self._supervisor.latest if bundle is None else self._mission_store.find(bundle)
         if received is None:
             raise RefusedRequest(
-                404, "no such mission has arrived" if bundle else "no mission was begun", "send it first"
+                404, "no such mission has arrived" if bundle else "no mission has been started", "send it first"
             )
         return received

@@ -67,7 +67,7 @@ def size_of(request: Request, uploads: UploadLimits) -> int:
     """
     declared = request.headers.get("content-length")
     if declared is None or "transfer-encoding" in request.headers:
-        raise RefusedRequest(411, "the upload does not say how large it is", "send it with a Content-Length")
+        raise RefusedRequest(411, "the upload does not state its size", "send it with a Content-Length")
     if not declared.isascii() or not declared.isdigit() or len(declared) > 15 or int(declared) > uploads.most:
         raise RefusedRequest(413, "the upload is too large", f"a mission has {uploads.most / 1e6:,.0f} MB at most")
     return int(declared)
@@ -85,7 +85,7 @@ async def receive(request: Request, incoming: IncomingFile, size: int, uploads: 
         with anyio.fail_after(uploads.start_s + size / uploads.bytes_s):
             while chunk := await _next(stream, uploads.idle_s):
                 if incoming.size + len(chunk) > size:
-                    raise RefusedRequest(400, "the upload is longer than it said", "send it again")
+                    raise RefusedRequest(400, "the upload is longer than it stated", "send it again")
                 await anyio.to_thread.run_sync(incoming.write, chunk)
     except TimeoutError:
         raise RefusedRequest(

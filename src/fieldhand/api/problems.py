@@ -88,7 +88,7 @@ def answer_problems(app: FastAPI) -> None:
     @app.exception_handler(RequestValidationError)
     async def _shape(_: Request, error: RequestValidationError) -> Response:
         first = error.errors()[0]
-        return problem(422, _error_text(first), _place(first["loc"]), "see docs/api.md for what this address takes")
+        return problem(422, _error_text(first), _place(first["loc"]), "see docs/api.md for what this address accepts")
 
     @app.exception_handler(HTTPException)
     async def _http(request: Request, error: HTTPException) -> Response:

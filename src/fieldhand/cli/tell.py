@@ -50,7 +50,7 @@ def come_home(
     json: JsonOption = False,
 ) -> None:
     """Skip the rest of a mission and drive home; the mission ends there."""
-    tell(mission, kept, "return", because, message("coming home"), DisplayOptions(lang=lang, json=json))
+    tell(mission, kept, "return", because, message("returning"), DisplayOptions(lang=lang, json=json))
 
 
 def tell(

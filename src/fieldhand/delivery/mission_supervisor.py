@@ -389,7 +389,7 @@ class MissionSupervisor:
                 log.warning("mission %s: %s", received.name, error)
             except Exception as error:
                 # A fault of the program: the mission stays as it is, and the agent keeps running.
-                self._faults[received.sha256] = f"a fault of the program: {type(error).__name__}"
+                self._faults[received.sha256] = f"an internal error: {type(error).__name__}"
                 log.exception("mission %s", received.name)
 
         self._active = received
