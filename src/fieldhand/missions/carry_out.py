@@ -93,14 +93,14 @@ def require_vehicle(name: str, started_on: RobotAtStart | None, *, simulated: bo
     """
     if started_on is None and not simulated:
         raise ExecutionError(
-            message("the mission was begun in simulation and cannot be gone on with on a robot"),
+            message("the mission was started in simulation and cannot be continued on a robot"),
             where=name,
-            advice=message("resume it without --on, or carry the Task out on the robot as a new mission"),
+            advice=message("resume it without --on, or run the Task on the robot as a new mission"),
         )
     if started_on is not None and simulated:
         raise ExecutionError(
             message(
-                "the mission was begun on a robot ({by}) and cannot be gone on with in simulation",
+                "the mission was started on a robot ({by}) and cannot be continued in simulation",
                 by=str(started_on.by),
             ),
             where=name,
