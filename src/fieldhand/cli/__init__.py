@@ -91,7 +91,7 @@ def _usage(error: Any) -> str:
     context = error.ctx
     words = context.command_path.removeprefix(context.find_root().command_path).split() if context else []
     help_of = " ".join(["fieldhand", *words, "--help"])
-    advice = message("{command} says more", command=help_of)
+    advice = message("see {command}", command=help_of)
     return InputError(what[0].lower() + what[1:], where=" ".join(words), advice=advice).line(_language().say)
 
 
