@@ -74,7 +74,7 @@ ASKED = (
     "stopped",
     "lost",
 )
-LONGEST_S = 120.0
+LONGEST_S = 1800.0
 
 
 @dataclass
@@ -226,6 +226,8 @@ def one_life(
     here.close()
     if os.WIFEXITED(status) and os.WEXITSTATUS(status) != 0:
         raise SystemExit(f"the mission of seed {draft.seed} ended with an error")
+    if os.WIFSIGNALED(status) and until_s is None:
+        raise SystemExit(f"the mission of seed {draft.seed} did not end within {LONGEST_S:g} s")
     return os.WIFSIGNALED(status), lived
 
 

@@ -33,7 +33,7 @@ from fieldhand.site.model import Place, Site
 from fieldhand.task.codec import encode
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import Node, walk
-from fieldhand.task.references import references
+from fieldhand.task.references import reference_problems
 from fieldhand.task.schema import validate
 
 __all__ = ["Examination", "PlanProblem", "check", "examine"]
@@ -132,10 +132,8 @@ def _document(task: Task, robot: RobotProfile, document: bytes | None) -> Iterat
 
 
 def _references(task: Task, robot: RobotProfile) -> Iterator[PlanProblem]:
-    nodes = [node.id for node in walk(task.composition.plan)]
-    for sentence in references(task, capabilities_of(robot)):
-        node = next((n for n in nodes if n and f"'{n}'" in sentence), "")
-        yield PlanProblem(node=node, where=message("plan"), what=sentence)
+    for problem in reference_problems(task, capabilities_of(robot)):
+        yield PlanProblem(node=problem.node, where=message("plan"), what=problem.what)
 
 
 def _resources(task: Task, site: Site, robot: RobotProfile) -> Iterator[PlanProblem]:

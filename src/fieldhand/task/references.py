@@ -14,8 +14,26 @@ from fieldhand.task.frames import Task
 from fieldhand.task.plan import Node, walk
 
 
+@dataclass(frozen=True, kw_only=True)
+class ReferenceProblem:
+    """A faulty reference inside a Task.
+
+    Attributes:
+        what: One sentence that names the node or the goal.
+        node: Id of the plan node it is found at, empty if there is none.
+    """
+
+    what: str
+    node: str = ""
+
+
 def references(task: Task, capabilities: Capabilities | None = None) -> tuple[str, ...]:
-    """Return the faulty references inside a Task, one sentence each with the node's id; empty if there are none.
+    """Return the sentences of :func:`reference_problems`."""
+    return tuple(problem.what for problem in reference_problems(task, capabilities))
+
+
+def reference_problems(task: Task, capabilities: Capabilities | None = None) -> tuple[ReferenceProblem, ...]:
+    """Return the faulty references inside a Task, each once; empty if there are none.
 
     Rules: ids are unique; goals and state variables name actions of the plan; a label is bound before it is used; a
     reading is taken before it is tested, by a node that can precede the test on some branch and is not inside an
@@ -31,65 +49,74 @@ def references(task: Task, capabilities: Capabilities | None = None) -> tuple[st
     return tuple(problems)
 
 
-def _ids(task: Task) -> Iterator[str]:
+def _ids(task: Task) -> Iterator[ReferenceProblem]:
     counts = Counter(node.id for node in walk(task.composition.plan))
     for name, count in counts.items():
         if not name:
-            yield f"{count} nodes of the plan have no id"
+            yield ReferenceProblem(what=f"{count} nodes of the plan have no id")
         elif count > 1:
-            yield f"{count} nodes of the plan have the id {name!r}"
+            yield ReferenceProblem(node=name, what=f"{count} nodes of the plan have the id {name!r}")
     for name, count in Counter(goal.id for goal in task.command.goals).items():
         if count > 1:
-            yield f"{count} goals have the id {name!r}"
+            yield ReferenceProblem(what=f"{count} goals have the id {name!r}")
 
 
-def _frames(task: Task, nodes: Mapping[str, Node]) -> Iterator[str]:
+def _frames(task: Task, nodes: Mapping[str, Node]) -> Iterator[ReferenceProblem]:
     for goal in task.command.goals:
         act = nodes[goal.node].act if goal.node in nodes else None
+        what = ""
         if act is None:
-            yield f"goal {goal.id!r} names {goal.node!r}, which is not an action of the plan"
+            what = f"goal {goal.id!r} names {goal.node!r}, which is not an action of the plan"
         elif act.action != goal.action:
-            yield f"goal {goal.id!r} counts {goal.action!r}, but its node {goal.node!r} does {act.action!r}"
+            what = f"goal {goal.id!r} counts {goal.action!r}, but its node {goal.node!r} does {act.action!r}"
+        if what:
+            yield ReferenceProblem(node=goal.node if goal.node in nodes else "", what=what)
     for variable in task.command.variables:
         act = nodes[variable.node].act if variable.node in nodes else None
+        what = ""
         if act is None:
-            yield f"state variable {variable.name!r} names {variable.node!r}, which is not an action of the plan"
+            what = f"state variable {variable.name!r} names {variable.node!r}, which is not an action of the plan"
         elif act.reading != variable.name:
-            yield f"state variable {variable.name!r} is not the reading that {variable.node!r} binds"
+            what = f"state variable {variable.name!r} is not the reading that {variable.node!r} binds"
+        if what:
+            yield ReferenceProblem(node=variable.node if variable.node in nodes else "", what=what)
 
 
 #: Maximum product of the rounds of nested repeats; no real mission needs as many.
 MAX_ROUNDS = 100_000
 
 
-def _endless(plan: Node, around: int = 1) -> Iterator[str]:
+def _endless(plan: Node, around: int = 1) -> Iterator[ReferenceProblem]:
     """Yield a problem for each outermost repeat at which the product of rounds exceeds the maximum."""
     rounds = around * (1 if plan.rounds is None else plan.rounds)
     if rounds > MAX_ROUNDS:
-        yield f"node {plan.id!r} can run {rounds:,} rounds, including the loops around it; {MAX_ROUNDS:,} is the most"
+        what = f"node {plan.id!r} can run {rounds:,} rounds, including the loops around it; {MAX_ROUNDS:,} is the most"
+        yield ReferenceProblem(node=plan.id, what=what)
         return
     for child in plan.children:
         yield from _endless(child, rounds)
 
 
-def _twice_optional(node: Node, around: Node | None = None) -> Iterator[str]:
+def _twice_optional(node: Node, around: Node | None = None) -> Iterator[ReferenceProblem]:
     """Yield a problem for each optional step nested in, or around, optional work: the guard could not decide which to
     shed.
     """
     if around is not None and node.is_optional and (node.is_optional_step or around.is_optional_step):
-        yield f"node {node.id!r} is optional inside {around.id!r}, which is itself optional; make only one so"
+        what = f"node {node.id!r} is optional inside {around.id!r}, which is itself optional; make only one so"
+        yield ReferenceProblem(node=node.id, what=what)
     for child in node.children:
         yield from _twice_optional(child, node if node.is_optional else around)
 
 
-def _ordered_optional(plan: Node) -> Iterator[str]:
+def _ordered_optional(plan: Node) -> Iterator[ReferenceProblem]:
     """Yield a problem for each for-each with optional visits in a fixed order: the solver chooses visits and order."""
     for node in walk(plan):
         if node.is_optional and node.visits_each and not node.in_any_order:
-            yield (
-                f"node {node.id!r} is optional and has a given order, which optional visits cannot keep: as many are"
-                " made as fit, in the order that drives least; let a 'top' or 'take' choose which places, or leave out"
-                " 'order'"
+            yield ReferenceProblem(
+                node=node.id,
+                what=f"node {node.id!r} is optional and has a given order, which optional visits cannot keep: as many"
+                " are made as fit, in the order that drives least; let a 'top' or 'take' choose which places, or leave"
+                " out 'order'",
             )
 
 
@@ -121,13 +148,14 @@ class _Known:
 
 @dataclass(frozen=True, kw_only=True)
 class _Found:
-    problems: list[str]
+    problems: list[ReferenceProblem]
     capabilities: Capabilities | None
     #: Names bound inside optional steps, which are unreliable outside.
     shed: set[str] = field(default_factory=set)
 
-    def add(self, problem: str) -> None:
-        """Add a problem, once."""
+    def add(self, node: Node, what: str) -> None:
+        """Add a problem of a node, once."""
+        problem = ReferenceProblem(node=node.id, what=what)
         if problem not in self.problems:
             self.problems.append(problem)
 
@@ -157,7 +185,7 @@ def _check_places(node: Node, known: _Known, found: _Found) -> None:
     for part in selector.walk() if selector is not None else ():
         if isinstance(part, Bound) and part.label not in known.labels:
             by = "only an optional step binds: name it inside that" if part.label in found.shed else _NOTHING_BINDS
-            found.add(f"node {node.id!r} names the place {part.label!r}, which {by}")
+            found.add(node, f"node {node.id!r} names the place {part.label!r}, which {by}")
 
 
 def _check_condition(node: Node, known: _Known, found: _Found) -> None:
@@ -165,20 +193,22 @@ def _check_condition(node: Node, known: _Known, found: _Found) -> None:
     for part in conditions.walk(condition) if condition is not None else ():
         if isinstance(part, Between) and part.low > part.high:
             found.add(
+                node,
                 f"node {node.id!r} tests whether the {part.quantity} is between {part.low:g} and {part.high:g}, which "
-                "is impossible: give the low end first"
+                "is impossible: give the low end first",
             )
         if not isinstance(part, Compare | Between | Level):
             continue
         actions = known.readings.get(part.reading)
         if actions is None:
             by = "only an optional step takes: test it inside that" if part.reading in found.shed else _NOTHING_TAKES
-            found.add(f"node {node.id!r} tests the reading {part.reading!r}, which {by}")
+            found.add(node, f"node {node.id!r} tests the reading {part.reading!r}, which {by}")
             continue
         for action in sorted(actions) if found.capabilities else ():
             able = found.capabilities.actions.get(action) if found.capabilities else None
             if able is None or part.quantity not in able.measures:
                 found.add(
+                    node,
                     f"node {node.id!r} tests the {part.quantity} of the reading {part.reading!r}, "
-                    f"but {action} does not measure it"
+                    f"but {action} does not measure it",
                 )
