@@ -9,7 +9,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fieldhand.approval.clauses import say_act, say_condition
 from fieldhand.places import selectors as s
 from fieldhand.places.wording import say_selector
 from fieldhand.task import conditions as c
@@ -17,6 +16,7 @@ from fieldhand.task.plan import Act
 from fieldhand.terms import Side, Test
 from fieldhand.testing.generated.tasks import ROVER, Parts
 from fieldhand.testing.small_orchard import husky
+from fieldhand.wording.conditions import say_act, say_condition
 
 PARTS = Parts(ROVER)
 YELLOW = s.Where(attribute="leaf_color", test="eq", value="yellow")

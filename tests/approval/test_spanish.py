@@ -14,7 +14,6 @@ import pytest
 from hypothesis import given, settings
 
 from fieldhand import mission
-from fieldhand.approval.sentences import write_lines
 from fieldhand.language import Message, open_language
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
@@ -23,6 +22,7 @@ from fieldhand.site.loader import load_demo
 from fieldhand.task.codec import decode, encode
 from fieldhand.testing.generated.tasks import ROVER, Parts
 from fieldhand.testing.small_orchard import husky, orchard
+from fieldhand.wording.steps import write_lines
 from support.requests.english import PLANNED
 
 SPANISH = open_language("es")
@@ -136,9 +136,9 @@ def test_whole_read_backs_stand_as_a_grower_approved_them(case: str) -> None:
 def test_a_profile_brings_its_own_names_along() -> None:
     from dataclasses import replace
 
-    from fieldhand.approval.clauses import say_act, say_condition
     from fieldhand.task.conditions import Compare
     from fieldhand.task.plan import Act
+    from fieldhand.wording.conditions import say_act, say_condition
 
     robot = husky()
     action = replace(robot.action["read_co2"], name="sniff_air", labels={"es": "olfatear el aire"})

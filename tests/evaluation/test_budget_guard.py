@@ -11,7 +11,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fieldhand.evaluation.event_text import EventText
 from fieldhand.execution.guard import Guard
 from fieldhand.forecast.mission_state import Spent, Visit
 from fieldhand.forecast.visit_order import drives_for, visits_in_order
@@ -23,6 +22,7 @@ from fieldhand.task.frames import Budget, Constraints
 from fieldhand.task.plan import Act, ForEach, InOrder, Repeat
 from fieldhand.task.results import Shed
 from fieldhand.testing.small_orchard import block, husky, orchard, task_for
+from fieldhand.wording.events import EventText
 from support.missions.paper import Paper
 
 ROBOT = husky()

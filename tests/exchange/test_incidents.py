@@ -14,7 +14,6 @@ from lxml import etree
 from mcap.reader import make_reader
 from shapely.geometry import Polygon, shape
 
-from fieldhand.evaluation.event_text import EventText
 from fieldhand.exchange.incidents import incidents
 from fieldhand.exchange.mcap import McapLog
 from fieldhand.exchange.replay import film_of, page_of, save_animation
@@ -39,6 +38,7 @@ from fieldhand.task.results import (
     Waited,
 )
 from fieldhand.testing.small_orchard import at, husky, orchard
+from fieldhand.wording.events import EventText
 
 SITE = orchard()
 TELL = EventText(husky()).line

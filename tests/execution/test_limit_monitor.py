@@ -12,7 +12,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fieldhand.evaluation.battery_drain import BatteryDrain
-from fieldhand.evaluation.event_text import EventText
 from fieldhand.evaluation.failsafe import BudgetFailsafe
 from fieldhand.execution.drivers.simulation.world import BatteryDrains, World
 from fieldhand.forecast.mission_state import Spent
@@ -22,9 +21,10 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.drives import Drives
 from fieldhand.site.stopping import CLEAR_M, safe_stop
 from fieldhand.task.frames import Budget, Constraints, FaultedExit
-from fieldhand.task.limit_words import say_crossing
 from fieldhand.task.plan import Act, ForEach
 from fieldhand.task.results import Acted, Driving, Ended, Event, Exited, LimitCrossed, Shed, Started
+from fieldhand.wording.events import EventText
+from fieldhand.wording.limits import say_crossing
 from support.missions.rig import Rig, husky, of_type, orchard, task_for
 
 PLAN = ForEach(id="", select=Trees(), body=Act(id="", action="read_co2"))

@@ -7,10 +7,10 @@ from collections.abc import Iterator
 
 import pytest
 
-from fieldhand.evaluation.event_text import EventText, goal_names
 from fieldhand.evaluation.outcome import judge_end
 from fieldhand.evaluation.progress import mission_progress
 from fieldhand.language import kept_in_log, open_language
+from fieldhand.wording.events import EventText, goal_names
 from language.silent_language import silent_language
 from support.missions.faulted_flights import Flown, fly
 

@@ -11,13 +11,13 @@ import yaml
 
 from fieldhand import mission
 from fieldhand.errors import OutputError
-from fieldhand.evaluation.event_text import EventText
 from fieldhand.execution.drivers.simulation.world_faults import AnyFault
 from fieldhand.execution.drivers.simulation.world_file import parse_world
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.loader import open_site
+from fieldhand.wording.events import EventText
 from support.missions.rig import approved
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"

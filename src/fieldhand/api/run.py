@@ -19,12 +19,12 @@ from fieldhand.api.maps import driven_map
 from fieldhand.api.plan import Planners
 from fieldhand.api.work import Limits, Workers
 from fieldhand.approval.production import require_unsigned_allowed
-from fieldhand.evaluation.event_text import EventText, goal_names
 from fieldhand.mission.documents import SiteAndRobot
 from fieldhand.planning.planner import Planned
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import Task
 from fieldhand.task.results import Ended
+from fieldhand.wording.events import EventText, goal_names
 
 
 def router(workers: Workers, planners: Planners, limits: Limits) -> APIRouter:

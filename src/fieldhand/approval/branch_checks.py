@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
-from fieldhand.approval.paths import say_decisions
 from fieldhand.approval.problem import PlanProblem, node_in
-from fieldhand.approval.sentences import say_place
 from fieldhand.errors import DriveFault
 from fieldhand.forecast.branches import Branches
 from fieldhand.forecast.estimate import Estimate
@@ -15,6 +13,8 @@ from fieldhand.language import message
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
+from fieldhand.wording.branches import say_decisions
+from fieldhand.wording.steps import say_place
 
 #: Metres by which a drive may enter a keep-out zone or leave the boundary, to allow for rounding.
 TOLERANCE_M = 0.01

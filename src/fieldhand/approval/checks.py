@@ -17,7 +17,6 @@ from fieldhand.approval.branch_checks import branch_problems, exit_problems
 from fieldhand.approval.budget import budget_problems
 from fieldhand.approval.problem import PlanProblem, node_in, with_words
 from fieldhand.approval.request_warnings import request_warnings
-from fieldhand.approval.sentences import say_place
 from fieldhand.errors import FieldhandError, PlaceError, TaskError
 from fieldhand.forecast.estimate import Estimate, estimate, explore
 from fieldhand.forecast.visit_order import drives_for, start_place
@@ -35,6 +34,7 @@ from fieldhand.task.frames import Task
 from fieldhand.task.plan import Node, walk
 from fieldhand.task.references import reference_problems
 from fieldhand.task.schema import validate
+from fieldhand.wording.steps import say_place
 
 __all__ = ["Examination", "PlanProblem", "check", "examine"]
 

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 
 from fieldhand.approval.marks import LINES
 from fieldhand.approval.readback import ReadBack, say_totals
-from fieldhand.approval.sentences import ReadBackLine
 from fieldhand.approval.stops import Certainty, DrawnPlan
 from fieldhand.language import Language, message
 from fieldhand.language.words import capitalised, say_action
 from fieldhand.site.drawing.colours import INK, PATH
 from fieldhand.task.frames import Task
+from fieldhand.wording.steps import ReadBackLine
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist

@@ -9,9 +9,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from fieldhand.approval.paths import FAULTS, say_decisions
-from fieldhand.approval.resolved import gather
-from fieldhand.approval.sentences import ReadBackLine, say_exit_after, write_lines
 from fieldhand.forecast.estimate import BranchEstimate, Estimate, Figure
 from fieldhand.forecast.resource_limits import ResourceKind, reserve_percent
 from fieldhand.forecast.walk_steps import Walk
@@ -23,6 +20,9 @@ from fieldhand.short_repr import short_repr
 from fieldhand.site.model import Site
 from fieldhand.task.build import FAULTED_EXITS
 from fieldhand.task.frames import Budget, FaultedExit, Task, Then
+from fieldhand.wording.branches import FAULTS, say_decisions
+from fieldhand.wording.resolved_places import gather
+from fieldhand.wording.steps import ReadBackLine, say_exit_after, write_lines
 
 __all__ = ["ReadBack", "ReadBackLine", "Totals", "read_back"]
 

@@ -6,11 +6,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Literal
 
-from fieldhand.approval.sentences import ReadBackLine
 from fieldhand.forecast.walk_steps import Walk, WalkStep
 from fieldhand.site.model import Place
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import Node, walk
+from fieldhand.wording.steps import ReadBackLine
 
 Certainty = Literal["certain", "conditional", "budget"]
 XY = tuple[float, float]

@@ -140,11 +140,11 @@ def _export_task(source: str, folder: Path | None, recorded: RecordedOptions, to
 def _export_log(source: str, folder: Path | None, recorded: RecordedOptions, to: str, output: Path) -> _Exported:
     """Return an event log in a format of other programs; ``folder`` is that of a stored mission, if one is exported."""
     from fieldhand.cli.recorded import ground_of, log_of_folder, plan_of_folder
-    from fieldhand.evaluation.event_text import EventText
     from fieldhand.exchange.routes.route import driven
     from fieldhand.finished_missions import read_log
     from fieldhand.robot.loader import load_robot
     from fieldhand.task.event_lines import to_json
+    from fieldhand.wording.events import EventText
 
     events = (read_log(Path(source)) if folder is None else log_of_folder(folder)).events
     facts: dict[str, Any] = {"events": len(events)}
@@ -165,9 +165,9 @@ def _export_log(source: str, folder: Path | None, recorded: RecordedOptions, to:
 
 
 def _write_mcap(events: tuple[Event, ...], output: Path, ground: SiteAndRobot | None, robot: str) -> None:
-    from fieldhand.evaluation.event_text import EventText
     from fieldhand.exchange.mcap import McapLog
     from fieldhand.robot.loader import load_robot
+    from fieldhand.wording.events import EventText
 
     event_text = EventText(load_robot(robot) if ground is None else ground.robot)
     with McapLog(output, tell=event_text.line, site=None if ground is None else ground.site) as log:

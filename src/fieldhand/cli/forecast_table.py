@@ -28,7 +28,7 @@ def show_forecast(review: Review, robot: RobotProfile, language: Language = ENGL
         robot: Robot, for the words of conditions.
         language: Language of the table.
     """
-    from fieldhand.approval.paths import say_branch
+    from fieldhand.wording.branches import say_branch
 
     forecast = review.estimate
     if forecast is None:

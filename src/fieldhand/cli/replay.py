@@ -33,9 +33,9 @@ def replay(
     from fieldhand.cli.inputs import write_file
     from fieldhand.cli.recorded import folder_of, ground_of, log_of_folder, plan_of_folder, require_nothing_beside
     from fieldhand.errors import OutputError
-    from fieldhand.evaluation.event_text import EventText
     from fieldhand.exchange.replay import film_of, page_of, save_animation
     from fieldhand.finished_missions import read_log
+    from fieldhand.wording.events import EventText
 
     if output.suffix.lower() not in _ENDINGS:
         what = f"{output.suffix or 'a name without extension'} is not a supported animation format"

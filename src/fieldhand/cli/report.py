@@ -29,10 +29,10 @@ def report(
     from fieldhand import finished_missions
     from fieldhand.cli import show
     from fieldhand.cli.recorded import recorded_mission
-    from fieldhand.evaluation.event_text import goal_names
     from fieldhand.evaluation.report.log_facts import end_of
     from fieldhand.language import message
     from fieldhand.task.exceeded import say_status
+    from fieldhand.wording.events import goal_names
 
     language = display.language
     plan, log = recorded_mission(source, task, recorded, language)

@@ -160,8 +160,8 @@ def _open_logs(
     site: Site, robot: RobotProfile, settings: RunSettings, before: Sequence[Event]
 ) -> Iterator[Callable[[Event], None]]:
     """Open the event logs, write the earlier events to them, and yield a function that logs and prints each event."""
-    from fieldhand.evaluation.event_text import EventText
     from fieldhand.execution.event_log import EventLog
+    from fieldhand.wording.events import EventText
 
     display, outputs, event_text = settings.display, settings.outputs, EventText(robot)
     if not display.json:
@@ -256,7 +256,7 @@ def _print_result(
     written: Sequence[Path],
     display: DisplayOptions,
 ) -> None:
-    from fieldhand.evaluation.event_text import goal_names
+    from fieldhand.wording.events import goal_names
 
     language = display.language
     show.show_outcomes(assessment, goal_names(approved.task, approved.robot), language)

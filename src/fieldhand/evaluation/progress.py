@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from fieldhand.evaluation.event_text import EventText, noun
 from fieldhand.evaluation.outcome import judge, judge_end
 from fieldhand.language import message
 from fieldhand.language.words import say_near, say_place
@@ -28,6 +27,7 @@ from fieldhand.task.results import (
     Resumed,
     Started,
 )
+from fieldhand.wording.events import EventText, noun
 
 _CHARGED = Started | Arrived | Acted | InDoubt | Resumed | LimitCrossed | Ended
 

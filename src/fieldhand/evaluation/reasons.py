@@ -20,8 +20,6 @@ Floats = NDArray[np.float64]
 
 #: Places beyond this many are counted, not named.
 MAX_NAMED = 6
-#: How reasons begin that say themselves what was left out.
-SKIPPED, _NO_WAY = "skipped", "there is no way to"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -111,11 +109,6 @@ def too_many(visits: Sequence[Visit], indices: Sequence[int], chosen_from: int) 
         places=named(visits, indices),
         count=others,
     )
-
-
-def names_places(reason: str) -> bool:
-    """Return True if a reason names what was left out."""
-    return reason.startswith((f"{SKIPPED} ", f"{_NO_WAY} "))
 
 
 def named(visits: Sequence[Visit], indices: Sequence[int]) -> str:

@@ -22,8 +22,8 @@ from fieldhand.forecast.mission_state import Spent, Work
 from fieldhand.site.model import Place, Site
 from fieldhand.site.stopping import safe_stop
 from fieldhand.task.frames import Then as Exit
-from fieldhand.task.limit_words import say_crossing
 from fieldhand.task.results import Crossable, Crossing, LimitCrossed
+from fieldhand.wording.limits import say_crossing
 
 #: Shortest time in seconds between two checks when time jumps. The next check comes before the fastest drain could
 #: reach a level.

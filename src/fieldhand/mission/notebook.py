@@ -27,9 +27,9 @@ def html_of_review(review: Review) -> str:
 
 def html_of_run(run: Run) -> str:
     """Return how a run ended, its map, and the outcome of each goal."""
-    from fieldhand.evaluation.event_text import goal_names
     from fieldhand.evaluation.report.maps import report_maps
     from fieldhand.evaluation.report.readings import summaries
+    from fieldhand.wording.events import goal_names
 
     mission, spent = run.mission, run.result.spent
     drawn = report_maps(mission.site, run.events, summaries(mission.task, mission.robot, run.events)[:1])[0]

@@ -149,7 +149,7 @@ def _replay(seed: int, trees: int) -> None:
     """One mission in words: what was approved, what happened, how it is judged."""
     from fieldhand import mission
     from fieldhand.cli import show
-    from fieldhand.evaluation.event_text import EventText
+    from fieldhand.wording.events import EventText
     from fieldhand_bench.fly import fly
     from fieldhand_bench.summary import wrongs
 

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from fieldhand.clock import clock_time
-from fieldhand.evaluation.event_text import EventText
 from fieldhand.evaluation.report.log_facts import end_of, no_way_led_to, places_ahead
 from fieldhand.evaluation.report.place_names import PlaceNames
 from fieldhand.language.words import say_action, say_count
@@ -29,6 +28,7 @@ from fieldhand.task.results import (
     Shed,
     Waited,
 )
+from fieldhand.wording.events import EventText
 
 #: Decisions of the guard listed per section; the event log has all.
 _MOST_DETAILS = 60

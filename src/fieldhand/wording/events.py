@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from fieldhand.clock import clock_time
-from fieldhand.evaluation.reasons import SKIPPED, names_places
 from fieldhand.language import counted, joined, kept_in_log, message, named, shaped
 from fieldhand.language.words import capitalised, say_name, say_number, say_place, say_unit, some_names
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.exceeded import say_status
 from fieldhand.task.frames import Task
-from fieldhand.task.limit_words import say_crossing
 from fieldhand.task.results import (
     Acted,
     Arrived,
@@ -33,9 +31,13 @@ from fieldhand.task.results import (
     Visiting,
     Waited,
 )
+from fieldhand.wording.limits import say_crossing
 
 #: A list of places longer than this is counted, not named.
 NAMED = 8
+
+#: Beginnings of the guard's reasons (:mod:`fieldhand.evaluation.reasons`) that name what was left out themselves.
+_SKIPPED, _NO_WAY = "skipped", "there is no way to"
 
 
 class EventText:
@@ -158,8 +160,8 @@ def _shed(event: Shed) -> str:
     if not event.optional:
         places = _names(event.places) or event.node
         return message("GIVEN UP: {places}: {reason}", places=places, reason=kept_in_log(event.reason))
-    if names_places(event.reason):
-        return message("left out: {what}", what=kept_in_log(event.reason.removeprefix(f"{SKIPPED} ")))
+    if event.reason.startswith((f"{_SKIPPED} ", f"{_NO_WAY} ")):
+        return message("left out: {what}", what=kept_in_log(event.reason.removeprefix(f"{_SKIPPED} ")))
     return message("left out: {places} ({reason})", places=_names(event.places), reason=kept_in_log(event.reason))
 
 

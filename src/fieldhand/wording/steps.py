@@ -5,9 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from fieldhand.approval.clauses import say_act, say_condition
-from fieldhand.approval.resolved import ResolvedPlaces
-from fieldhand.approval.visits import in_order, say_expected, say_expected_visits, say_ids
 from fieldhand.language import counted, message, shaped
 from fieldhand.language.words import say_marker, say_name, say_number, say_times, say_tree
 from fieldhand.places.selector import Selector
@@ -18,6 +15,9 @@ from fieldhand.site.model import Place, Site
 from fieldhand.task.conditions import Condition
 from fieldhand.task.frames import Task, Then
 from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, InOrder, Node, OptionalStep, Repeat, StopMission, Try
+from fieldhand.wording.conditions import say_act, say_condition
+from fieldhand.wording.resolved_places import ResolvedPlaces
+from fieldhand.wording.step_places import in_order, say_expected, say_expected_visits, say_ids
 
 Names = dict[str, str]
 
@@ -55,7 +55,7 @@ def write_lines(
     Args:
         task: Task to describe.
         site, robot: Site and robot of the mission.
-        found: Resolved places of each node, from :func:`fieldhand.approval.resolved.gather`.
+        found: Resolved places of each node, from :func:`fieldhand.wording.resolved_places.gather`.
     """
     writer = _LineWriter(robot, found)
     writer.node(task.composition.plan, 0)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from fieldhand.approval.resolved import ResolvedPlaces
 from fieldhand.language import counted, message
 from fieldhand.language.words import say_rounded
 from fieldhand.places.selector import Selector
 from fieldhand.places.wording import say_places, say_selector
 from fieldhand.task.plan import ForEach
+from fieldhand.wording.resolved_places import ResolvedPlaces
 
 #: Optional visits with a probability below the first value are named, if there are no more than the second.
 _SURE, _NAMED = 0.9, 6

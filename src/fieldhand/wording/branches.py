@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Literal
 
-from fieldhand.approval.clauses import say_condition
 from fieldhand.forecast.branch_estimate import BranchEstimate
 from fieldhand.forecast.walk_steps import Decision
 from fieldhand.language import joined, message
@@ -13,6 +12,7 @@ from fieldhand.language.words import listed, say_action, say_times
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task import plan
 from fieldhand.task.frames import Fault, Task
+from fieldhand.wording.conditions import say_condition
 
 FAULTS: dict[Fault, str] = {
     "action_failed": message("an action fails for good"),
