@@ -141,7 +141,7 @@ def said_of(task: Task, request: str) -> Task:
 def test_a_plan_for_other_words_is_doubted(said: str, planned_as: str, kind: str) -> None:
     found = mismatches(said_of(plan(planned_as), said), DEMO, ROBOTS["husky"])
     assert kind in {m.kind for m in found}, found
-    assert all(m.message and "\n" not in m.message for m in found)
+    assert all(m.what and "\n" not in m.what for m in found)
 
 
 def drives_to(*places: s.Selector, then: s.Selector | None = None) -> p.Node:
@@ -191,7 +191,7 @@ def test_planted_mistakes_are_caught_in_the_share_that_is_promised() -> None:
 
 def test_a_mismatch_names_the_node_that_it_is_about() -> None:
     task = said_of(plan("Take a picture of tree 40 and of tree 5."), "Take a picture of tree 4 and of tree 5.")
-    (invented,) = [m for m in mismatches(task, DEMO, ROBOTS["husky"]) if "'40'" in m.message]
+    (invented,) = [m for m in mismatches(task, DEMO, ROBOTS["husky"]) if "'40'" in m.what]
     assert invented.node in {"n1", "n2", "n3"}
 
 
@@ -211,4 +211,4 @@ WORDS = (
 )
 def test_whatever_is_said_and_planned_never_breaks_it(task: Task, request: str) -> None:
     found = mismatches(said_of(task, request), DEMO, ROBOTS["husky"])
-    assert all(m.message for m in found)
+    assert all(m.what for m in found)

@@ -31,7 +31,7 @@ def site() -> Site:
 def unheld(request: str) -> list[str]:
     plan = p.ForEach(id="a", select=s.Trees(), body=p.Act(id="b", action="take_thermal_picture"))
     task = make_task(request=request, plan=plan, measures={}, nominal="stay")
-    return [found.message for found in mismatches(task, site(), HUSKY) if found.kind == "unheld"]
+    return [found.what for found in mismatches(task, site(), HUSKY) if found.kind == "unheld"]
 
 
 @pytest.mark.parametrize(

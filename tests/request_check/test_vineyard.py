@@ -192,4 +192,4 @@ WRONG = [
 
 @pytest.mark.parametrize(("request_", "plan", "says"), WRONG, ids=[request[:40] for request, _, _ in WRONG])
 def test_a_wrong_plan_for_a_vineyard_is_doubted(request_: str, plan: str, says: str) -> None:
-    assert any(says in found.message for found in doubts(request_, plan))
+    assert any(says in found.what for found in doubts(request_, plan))

@@ -24,7 +24,7 @@ def request_warnings(task: Task, site: Site, robot: RobotProfile) -> Iterator[Pl
         yield PlanProblem(
             node=found.node,
             where=message("request"),
-            what=message("this may not be what was asked: {doubt}", doubt=found.message),
+            what=message("this may not be what was asked: {doubt}", doubt=found.what),
             advice=message("approve only if this is what you want"),
             severity="warning",
         )

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import accumulate, takewhile
 
+from fieldhand.language import Number, message
 from fieldhand.language.words import listed, say_name
 from fieldhand.request_check import words as w
 from fieldhand.request_check.amounts import StatedAmount, numbers_of
@@ -62,7 +63,10 @@ def _sensors(said: RequestFacts, plan: PlanFacts, robot: RobotProfile) -> Iterat
         words = " ".join(t.text for t in said.said[k : k + noun.length])
         able = listed([say_name(name) for name in sorted(noun.actions)], "or")
         yield PlanMismatch(
-            kind="sensor", message=f"the request says '{words}', but nothing in the plan does that ({able})"
+            kind="sensor",
+            what=message(
+                "the request says '{words}', but nothing in the plan does that ({able})", words=words, able=able
+            ),
         )
     if not spoken or said.unknown:
         return
@@ -71,9 +75,10 @@ def _sensors(said: RequestFacts, plan: PlanFacts, robot: RobotProfile) -> Iterat
         if one.action in spoken or one.action not in robot.action or hints(robot.action[one.action], robot) & stems:
             continue
         yield PlanMismatch(
-            kind="sensor", message=f"the plan does '{say_name(one.action)}', which the request does not mention",
+            kind="sensor",
+            what=message("the plan does '{action}', which the request does not mention", action=say_name(one.action)),
             node=one.node,
-        )  # fmt: skip
+        )
 
 
 def _counts(said: RequestFacts, plan: PlanFacts, sizes: SelectorSizes) -> Iterator[PlanMismatch]:
@@ -85,15 +90,24 @@ def _counts(said: RequestFacts, plan: PlanFacts, sizes: SelectorSizes) -> Iterat
         if amount.compared or n in _explained(plan, amount) or n in _visited(plan, sizes):
             continue
         yield PlanMismatch(
-            kind="count", message=f"the request says '{_phrase(said, amount)}', but no steps of the plan add up to {n}"
+            kind="count",
+            what=message(
+                "the request says '{amount}', but no steps of the plan add up to {number}",
+                amount=_phrase(said, amount),
+                number=n,
+            ),
         )
     for number in plan.numbers:
         if number.kind != "count" or int(number.value) in _allowed(said, number) or _by_itself(said, number.what):
             continue
         if number.what.endswith(" count") and _comes_to_what_is_said(said, plan, number.node, sizes):
             continue
-        message = f"the plan holds the number {number.value:g} ({number.what}), which the request does not mention"
-        yield PlanMismatch(kind="count", message=message, node=number.node)
+        what_differs = message(
+            "the plan holds the number {number} ({what}), which the request does not mention",
+            number=Number(f"{number.value:g}"),
+            what=number.what,
+        )
+        yield PlanMismatch(kind="count", what=what_differs, node=number.node)
 
 
 def _comes_to_what_is_said(said: RequestFacts, plan: PlanFacts, node: str, sizes: SelectorSizes) -> bool:

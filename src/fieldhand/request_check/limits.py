@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from fieldhand.language import Number, message
 from fieldhand.request_check.amounts import StatedAmount
 from fieldhand.request_check.mismatch import PlanMismatch
 from fieldhand.request_check.plan_facts import PlanFacts
@@ -38,12 +39,15 @@ def limit_mismatches(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismat
         elif amount.kind in ("time", "length"):
             yield from _dropped(said, plan, amount)
         elif amount.kind == "speed" and not _drives(plan, amount.values[0]):
-            message = f"the request says '{amount.said}' as a speed, but the plan does not drive at that speed"
-            yield PlanMismatch(kind="limit", message=message)
+            what_differs = message(
+                "the request says '{amount}' as a speed, but the plan does not drive at that speed", amount=amount.said
+            )
+            yield PlanMismatch(kind="limit", what=what_differs)
     yield from _invented(said, plan)
     if said.as_many and not any(getattr(node, "optional", False) for node in plan.nodes):
         yield PlanMismatch(
-            kind="limit", message="the request asks for as many as possible, but no visit of the plan is optional"
+            kind="limit",
+            what=message("the request asks for as many as possible, but no visit of the plan is optional"),
         )
 
 
@@ -61,7 +65,8 @@ def _battery(said: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> Itera
     ways = [*(left if keeps or not uses else []), *(used if uses or not keeps else [])]
     if not any(abs(percent - x) < 0.5 for x in ways):
         yield PlanMismatch(
-            kind="limit", message=f"the request limits the battery by '{amount.said}', but the plan does not"
+            kind="limit",
+            what=message("the request limits the battery by '{amount}', but the plan does not", amount=amount.said),
         )
 
 
@@ -83,7 +88,10 @@ def _dropped(said: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> Itera
     if amount.kind == "length" or before & _LIMITS:
         if amount.kind == "length" and not (before & _LIMITS or after & {"apart", "intervals", "interval", "spacing"}):
             return
-        yield PlanMismatch(kind="limit", message=f"the request says '{amount.said}', which the plan does not contain")
+        yield PlanMismatch(
+            kind="limit",
+            what=message("the request says '{amount}', which the plan does not contain", amount=amount.said),
+        )
 
 
 def _drives(plan: PlanFacts, metres_per_second: float) -> bool:
@@ -107,23 +115,38 @@ def _invented(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
         if not any(_close(budget.limit, x) for x in _stated(said, kind)):
             yield PlanMismatch(
                 kind="limit",
-                message=f"the plan has a budget of {budget.limit:g} {unit}, which the request does not mention",
+                what=message(
+                    "the plan has a budget of {limit} {unit}, which the request does not mention",
+                    limit=Number(f"{budget.limit:g}"),
+                    unit=unit,
+                ),
             )
     reserve = plan.task.constraints.reserve_percent
     if reserve is not None and not any(abs(reserve - x) < 0.5 for x in _stated(said, "percent")):
         yield PlanMismatch(
-            kind="limit", message=f"the plan keeps {reserve:g} % of the battery, which the request does not mention"
+            kind="limit",
+            what=message(
+                "the plan keeps {percent} % of the battery, which the request does not mention",
+                percent=Number(f"{reserve:g}"),
+            ),
         )
     speed = plan.task.constraints.speed_m_s
     if speed is not None and not any(_close(speed, x) for a in said.amounts for x in a.values):
         yield PlanMismatch(
-            kind="limit", message=f"the plan drives at {speed:g} m/s, which the request does not mention"
+            kind="limit",
+            what=message(
+                "the plan drives at {speed} m/s, which the request does not mention", speed=Number(f"{speed:g}")
+            ),
         )
     for number in plan.numbers:
         if number.kind == "length" and not any(_close(number.value, x) for x in _stated(said, "length")):
             yield PlanMismatch(
                 kind="distance",
-                message=f"the plan holds {number.value:g} m ({number.what}), which the request does not mention",
+                what=message(
+                    "the plan holds {number} m ({what}), which the request does not mention",
+                    number=Number(f"{number.value:g}"),
+                    what=number.what,
+                ),
                 node=number.node,
             )
 

@@ -17,10 +17,10 @@ class PlanMismatch:
 
     Attributes:
         kind: Kind of contradiction.
-        message: A sentence without a full stop: what the request says and what the plan does.
+        what: A sentence without a full stop: what the request says and what the plan does.
         node: The node of the plan; empty where something is missing from it.
     """
 
     kind: MismatchKind
-    message: str
+    what: str
     node: str = ""

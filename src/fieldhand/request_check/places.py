@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from fieldhand.language import Number, message
 from fieldhand.places import selectors as s
 from fieldhand.request_check import words as w
 from fieldhand.request_check.amounts import StatedAmount
@@ -54,7 +55,9 @@ def _trees(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
         n = int(amount.values[0])
         if amount.kind != "id" or str(n) in named or n in counted or any(a <= n <= b for a, b in map(sorted, spans)):
             continue
-        yield PlanMismatch(kind="place", message=f"the request names tree {n}, but the plan does not")
+        yield PlanMismatch(
+            kind="place", what=message("the request names tree {number}, but the plan does not", number=n)
+        )
     if said.spaced:
         return  # the trees at that distance depend on the site
     spoken = said.text.replace(" ", "")
@@ -64,7 +67,9 @@ def _trees(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
         if _digits(tree) in numbers or tree.lower() in spoken or spelt in "".join(c for c in spoken if c.isalnum()):
             continue
         yield PlanMismatch(
-            kind="place", message=f"the plan names tree {tree[:40]!r}, but the request does not", node=node
+            kind="place",
+            what=message("the plan names tree '{tree}', but the request does not", tree=tree[:40]),
+            node=node,
         )
 
 
@@ -83,15 +88,19 @@ def _rows(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMisma
         if not _is_row(said, amount) or _of_named_tree(said, plan, amount):
             continue
         if not any(_holds(row, amount) for _, row in rows) and not _has_named_tree(amount, plan, site):
-            message = f"the request names row {amount.values[0]:g}, but the plan does not"
-            yield PlanMismatch(kind="place", message=message)
+            what_differs = message(
+                "the request names row {row}, but the plan does not", row=Number(f"{amount.values[0]:g}")
+            )
+            yield PlanMismatch(kind="place", what=what_differs)
     if said.unknown or _SOME_ROWS.search(said.text):
         return
     for node, row in rows:
         for name in dict.fromkeys((row.first, row.last)):
             if int(name) > 1 and int(name) not in said.whole_numbers:
                 yield PlanMismatch(
-                    kind="place", message=f"the plan names row {name}, but the request does not", node=node
+                    kind="place",
+                    what=message("the plan names row {name}, but the request does not", name=name),
+                    node=node,
                 )
 
 
@@ -133,14 +142,20 @@ def _areas(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMism
         if name in w.COMPASS and w.COMPASS[name] <= pointed:
             continue  # "from the north" or "the northernmost" does not mean a block called "North"
         if not any(name in other for other in held) and not _stands_in(plan, name, site):
-            yield PlanMismatch(kind="place", message=f"the request names '{name}', but the plan does not")
+            yield PlanMismatch(
+                kind="place", what=message("the request names '{name}', but the plan does not", name=name)
+            )
     for node, name in plan.areas:
         words = {t.text for t in _tokens(name)}
         if said.unknown or words & said.words or name.isdecimal() or said.words & {"each", "every", "all", "both"}:
             continue
-        yield PlanMismatch(kind="place", message=f"the plan names {name[:40]!r}, but the request does not", node=node)
+        yield PlanMismatch(
+            kind="place",
+            what=message("the plan names '{name}', but the request does not", name=name[:40]),
+            node=node,
+        )
     if said.words & _CHARGER and "charger" not in plan.markers and not said.words & {"recharge", "recharging"}:
-        yield PlanMismatch(kind="place", message="the request names the charger, but the plan does not")
+        yield PlanMismatch(kind="place", what=message("the request names the charger, but the plan does not"))
 
 
 def _pointed(plan: PlanFacts) -> set[Side]:
@@ -179,11 +194,15 @@ def _gates(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMism
     held = {_said(x.gate): node for node, x in plan.having(s.GateIs) if isinstance(x, s.GateIs)}
     for name in dict.fromkeys(_said(gate.place.id) for gate in site.gates):
         if f" {name} " in f" {said.text} " and not held and name not in said.zones:
-            yield PlanMismatch(kind="place", message=f"the request names '{name}', but the plan does not")
+            yield PlanMismatch(
+                kind="place", what=message("the request names '{name}', but the plan does not", name=name)
+            )
     for name, node in held.items():
         if not said.unknown and not set(name.split()) & said.words:
             yield PlanMismatch(
-                kind="place", message=f"the plan names {name[:40]!r}, but the request does not", node=node
+                kind="place",
+                what=message("the plan names '{name}', but the request does not", name=name[:40]),
+                node=node,
             )
 
 
@@ -207,7 +226,10 @@ def _sides(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
     )
     if not any(x.counts_from_a_side for _, x in plan.selectors):
         for side in sorted(spoken - held):
-            yield PlanMismatch(kind="side", message=f"the request says '{side}', but no place of the plan is there")
+            yield PlanMismatch(
+                kind="side",
+                what=message("the request says '{side}', but no place of the plan is there", side=side),
+            )
     if said.unknown or said.words & w.VAGUE_SIDES or _OTHER_PART.search(said.text):
         return
     around = len(plan.sides) == 4 and not spoken  # each quarter, or the whole edge
@@ -215,12 +237,17 @@ def _sides(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
     for side, node in plan.sides.items():
         if side not in said.sides and not around and side not in ends:
             yield PlanMismatch(
-                kind="side", message=f"the plan goes to the {side}, which the request does not mention", node=node
+                kind="side",
+                what=message("the plan goes to the {side}, which the request does not mention", side=side),
+                node=node,
             )
     for by in sorted(orders):
         if "_to_" in by and not any(side in by for side in said.sides):
             yield PlanMismatch(
-                kind="order", message=f"the plan goes {by.replace('_', ' ')}, but the request does not say so"
+                kind="order",
+                what=message(
+                    "the plan goes {direction}, but the request does not say so", direction=by.replace("_", " ")
+                ),
             )
 
 
@@ -230,7 +257,8 @@ def _attributes(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
     for word in said.attributes:
         if not any(word in other or other in word for other in held):
             yield PlanMismatch(
-                kind="attribute", message=f"the request says '{word}', but the plan does not ask for that"
+                kind="attribute",
+                what=message("the request says '{word}', but the plan does not ask for that", word=word),
             )
     if said.unknown:
         return
@@ -242,7 +270,11 @@ def _attributes(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
         if isinstance(value, str) and not words & said.words:
             yield PlanMismatch(
                 kind="attribute",
-                message=f"the plan asks for {attribute} {value[:40]!r}, which the request does not mention",
+                what=message(
+                    "the plan asks for {attribute} '{value}', which the request does not mention",
+                    attribute=attribute,
+                    value=value[:40],
+                ),
                 node=node,
             )
 
@@ -256,7 +288,10 @@ def _ends(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMisma
         n.only_drives and n.selector is not None and n.selector.named_marker == said.returns for n in plan.nodes
     )
     if plan.task.composition.nominal != wanted and not driven:
-        yield PlanMismatch(kind="return", message=f"the request ends at the {said.returns}, but the plan does not")
+        yield PlanMismatch(
+            kind="return",
+            what=message("the request ends at the {marker}, but the plan does not", marker=said.returns),
+        )
 
 
 def _faults(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
@@ -267,8 +302,10 @@ def _faults(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMis
     for chosen in plan.task.composition.faulted:
         if chosen.then not in (usual[chosen.fault], plan.task.composition.nominal):
             what = f"{chosen.fault} is answered by {chosen.then}".replace("_", " ")
-            message = f"the plan changes what happens after a fault ({what}), which the request does not ask for"
-            yield PlanMismatch(kind="return", message=message)
+            what_differs = message(
+                "the plan changes what happens after a fault ({what}), which the request does not ask for", what=what
+            )
+            yield PlanMismatch(kind="return", what=what_differs)
 
 
 def _order(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
@@ -279,11 +316,16 @@ def _order(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
     named = [_digits(tree) for _, tree in plan.trees]
     if len(set(numbers)) == len(numbers) > 1 and sorted(named) == sorted(numbers) and named != numbers:
         yield PlanMismatch(
-            kind="order", message=f"the request gives the order {', '.join(numbers)}, the plan {', '.join(named)}"
+            kind="order",
+            what=message(
+                "the request gives the order {requested}, the plan {planned}",
+                requested=", ".join(numbers),
+                planned=", ".join(named),
+            ),
         )
     free = [n for n in plan.nodes if n.in_any_order]
     given = any(n.keeps_order for n in plan.nodes)
     if free and not given:
         yield PlanMismatch(
-            kind="order", message="the request fixes an order, but the plan leaves it open", node=free[0].id
+            kind="order", what=message("the request fixes an order, but the plan leaves it open"), node=free[0].id
         )

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from fieldhand.language.words import TESTS, say_quantity
+from fieldhand.language import message
+from fieldhand.language.words import TESTS, say_name, say_quantity
 from fieldhand.request_check import words as w
 from fieldhand.request_check.amounts import StatedAmount
 from fieldhand.request_check.limits import BATTERY
@@ -39,7 +40,9 @@ def _kept(said: RequestFacts, plan: PlanFacts, robot: RobotProfile, amount: Stat
         if not _as_level(plan, robot, amount) and not (amount.kind == "attribute" and _calendar(plan)):
             yield PlanMismatch(
                 kind="condition",
-                message=f"the request states the threshold '{amount.said}', which the plan never tests",
+                what=message(
+                    "the request states the threshold '{amount}', which the plan never tests", amount=amount.said
+                ),
             )
         return
     yield from _turned(amount, same, said)
@@ -85,8 +88,13 @@ def _turned(amount: StatedAmount, same: list[PlannedTest], said: RequestFacts) -
         if test.plainly or (wanted & test.then and not wanted & test.otherwise):
             yield PlanMismatch(
                 kind="threshold",
-                message=f"the request says {amount.compared} '{amount.said}', and the plan tests "
-                f"{TESTS[test.test]} {say_quantity(test.values[0], test.unit)}",
+                what=message(
+                    "the request says {test} '{amount}', and the plan tests {planned} {value}",
+                    test=amount.compared,
+                    amount=amount.said,
+                    planned=TESTS[test.test],
+                    value=say_quantity(test.values[0], test.unit),
+                ),
                 node=test.node,
             )
 
@@ -110,8 +118,13 @@ def _other_quantity(
     named = _quantity_before(amount, said, robot)
     if named and all(t.quantity and t.quantity != named for t in same):
         test = same[0]
-        message = f"the request compares the {named.replace('_', ' ')} with '{amount.said}', and the plan the "
-        yield PlanMismatch(kind="sensor", message=message + test.quantity.replace("_", " "), node=test.node)
+        what_differs = message(
+            "the request compares the {quantity} with '{amount}', and the plan the {other}",
+            quantity=say_name(named),
+            amount=amount.said,
+            other=say_name(test.quantity),
+        )
+        yield PlanMismatch(kind="sensor", what=what_differs, node=test.node)
 
 
 def _quantity_before(amount: StatedAmount, said: RequestFacts, robot: RobotProfile) -> str:
@@ -140,11 +153,13 @@ def _invented(said: RequestFacts, robot: RobotProfile, test: PlannedTest) -> Ite
         quantity = robot.quantity.get(test.quantity)
         if quantity is not None and any(_same(value, level.value) for level in quantity.levels.values()):
             continue
-        what = test.attribute or test.quantity.replace("_", " ")
+        what = say_name(test.attribute or test.quantity)
         told = say_quantity(value, test.unit)
         yield PlanMismatch(
             kind="threshold",
-            message=f"the plan compares the {what} with {told}, which the request does not mention",
+            what=message(
+                "the plan compares the {what} with {value}, which the request does not mention", what=what, value=told
+            ),
             node=test.node,
         )
 
@@ -164,13 +179,15 @@ def _levels(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
     tested = {t.level: t.node for t in plan.tests if t.test == "level"}
     if said.levels and not said.unknown:
         for word in sorted(tested.keys() - said.words):
-            message = f"the plan tests for '{word}', which the request does not mention"
-            yield PlanMismatch(kind="condition", message=message, node=tested[word])
+            what_differs = message("the plan tests for '{word}', which the request does not mention", word=word)
+            yield PlanMismatch(kind="condition", what=what_differs, node=tested[word])
     if tested or any(t.quantity for t in plan.tests):
         return
     for word in sorted(said.levels):
-        message = f"the request makes something depend on '{word}', but the plan tests no reading"
-        yield PlanMismatch(kind="condition", message=message)
+        what_differs = message(
+            "the request makes something depend on '{word}', but the plan tests no reading", word=word
+        )
+        yield PlanMismatch(kind="condition", what=what_differs)
 
 
 def _same(a: float, b: float) -> bool:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from fieldhand.language import message
 from fieldhand.request_check import words as w
 from fieldhand.request_check.mismatch import PlanMismatch
 from fieldhand.request_check.request_facts import RequestFacts
@@ -49,9 +50,9 @@ def _pattern(forms: tuple[str, ...]) -> re.Pattern[str]:
 
 
 _KINDS = (
-    (_pattern(_SCHEDULES), "a plan cannot contain times or days: it runs once, when it is approved"),
-    (_pattern(_PAST), "a plan has no access to earlier missions"),
-    (_pattern(_WAITING), "a plan cannot contain waiting"),
+    (_pattern(_SCHEDULES), message("a plan cannot contain times or days: it runs once, when it is approved")),
+    (_pattern(_PAST), message("a plan has no access to earlier missions")),
+    (_pattern(_WAITING), message("a plan cannot contain waiting")),
 )
 #: References to the past, which are harmless in a sentence without a request ("We had a leak last week.").
 _REMARKS = _KINDS[1][0]
@@ -71,4 +72,6 @@ def unsupported_words(said: RequestFacts) -> Iterator[PlanMismatch]:
             remark = pattern is _REMARKS and not any(said.said[k].sentence == sentence for k in said.nouns)
             speed = first and said.said[first - 1].text in w.LENGTHS and match[0].startswith(("per ", "a ", "an "))
             if not remark and not speed and said.named.isdisjoint(range(first, first + len(match[0].split()))):
-                yield PlanMismatch(kind="unheld", message=f"the request says '{match[0]}', and {why}")
+                yield PlanMismatch(
+                    kind="unheld", what=message("the request says '{words}', and {why}", words=match[0], why=why)
+                )

@@ -23,6 +23,6 @@ def request_contradictions(task: Task, draft: TaskDraft, site: Site, robot: Robo
     """
     places = dict(zip((n.id for n in walk(task.composition.plan)), (n.id for n in walk(draft.plan)), strict=True))
     return tuple(
-        AnswerProblem(kind="request", message=found.message, where=places.get(found.node, ""))
+        AnswerProblem(kind="request", message=found.what, where=places.get(found.node, ""))
         for found in mismatches(task, site, robot)
     )
