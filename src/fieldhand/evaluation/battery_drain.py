@@ -1,4 +1,4 @@
-"""The rate at which a battery empties compared with its model, learned during the mission."""
+"""Battery drain relative to the battery model, learned during the mission."""
 
 from __future__ import annotations
 
@@ -11,34 +11,35 @@ from fieldhand.forecast.mission_state import Spent
 from fieldhand.language import Number, message
 from fieldhand.robot.model import RobotProfile
 
-#: Percent of the battery by the model. What is missing to that much evidence counts as spent by the model: a meter that
-#: shows whole percents says little at the beginning.
+#: Charge in percent that the model must predict as spent before the measured drain counts fully. Until then the
+#: difference is taken as spent at the modelled rate, because a meter that shows whole percents is too coarse at the
+#: beginning.
 LEAST = 2.0
 
-#: Percent that the meter must have fallen over a span for its pace to count, and how many of the meter's steps: a
-#: battery may go bad half-way, and then it empties fast.
+#: Percent, and number of meter steps, by which the charge must fall within a time span for the rate of that span to
+#: count. Spans detect a battery that begins to fail half-way.
 SPAN, STEPS = 1.0, 3.0
 
-#: What the battery takes beyond its model is taken for so much more.
+#: Safety factor on the drain in excess of the model.
 CAUTION = 1.1
 
-#: A factor that has changed by less than this part is the same.
+#: Relative change of the factor below which it is left unchanged.
 _SAME = 0.01
 
-#: So many readings are kept; when there are more, every other one of them goes.
+#: Maximum number of readings kept; beyond it, every second one is discarded.
 _KEPT = 256
 
 
 class BatteryDrain:
-    """Learns the drain of a battery relative to its model.
+    """The drain of a battery relative to its model, learned from the meter.
 
     Args:
-        robot: With the model, as its profile says it.
+        robot: Profile with the battery model.
 
     Attributes:
-        factor: How many times as fast as the model says; never below 1, for a battery that lasts longer is no reason to
-            be bold.
-        robot: The robot with a model that is as fast.
+        factor: Measured drain divided by modelled drain; at least 1, so that a battery that lasts longer than modelled
+            does not increase the budget.
+        robot: Profile with the battery model scaled by the factor.
     """
 
     def __init__(self, robot: RobotProfile) -> None:
@@ -48,10 +49,10 @@ class BatteryDrain:
         self._step = SPAN
 
     def learn(self, spent: Spent) -> None:
-        """Look at what has been spent since the mission began.
+        """Update the factor from what has been spent since the mission began.
 
-        The faster of two paces counts: that of the whole mission, and that of the span up to now in which the meter
-        fell fastest and far enough to be believed, less one step of the meter.
+        The larger of two rates counts: that of the whole mission, and the highest rate of any span up to now in which
+        the charge fell far enough to be significant, less one step of the meter.
         """
         modelled = self._model.percent(spent.metres, spent.seconds, spent.joules)
         self._remember(modelled, spent.percent)
@@ -82,7 +83,7 @@ class BatteryDrain:
 
     @property
     def words(self) -> str:
-        """Return how much faster than its model the battery empties, in words; empty if it does not."""
+        """Return how much faster than modelled the battery empties, in words; empty if it does not."""
         if self.factor < 1.05:
             return ""
         return message(

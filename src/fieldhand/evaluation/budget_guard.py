@@ -1,8 +1,8 @@
-"""The budget guard: before every drive it checks the budget for the drive, the following work and the way home.
+"""The budget guard: check before every drive that the budget covers the drive, the work that follows and the way home.
 
-Each limit (distance, time, energy, the battery's reserve) is checked by itself; all share the legs' one random cost
-(:mod:`fieldhand.forecast.resource_limits`). The accepted failure probability holds for the whole mission, not for each
-decision (:mod:`fieldhand.forecast.risk_allowance`). docs/evaluation.md describes the method.
+Each limit (distance, time, energy, battery reserve) is checked separately; all of them depend on the same random leg
+costs (:mod:`fieldhand.forecast.resource_limits`). The accepted failure probability applies to the whole mission, not to
+each decision (:mod:`fieldhand.forecast.risk_allowance`). docs/evaluation.md describes the method.
 """
 
 from __future__ import annotations
@@ -32,18 +32,19 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-#: Mandatory work that was within what is accepted is gone on with until it is as likely as not to run short.
+#: Overrun probability above which accepted mandatory work is abandoned. Mandatory work that was within the accepted
+#: probability when first checked continues until the chance of running short reaches 50 %.
 _EVEN = 0.5
 _LOOK = 1 + 1e-9
 
 
 @dataclass(frozen=True, kw_only=True)
 class _Grant:
-    """A visit that was allowed with all its work.
+    """A visit that was permitted together with all the work inside it.
 
     Attributes:
         node: Id of the for-each or the optional step.
-        xy: Where; None where the drives inside were allowed as well.
+        xy: Position of the visit, in local metres; None if the drives inside the node were permitted as well.
     """
 
     node: str
@@ -51,14 +52,18 @@ class _Grant:
 
 
 class BudgetGuard:
-    """Implements :class:`fieldhand.execution.guard.Guard`. One guard watches one mission.
+    """A budget guard (:class:`fieldhand.execution.guard.Guard`) for one mission.
+
+    Before each visit it computes, for each limit of the Task, the probability that the remaining route costs more than
+    is left. Optional visits are chosen by stochastic orienteering (:mod:`fieldhand.orienteering`).
 
     Args:
-        task, site, robot: The mission.
-        drives: The ways of the site; the guard asks for each distance once.
-        seed: Of the missions driven on paper where not everything will last; the same seed and the same mission give
-            the same decisions. Orders of optional visits are searched for as in the forecast, whatever the seed.
-        charge_percent: Charge at the beginning.
+        task, site, robot: Task, site and robot of the mission.
+        drives: Drives between places of the site; each distance is queried once.
+        seed: Seed of the missions that are simulated when the mandatory work exceeds the budget; the same seed and the
+            same mission give the same decisions. The search for optional visits does not depend on it: it uses the
+            forecast's seed.
+        charge_percent: Battery charge at the start of the mission, 0 to 100.
     """
 
     def __init__(
@@ -73,7 +78,7 @@ class BudgetGuard:
 
     @property
     def drain(self) -> BatteryDrain:
-        """Return the drain of the battery, as learned so far."""
+        """Return the battery drain learned so far."""
         return self._budget.drain
 
     def choose(
@@ -84,10 +89,10 @@ class BudgetGuard:
         at_most: int | None = None,
         still_to_come: Sequence[Visit] = (),
     ) -> VisitChoice:
-        """Choose the next optional visit, of ``at_most`` that may still be made. Called again after every leg.
+        """Choose the next of at most ``at_most`` optional visits; called again after every leg.
 
-        What must follow and the way home are set aside first. Candidates that have no way to them, and those that have
-        come out of reach, are given up as soon as that is so; all others, in one go, when no visit is worth its risk.
+        The budget for mandatory work and the way home is reserved first. Candidates without a way to them, or no longer
+        within the budget, are given up at once; all others are given up together when no visit is worth its risk.
         """
         self._budget.drain.learn(state.spent)
         choice = self._optional.next(state, candidates, at_most, still_to_come)
@@ -96,18 +101,18 @@ class BudgetGuard:
         return replace(choice, reason=self._and_the_battery(choice.reason))
 
     def update_drives(self, drives: Drives) -> None:
-        """Use new drives after a way was blocked or free again; discard all that was computed for the old ones."""
+        """Use new drives after a way was blocked or cleared; discard everything computed for the old ones."""
         self._budget.set_drives(drives)
         self._optional.forget()
         self._ahead.forget()
         self._threshold, self._granted = None, ()
 
     def admit(self, state: MissionState, visit: Visit, still_to_come: Sequence[Visit] = ()) -> Verdict:
-        """Decide whether the robot may make this mandatory visit.
+        """Decide whether the robot may make a mandatory visit.
 
-        Work that was within what is accepted when it was first asked for is gone on with until it is as likely as not
-        to run short. After that, and from the beginning where there is more to do than will last, a visit is made
-        where going there and straight home is safe enough, or no riskier than going home at once.
+        If all mandatory work was within the accepted probability when it was first checked, it continues until the
+        chance of running short reaches 50 %. Beyond that, or if the mandatory work exceeded the budget from the start,
+        a visit is made only if driving there and straight home is safe enough, or no riskier than driving home at once.
         """
         self._budget.drain.learn(state.spent)
         if self._is_granted(state, visit.place):
@@ -148,7 +153,7 @@ class BudgetGuard:
         return Verdict(go=True, chance_short=float(chances.max()))
 
     def _safe(self, state: MissionState, ahead: WorkAhead) -> Floats:
-        """Return for each limit the overrun probability accepted for one visit, where not everything fits."""
+        """Return for each limit the accepted overrun probability of one visit if not all mandatory work fits."""
         if self._threshold is None:
             budget, resources = self._budget, self._budget.resources(state)
             threshold = VisitRisk(
@@ -164,7 +169,7 @@ class BudgetGuard:
         return self._threshold
 
     def _grant(self, state: MissionState, visit: Visit) -> None:
-        """Remember where a visit was allowed with all its work: that is not asked for again, piece by piece."""
+        """Record a visit that was permitted with all its work, so that its parts need no further permission."""
         node = state.frames[-1].node
         if node.visits_each or node.is_optional:
             inside = node.is_optional_step or visit.leaves is not None
@@ -172,7 +177,7 @@ class BudgetGuard:
             self._granted = (*around, _Grant(node=node.id, xy=None if inside else visit.place.xy))
 
     def _is_granted(self, state: MissionState, place: Place) -> bool:
-        """Return True if a place is part of a visit already granted. Work elsewhere ends the grant."""
+        """Return True if a place is part of a visit already granted. Work at another place ends the grant."""
         here = state.context.here.xy
         outer = _outer(state)
         self._granted = tuple(
@@ -182,5 +187,5 @@ class BudgetGuard:
 
 
 def _outer(state: MissionState) -> frozenset[str]:
-    """Return the ids of the nodes around the current one."""
+    """Return the ids of the nodes that enclose the current one."""
     return frozenset(frame.node.id for frame in state.frames[:-1])

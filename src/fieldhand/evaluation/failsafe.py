@@ -1,9 +1,10 @@
-"""Foresee, while the robot drives and works, whether each limit still allows the way home.
+"""Predict, while the robot drives and works, whether each limit still allows the way home.
 
-The budget guard decides before each drive; what it granted holds until the next decision. In between, the battery may
-begin to empty faster and a leg may turn out long. As soon as going on would more likely than not exceed a limit, and
-turning round is safer, the drive or capture in hand is to be broken off. Of a battery that empties faster than its
-model, no more is risked than the accepted chance. docs/faults.md gives the rules.
+The budget guard decides before each drive, and its decision holds until the next one. In between, the battery may start
+to empty faster, or a leg may turn out longer than expected. As soon as going on would more likely than not exceed a
+limit, and turning round is safer, the failsafe requests that the current drive or capture be aborted. If the battery
+empties faster than its model predicts, the threshold is the accepted probability instead. docs/faults.md gives the
+rules.
 """
 
 from __future__ import annotations
@@ -17,22 +18,27 @@ from fieldhand.forecast.route_cost import mean_metres, overrun_chances, route_co
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.frames import Task
 
-#: Chance of running short from which going on is worse than a coin toss.
+#: Probability of running short above which going on is more likely to fail than to succeed.
 EVEN = 0.5
 
-#: A battery that empties this many times as fast as its model is no battery to take chances with.
+#: Drain relative to the model from which the battery counts as abnormal, so that only the accepted probability is
+#: risked.
 ABNORMAL = 1.2
 
-#: Turning round is safer where it is less likely to run short by so much, or takes no more than this part.
+#: Turning round counts as safer if its probability of running short is lower by at least the first value, or if it
+#: needs no more than the second value as a fraction of what going on needs.
 _LESS_LIKELY, _LESS = 0.02, 0.8
 
 
 class BudgetFailsafe:
-    """Implements :class:`fieldhand.execution.guard.Failsafe`.
+    """A battery and budget failsafe (:class:`fieldhand.execution.guard.Failsafe`) for one mission.
+
+    It compares going on with going home at once, from the charge and the distances at each poll. docs/faults.md gives
+    its rules.
 
     Args:
-        task, robot: The mission.
-        drain: Battery drain; learned at each call.
+        task, robot: Task and robot of the mission.
+        drain: Battery drain relative to its model; updated at each call, and shared with the budget guard.
     """
 
     def __init__(self, task: Task, robot: RobotProfile, drain: BatteryDrain) -> None:
@@ -41,11 +47,11 @@ class BudgetFailsafe:
         self._stop_percent = robot.energy.levels(reserve).stop
 
     def learn(self, now: FailsafeState) -> None:
-        """Learn how fast the battery empties."""
+        """Update the battery drain from the resources spent."""
         self._drain.learn(now.spent)
 
     def foresee(self, now: FailsafeState) -> FailsafeForecast:
-        """Return whether the mission may continue as it does; the battery's drain is learned first."""
+        """Update the battery drain and return the forecast, with an alarm if the robot should turn home."""
         self.learn(now)
         return self._homeward(now, now.on_m) if now.returning else self._outward(now)
 
@@ -62,7 +68,7 @@ class BudgetFailsafe:
         needs_on, needs_home = mean_metres(on, resources, robot), mean_metres(home, resources, robot)
         safer = (at_once < chances - _LESS_LIKELY) | (needs_home < _LESS * needs_on)
         risky = (chances > most) & safer
-        # Where not even the charge above the stop level lasts for the way home, nothing is gained by going on.
+        # If even the charge above the stop level does not last for the way home, going on gains nothing.
         charge = self._homeward(now, now.home_m)
         risky[-1] |= charge.alarm == "out_of_reach" and needs_home[-1] < needs_on[-1]
         if not risky.any():

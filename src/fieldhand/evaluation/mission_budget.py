@@ -1,4 +1,4 @@
-"""The budget of a mission: resources, what routes take of them, and the failure probability left to spend."""
+"""The budget of a mission: its resource limits, the cost of routes, and the failure probability that remains."""
 
 from __future__ import annotations
 
@@ -33,14 +33,14 @@ class MissionBudget:
     """The budget of one mission.
 
     Args:
-        task, site, robot: The mission.
-        drives: The ways of the site.
-        charge_percent: Charge at the beginning.
+        task, site, robot: Task, site and robot of the mission.
+        drives: Drives between places of the site.
+        charge_percent: Battery charge at the start of the mission, 0 to 100.
 
     Attributes:
-        accepted: For each limit the chance of running short that the Task accepts.
-        distances: Between places, asked for once.
-        drain: The battery's drain.
+        accepted: For each limit the overrun probability that the Task accepts, shape (limits,).
+        distances: Cached driving distances between places.
+        drain: Battery drain relative to its model.
     """
 
     def __init__(self, task: Task, site: Site, robot: RobotProfile, drives: Drives, charge_percent: float) -> None:
@@ -62,17 +62,18 @@ class MissionBudget:
         self.drives, self.distances, self._blocked = drives, Distances(drives), True
 
     def allowance(self, mandatory: Floats) -> RiskAllowance:
-        """Return what may still be added to the overrun probability.
+        """Return how much optional visits may still add to the overrun probability.
 
         Args:
-            mandatory: For each limit the chance that what must be done runs short; only the first answer counts.
+            mandatory: For each limit the probability that the mandatory work runs short; only that of the first call is
+                used.
         """
         if self._allowance is None:
             self._allowance = RiskAllowance.at_start(self.accepted.tolist(), mandatory)
         return self._allowance
 
     def add(self, chance: float) -> None:
-        """Take what a run of optional visits is expected to add off the allowance."""
+        """Subtract the probability that a run of optional visits is expected to add from the allowance."""
         if self._allowance is not None:
             self._allowance = self._allowance.reduced_by(chance)
 
@@ -89,22 +90,22 @@ class MissionBudget:
         """Return the length of the drive between two places in metres.
 
         Raises:
-            DriveFault: There is no way.
+            DriveFault: No way leads from one to the other.
         """
         return 0.0 if a.xy == b.xy else self.drives.between(a, b).length_m
 
     def home(self, at: Place) -> Place:
-        """Return where the robot goes when little is left; its own place if no way leads there."""
+        """Return the place to which the robot returns on a low budget; the current place if no way leads there."""
         home = self.site.home(exit_of(self.task, "low_budget"), at)
         return home if self.distances.connected(at, home) else at
 
     def rest(self, frames: Sequence[StackFrame], context: Context, to_come: Sequence[Visit] = ()) -> RemainingWork:
         """Return the work required after the current node (:mod:`fieldhand.forecast.remaining_work`).
 
-        Where the robot has found its ways blocked, what cannot be reached now is not set aside.
+        If the robot has found ways blocked, no budget is reserved for work that cannot be reached now.
 
         Raises:
-            DriveFault: There is no way on that was ever there.
+            DriveFault: No way leads to the remaining work, although no obstacle was found.
         """
         for visits in (to_come, ()):
             try:

@@ -18,7 +18,7 @@ from fieldhand.site.model import Place
 
 Floats = NDArray[np.float64]
 
-#: Places beyond this many are counted, not named.
+#: Maximum number of places that are named; the others are counted.
 MAX_NAMED = 6
 
 
@@ -27,9 +27,9 @@ class RoundTrip:
     """A route to a place and home.
 
     Attributes:
-        way: With its work.
+        way: Cost of the route, including the work at the place.
         to: First place of the route.
-        more: True if other work follows before the way home.
+        more: True if other work follows before the robot drives home.
     """
 
     way: RouteCost
@@ -56,7 +56,7 @@ def left_out(
     trip: RoundTrip,
     chances: Floats,
 ) -> str:
-    """Return which optional visits are given up and why, for the one least likely to run short.
+    """Return which optional visits are given up and why, with the figures of the one least likely to run short.
 
     "skipped trees 14, 15 and 22: 31 % chance of running short (12 m left; going to tree 14 and home takes 14 m on
     average)".
@@ -77,7 +77,7 @@ def _binding(budget: MissionBudget, chances: Floats) -> int:
 
 
 def _amounts(budget: MissionBudget, state: MissionState, trip: RoundTrip, binding: int) -> str:
-    """Return what is left of a limit, and what a round trip takes of it on average."""
+    """Return the amount left of a limit, and the mean amount that a round trip needs."""
     resource = budget.resources(state)[binding]
     takes = trip.way.sums[0] * resource.per_metre + resource.of_work(budget.robot, trip.way.work)
     left = _amount(resource, resource.limit - resource.used(state.spent))
@@ -101,7 +101,7 @@ def no_way(visits: Sequence[Visit], indices: Sequence[int]) -> str:
 
 
 def too_many(visits: Sequence[Visit], indices: Sequence[int], chosen_from: int) -> str:
-    """Return why visits were not even chosen from: "left out trees 3 and 4: 19,998 others cost less to reach"."""
+    """Return why visits were excluded from the choice: "left out trees 3 and 4: 19,998 others cost less to reach"."""
     others = Number(f"{chosen_from:,}")
     return message(
         "left out {places}: {count} others cost less to reach",

@@ -1,4 +1,4 @@
-"""Optional visits during a mission: which comes next, which are given up, and why."""
+"""Choice of optional visits during a mission: which one is next, and which ones are given up for what reason."""
 
 from __future__ import annotations
 
@@ -33,17 +33,18 @@ Key = tuple[tuple[float, float], tuple[float, float] | None]
 
 @dataclass(kw_only=True)
 class _Run:
-    """Optional visits of one node, from the first decision to the last.
+    """A run: the optional visits of one node, from the first decision to the last.
 
     Attributes:
-        problem: Where the run began is vertex 0, then come its candidates, then where the rest begins.
-        vertex: Number of each candidate's place in it.
-        start: Key of its first place.
-        rest: Work that follows.
-        accepted: Chance of running short of the whole mission that the run was planned with.
-        beyond: Places of candidates that it is not chosen from, because they are too many.
+        problem: Orienteering problem: vertex 0 is the place where the run began, followed by the candidates and the
+            place where the remaining work begins.
+        vertex: Vertex of each candidate's place in the problem.
+        start: Key of the place where the run began.
+        rest: Mandatory work that follows the run.
+        accepted: Overrun probability of the whole mission with which the run was planned.
+        beyond: Places of candidates excluded from the choice because there are too many.
         new: True before the first decision of the run.
-        done: Vertices that were visited.
+        done: Vertices already visited.
     """
 
     problem: Problem
@@ -58,14 +59,14 @@ class _Run:
     known: dict[int, tuple[Place, int | None]] = field(default_factory=dict)
 
     def number(self, place: Place) -> int | None:
-        """Return the vertex of a candidate's place, None where the run has none; thousands are asked for every time."""
+        """Return the vertex of a candidate's place, or None if it is not in the run. Called very often."""
         found = self.known.get(id(place))
         if found is None or found[0] is not place:
             found = self.known[id(place)] = (place, self.vertex.get(_key(place)))
         return found[1]
 
     def choosable(self, candidates: Sequence[Visit]) -> list[int]:
-        """Return the positions of the candidates that the run chooses from."""
+        """Return the indices of the candidates from which the run chooses."""
         if not self.beyond:
             return list(range(len(candidates)))
         return [
@@ -73,12 +74,12 @@ class _Run:
         ]
 
     def begins(self, candidates: Sequence[Visit]) -> bool:
-        """Return True if these are what is left of the run's candidates."""
+        """Return True if these are the remaining candidates of the run."""
         numbers = [self.number(candidates[i].place) for i in self.choosable(candidates)]
         return bool(numbers) and None not in numbers and self.done.isdisjoint(numbers)
 
     def here(self, place: Place) -> int | None:
-        """Return the vertex of the robot's place; None for a place unknown to the run."""
+        """Return the vertex of the robot's place, or None if the run does not contain it."""
         vertex = self.vertex.get(_key(place))
         if vertex in self.done:
             return vertex
@@ -98,7 +99,7 @@ class VisitChooser:
         self._begun: dict[str, float] = {}
 
     def forget(self) -> None:
-        """Plan current runs again, with the overrun probability that they began with."""
+        """Plan current runs anew, with their initial overrun probability."""
         self._begun = {**self._begun, **{node: run.accepted for node, run in self._runs.items()}}
         self._runs.clear()
 
@@ -110,7 +111,8 @@ class VisitChooser:
             return VisitChoice(index=None)
         run = self._runs.get(state.node)
         if run is not None and not run.begins(candidates):
-            if not run.choosable(candidates):  # all of them were visited: on with those left out, at the same chance
+            # If all were visited, continue with the excluded ones at the same probability.
+            if not run.choosable(candidates):
                 self._begun[state.node] = run.accepted
             run = None
         rest = self._rest(state, run, candidates, to_come)
@@ -203,12 +205,12 @@ class VisitChooser:
         return made
 
     def _accepted(self, state: MissionState, rest: RemainingWork) -> float:
-        """Return the overrun probability that a run is planned with: that without it plus its share."""
+        """Return the overrun probability for which a run is planned: that of the later work plus the run's share."""
         without = self._without(state, rest)
         return float(without.max()) + self._budget.allowance(without).share(optional_runs(state.frames))
 
     def _without(self, state: MissionState, rest: RemainingWork) -> Floats:
-        """Return for each limit the probability that the following work alone runs short."""
+        """Return for each limit the overrun probability of the following work alone."""
         here = state.context.here
         there = 0.0 if rest.first is None else self._budget.length(here, rest.first)
         return self._budget.chances(route_cost([there]) + rest.way, state)
@@ -221,14 +223,15 @@ class VisitChooser:
         chosen = run.policy.next(state_now)
         if run.new:
             run.new = False
-            # A long order is driven as planned at first: its chance is not known yet, so it counts for all its share.
+            # A long order is driven as planned at first; its overrun probability is not known yet, so its whole share
+            # is charged.
             without = float(self._without(state, run.rest).max())
             priced = run.policy.price is not None
             self._budget.add((1.0 - run.policy.expectation.success if priced else run.accepted) - without)
         return chosen
 
     def _fits(self, state: MissionState, visit: Visit, rest: RemainingWork, run: _Run) -> bool:
-        """Return True if the only visit adds no more than its share; that needs no search."""
+        """Return True if a single candidate adds no more than its share, so that no search is needed."""
         without = self._without(state, rest)
         added = self._budget.chances(self._trip(state, visit, rest).way, state) - without
         share = run.accepted - float(without.max())
@@ -253,9 +256,9 @@ class VisitChooser:
         return run.rest if run is not None and run.rest == rest else rest
 
     def _reachable(self, here: Place, candidates: Sequence[Visit], first: Place | None) -> tuple[list[int], list[int]]:
-        """Return the positions of the candidates that can be reached and left, and of the others."""
+        """Return the indices of the candidates that can be reached and left again, and those of the others."""
         if len(candidates) > MAX_DOUBLE:
-            # They were looked at together when the visits were listed.
+            # Reachability was checked when the visits were listed.
             return list(range(len(candidates))), []
         distances = self._budget.distances
         ends = [here, *([] if first is None else [first])]
@@ -272,7 +275,7 @@ class VisitChooser:
     def _chances(
         self, run: _Run, here: int, visits: Sequence[Visit], known: Sequence[int], left: tuple[float, ...]
     ) -> Floats:
-        """Return for each candidate the probability that going straight there and on exceeds a limit."""
+        """Return for each candidate the overrun probability of driving straight there and on to the later work."""
         problem, vertices = run.problem, np.array(known)
         there, back = run.policy.lengths(here)[vertices], run.policy.lengths(problem.end)[vertices]
         for k, visit in enumerate(visits):
@@ -290,12 +293,12 @@ class VisitChooser:
     def _skipped(
         self, state: MissionState, candidates: Sequence[Visit], gone: Sequence[int], rest: RemainingWork, safest: Visit
     ) -> str:
-        """Return what is given up and why, for the candidate least likely to run short."""
+        """Return in words what is given up and why, with the figures of the candidate least likely to run short."""
         trip = self._trip(state, safest, rest)
         return left_out(candidates, gone, self._budget, state, trip, self._budget.chances(trip.way, state))
 
     def _trip(self, state: MissionState, visit: Visit, rest: RemainingWork) -> RoundTrip:
-        """Return the route straight to a visit and on."""
+        """Return the route straight to a visit and on to the remaining work."""
         there = self._budget.length(state.context.here, visit.place)
         back = 0.0 if rest.first is None else self._budget.length(visit.end, rest.first)
         way = route_cost([there, back], visit.work) + rest.way
@@ -303,7 +306,7 @@ class VisitChooser:
 
 
 def _fewer(run: _Run, visits: Sequence[Visit], at_most: int | None) -> bool:
-    """Return True if candidates were given up that ``at_most`` of the run would count as visited."""
+    """Return True if ``at_most`` would count candidates as visited that were in fact given up."""
     return at_most is not None and len(visits) + len(run.done) < run.problem.end - 1
 
 

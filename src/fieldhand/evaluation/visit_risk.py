@@ -1,8 +1,8 @@
 """The overrun probability accepted for one visit where the mandatory work exceeds the budget.
 
-The robot makes one visit after another as long as going to the next and straight home from there runs short with no
-more than a certain chance. Each visit takes such a chance anew; so that the whole mission keeps to what is accepted, it
-has to be less. How much less is found by driving many missions on paper.
+The robot makes one visit after another as long as driving to the next one and straight home runs short with at most a
+certain probability. Each visit takes that risk again, so the probability per visit must be lower than the one accepted
+for the whole mission. It is found by simulating many missions.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from fieldhand.site.model import Place
 Floats = NDArray[np.float64]
 
 _DRAWS = 2000
-#: Parts of the accepted chance that are tried.
+#: Fractions of the accepted probability that are tried.
 _PARTS = np.geomspace(1.0, 0.02, 24)
-#: Visits for which the way home is looked at: those before the one that is out of reach.
+#: Number of visits before the first one out of reach for which the way home is computed.
 _LOOKED_AT = 200
-#: No robot comes farther than so many times what is left.
+#: Distance beyond which no robot comes, as a multiple of the metres left.
 _FARTHEST = 2.0
 
 
@@ -37,10 +37,10 @@ class VisitRisk:
     Attributes:
         here: The robot's place.
         stops: Mandatory visits in their order.
-        length: Metres between two places.
+        length: Function that returns the driving distance between two places in metres.
         home: Function that returns the home place for a place.
-        service: Metres that the work at each stop counts for, shape (stops, limits).
-        left: Metres left of each limit.
+        service: Work at each stop as equivalent metres of driving, shape (stops, limits).
+        left: Metres left of each limit, shape (limits,).
         costs: Cost model of a leg of length 1.
     """
 
@@ -53,11 +53,11 @@ class VisitRisk:
     costs: CostModel
 
     def accepted_chance(self, accepted: Floats, rng: np.random.Generator) -> Floats:
-        """Return for each limit the overrun probability that one visit with the way home may have.
+        """Return for each limit the highest overrun probability accepted for one visit and the way home.
 
         Args:
-            accepted: For each limit the chance that the whole mission may have.
-            rng: For the missions on paper.
+            accepted: For each limit the probability accepted for the whole mission.
+            rng: Random generator of the simulated missions.
         """
         legs, homes = self._lengths()
         factors = np.maximum(self.costs.draw(rng, _DRAWS * (2 * len(legs))), 0.0).reshape(2, len(legs), _DRAWS)
@@ -68,7 +68,7 @@ class VisitRisk:
         return np.asarray(_PARTS[-1] * accepted)
 
     def _lengths(self) -> tuple[Floats, Floats]:
-        """Return metres to each stop within reach, and home from it; 0 where the way home is not needed."""
+        """Return the metres to each stop within reach and home from it; 0 if the way home is not needed."""
         legs: list[float] = []
         driven, at = 0.0, self.here
         for stop, work in zip(self.stops, self.service, strict=True):
@@ -83,7 +83,7 @@ class VisitRisk:
         return np.array(legs), homes
 
     def _failed(self, chances: Floats, legs: Floats, homes: Floats, factors: Floats) -> Floats:
-        """Return for each limit the share of missions that run short if each visit keeps to these probabilities."""
+        """Return for each limit the fraction of missions that run short if each visit keeps to these probabilities."""
         left = np.repeat(self.left[None, :], _DRAWS, axis=0)
         under_way = np.ones(_DRAWS, dtype=bool)
         failed = np.zeros((_DRAWS, len(self.left)), dtype=bool)

@@ -15,11 +15,11 @@ from fieldhand.forecast.route_cost import RouteCost, route_cost
 
 @dataclass(frozen=True, kw_only=True)
 class WorkAhead:
-    """From the arrival at a visit on.
+    """The work from the arrival at a visit to the end of the mission.
 
     Attributes:
-        way: The visit's own work, all that follows, and home.
-        stops: The visit and all visits that are known to follow.
+        way: Cost of the visit's own work, all work that follows, and the way home.
+        stops: The visit and all visits known to follow it.
     """
 
     way: RouteCost
@@ -28,7 +28,7 @@ class WorkAhead:
 
 @dataclass(frozen=True, kw_only=True)
 class _Loop:
-    """Visits one after another, and for each what is ahead on arriving there."""
+    """The visits of a loop in order, and for each of them the work ahead on arrival."""
 
     node: str
     stops: tuple[Visit, ...]
@@ -44,7 +44,7 @@ class _Loop:
 
 
 class WorkAheadFinder:
-    """Computes the work ahead; caches that of a loop for its later visits.
+    """Computes the work that follows a visit; the result for a loop is cached for its later visits.
 
     Args:
         budget: Budget of the mission.
@@ -64,7 +64,7 @@ class WorkAheadFinder:
         Args:
             state: State of the mission.
             visit: The visit in question.
-            later: Visits of the loops around it that come after it.
+            later: Later visits of the enclosing loops.
         """
         loop = self._loop
         k = None if loop is None else loop.position(state.node, visit, later)
@@ -72,7 +72,7 @@ class WorkAheadFinder:
             try:
                 loop, k = self._looked(state, (visit, *later)), 0
             except DriveFault:
-                # Said when it is its turn; until then what can be done is.
+                # A later visit without a way is reported in its turn; until then the reachable ones are made.
                 return None
         return WorkAhead(way=loop.ways[k], stops=loop.stops[k:])
 
