@@ -1,1 +1,1 @@
-"""Forecast of a Task: drives, time and energy as distributions, on every branch."""
+"""Forecast of a Task on every branch: distributions of distance, time and energy."""

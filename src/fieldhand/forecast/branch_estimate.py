@@ -1,4 +1,4 @@
-"""Estimate of one branch: metres, time and charge as distributions, and the chance of exceeding each limit."""
+"""Estimate of one branch: distributions of distance, time and charge, and the probability of exceeding each limit."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True)
 class Figure:
-    """A random amount: its mean, median and 90th percentile."""
+    """Summary of a random amount: mean, median and 90th percentile."""
 
     mean: float
     p50: float
@@ -31,13 +31,13 @@ class Figure:
 
 @dataclass(frozen=True, kw_only=True)
 class Chance:
-    """The chance of exceeding a limit.
+    """The probability of exceeding a limit.
 
     Attributes:
         kind: Kind of budget, or ``reserve``.
-        limit: Metres, seconds, or percent of a full battery.
+        limit: The limit in metres, seconds, or percent of a full battery.
         accepted: The failure probability that the Task accepts.
-        draws: From how many missions it was found.
+        draws: Number of sampled missions from which it was estimated.
     """
 
     kind: ResourceKind
@@ -48,7 +48,7 @@ class Chance:
 
     @property
     def exceeded(self) -> bool:
-        """Return True if the chance exceeds the accepted one by more than sampling noise."""
+        """Return True if the probability exceeds the accepted one by more than sampling noise."""
         noise = 2.0 * np.sqrt(self.accepted * (1.0 - self.accepted) / self.draws)
         return bool(self.chance > self.accepted + noise)
 
@@ -59,14 +59,15 @@ class BranchEstimate:
 
     Attributes:
         decisions: Decisions on the branch.
-        metres, seconds, percent: Resources used; percent of a full battery.
-        left: Percent of a full battery that is left at the end: its median, and the least nine times out of ten.
-        chances: For each budget, and then for the battery's reserve.
-        captures: Number of captures on it.
-        visits: Optional visits and steps that missions make on average.
-        shed: Places of those for which the budget will hardly last.
-        walk: The branch itself.
-        fault: For good, at the last node that it reaches; None on a branch that no fault ends.
+        metres, seconds, percent: Resources used until the end of the mission; charge in percent of a full battery.
+        left: Charge left at the end, in percent of a full battery: the median, and the value exceeded in nine missions
+            out of ten.
+        chances: Overrun probability of each budget, followed by that of the battery reserve.
+        captures: Number of captures on the branch.
+        visits: Mean number of optional visits and steps.
+        shed: Places of optional visits and steps for which the budget will probably not suffice.
+        walk: The walk along the branch.
+        fault: Fault that ends the branch at its last node; None if none does.
     """
 
     decisions: tuple[Decision, ...]
@@ -85,7 +86,7 @@ class BranchEstimate:
 
     @property
     def short(self) -> float:
-        """Return the highest chance of exceeding any limit."""
+        """Return the highest probability of exceeding any limit."""
         return max((c.chance for c in self.chances), default=0.0)
 
     def as_record(self) -> dict[str, object]:
@@ -103,7 +104,7 @@ class BranchEstimate:
 
 
 def decisions_record(decisions: Iterable[Decision]) -> list[dict[str, object]]:
-    """Return decisions in their order as JSON: per run of one node a letter each, y or n."""
+    """Return decisions as JSON: for each run of decisions of one node a string of the letters y and n."""
     return [
         {"node": node, "kind": kind, "answers": "".join("y" if d.answer else "n" for d in some)}
         for (node, kind), some in groupby(decisions, key=lambda d: (d.node, d.kind))

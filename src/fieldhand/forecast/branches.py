@@ -1,4 +1,4 @@
-"""Every branch of a mission: conditions either way, attempts that fail, optional visits made or left out."""
+"""Enumeration of the branches of a mission: outcomes of conditions, failing actions, optional visits made or not."""
 
 from __future__ import annotations
 
@@ -29,16 +29,16 @@ if TYPE_CHECKING:
     from fieldhand.forecast.expected_visits import ExpectedVisits
     from fieldhand.site.drives import Drives
 
-#: So many walks are looked at, and so many steps in all of them, before the rest is left. Two are always looked at.
+#: Maximum number of walks, and of steps in all walks; at least two walks are always made.
 MAX_WALKS = 256
 MAX_STEPS = 40_000
-#: The walks that come first are worth more: the longest and the shortest are among them.
+#: Maximum number of steps of the initial walks, which matter most because they include the longest and the shortest.
 MAX_STEPS_ALIKE = 200_000
-#: Walks that make or leave out optional visits as they are told, beside those that do what missions do.
+#: Maximum number of additional walks on which optional visits are prescribed instead of simulated.
 MAX_OPTIONAL_WALKS = 64
-#: Nodes that are answered alike throughout, in every combination; further ones follow each other.
+#: Number of nodes whose constant answers are tried in every combination; all further nodes share one answer.
 _ALIKE = 4
-#: With more conditions on the spot than this on one walk, each of them by itself is not tried.
+#: Number of local decisions on one walk above which their answers are not varied individually.
 _BY_THEMSELVES = 8
 
 Coverage = Literal["enumerated", "bounded", "sampled"]
@@ -49,10 +49,10 @@ class BrokenBranch:
     """A branch that cannot be carried out.
 
     Attributes:
-        decisions: Decisions that lead to it.
+        decisions: Decisions that lead to the branch.
         error: The error on this branch.
-        node: Id of the node that drove last.
-        steps: Steps up to it.
+        node: Id of the node of the last drive.
+        steps: Steps up to the error.
     """
 
     decisions: tuple[Decision, ...]
@@ -66,13 +66,13 @@ class Branches:
     """The branches of a mission that were walked.
 
     Attributes:
-        walks: Distinct ones, no two with the same decisions. The first answers every condition with yes, nothing fails.
-        optional_walks: Further walks, on which each optional step is done or left out and optional visits are those of
-            the mission that makes the most, or the fewest.
-        broken: Branches that come to an end because a place cannot be told or reached.
-        coverage: ``enumerated``: these are all. ``bounded``: of conditions that only decide what is done on the spot
-            those branches were walked on which each answers alike, of all others every branch; so every place and drive
-            was looked at, and no branch takes more or less. ``sampled``: there are more, of which some were samples.
+        walks: Distinct walks, no two with the same decisions. On the first, every condition holds and nothing fails.
+        optional_walks: Further walks on which each optional step is done or left out, and optional visits are those of
+            the sampled mission that makes the most, or the fewest.
+        broken: Branches that end early because a place cannot be resolved or reached.
+        coverage: ``enumerated``: all branches. ``bounded``: decisions that only affect the work at the current place
+            have the same answer throughout a walk, all other decisions are enumerated; so every place and drive was
+            covered, and no branch uses more or less than those walked. ``sampled``: a random sample of the branches.
     """
 
     walks: tuple[Walk, ...]
@@ -84,7 +84,7 @@ class Branches:
 
     @property
     def complete(self) -> bool:
-        """Return True if no place, drive or extreme can have been missed."""
+        """Return True if no place, drive or extreme of resource use can have been missed."""
         return self.coverage != "sampled"
 
 
@@ -99,18 +99,18 @@ def branches(
     leg_costs: LegCostSamples | None = None,
     seed: int = 0,
 ) -> Branches:
-    """Walk a Task along every branch, within bounds.
+    """Walk a Task along every branch, up to a maximum number of walks and steps.
 
     Args:
-        task, site, robot: The mission.
-        drives: The ways of the site, if the caller has them.
-        charge_percent: Charge at the beginning.
+        task, site, robot: Task, site and robot of the mission.
+        drives: Drives between places of the site; None to compute them.
+        charge_percent: Battery charge at the start of the mission, 0 to 100.
         limit: Maximum number of walks.
-        leg_costs: Sampled leg costs of the missions along each walk; None for no missions.
-        seed: Seed of the branches sampled where there are too many.
+        leg_costs: Sampled leg costs of missions along each walk; None to sample no missions.
+        seed: Seed for sampling branches if there are too many.
 
     Raises:
-        TaskError: A walk comes to more nodes than any mission.
+        TaskError: A walk exceeds the maximum number of nodes.
     """
     ways = drives or visit_order.drives_for(site, robot)
     outcomes = ConditionOutcomes(task.composition.plan, site, robot)
@@ -153,13 +153,15 @@ def branches(
 
 @dataclass(kw_only=True)
 class _Script:
-    """Answers in their order; after them, what is told for a node, else that it holds, is taken, and does not fail.
+    """A source of answers: a prefix of answers in order, then preset ones by node, else the nominal answer.
+
+    Nominally conditions hold, optional steps are taken, and nothing fails.
 
     Attributes:
-        prefix: The first answers: those of another walk, the last of them turned.
+        prefix: The first answers: those of an earlier walk, with the last one inverted.
         told: Preset answers by kind of decision and node.
-        fixed: What is answered as told throughout, and not counted among the first.
-        rng: Answers what is beyond the prefix by chance, ``chance`` of it with yes.
+        fixed: Keys of decisions that always have their preset answer and do not consume the prefix.
+        rng: Random generator for answers beyond the prefix; ``chance`` is the probability of yes.
     """
 
     prefix: Sequence[bool] = ()
@@ -190,7 +192,7 @@ class _Script:
 
 
 class _Exploration:
-    """Walks of one plan, until all were looked at or a bound is met."""
+    """Walks of one plan, until all branches are explored or a bound is reached."""
 
     def __init__(
         self,
@@ -206,13 +208,14 @@ class _Exploration:
         self.found: dict[tuple[Decision, ...], Walk] = {}
         self.broken: dict[str, BrokenBranch] = {}
         self._walked = self._steps = 0
-        #: What was decided where all was answered as told.
+        #: Decisions of the walks with preset answers only.
         self._alike: dict[frozenset[tuple[str, bool]] | None, tuple[Decision, ...]] = {}
 
     def explore(self) -> Coverage:
         """Walk the branches and return how completely they were covered."""
         local = local_decisions(self._root)
-        # The walks that come first: every condition holds and nothing fails, then none, then the other combinations.
+        # Initial walks: first every condition holds and nothing fails, then no condition holds, then the other
+        # combinations.
         most = 0
         for told in _alike(self._root):
             if len(self.found) < self._limit and (len(self.found) < 2 or self._steps < MAX_STEPS_ALIKE):
@@ -220,7 +223,7 @@ class _Exploration:
                 if all(d.sure for d in decisions):
                     return "enumerated"
                 most = max(most, sum(_key(d) in local for d in decisions if not d.sure))
-        # What comes now has a bound of its own; walks that were answered alike are not walked again.
+        # The following walks have a separate bound; the initial walks are not repeated.
         self._steps = 0
         if most <= self._by_themselves:
             whole: Coverage = "enumerated"
@@ -234,11 +237,11 @@ class _Exploration:
         return "sampled"
 
     def _turn(self, told: dict[str, bool], fixed: frozenset[str]) -> bool:
-        """Flip each answer that is not fixed, of every walk found; return True if all were walked."""
-        # Each prefix of answers is tried once: a walk proposes to turn each answer that its own prefix did not give.
+        """Invert each answer that is not fixed, of every walk found; return True if all branches were walked."""
+        # Each prefix is tried once: a walk proposes to invert each answer that its own prefix did not determine.
         pending: deque[tuple[tuple[bool, ...], int | None]] = deque([((), None)])
         while pending:
-            # Where the end is in sight it is reached; else some room is left for branches by chance.
+            # If few prefixes are pending, all are walked; otherwise part of the limit is reserved for random branches.
             near = len(pending) <= self._limit // 4
             if not self._room(self._limit if near else self._limit * 3 // 4):
                 return False
@@ -251,7 +254,7 @@ class _Exploration:
         return True
 
     def _draw(self) -> None:
-        """Walk random branches, with many and with few conditions that hold."""
+        """Walk random branches with varying fractions of conditions that hold."""
         for number in range(self._limit):
             if not self._room(self._limit):
                 return
@@ -285,7 +288,7 @@ class _Exploration:
 def _alike(root: plan.Node) -> Iterator[dict[str, bool]]:
     """Yield initial answers: every combination for the first few conditions, the others all true or all false.
 
-    In the last ones whatever is tried fails, and then whatever is driven to is blocked.
+    In the last ones every action inside a ``Try`` fails, and then every drive inside a ``Try`` is blocked.
     """
     asked = [n.id for n in plan.walk(root) if n.tested is not None or n.is_optional]
     tried = [inner.id for n in plan.walk(root) for body in n.caught for inner in plan.walk(body)]
@@ -301,7 +304,7 @@ def _alike(root: plan.Node) -> Iterator[dict[str, bool]]:
 
 
 def _combinations(keys: Sequence[str]) -> Iterator[dict[str, bool]]:
-    """Yield every combination of answers to the first few keys; the others are answered alike."""
+    """Yield every combination of answers to the first few keys; all others share one answer."""
     some, others = keys[:_ALIKE], keys[_ALIKE:]
     for answers in product((True, False), repeat=len(some)):
         yield {**dict.fromkeys(others, answers[0] if answers else True), **dict(zip(some, answers, strict=True))}

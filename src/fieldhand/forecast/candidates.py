@@ -1,4 +1,4 @@
-"""The optional visits that one choice is made from, where there are more than a table of distances has room for."""
+"""Preselection of optional visits, if there are more than fit a table of distances."""
 
 from __future__ import annotations
 
@@ -15,28 +15,28 @@ from fieldhand.site.model import Place
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
 
-#: The most visits that one choice is made from; with the place in hand and the end they fill a table of distances.
+#: Maximum number of visits in one choice; with the current place and the end they fill a table of distances.
 MOST_CANDIDATES = MOST - 2
 
 
 def cheapest(
     here: Place, visits: Sequence[Visit], rest: RemainingWork, drives: Drives, most: int = MOST_CANDIDATES
 ) -> tuple[int, ...]:
-    """Return the positions of the visits that one choice is made from, in their order.
+    """Return the indices of the visits to choose from, in ascending order.
 
-    These are all visits where they are no more than ``most``, or where all drives are straight lines, which need no
-    table. Else they are the ``most`` with the shortest drives from here to the visit and on to where the rest begins;
-    of equal ones the first. A mission would come to the others last, if at all.
+    All visits are kept if there are at most ``most``, or if all drives are straight lines, which need no table.
+    Otherwise the ``most`` visits with the shortest detour from here over the visit to the start of the remaining work
+    are kept; ties go to the first. A mission would reach the others last, if at all.
 
     Args:
-        here: Where the robot is.
-        visits: That can be made, each with its stand.
-        rest: What follows. Where it drives nowhere only the drive to the visit counts.
-        drives: The ways of the site.
-        most: The most visits.
+        here: Current place of the robot.
+        visits: Possible visits; their places have stands.
+        rest: Work that follows. If it includes no drive, only the drive to the visit counts.
+        drives: Drives between places of the site.
+        most: Maximum number of visits.
 
     Raises:
-        DriveFault: There is no way to some of them.
+        DriveFault: Some visit cannot be reached.
     """
     every = tuple(range(len(visits)))
     if len(visits) <= most:
@@ -47,6 +47,6 @@ def cheapest(
     metres = drives.lengths([here], places)[0]
     if rest.first is not None:
         metres = metres + drives.lengths([rest.first], ends)[0]
-    # In whole millimetres: there and back may differ in the last digit.
+    # Rounded to millimetres, because the two directions of a drive may differ in the last digit.
     order = np.argsort(np.round(metres, 3), kind="stable")
     return tuple(np.sort(order[:most]).tolist())

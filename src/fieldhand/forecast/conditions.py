@@ -1,7 +1,7 @@
 """Evaluation of a plan's conditions, with the reason in words.
 
-A reading that was never taken (its action failed, or stands on a branch that was not followed) is unknown, and so is
-every condition that hangs on it; what is unknown does not hold, and neither does its opposite (Kleene's three-valued
+A reading that was never taken (its action failed, or is on a branch that was not followed) is unknown, and so is every
+condition that depends on it. An unknown condition does not hold, and neither does its negation (Kleene's three-valued
 logic).
 """
 
@@ -23,7 +23,7 @@ from fieldhand.site.model import Place, Site
 from fieldhand.task.conditions import AllOf, AnyOf, Between, Compare, Condition, Level, Not, TreeHas
 from fieldhand.terms import Test, Value
 
-#: How a test is said in a sentence that a log keeps.
+#: Wording of each test in the sentences stored in event logs.
 _HOW: Mapping[Test, str] = {
     "lt": message("below", context="log"),
     "le": message("at most", context="log"),
@@ -39,8 +39,8 @@ class ConditionInputs:
     """The inputs of a condition.
 
     Attributes:
-        readings: For each reading that was bound, its value by quantity.
-        here: The place in hand.
+        readings: Values by quantity, in the profile's units, of each bound reading.
+        here: The plan's current place.
     """
 
     site: Site
@@ -63,7 +63,7 @@ class ConditionResult:
 
 
 def evaluate(condition: Condition, facts: ConditionInputs) -> ConditionResult:
-    """Test a condition. Never fails: what cannot be known is unknown."""
+    """Evaluate a condition. Never raises: what cannot be determined is unknown."""
     match condition:
         case Compare(test=how, value=value, unit=unit):
             bound = {"how": _HOW[how], "limit": _amount(value, unit)}
@@ -173,7 +173,7 @@ def _attribute(condition: TreeHas, facts: ConditionInputs) -> ConditionResult:
     try:
         truth = bool(resolve(selector, facts.site, Context(here=facts.here)))
     except PlaceError:
-        # No tree has the value that is asked for, this one included.
+        # No tree has the requested value, so neither has this one.
         truth = False
     fills["how"] = _HOW[condition.test]
     if truth:
@@ -192,7 +192,7 @@ def _is_number(value: Value) -> bool:
 
 
 def _joined(found: Sequence[ConditionResult], *, decisive: bool) -> ConditionResult:
-    """Combine results: a ``decisive`` one settles it, otherwise an unknown one leaves it open."""
+    """Combine results: one equal to ``decisive`` determines the result; otherwise an unknown one makes it unknown."""
     settling = [f for f in found if f.truth is decisive]
     if settling:
         return ConditionResult(truth=decisive, why=_all(settling))
@@ -201,7 +201,7 @@ def _joined(found: Sequence[ConditionResult], *, decisive: bool) -> ConditionRes
 
 
 def _all(found: Sequence[ConditionResult]) -> str:
-    """Return what some findings say, as a list that a log keeps."""
+    """Return the reasons of several results as a list, in a form stored in event logs."""
     whys = [finding.why for finding in found]
     if len(whys) < 2:
         return listed(whys)

@@ -18,10 +18,10 @@ Floats = NDArray[np.float64]
 
 
 class Distances:
-    """A table of driving distances that grows with the places that are asked for. Places have their stands.
+    """A table of driving distances in metres, extended on demand. Places must have stands.
 
     Args:
-        drives: The ways of the site.
+        drives: Drives between places of the site.
     """
 
     def __init__(self, drives: Drives) -> None:
@@ -34,7 +34,7 @@ class Distances:
         """Return the distances between places in metres, shape (n, n).
 
         Raises:
-            DriveFault: One of them cannot be reached.
+            DriveFault: A place cannot be reached.
         """
         new = list({_stand(p): p for p in places if _stand(p) not in self._row}.values())
         if new:

@@ -1,4 +1,4 @@
-"""Estimate of a Task on every branch: metres, seconds and charge as distributions, and overrun chances."""
+"""Estimate of a Task on every branch: distributions of distance, time and charge, and overrun probabilities."""
 
 from __future__ import annotations
 
@@ -29,16 +29,16 @@ __all__ = ["BranchEstimate", "Estimate", "Figure", "estimate", "explore", "limit
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class Estimate:
-    """The estimate of a Task.
+    """The estimate of a Task, from missions sampled along every branch.
 
     Attributes:
-        branches: Every branch that was looked at; the first is the one on which every condition holds.
-        worst: The branch most likely to run short, and among equals the one that takes longest.
-        faulted: For each fault that brings the robot home, the branch that takes longest until then.
-        explored: The branches themselves, with those that make or leave out optional visits one by one.
-        exits: Ways home after faults.
-        problems: Obstacles to carrying it out within its limits, as sentences.
-        charge_percent: At the beginning.
+        branches: Estimates of the explored branches; the first is the one on which every condition holds.
+        worst: The branch most likely to exceed a limit; among equals, the longest one.
+        faulted: For each fault after which the robot drives home, the longest branch up to that fault and home.
+        explored: The explored branches, including walks with prescribed optional visits.
+        exits: Drives home after faults.
+        problems: Problems that prevent the Task from being carried out within its limits, one sentence each.
+        charge_percent: Battery charge at the start of the mission, 0 to 100.
     """
 
     branches: tuple[BranchEstimate, ...]
@@ -53,7 +53,7 @@ class Estimate:
 
     @property
     def complete(self) -> bool:
-        """Return True if no place, drive or extreme can have been missed."""
+        """Return True if no place, drive or extreme of resource use can have been missed."""
         return self.explored.complete
 
     def as_record(self, *, every: bool = False) -> dict[str, object]:
@@ -85,7 +85,7 @@ class Estimate:
 
 @dataclass(frozen=True, kw_only=True)
 class _CachedBranches:
-    """The branches last explored on a site; approval asks again for those that the plan was shown with."""
+    """Cache of the branches last explored on a site: approval needs those that were shown with the plan."""
 
     robot: RobotProfile
     asked: tuple[Task, int, float, int]
@@ -123,21 +123,21 @@ def estimate(
     charge_percent: float = 100.0,
     draws: int = DRAWS,
 ) -> Estimate:
-    """Estimate a Task on every branch by drawing the cost of each leg.
+    """Estimate a Task on every branch by Monte Carlo sampling of the leg costs.
 
     A leg of ``d`` metres that costs ``c`` counts as ``c`` metres driven, so distance, time and energy are all random.
-    Which optional visits a mission makes is decided by what decides on board.
+    Optional visits are chosen by the same policy as on board (:mod:`fieldhand.orienteering`).
 
     Args:
-        task, site, robot: The mission.
-        seed: The same seed gives the same estimate.
-        charge_percent: Charge at the beginning.
+        task, site, robot: Task, site and robot of the mission.
+        seed: Random seed; the same seed gives the same estimate.
+        charge_percent: Battery charge at the start of the mission, 0 to 100.
         draws: Number of missions sampled along each branch.
 
     Raises:
-        PlaceError: A selector gives nothing on one of the branches.
-        DriveFault: A place that cannot be reached.
-        TaskError: A branch comes to more steps than any mission.
+        PlaceError: A selector gives no place on one of the branches.
+        DriveFault: A place cannot be reached.
+        TaskError: A branch exceeds the maximum number of nodes.
     """
     kept = _explored(task, site, robot, seed, charge_percent, draws)
     if kept.found is not None:
@@ -157,7 +157,7 @@ def _estimated(kept: _CachedBranches, task: Task, site: Site, robot: RobotProfil
     ways_home = fault_exits(task, site, robot, drives, found.walks, found.optional_walks, kept.leg_costs)
     problems: tuple[str, ...] = ()
     if any(b.visits and c.exceeded for b in estimates for c in b.chances):
-        # Optional visits can be left out, so what counts first is whether the rest lasts without them.
+        # Optional visits can be left out, so the mandatory work is checked first without them.
         problems = _of_mandatory(kept, task, site, robot, charge_percent)
     problems = problems or limit_problems(task, site, drives, resources, estimates)
     return Estimate(
@@ -205,7 +205,7 @@ def _without_optional(node: Node) -> Node:
 def limit_problems(
     task: Task, site: Site, drives: Drives, resources: tuple[ResourceLimit, ...], estimates: Sequence[BranchEstimate]
 ) -> tuple[str, ...]:
-    """Return a sentence about each limit that the mission will not keep, on the branch most likely to exceed it."""
+    """Return a sentence about each limit that the mission will exceed, for the branch most likely to exceed it."""
     found = []
     home = site.home(task.composition.nominal, site.start)
     alone = 0.0 if home.xy == site.start.xy else drives.between(site.start, home).length_m

@@ -1,4 +1,4 @@
-"""Expected optional visits: the robot's own decisions, simulated for many missions."""
+"""Expected optional visits, from the robot's own decisions in many simulated missions."""
 
 from __future__ import annotations
 
@@ -32,16 +32,16 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ExpectedVisits:
-    """The expected outcome of some optional visits.
+    """The expected outcome of the optional visits of one node.
 
     Attributes:
-        places: As many as missions make on average, the likeliest, in the order in which they are driven to.
-        shed: All others, the likeliest first; last those that are not chosen from, because they are too many.
+        places: The most probable visits, as many as missions make on average, in visiting order.
+        shed: All other places, the most probable first; those excluded from the choice (too many candidates) last.
         visit_forecast: Probability of each visit.
-        preview: Missions that make them.
-        ids: Of the places that are chosen from, by the numbers of the preview less one.
-        works: What is done at each of these places.
-        allowance: What later optional visits may still add to the chance of running short.
+        preview: The simulated missions.
+        ids: Ids of the candidate places; the preview's vertex ``v`` has index ``v - 1``.
+        works: Work at each candidate place.
+        allowance: Probability of running short that later optional visits may still add.
     """
 
     places: tuple[Place, ...]
@@ -63,11 +63,11 @@ def expected_visits(
     """Forecast the optional visits from the handler's current place.
 
     Args:
-        walker: Has come to the node.
-        node: A for-each, or a step.
-        visits: Possible visits, each with its stand; a single one for a step.
+        walker: Handler of a walk that has reached the node.
+        node: An optional for-each, or an optional step.
+        visits: Possible visits, whose places have stands; a single one for a step.
         rng: Random generator of the leg costs.
-        before: Result of another walk for the node; the search begins with its order.
+        before: Result for the same node on another walk; its order is the initial one of the search.
     """
 
     rest = _rest(walker, node, visits)
@@ -85,7 +85,7 @@ def expected_visits(
     chances = np.zeros(len(visits))
     chances[found.vertices - 1] = found.visited.mean(axis=0)
     mean = float(found.visits.mean())
-    # Of missions that go different ways one is shown: of the others' places as many as it lacks.
+    # If missions differ, one of them is shown, completed with places of the others.
     usual = set(found.orders[0].tolist())
     likely = sorted(range(len(visits)), key=lambda k: (chances[k] > 0.0 and k + 1 not in usual, -chances[k]))
     chosen = set(likely[: round(mean)])
@@ -110,7 +110,7 @@ def expected_visits(
 def _candidates(
     walker: ForecastHandler, visits: Sequence[Visit], rest: RemainingWork
 ) -> tuple[Sequence[Visit], Sequence[Visit]]:
-    """Return the visits that are chosen from, and those beyond the most that one choice is made from."""
+    """Return the visits to choose from, and those excluded because there are too many."""
     kept = cheapest(walker.context.here, visits, rest, walker.drives)
     if len(kept) == len(visits):
         return visits, ()
@@ -152,7 +152,7 @@ def _several(
 def _one(
     walker: ForecastHandler, visit: Visit, rest: RemainingWork, share: float, used: Floats, rng: np.random.Generator
 ) -> Preview:
-    """Simulate missions with a single optional visit, made where it adds no more than its share."""
+    """Simulate missions with a single optional visit, which is made if it adds no more than its share."""
     from fieldhand.orienteering.preview import Preview
 
     here, costs = walker.context.here, cost_model(walker.robot)
@@ -176,7 +176,7 @@ def _one(
 
 
 def _rest(walker: ForecastHandler, node: ForEach | OptionalStep, visits: Sequence[Visit]) -> RemainingWork:
-    """Return the work that must follow, from the end of a step or the beginning of a for-each."""
+    """Return the mandatory work that follows, from the end of a step or the beginning of a for-each."""
     here, to_come = walker.context, walker.to_come()
     if node.is_optional_step:
         here = Context(here=visits[0].end, visited=here.visited, bound=here.bound)
@@ -192,7 +192,7 @@ def _rest(walker: ForecastHandler, node: ForEach | OptionalStep, visits: Sequenc
 
 
 def _share(walker: ForecastHandler, rest: RemainingWork) -> tuple[float, float, RiskAllowance]:
-    """Return the overrun chance without the visits, their share, and the allowance left for later visits."""
+    """Return the overrun probability without the visits, their share, and the allowance left for later visits."""
     task, robot = walker.task, walker.robot
     resources = resource_limits(task.constraints, robot, walker.charge_percent)
     allowance = walker.allowance

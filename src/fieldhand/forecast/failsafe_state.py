@@ -9,7 +9,7 @@ from fieldhand.forecast.mission_state import Spent, Work
 from fieldhand.forecast.resource_limits import ResourceKind
 
 #: ``turn_home``: going on would more likely than not exceed a limit, and turning round is safer. ``out_of_reach``: the
-#: battery does not last for the way home above its stop level.
+#: charge above the stop level does not suffice for the way home.
 Alarm = Literal["none", "turn_home", "out_of_reach"]
 
 
@@ -18,13 +18,13 @@ class FailsafeState:
     """The state of a robot between two decisions.
 
     Attributes:
-        spent: Used since the mission began, the goal in hand included.
-        charge_percent: Battery left.
-        on_m: Metres left of the drive in hand; 0 without one.
+        spent: Resources used since the mission began, including the current goal.
+        charge_percent: Current battery charge, 0 to 100.
+        on_m: Metres left of the current drive; 0 if the robot is not driving.
         work: Remaining work of the current capture.
-        after_m: Metres home from where the drive in hand ends.
-        home_m: Metres home from here, at most.
-        returning: True if it is already on its way home.
+        after_m: Metres home from the end of the current drive.
+        home_m: Upper bound of the metres home from here.
+        returning: True if the robot is already on its way home.
     """
 
     spent: Spent
@@ -42,12 +42,12 @@ class FailsafeForecast:
 
     Attributes:
         limit: The limit that caused the alarm.
-        left: Amount left of it in its unit; charge above the reserve for ``reserve``, above the stop level for
-            ``out_of_reach``.
-        needed: Amount of it needed for the way home, on average.
+        left: Amount left of that limit in its unit; for ``reserve`` the charge above the reserve, for ``out_of_reach``
+            the charge above the stop level.
+        needed: Mean amount of that limit needed for the way home.
         chance_short: Probability of exceeding it by going on.
-        reach_m: Metres that the charge above the stop level lasts for.
-        drain: Battery drain relative to its model.
+        reach_m: Mean range in metres of the charge above the stop level.
+        drain: Battery drain as a multiple of its model.
     """
 
     alarm: Alarm = "none"

@@ -1,4 +1,4 @@
-"""The ways home after a fault: from wherever a mission may stop, to where its Task then wants the robot."""
+"""Drives home after a fault: from every place where a mission may stop to the destination of the Task's exit."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from fieldhand.task.frames import Fault, Task
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
 
-#: Places from which the way home is driven on paper: the farthest, and others evenly among the rest.
+#: Maximum number of places from which the way home is computed: the farthest ones, and an even sample of the others.
 MAX_PLACES = 120
 
 _FAULTS: tuple[Fault, ...] = ("action_failed", "drive_failed", "low_budget", "aborted")
@@ -31,14 +31,14 @@ _FAULTS: tuple[Fault, ...] = ("action_failed", "drive_failed", "low_budget", "ab
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class FaultExits:
-    """The ways home after faults.
+    """The drives home after faults.
 
     Attributes:
-        steps: A way home each, with the node after which it is driven.
-        broken: Where there is none: the place, where it should lead, and why.
-        worst: For each fault that brings the robot home, the branch that takes longest until then, with missions drawn
-            along it. Not for a low budget: what that leaves is for the guard.
-        looked_at, places: From how many of how many places.
+        steps: One drive home per step, with the node after which it is driven.
+        broken: Missing ways home: the place, the destination, and the reason.
+        worst: For each fault after which the robot drives home, the longest branch up to that fault and home, with
+            missions sampled along it. A low budget is excluded: the guard reserves what the way home needs.
+        looked_at, places: Number of places for which the way home was computed, and number of all places.
     """
 
     steps: tuple[WalkStep, ...]
@@ -59,7 +59,7 @@ def fault_exits(
     told: Sequence[Walk],
     leg_costs: LegCostSamples,
 ) -> FaultExits:
-    """Drive home from the places of some walks, after each fault that a Task brings the robot home from."""
+    """Compute the drives home from the places of walks, for each fault after which the Task returns the robot home."""
     then = {fault: exit_of(task, fault) for fault in _FAULTS}
     homes = {f: site.home(t, site.start) for f, t in then.items() if t != "stay"}
     stops = _stops((*walks, *told))
@@ -92,7 +92,7 @@ def fault_exits(
 
 
 def _stops(walks: Sequence[Walk]) -> dict[tuple[int, int], WalkStep]:
-    """Return each step at which the robot is at a place, by the numbers of its walk and step."""
+    """Return each step at which the robot is at a place, by the indices of its walk and step."""
     return {
         (w, k): step
         for w, walked in enumerate(walks)
@@ -122,7 +122,7 @@ def _longest(
     robot: RobotProfile,
     leg_costs: LegCostSamples,
 ) -> Walk | None:
-    """Return the branch that takes longest until a fault and the way home from there."""
+    """Return the longest branch up to a fault and home from there."""
     speed = speed_of(task.constraints, robot)
     longest, most = None, -1.0
     before = {w: np.cumsum([s.seconds for s in walked.steps]) for w, walked in enumerate(walks)}
@@ -182,5 +182,5 @@ def _ended(
 
 
 def _again(step: WalkStep, robot: RobotProfile) -> Work:
-    """Return the work of retrying the last capture of an action as often as the robot does."""
+    """Return the work of retrying the last capture of an action up to the robot's number of retries."""
     return Work() if step.node.act is None else retry_work(step.node.act, robot)

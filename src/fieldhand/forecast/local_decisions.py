@@ -9,15 +9,15 @@ from fieldhand.task.plan import Node, acts, walk
 def local_decisions(root: Node) -> tuple[str, ...]:
     """Return the decisions on which no drive, place, or later reading or label depends.
 
-    At each visit of a loop such a decision can be made by itself, and the same answer at all of them takes most, or
-    least. So the walks on which each of them is answered alike have every place and drive of a mission, and between
-    them lies what any other takes.
+    At each visit of a loop such a decision is independent of the others, and resource use is highest or lowest if all
+    of them have the same answer. So the walks with constant answers cover every place and drive of a mission, and bound
+    the resource use of all other branches.
 
     Returns:
-        Ids of nodes with a condition, and for each action that is tried its id and ``fails``; in the plan's order.
+        Ids of nodes with a condition, and for each action inside a ``Try`` its id and ``fails``; in plan order.
     """
     if any(inner.selector is not None for n in walk(root) for body in n.caught for inner in walk(body)):
-        # After a drive that was given up the robot first has to come back to where it works.
+        # After an abandoned drive the robot first has to return to its place of work.
         return ()
     found: list[str] = []
     _collect(root, root, found)
@@ -43,7 +43,7 @@ def _on_the_spot(node: Node) -> bool:
 
 
 def _stays(node: Node) -> bool:
-    """Return True if the node itself leaves the robot where it is, and names no place and no end."""
+    """Return True if the node itself neither moves the robot nor refers to a place nor ends the plan."""
     moves = node.selector is not None or bool(node.label) or node.in_any_order
     return not (moves or node.is_optional or node.ends_plan)
 

@@ -1,4 +1,4 @@
-"""Data between the robot and the budget guard: position, resources used, possible visits, decisions."""
+"""Data exchanged between the mission and the budget guard: position, resources used, possible visits, decisions."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class Spent:
-    """Resources used so far, or by a part of a mission.
+    """Resources used so far, or by a part of a mission: metres, seconds, percent of a full battery.
 
     Attributes:
-        joules: Energy of actions by the profile, without idle power.
+        joules: Energy of actions in joules by the profile, without idle power.
     """
 
     metres: float = 0.0
@@ -36,7 +36,7 @@ class Spent:
 
 @dataclass(frozen=True, kw_only=True)
 class Work:
-    """Work at places on the longest branch: seconds, joules of actions (without idle power), metres driven."""
+    """Work on its longest branch: seconds, joules of actions without idle power, and metres driven."""
 
     seconds: float = 0.0
     joules: float = 0.0
@@ -52,14 +52,14 @@ class Work:
 
 @dataclass(frozen=True, kw_only=True)
 class Visit:
-    """A place that the robot could drive to next, and what doing the work there takes (the drive not included).
+    """A place to which the robot could drive next, with the cost of the work there, excluding the drive to it.
 
     Attributes:
         reward: Reward of an optional visit.
-        service_s: Seconds of work there, on the longest branch.
+        service_s: Seconds of work there on the longest branch.
         service_j: Energy of the actions there in joules, idle power not included.
-        inside_m: Metres driven from there on within the visit, on the longest branch; their time and energy are not in
-            ``service_s`` and ``service_j``.
+        inside_m: Metres driven within the visit after arrival, on the longest branch; their time and energy are not
+            included in ``service_s`` and ``service_j``.
         leaves: Place where the visit ends; None if it is ``place``.
     """
 
@@ -83,13 +83,13 @@ class Visit:
 
 @dataclass(frozen=True, kw_only=True)
 class MissionState:
-    """The state of a mission that the guard decides on.
+    """The state of a mission on which the guard bases its decisions.
 
     Attributes:
-        frames: The nodes in hand, outermost first; the last is about to drive or act.
-        context: The place in hand, visited trees, bound places.
-        spent: Used since the mission began.
-        charge_percent: Battery left.
+        frames: Current nodes of the plan, outermost first; the last one is about to drive or act.
+        context: Current place, visited trees, and bound places.
+        spent: Resources used since the mission began.
+        charge_percent: Current battery charge, 0 to 100.
     """
 
     frames: tuple[StackFrame, ...]
@@ -105,7 +105,7 @@ class MissionState:
 
 @dataclass(frozen=True, kw_only=True)
 class Verdict:
-    """The guard's decision about a mandatory visit, with its reason and the chance of running short."""
+    """The guard's decision about a mandatory visit, with its reason and the probability of running short."""
 
     go: bool
     reason: str = ""
@@ -114,10 +114,10 @@ class Verdict:
 
 @dataclass(frozen=True, kw_only=True)
 class VisitChoice:
-    """The guard's choice of the next candidate (None if none fits), those given up for good, and the reason.
+    """The guard's choice of the next candidate (None if none fits), the candidates given up for good, and the reason.
 
     Attributes:
-        chance_short: Of running short with what is given up, where anything is; else with what comes next.
+        chance_short: Probability of running short by the visits given up, if there are any; otherwise by the next one.
     """
 
     index: int | None

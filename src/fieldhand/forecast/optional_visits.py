@@ -1,4 +1,4 @@
-"""Optional work as visits, including the drives within it."""
+"""Conversion of optional work to visits, including the drives within it."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from fieldhand.task.plan import ForEach, Node, OptionalStep
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
 
-#: For more visits than this the drives inside are not looked at one by one: each counts for the longest that was seen.
+#: Number of visits whose inner drives are computed individually; all further visits count with the longest one found.
 _LOOKED_AT = 60
 
 
@@ -31,7 +31,7 @@ class OptionalVisits:
     """Builds visits from optional nodes.
 
     Args:
-        task, site, robot, drives: The mission.
+        task, site, robot, drives: Task, site, robot and drives of the mission.
     """
 
     def __init__(self, task: Task, site: Site, robot: RobotProfile, drives: Drives) -> None:
@@ -42,7 +42,7 @@ class OptionalVisits:
 
         Args:
             node: The for-each.
-            places: Where, each with its stand.
+            places: Places of the visits, with stands.
             context: The robot's current place and visited trees at the for-each.
         """
         work = work_of(node.body, self._robot)
@@ -70,12 +70,12 @@ class OptionalVisits:
             context: The robot's current place and visited trees.
 
         Returns:
-            The visit; at the place in hand where nothing is driven. Of places that cannot be told before the robot is
-            on its way, and of what comes after them, the work is counted and no drive.
+            The visit; at the current place if it includes no drive. From the first place on that can only be resolved
+            on the way, only work is counted, and no drives.
 
         Raises:
-            PlaceError: Its first place cannot be told.
-            DriveFault: A place that cannot be reached.
+            PlaceError: Its first place cannot be resolved.
+            DriveFault: A place cannot be reached.
         """
         return replace(self._longest(node.body, context), reward=node.reward)
 

@@ -1,4 +1,4 @@
-"""Optional visits and steps that a walk includes: the likely ones, or those that its answers select."""
+"""Policies for the optional visits and steps of a walk: the most probable ones, or those selected by its answers."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ from fieldhand.forecast.walk_steps import WalkStep
 from fieldhand.site.model import Place
 from fieldhand.task.plan import ForEach, OptionalStep
 
-#: Of optional visits of which nothing is known so many are driven to where a walk is told to make them.
+#: Maximum number of optional visits on a walk that is to make them, if no simulation of them is available.
 MAX_SCRIPTED_VISITS = 200
 
 
 class LikelyOptionalWork:
-    """As many visits as missions make on average, the likeliest.
+    """Policy that makes the most probable visits, as many as missions make on average.
 
     Args:
-        kept: Cache of expected visits of walks with the same answers so far.
+        kept: Cache of the expected visits of walks with equal answers so far.
     """
 
     def __init__(self, kept: dict[object, ExpectedVisits]) -> None:
@@ -49,7 +49,7 @@ class LikelyOptionalWork:
     def _some(
         self, walker: ForecastHandler, node: ForEach | OptionalStep, visits: Sequence[Visit], closed: tuple[Place, ...]
     ) -> tuple[Place, ...]:
-        """Return the visits that are the likeliest to fit the budgets."""
+        """Return the visits most likely to fit the budgets."""
         if not visits:
             walker.note(WalkStep(node=node, kind="visit-list", context=walker.context, shed=closed))
             return ()
@@ -57,7 +57,7 @@ class LikelyOptionalWork:
         key = (node.id, len(walker.steps), tuple(walker.decisions))
         found = self._kept.get(key)
         if found is None:
-            # Branches that differ by what was measured where, and not by what that took, expect the same.
+            # Branches that differ in readings but not in resource use have the same expected visits.
             state = (node.id, *_state(walker))
             found = self._kept.get(state)
             if found is None:
@@ -73,10 +73,13 @@ class LikelyOptionalWork:
 
 
 class ScriptedOptionalWork:
-    """The steps that the answers take; of visits those of the luckiest mission, or of the least lucky one.
+    """Policy that follows prescribed answers.
+
+    Optional steps are taken if the walk's answers say so; optional visits are those of the sampled mission with the
+    most or the fewest visits.
 
     Args:
-        kept: Expected visits found by walks with likely visits.
+        kept: Expected visits computed by walks under :class:`LikelyOptionalWork`.
     """
 
     def __init__(self, kept: Mapping[object, ExpectedVisits]) -> None:
@@ -101,7 +104,7 @@ class ScriptedOptionalWork:
         return takes
 
     def _made(self, node: ForEach, places: tuple[Place, ...], *, most: bool) -> tuple[Place, ...]:
-        """Return the visits of the mission that makes most, or fewest; where none is known all, or none."""
+        """Return the visits of the sampled mission with the most, or fewest; without samples all visits, or none."""
         known = self._kept.get(node.id)
         if known is None:
             return (places if node.at_most is None else places[: node.at_most])[:MAX_SCRIPTED_VISITS] if most else ()
@@ -111,12 +114,12 @@ class ScriptedOptionalWork:
 
 
 def _state(walker: ForecastHandler) -> Iterator[object]:
-    """Yield everything that determines the optional visits of missions from here on."""
+    """Yield everything that determines the further optional visits of missions."""
     context, spent = walker.context, walker.spent
     yield len(walker.steps), walker.allowance, walker.to_come()
     yield context.here, context.here.stand, tuple(context.visited), tuple(context.bound.items())
     yield tuple((frame.node.id, tuple((n.id, n.rounds) for n in frame.left)) for frame in walker.plan.frames)
-    # Sums of the same durations in another order differ in their last digits.
+    # Rounded, because sums of equal durations in another order differ in their last digits.
     yield tuple(round(amount, 6) for amount in (spent.metres, spent.seconds, spent.percent, spent.joules))
     if walker.samples is not None:
         yield walker.samples.metres.tobytes()

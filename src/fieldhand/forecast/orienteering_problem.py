@@ -1,4 +1,4 @@
-"""Optional visits as a problem of :mod:`fieldhand.orienteering`."""
+"""Conversion of optional visits to a problem of :mod:`fieldhand.orienteering`."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-#: A visit is given up for good when going straight there, and then on, runs short with this chance.
+#: Overrun probability of driving straight to a visit and on, above which the visit is given up for good.
 GONE = 0.9
-#: How often an order is remade that was planned for much the same visits: a fifth of what one from nothing takes.
+#: Number of remakes of an order that was planned for nearly the same visits: a fifth of those of a new order.
 _REMAKES = 8
 _SEED = 0
-#: A chance that a solver is asked to keep to lies between these.
+#: Bounds of the failure probability given to a solver.
 _LEAST, _MOST = 1e-6, 1.0 - 1e-6
 
 
@@ -44,19 +44,19 @@ def visits_problem(
     """Return the orienteering problem of a robot that chooses among optional visits.
 
     Args:
-        legs: Between here, the candidates, and where the rest begins.
+        legs: Distances in metres between the current place, the candidates, and the start of the remaining work.
         rewards: Rewards of the candidates.
         service: Work at each candidate.
-        rest: Work that follows.
+        rest: Mandatory work that follows.
         resources: The resource limits.
-        robot: Its cost of legs, and the energy of work.
+        robot: Profile with the leg cost model and the energy of work.
         spent: Resources used so far.
-        accepted: Accepted probability of running short of any of it.
-        max_visits: Visits that may be made; None for as many as fit.
+        accepted: Accepted probability of exceeding any limit.
+        max_visits: Maximum number of visits; None for as many as fit.
 
     Returns:
-        A problem with here as vertex 0, the candidates after it, and the end as the last vertex. Its budgets may be too
-        small for the way home: a mission under way can have come to that.
+        A problem with the current place as vertex 0, then the candidates, and the end as the last vertex. Its budgets
+        may be too small for the way home, since a mission under way can get into that state.
     """
     chance = min(max(accepted, _LEAST), _MOST)
     return Problem(
@@ -77,19 +77,19 @@ def visits_problem(
 def left_before(
     resources: Sequence[ResourceLimit], robot: RobotProfile, spent: Spent, rest: RemainingWork
 ) -> tuple[float, ...]:
-    """Return metres left of each resource for optional visits after the following work is subtracted."""
+    """Return the metres of each resource left for optional visits after the following work is subtracted."""
     return tuple(r.metres_left(spent) - r.metres_of(rest.work, robot) for r in resources)
 
 
 def policy_for(problem: Problem, *, price: float | None = None, warm: Sequence[int] = ()) -> Policy:
-    """Return what decides on board and in the forecast; it collects the most over all missions, failed ones counting 0.
+    """Return the policy used on board and in the forecast; it maximises mean reward, with 0 for failed missions.
 
-    Both search with the same seed: the order that was forecast is the one that the robot sets out with.
+    Both use the same seed, so the robot starts with the forecast order.
 
     Args:
         problem: A problem from :func:`visits_problem`.
-        price: Price of a failure, if an earlier decision of the run computed it.
-        warm: Vertices that were planned.
+        price: Price of a failure in units of reward, if an earlier decision of the run has computed it.
+        warm: Vertices of the previous plan.
     """
     from fieldhand.orienteering.decision import SearchEffort
     from fieldhand.orienteering.policy import Policy

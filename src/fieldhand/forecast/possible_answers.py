@@ -1,9 +1,9 @@
-"""Answers that a condition can have on a branch, given the readings taken and the site's data.
+"""Possible answers to a condition on a branch, given the readings taken and the site's data.
 
-Of a reading only its place among the thresholds of the plan matters, so a few values stand for all that a sensor can
-give. An answer leaves those values that go with it, and a later test of the same reading is held to them: no branch is
-both hotter than 38 °C and colder than 33 °C. A reading that nothing has taken on the branch makes its test unknown, as
-on the robot, and so does a tree's attribute whatever the site says of it.
+Only the order of a reading among the thresholds of the plan matters, so a few values represent all that a sensor can
+return. An answer keeps only the values consistent with it, and a later test of the same reading must agree with them:
+no branch is both hotter than 38 °C and colder than 33 °C. As on the robot, a test of a reading that was not taken on
+the branch is unknown; a test of a tree's attribute has the answer given by the site.
 """
 
 from __future__ import annotations
@@ -20,10 +20,10 @@ from fieldhand.task import conditions as c
 from fieldhand.task import plan
 from fieldhand.task.conditions import Between, Compare, Condition, Level, TreeHas
 
-#: So many combinations of values are tried for one test; beyond, either answer counts as possible.
+#: Maximum number of combinations of values tried for one test; above it, both answers count as possible.
 _MOST = 256
 
-#: A quantity of one taking of a reading; reading and quantity that a condition tests; values that they may have.
+#: A quantity of one reading taken; reading and quantity that a condition tests; values that they may have.
 _Taken = tuple[int, str]
 _Tested = tuple[tuple[str, str], ...]
 _Values = tuple[float, ...]
@@ -44,7 +44,7 @@ class ConditionOutcomes:
     """Possible results of conditions, cached for all walks of a mission.
 
     Args:
-        root: The plan, for its thresholds.
+        root: Root of the plan, which contains the thresholds.
         site, robot: The site and the robot.
     """
 
@@ -72,8 +72,8 @@ class ConditionOutcomes:
             node_id: Id of the condition's node.
             condition: The condition.
             here: The place in hand.
-            tested: Reading and quantity of each that was taken.
-            values: Possible values of each.
+            tested: Reading and quantity of each tested reading that was taken.
+            values: Possible values of each of them.
         """
         at = here.id if any(isinstance(part, TreeHas) for part in c.walk(condition)) else ""
         key = (node_id, at, tested, values)
@@ -102,7 +102,7 @@ class BranchReadings:
     """The readings taken on one branch.
 
     Args:
-        outcomes: Shared by the branches.
+        outcomes: Possible results of conditions, shared by all branches.
     """
 
     def __init__(self, outcomes: ConditionOutcomes) -> None:
@@ -112,7 +112,7 @@ class BranchReadings:
         self._takings = 0
 
     def take(self, reading: str, action: str) -> None:
-        """Record that an action has taken a reading anew."""
+        """Record that an action has taken a new reading."""
         self._takings += 1
         self._bound[reading] = (self._takings, action)
         for quantity, values in self._outcomes.measured(action).items():
@@ -123,11 +123,11 @@ class BranchReadings:
         self._bound.pop(reading, None)
 
     def missing(self, condition: Condition) -> tuple[str, ...]:
-        """Return the readings that a condition tests and nothing has taken."""
+        """Return the readings that a condition tests but that were not taken."""
         return tuple(sorted(r for r in c.readings(condition) if r not in self._bound))
 
     def answers(self, node_id: str, condition: Condition, here: Place) -> tuple[bool, ...]:
-        """Return the answers that a condition can have now, at least one."""
+        """Return the possible answers to a condition now, at least one."""
         tested, values = self._tested(condition)
         found = self._outcomes.outcome(node_id, condition, here, tested, values)
         return (True, False) if found is None else found.answers
@@ -152,7 +152,7 @@ class BranchReadings:
 
 
 def _standing_for(root: plan.Node, robot: RobotProfile) -> Iterator[tuple[str, _Values]]:
-    """Yield per quantity representative values: its thresholds, one value between any two, and its range."""
+    """Yield representative values of each quantity: its thresholds, a value between each two, and its range."""
     thresholds: dict[str, set[float]] = {}
     for node in plan.walk(root):
         condition = node.tested

@@ -1,7 +1,8 @@
-"""Work that remains of a plan under way: the mandatory steps that follow, and the way home.
+"""Remaining work of a plan under way: the mandatory steps that follow, and the way home.
 
-The nodes in hand (:class:`fieldhand.task.run.StackFrame`) hold what is left of them. Which visits of the loops in hand
-are still to come is told by who asks. Of a repeat all further rounds are left, as if its condition never ended it.
+The current nodes (:class:`fieldhand.task.run.StackFrame`) contain what is left of them. The caller supplies the
+remaining visits of the current loops. A repeat counts with all its remaining rounds, as if its condition never ended
+it.
 """
 
 from __future__ import annotations
@@ -38,11 +39,12 @@ class RemainingWork:
     """The remaining work on the most demanding branch.
 
     Attributes:
-        stops: Every place that is driven to, home included; none where nothing more is driven.
-        legs_m: Legs between them; the leg to the first is not there.
-        work: All actions.
-        mandatory: True if it holds more than the way home.
-        fixed: True if it does not depend on the robot's earlier places, apart from the order of free visits.
+        stops: Places to be visited in order, including home; empty if no drive remains.
+        legs_m: Lengths in metres of the legs between the stops, without the leg to the first one.
+        work: Work of all remaining actions.
+        mandatory: True if it consists of more than the way home.
+        fixed: True if it does not depend on the robot's previous places, except for the order of visits with a free
+            order.
     """
 
     stops: tuple[Place, ...] = ()
@@ -53,7 +55,7 @@ class RemainingWork:
 
     @cached_property
     def way(self) -> RouteCost:
-        """Return the legs from the first stop on, with the work."""
+        """Return the cost of the legs from the first stop on, with the work."""
         return route_cost(self.legs_m, self.work)
 
     @property
@@ -72,30 +74,30 @@ def remaining_work_after(
     *,
     to_come: Sequence[Visit] = (),
 ) -> RemainingWork:
-    """Return what must be done after the node in hand, what is optional left out, on the branch that takes most.
+    """Return the mandatory work after the current node, on the most demanding branch.
 
     Args:
-        task, site, robot, drives: The mission.
-        frames: The nodes in hand, outermost first.
+        task, site, robot, drives: Task, site, robot and drives of the mission.
+        frames: Current nodes of the plan, outermost first.
         context: The robot's current place and visited trees.
-        to_come: Visits of the for-each loops in hand that are not begun, in their order; they come first.
+        to_come: Visits of the current for-each loops that have not begun, in visiting order; they come first.
 
     Raises:
-        DriveFault: There is no way between visits to come, or from them on.
+        DriveFault: No way leads between the remaining visits, or onward from them.
     """
     rest = _most(task, site, robot, drives, following(frames), arrived(context, to_come))
     return _joined(to_come, rest, drives) if to_come else rest
 
 
 def whole_mission_work(task: Task, site: Site, robot: RobotProfile, drives: Drives, context: Context) -> RemainingWork:
-    """Return the mandatory work of a whole Task from where a mission begins."""
+    """Return the mandatory work of a whole Task from the start of the mission."""
     return _most(task, site, robot, drives, (task.composition.plan,), context)
 
 
 def _most(
     task: Task, site: Site, robot: RobotProfile, drives: Drives, nodes: Sequence[Node], context: Context
 ) -> RemainingWork:
-    """Return the most demanding branch of some nodes with the way home."""
+    """Return the work of the most demanding branch of nodes, including the way home."""
     speed = speed_of(task.constraints, robot)
     fixed = not any(_is_relative(node) for node in nodes)
     worst, most = RemainingWork(), -1.0
@@ -111,9 +113,9 @@ def _most(
 
 
 def optional_runs(frames: Sequence[StackFrame]) -> int:
-    """Return how many runs of optional visits a mission may still come to, that of the node in hand included.
+    """Return how many runs of optional visits may still follow, including that of the current node.
 
-    In a loop there may be any number of them; one more than can be seen is counted, so that some is left.
+    A loop may contain any number of runs; one more than is known is counted, so that some allowance is left.
     """
     loops = [frame.node.visits_each or frame.node.rounds is not None for frame in frames[:-1]]
     once = (frame for frame, again in zip(frames, loops, strict=False) if not again)
@@ -122,12 +124,12 @@ def optional_runs(frames: Sequence[StackFrame]) -> int:
 
 
 def following(frames: Sequence[StackFrame]) -> tuple[Node, ...]:
-    """Return the nodes that come after the one in hand, in their order; of repeats the rounds that are left."""
+    """Return the nodes after the current one in order, including the remaining rounds of repeats."""
     return tuple(node for frame in reversed(frames) for node in frame.left)
 
 
 def arrived(context: Context, visits: Sequence[Visit]) -> Context:
-    """Return the context of the mission after some visits."""
+    """Return the context of the mission after given visits."""
     if not visits:
         return context
     known = set(context.visited)
@@ -137,7 +139,7 @@ def arrived(context: Context, visits: Sequence[Visit]) -> Context:
 
 
 def _joined(visits: Sequence[Visit], rest: RemainingWork, drives: Drives) -> RemainingWork:
-    """Return some visits followed by the remaining work."""
+    """Return given visits followed by the remaining work."""
     legs = [_length(drives, a.end, b.place) for a, b in itertools.pairwise(visits)]
     if rest.first is not None:
         legs.append(_length(drives, visits[-1].end, rest.first))
@@ -158,7 +160,7 @@ def _walk_rest(walker: ForecastHandler, nodes: Sequence[Node]) -> RemainingWork:
     try:
         walked = walker.run(nodes)
     except (PlaceError, DriveFault):
-        # What cannot be resolved from here may be once the robot is there; then the way home alone is set aside.
+        # Places that cannot be resolved from here may be once the robot is there; then only the way home is reserved.
         walker = ForecastHandler(
             walker.task,
             walker.site,
@@ -168,7 +170,7 @@ def _walk_rest(walker: ForecastHandler, nodes: Sequence[Node]) -> RemainingWork:
             context=walker.beginning,
         )
         walked = walker.run(())
-    # Not the walk's own legs: where it begins by staying where it is, the robot will have to come back there.
+    # The walk's own legs cannot be used: if it begins at its current place, the robot will have to come back there.
     stops = [stop for k, stop in enumerate(walker.stops) if k == 0 or stop.xy != walker.stops[k - 1].xy]
     seconds, joules = walked.work
     return RemainingWork(
@@ -186,7 +188,7 @@ def _is_relative(following: Node) -> bool:
 
 
 def every_answer(nodes: Sequence[Node]) -> list[Answer]:
-    """Return every combination of answers to the first few conditions; the others are answered alike."""
+    """Return every combination of answers to the first few conditions; all others share one answer."""
     asked = [n.id for node in nodes for n in plan.walk(node) if n.tested is not None]
     if not asked:
         return [lambda _: False]

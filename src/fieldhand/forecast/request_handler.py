@@ -30,31 +30,31 @@ from fieldhand.task.run import carry_out
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
 
-#: A walk comes to so many nodes; a mission that would come to more is refused, as no robot could carry it out.
+#: Maximum number of nodes on a walk; a Task with more is rejected, as no robot could carry it out.
 MAX_NODES = 100_000
 
 
 class OptionalWorkPolicy(Protocol):
-    """Decides what becomes of the optional visits and steps that a walk comes to."""
+    """Policy that decides which optional visits and steps a walk includes."""
 
     def visits(
         self, walker: ForecastHandler, node: ForEach, places: tuple[Place, ...], closed: tuple[Place, ...]
     ) -> tuple[Place, ...]:
-        """Return the optional visits that are made, in their order, and note them as a step.
+        """Return the optional visits to make, in visiting order, and record them as a step.
 
         Args:
-            walker: Has come to the for-each.
+            walker: Handler of a walk that has reached the for-each.
             node: The for-each.
-            places: Reachable places, each with its stand.
+            places: Reachable places, with stands.
             closed: Places that can never be reached.
         """
 
     def takes(self, walker: ForecastHandler, node: OptionalStep) -> bool:
-        """Return True if an optional step is done, and note that as a step."""
+        """Return True if an optional step is done, and record the decision as a step."""
 
 
 class SkipOptionalWork:
-    """Leaves all optional work out: only what must be done is walked."""
+    """Policy that leaves out all optional work."""
 
     def visits(
         self,
@@ -74,8 +74,8 @@ class PlannedVisits:
     """The visits of a for-each.
 
     Args:
-        places: In the order in which they are visited, each with its stand.
-        work: Work of each visit, drives not included.
+        places: Places in visiting order, with stands.
+        work: Work of each visit, excluding drives.
     """
 
     def __init__(self, places: tuple[Place, ...], work: Work | None = None) -> None:
@@ -90,18 +90,18 @@ class PlannedVisits:
 
     @property
     def to_come(self) -> tuple[Visit, ...]:
-        """Return the visits not begun."""
+        """Return the visits that have not begun."""
         seconds, joules = self._work.seconds, self._work.joules
         return tuple(Visit(place=p, service_s=seconds, service_j=joules) for p in self._places[self._begun :])
 
 
 class ForecastHandler(WalkState):
-    """Answers what the nodes of a Task ask, and notes what happens.
+    """Handler that answers the instructions of a Task's nodes and records the resulting steps.
 
     Args:
-        task, site, robot, drives, answers, context, samples, readings: As for a trail.
-        charge_percent: Charge at the beginning.
-        optional: Decides on optional visits and steps; by default all of them are left out.
+        task, site, robot, drives, answers, context, samples, readings: As for :class:`WalkState`.
+        charge_percent: Battery charge at the start of the mission, 0 to 100.
+        optional: Policy for optional visits and steps; by default all are left out.
     """
 
     def __init__(
@@ -121,12 +121,12 @@ class ForecastHandler(WalkState):
         super().__init__(task, site, robot, drives, answers, context=context, samples=samples, readings=readings)
         self.charge_percent, self._optional = charge_percent, optional or SkipOptionalWork()
         self._nodes = 0
-        #: What optional visits may still add to the chance of running short; None before the first of them.
+        #: Probability of running short that optional visits may still add; None before the first of them.
         self.allowance: RiskAllowance | None = None
         self.plan.entered = self._entered
 
     def run(self, nodes: Sequence[Node]) -> Walk:
-        """Walk nodes one after the other, then the exit."""
+        """Walk nodes in order, then the exit."""
         taken: Literal["nominal", "faulted"] = "nominal"
         last: Node = self.task.composition.plan
         then = self.task.composition.nominal
@@ -147,11 +147,11 @@ class ForecastHandler(WalkState):
         )
 
     def along(self, node: Node) -> tuple[WalkStep, ...]:
-        """Return the steps of one node without an exit, as far as its places resolve from here.
+        """Return the steps of one node without an exit, up to the first place that cannot be resolved from here.
 
         Raises:
-            PlaceError: Its first place cannot be told.
-            DriveFault: A place that cannot be reached.
+            PlaceError: Its first place cannot be resolved.
+            DriveFault: A place cannot be reached.
         """
         try:
             carry_out(self.plan.do(node), self._answer)
@@ -163,7 +163,7 @@ class ForecastHandler(WalkState):
         return tuple(self.steps)
 
     def to_come(self) -> tuple[Visit, ...]:
-        """The visits that must be made and are still to come, of the loops in hand, innermost first."""
+        """The remaining mandatory visits of the current loops, innermost first."""
         found: list[Visit] = []
         for frame in self.plan.outwards():
             if frame.tour is not None and not frame.node.is_optional:
@@ -180,7 +180,7 @@ class ForecastHandler(WalkState):
             )
 
     def _answer(self, request: ask.Instruction) -> Any:
-        """Answer what a node asks."""
+        """Answer an instruction of a node."""
         match request:
             case ask.DriveTo(node=node, place=place, back=back):
                 if not back or self._stuck:
@@ -216,7 +216,7 @@ class ForecastHandler(WalkState):
         return None
 
     def _begin_visits(self, node: ForEach) -> PlannedVisits:
-        """Return the visits of a for-each in the order in which they are made."""
+        """Return the visits of a for-each in visiting order."""
         places = visit_order.places_of(node, node.select, self.site, self.context)
         if not node.optional:
             home = visit_order.home_if_last(self.task, self.site, node.id, self.context.here)
@@ -229,14 +229,14 @@ class ForecastHandler(WalkState):
         )
 
     def _capture(self, node: Act) -> Mapping[str, float]:
-        """Note the captures of an action; inside a ``Try`` it may fail.
+        """Record the captures of an action, which may fail inside a ``Try``.
 
         Raises:
-            Failed: It fails.
+            Failed: The action fails on this branch.
         """
         action = self.robot.action[node.action]
         fails = self.plan.is_caught and self.decide(node, "fails")
-        # One that fails is taken to do so at its last capture, each time that it is tried again.
+        # A failing action is assumed to fail at its last capture, at every retry.
         again = retry_work(node, self.robot) if fails else Work()
         self.note(
             WalkStep(

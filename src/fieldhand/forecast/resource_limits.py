@@ -1,8 +1,8 @@
-"""Resource limits of a mission: its budgets and the battery's reserve, all in metres of driving.
+"""Resource limits of a mission: its budgets and the battery reserve, all converted to metres of driving.
 
-A leg's random cost counts as that many metres driven; from it follow its time (at the robot's speed) and its energy.
-So every resource is the one random number of metres times a factor of its own, plus what work takes; dividing by the
-factor makes them limits of one orienteering problem.
+The random cost of a leg counts as that many metres driven, which determine its time (at the robot's speed) and its
+energy. So the use of every resource is the same random number of metres times a constant factor, plus the work; divided
+by that factor, all resources become limits of one orienteering problem.
 """
 
 from __future__ import annotations
@@ -27,13 +27,13 @@ _LEAST_PER_METRE = 1e-9
 
 @dataclass(frozen=True, kw_only=True)
 class ResourceLimit:
-    """A resource of which a mission may use ``limit``.
+    """A limit on a resource of a mission.
 
     Attributes:
-        kind: Kind of budget, or ``reserve``: the charge above what must be left at the end.
-        limit: Metres, seconds, or percent of a full battery, for the whole mission.
-        failure_probability: Accepted chance of using more.
-        per_metre: Amount used per metre of driving.
+        kind: Kind of budget, or ``reserve``: the charge above the reserve that must be left at the end.
+        limit: Amount available for the whole mission: metres, seconds, or percent of a full battery.
+        failure_probability: Accepted probability of using more (Pf).
+        per_metre: Amount used per metre of driving, in the unit of ``limit``.
     """
 
     kind: ResourceKind
@@ -42,7 +42,7 @@ class ResourceLimit:
     per_metre: float
 
     def of_work(self, robot: RobotProfile, work: Work) -> float:
-        """Return what work at a place uses: metres driven within it, its seconds, the joules of its actions."""
+        """Return the amount of the resource that work uses."""
         driven = work.metres * self.per_metre
         match self.kind:
             case "distance_m":
@@ -53,11 +53,11 @@ class ResourceLimit:
                 return driven + robot.percent(0.0, work.seconds, work.joules)
 
     def metres_of(self, work: Work, robot: RobotProfile) -> float:
-        """Return what work uses, as metres of driving."""
+        """Return the amount that work uses, as equivalent metres of driving."""
         return self.of_work(robot, work) / self.per_metre
 
     def used(self, spent: Spent) -> float:
-        """Return what has been used of the resource."""
+        """Return the amount used so far."""
         match self.kind:
             case "distance_m":
                 return spent.metres
@@ -67,7 +67,7 @@ class ResourceLimit:
                 return spent.percent
 
     def metres_left(self, spent: Spent) -> float:
-        """Return the metres that could be driven on what is left; negative if overspent."""
+        """Return the mean metres that can be driven with the amount left; negative if overspent."""
         return (self.limit - self.used(spent)) / self.per_metre
 
 
@@ -84,12 +84,12 @@ def reserve_percent(constraints: Constraints, robot: RobotProfile) -> float:
 def resource_limits(
     constraints: Constraints, robot: RobotProfile, charge_percent: float = 100.0
 ) -> tuple[ResourceLimit, ...]:
-    """Return every limit of a mission: its budgets in their order, then the battery's reserve.
+    """Return every limit of a mission: its budgets in order, then the battery reserve.
 
     Args:
-        constraints: The Task's.
+        constraints: Constraints of the Task.
         robot: The robot.
-        charge_percent: Charge at the beginning.
+        charge_percent: Battery charge at the start of the mission, 0 to 100.
     """
     speed = speed_of(constraints, robot)
     per_metre: dict[ResourceKind, float] = {
@@ -128,10 +128,10 @@ def orienteering_limits(
 
     Args:
         resources: The resource limits.
-        robot: For the energy of work.
+        robot: Profile with the battery model, for the energy of work.
         spent: Resources used so far.
         service: Work at each vertex.
-        later: Work that follows whatever the route is.
+        later: Work that follows on every route.
         accepted: Accepted probability of exceeding any of them.
     """
     return tuple(

@@ -1,9 +1,10 @@
 """The accepted failure probability of a mission, shared between mandatory work and optional visits.
 
-What must be done comes first: the chance that it alone runs short is taken off what the Task accepts. The rest may be
-spent on optional visits. Each run of them (a for-each, an optional step) may raise the chance of the whole mission, as
-it stands then, by its share at most. Such a rise is an expectation over all that may still happen; so the chance of
-the mission is at most that of what must be done and all the rises together, whatever luck each run meets with.
+Mandatory work comes first: the probability that it alone runs short is subtracted from the probability that the Task
+accepts. The remainder may be spent on optional visits. Each run of them (a for-each, an optional step) may raise the
+current overrun probability of the whole mission by at most its share. Each such increase is an expectation over all
+future leg costs, so the overrun probability of the mission is at most that of the mandatory work plus the sum of the
+increases, whatever the actual costs during each run.
 """
 
 from __future__ import annotations
@@ -16,8 +17,8 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
-#: What optional visits may take of the accepted chance where what must be done needs more than all of it; the rest is
-#: what must be done held to.
+#: Fraction of the accepted probability that optional visits may use if mandatory work alone exceeds it; mandatory work
+#: is then held to the remainder.
 OPTIONAL_SHARE = 0.1
 
 
@@ -26,8 +27,8 @@ class RiskAllowance:
     """The probability of running short that optional visits may still add to a mission.
 
     Attributes:
-        accepted: For each limit the chance that the Task accepts.
-        left: For each limit what may still be added.
+        accepted: For each limit the overrun probability that the Task accepts.
+        left: For each limit the probability that may still be added.
         mandatory_fits: True if the mandatory work kept to the accepted probability when first checked.
     """
 
@@ -40,8 +41,8 @@ class RiskAllowance:
         """Return the allowance at the beginning of a mission.
 
         Args:
-            accepted: For each limit.
-            mandatory: For each limit the chance that what must be done runs short of it.
+            accepted: For each limit the accepted overrun probability.
+            mandatory: For each limit the overrun probability of the mandatory work alone.
         """
         bound = np.asarray(accepted, dtype=np.float64)
         lasts = bool((mandatory <= bound * (1 + 1e-9)).all())
@@ -49,7 +50,7 @@ class RiskAllowance:
         return RiskAllowance(accepted=tuple(bound.tolist()), left=tuple(left.tolist()), mandatory_fits=lasts)
 
     def share(self, runs: int) -> float:
-        """Return what the next of some runs of optional visits may add."""
+        """Return the probability that the next of ``runs`` remaining runs of optional visits may add."""
         return min(self.left) / max(runs, 1)
 
     def reduced_by(self, added: float) -> RiskAllowance:

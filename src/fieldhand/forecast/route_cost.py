@@ -1,4 +1,4 @@
-"""The cost of a route with the work along it, and the chance that it exceeds a limit."""
+"""The cost of a route with the work along it, and the probability that it exceeds a limit."""
 
 from __future__ import annotations
 
@@ -22,8 +22,9 @@ class RouteCost:
     """The cost of a route: power sums of its leg lengths, and the work along it.
 
     Attributes:
-        sums: Sums of the leg lengths in metres, of their squares and cubes, which determine the cost distribution.
-        work: Done on the way.
+        sums: Sums of the leg lengths in metres, of their squares and of their cubes, which determine the cost
+            distribution.
+        work: Work along the route.
     """
 
     sums: tuple[float, float, float] = (0.0, 0.0, 0.0)
@@ -35,33 +36,33 @@ class RouteCost:
 
 
 def route_cost(legs_m: Iterable[float], work: Work | None = None) -> RouteCost:
-    """Return the cost of a route over some legs."""
+    """Return the cost of a route over given legs."""
     legs = np.asarray(tuple(legs_m), dtype=np.float64)
     sums = (float(legs.sum()), float((legs**2).sum()), float((legs**3).sum()))
     return RouteCost(sums=sums, work=work or Work())
 
 
 def cost_model(robot: RobotProfile) -> CostModel:
-    """Return the cost model of a leg."""
+    """Return the robot's cost model of a leg."""
     alpha = robot.leg_cost.alpha
     return Deterministic() if alpha >= 1.0 else ShiftedExponential(alpha)
 
 
 def mean_metres(way: RouteCost, resources: Sequence[ResourceLimit], robot: RobotProfile) -> Floats:
-    """Return what a route takes of each resource on average, in metres of driving."""
+    """Return the mean use of each resource by a route, in equivalent metres of driving, shape (resources,)."""
     return np.array([way.sums[0] + r.metres_of(way.work, robot) for r in resources])
 
 
 def overrun_chances(
     way: RouteCost, resources: Sequence[ResourceLimit], robot: RobotProfile, spent: Spent, used: Floats | None = None
 ) -> Floats:
-    """Return for each resource the chance that a route takes more than is left, shape (resources,).
+    """Return for each resource the probability that a route uses more than is left, shape (resources,).
 
     Args:
         way, resources, robot: The route, the resource limits and the robot.
         spent: Resources used so far.
-        used: Metres that each of some missions has driven beyond that, shape (missions,); then for each resource and
-            mission, shape (resources, missions).
+        used: Metres that each sampled mission has driven in addition, shape (missions,). The result then has shape
+            (resources, missions).
     """
     first, squares, cubes = way.sums
     second, third = cost_model(robot).cumulants()

@@ -1,4 +1,4 @@
-"""Sampled costs of a walk: many missions at once, each with its own leg costs."""
+"""Sampled costs of a walk: many missions at once, each with independent leg costs."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-#: Missions that are drawn.
+#: Default number of sampled missions.
 DRAWS = 2000
 
-#: Legs of which all missions are drawn at a time, so that they fit the processor's own memory.
+#: Number of legs sampled at a time for all missions, so that they fit the processor cache.
 _AT_A_TIME = 64
 
 
@@ -29,8 +29,8 @@ class SampledUse:
     """Resources used by each sampled mission, shape (missions,) each.
 
     Attributes:
-        metres: Cost of the legs.
-        seconds, joules: Time and energy of actions.
+        metres: Cost of the legs in metres.
+        seconds, joules: Time and energy of actions, without driving and idle power.
     """
 
     metres: Floats
@@ -41,8 +41,7 @@ class SampledUse:
 class LegCostSamples:
     """Sampled leg costs shared by all walks of a mission: equal legs cost the same on every branch.
 
-    So two branches differ by what they do and not by their luck, and where they drive the same legs those are drawn
-    once.
+    Common random numbers: differences between branches are not due to sampling, and common legs are sampled only once.
 
     Args:
         costs: Cost model of a leg of length 1.
@@ -55,10 +54,10 @@ class LegCostSamples:
         self._known: dict[tuple[int, tuple[float, ...]], Floats] = {}
 
     def cost(self, first: int, legs: tuple[float, ...]) -> Floats:
-        """Return what consecutive legs cost each mission, shape (missions,).
+        """Return the total cost of consecutive legs for each mission in metres, shape (missions,).
 
         Args:
-            first: Number of legs driven before them.
+            first: Number of preceding legs on the walk.
             legs: Their lengths in metres.
         """
         known = self._known.get((first, legs))
@@ -95,7 +94,7 @@ class MissionSamples:
 
     @property
     def metres(self) -> Floats:
-        """Return what the legs so far cost each mission, shape (missions,)."""
+        """Return the cost of the legs so far for each mission in metres, shape (missions,)."""
         if self._pending:
             self._metres = self._metres + self._leg_costs.cost(self._legs, tuple(self._pending))
             self._legs, self._pending = self._legs + len(self._pending), []
@@ -124,7 +123,7 @@ class MissionSamples:
         self._work = self._work + work
 
     def visit(self, preview: Preview, works: Sequence[Work]) -> None:
-        """Add each mission's optional visits with their work; the preview's vertices count from 1."""
+        """Add each mission's optional visits with their work; the preview's vertices are numbered from 1."""
         each = [works[vertex - 1] for vertex in preview.vertices.tolist()]
         self._metres = self.metres + preview.legs + preview.visited @ np.array([w.metres for w in each])
         self._seconds = self._seconds + preview.visited @ np.array([w.seconds for w in each])

@@ -1,4 +1,4 @@
-"""Time and energy of the work at one place, without drives, and the reward of a visit."""
+"""Time and energy of the work at one place, excluding drives, and the reward of a visit."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from fieldhand.task.plan import Act, Node
 def service_of(node: Node, robot: RobotProfile) -> tuple[float, float]:
     """Return seconds and joules of a node's actions on its longest branch.
 
-    An ``If`` counts the longer of its two sides, a ``Try`` its body and then its otherwise, a ``Repeat`` all of its
-    rounds. A ``ForEach`` inside counts its ``at_most`` visits, or one where the site decides how many there are. Drives
-    inside the node are not counted, and neither is idle power, nor an ``Optional``: it is decided on by itself.
+    An ``If`` counts with the longer of its two sides, a ``Try`` with its body and its otherwise, a ``Repeat`` with all
+    its rounds. A nested ``ForEach`` counts ``at_most`` visits, or one if the site determines their number. Drives and
+    idle power are not counted, nor is an ``Optional``, which is decided separately.
 
     Raises:
-        KeyError: An action that the robot does not have; a Task that was checked names none.
+        KeyError: The robot lacks an action, which does not happen with a checked Task.
     """
     if node.act is not None:
         action = robot.action[node.act.action]
@@ -34,7 +34,7 @@ def service_of(node: Node, robot: RobotProfile) -> tuple[float, float]:
 
 
 def retry_work(node: Act, robot: RobotProfile) -> Work:
-    """Return the work of retrying a capture until it has failed for good, with the waits between."""
+    """Return the work of all retries of a failing capture, including the waits between them."""
     action = robot.action[node.action]
     retries = robot.retries if action.retries is None else action.retries
     wait_s = robot.patience.retry_wait_s if action.retry_wait_s is None else action.retry_wait_s
@@ -48,7 +48,7 @@ def work_of(node: Node, robot: RobotProfile) -> Work:
 
 
 def reward_of(node: Node, place: Place, site: Site) -> float:
-    """Return the reward of a visit: the tree's attribute that the for-each names (0 if it has none), else 1."""
+    """Return the reward of a visit: the tree attribute named by the for-each (0 if the tree lacks it), by default 1."""
     if not node.rewarded_by:
         return 1.0
     tree = site.by_id.get(place.id) if place.kind == "tree" else None

@@ -1,4 +1,4 @@
-"""Distances between optional visits: in double precision for few, along a sparse graph in single precision for many."""
+"""Distances between optional visits: double precision for few, single precision on a sparse graph for many."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-#: The most places with distances in double precision (100 MB with copies); those of more are single (1.6 GB at most).
+#: Maximum number of places in double precision (100 MB with copies); more use single precision (at most 1.6 GB).
 MAX_DOUBLE = 2000
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class VisitDistances:
-    """Metres between vertices in one of the forms that a problem takes; the others are empty."""
+    """Distances in metres between vertices, in one of the forms of :class:`Problem`; the other forms are empty."""
 
     distances: Floats = field(default_factory=lambda: np.zeros((0, 0)))
     coordinates: Floats | None = None
@@ -45,14 +45,15 @@ def visit_distances(
 
     Args:
         here: The robot's place, which is the first vertex.
-        visits: The next ones; the way on from a visit begins where it ends.
-        rest: What follows. Where it drives nowhere the robot may end anywhere: the last vertex is 0 away from all.
-        drives: The ways of the site.
-        between: A table of metres between places, where the caller keeps one.
-        table: Up to so many places have a table. An open end, and visits that end elsewhere, always need one.
+        visits: Possible visits; the way onward from a visit begins where it ends.
+        rest: Work that follows. If it includes no drive, the robot may end anywhere: the last vertex is at distance 0
+            from all.
+        drives: Drives between places of the site.
+        between: Function that returns a matrix of distances in metres between places, if the caller keeps one.
+        table: Maximum number of places for a full matrix. An open end, and visits that end elsewhere, always need one.
 
     Raises:
-        DriveFault: There is no way between some of them.
+        DriveFault: Some places are not connected.
     """
     places = [here, *(v.place for v in visits), *([] if rest.first is None else [rest.first])]
     stands = tuple(p.xy if p.stand is None else p.stand for p in places)
@@ -79,7 +80,7 @@ def visit_distances(
 
 @dataclass(kw_only=True)
 class _CachedDistances:
-    """The distances last computed for some drives; forecast and guard use the same."""
+    """Cache of the last distances, shared by forecast and guard."""
 
     stands: tuple[tuple[float, float], ...]
     legs: VisitDistances | None = None

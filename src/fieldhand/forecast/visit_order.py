@@ -1,4 +1,4 @@
-"""The order in which places are visited; preview and robot share it, so the drawn path is the driven one."""
+"""The order in which places are visited, shared by preview and robot, so the path drawn is the path driven."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
 
 
-#: Orders of visits that are kept with a site.
+#: Maximum number of cached visiting orders per site.
 _ORDERS = 64
 
 
 def drives_for(site: Site, robot: RobotProfile) -> Drives:
-    """Return the drives of a robot on a site, clear of tree lines and keep-outs by half its width.
+    """Return the drives of a robot on a site, with a clearance of half its width from tree lines and keep-outs.
 
-    The same object for the same site and robot: it remembers the drives that it found.
+    Equal arguments give the same object, which caches the drives it has found.
     """
     from fieldhand.site.drives import Drives
 
@@ -65,23 +65,23 @@ def order_visits(drives: Drives, here: Place, places: Sequence[Place], home: Pla
     """Return the order of ``places`` with the least driving from ``here``, and on to ``home`` if given.
 
     Args:
-        drives: The ways of the site.
+        drives: Drives between places of the site.
         here: The robot's place.
-        places: Places to visit in any order, each with its stand (:func:`with_stands`).
-        home: Place visited afterwards; None if not known or if something else comes first.
+        places: Places to visit in any order, with stands (:func:`with_stands`).
+        home: Place visited afterwards; None if unknown, or if other work comes first.
 
     Returns:
-        Positions in ``places``, each once.
+        Indices into ``places``, each once.
 
     Raises:
-        DriveFault: A place that cannot be reached.
+        DriveFault: A place cannot be reached.
     """
     if not places:
         return ()
     if len(places) == 1:
         return (0,)
     around = [here, *places] if home is None else [here, *places, home]
-    # Every branch of a forecast, and then the robot, asks for the same order.
+    # All branches of a forecast, and then the robot, need the same order.
     known = drives.site.cache.setdefault("orders", {})
     assert isinstance(known, dict)  # noqa: S101  nobody else keeps anything there
     key = (drives, home is None, tuple(p.stand or p.xy for p in around))
@@ -100,7 +100,7 @@ def visits_in_order(
 ) -> tuple[Place, ...]:
     """Return the places that a for-each drives to, in order, each with its stand.
 
-    ``at_most`` keeps the first of a given order; where the order is free, the nearest and from there the nearest again.
+    With ``at_most``, a given order is truncated; with a free order, places are selected by nearest neighbour.
     """
     kept = list(with_stands(drives, here, places))
     if node.at_most is not None and node.at_most < len(kept):
@@ -117,12 +117,12 @@ def visits_in_order(
 def steps_in_order(node: AnyOrder, site: Site, drives: Drives, context: Context, home: Place | None) -> tuple[int, ...]:
     """Return the order of an any-order set's steps with the least driving between where they begin.
 
-    Where a step ends does not count; a step with several places begins at the nearest of them; steps without a place of
-    their own come last, as they stand, and so do optional ones that cannot be driven to.
+    The end of a step does not count, and a step with several places begins at the nearest of them. Steps without a
+    place of their own come last in the given order, as do optional ones that cannot be reached.
 
     Raises:
         PlaceError: A step's place cannot be resolved.
-        DriveFault: A place that cannot be reached.
+        DriveFault: A place cannot be reached.
     """
     begins: dict[int, Place] = {}
     for index, step in enumerate(node.steps):
@@ -137,7 +137,7 @@ def steps_in_order(node: AnyOrder, site: Site, drives: Drives, context: Context,
 
 
 def first_places(node: Node, site: Site, context: Context) -> tuple[Place, ...]:
-    """Return the places of a node's first selector; none if it stays at the current place."""
+    """Return the places of a node's first selector; empty if the node stays at the current place."""
     from fieldhand.places.resolution import resolve
 
     for inner in plan.walk(node):
@@ -152,10 +152,10 @@ def first_places(node: Node, site: Site, context: Context) -> tuple[Place, ...]:
 
 
 def place_of(node: Node, selector: Selector, site: Site, context: Context) -> Place:
-    """Return the place of a selector that must give exactly one.
+    """Return the single place of a selector.
 
     Raises:
-        PlaceError: It gives none, or several; ``where`` names the node.
+        PlaceError: It gives no place or several; ``where`` names the node.
     """
     from fieldhand.places.resolution import resolve_one
 
@@ -187,7 +187,7 @@ def places_of(node: Node, selector: Selector, site: Site, context: Context) -> t
 
 
 def at_node(error: PlaceError, node: Node) -> PlaceError:
-    """Return the error with the plan node that names the place."""
+    """Return the error, located at the plan node that names the place."""
     if error.where == node.id or error.where.startswith(f"{node.id}, "):
         return error
     where = joined(", ", (node.id, error.where)) if error.where else node.id
@@ -201,7 +201,7 @@ def ends_plan(root: Node, node_id: str) -> bool:
 
 
 def way_to(root: Node, node_id: str) -> tuple[Node, ...]:
-    """Return the nodes from the root of a plan to a node, both included; empty if there is none."""
+    """Return the nodes from the root of a plan to a node, both included; empty if the node does not exist."""
     if root.id == node_id:
         return (root,)
     for child in root.children:
@@ -214,7 +214,7 @@ def way_to(root: Node, node_id: str) -> tuple[Node, ...]:
 def home_if_last(task: Task, site: Site, node_id: str, here: Place) -> Place | None:
     """Return home if a node ends the plan and the mission ends there, else None.
 
-    The rule for :func:`order_visits`: home is given to it only when the node ends the plan.
+    This is the rule by which :func:`order_visits` gets its ``home``.
     """
     if task.composition.nominal == "stay" or not ends_plan(task.composition.plan, node_id):
         return None
@@ -222,7 +222,7 @@ def home_if_last(task: Task, site: Site, node_id: str, here: Place) -> Place | N
 
 
 def _nearest_neighbours(lengths: np.ndarray[tuple[int, ...], np.dtype[np.float64]], count: int) -> list[int]:
-    """Return positions by nearest neighbour, starting from the first row."""
+    """Return indices by nearest neighbour, starting from the first row."""
     far = lengths.copy()
     far[:, 0] = np.inf
     at, chain = 0, []

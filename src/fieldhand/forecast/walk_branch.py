@@ -1,4 +1,4 @@
-"""Walk a Task along one branch without a robot: drives, order and work."""
+"""Walk a Task along one branch without a robot, to find its drives, visiting order and work."""
 
 from __future__ import annotations
 
@@ -28,21 +28,21 @@ def walk_branch(
     charge_percent: float = 100.0,
     optional: OptionalWorkPolicy | None = None,
 ) -> Walk:
-    """Walk a Task from the start of the site to its exit for any answers, even on an impossible branch.
+    """Walk a Task from the start of the site to its exit with given answers, even contradictory ones.
 
     Args:
         task: The Task.
         site, robot: The site and the robot.
-        holds: Asked for the id of each ``If`` that is reached, and of a loop with ``until`` after each of its rounds.
-        fails: Asked for the id of each action inside a ``Try``; what is outside one does not fail in a forecast.
-        drives: The ways of the site, if the caller has them; they remember what they found.
-        charge_percent: Charge at the beginning.
-        optional: Decides on optional visits and steps; by default those are taken that missions probably do.
+        holds: Called with the id of each ``If`` that is reached, and of a loop with ``until`` after each of its rounds.
+        fails: Called with the id of each action inside a ``Try``; actions outside of one never fail in a forecast.
+        drives: Drives between places of the site; None to compute them.
+        charge_percent: Battery charge at the start of the mission, 0 to 100.
+        optional: Policy for optional visits and steps; by default the most probable ones are made.
 
     Raises:
-        PlaceError: A selector gives nothing, or several places where one is needed; ``where`` names the node.
-        DriveFault: A place that cannot be reached.
-        TaskError: It comes to more than ``MAX_NODES`` nodes.
+        PlaceError: A selector gives no place, or several where one is needed; ``where`` names the node.
+        DriveFault: A place cannot be reached.
+        TaskError: The walk exceeds ``MAX_NODES`` nodes.
     """
     ways = drives or visit_order.drives_for(site, robot)
     walker = ForecastHandler(

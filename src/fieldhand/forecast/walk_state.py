@@ -1,4 +1,4 @@
-"""The state of a walk: its steps and answers, its place, the resources used."""
+"""The state of a walk: its steps and answers, current place, and resources used."""
 
 from __future__ import annotations
 
@@ -25,19 +25,19 @@ if TYPE_CHECKING:
 
 
 def _always(node_id: str) -> bool:  # noqa: ARG001
-    """Every condition holds."""
+    """Answer that every condition holds."""
     return True
 
 
 @dataclass(frozen=True, kw_only=True)
 class Answers:
-    """Sources of the answers that a walk cannot know.
+    """Sources of the answers that a walk cannot determine itself.
 
     Attributes:
-        holds: Asked for the id of each ``If`` that is reached, and of a loop with ``until`` after each of its rounds.
-        fails: Asked for the id of each action inside a ``Try``; what is outside one does not fail in a walk.
-        blocked: Asked for the id of each node inside a ``Try`` that drives: whether it never arrives.
-        taken: Asked for the id of each optional step, where a walk does not do what missions do on average.
+        holds: Called with the id of each ``If`` that is reached, and of a loop with ``until`` after each of its rounds.
+        fails: Called with the id of each action inside a ``Try``; actions outside of one never fail on a walk.
+        blocked: Called with the id of each driving node inside a ``Try``; True if the drive never arrives.
+        taken: Called with the id of each optional step, if the walk does not make the most probable choice.
     """
 
     holds: Answer = _always
@@ -46,7 +46,7 @@ class Answers:
     taken: Answer = never
 
     def of(self, kind: DecisionKind) -> Answer:
-        """Return the source of answers of a kind."""
+        """Return the source of answers to a kind of decision."""
         by_kind: dict[DecisionKind, Callable[[str], bool]] = {
             "holds": self.holds,
             "fails": self.fails,
@@ -60,11 +60,11 @@ class WalkState:
     """The state of a walk.
 
     Args:
-        task, site, robot, drives: The mission.
-        answers: To what it cannot know.
+        task, site, robot, drives: Task, site, robot and drives of the mission.
+        answers: Answers that the walk cannot determine itself.
         context: Initial context; the start of the site by default.
-        samples: Missions that use what the walk takes, each with its own luck; None for none.
-        readings: What was read on the way; None where a walk begins somewhere on a mission and cannot know.
+        samples: Missions sampled along the walk; None to sample none.
+        readings: Readings taken on the way; None if the walk begins in the middle of a mission, where they are unknown.
     """
 
     def __init__(
@@ -81,31 +81,31 @@ class WalkState:
     ) -> None:
         self.task, self.site, self.robot, self.drives = task, site, robot, drives
         self._answers, self.readings = answers, readings
-        #: Where the walk began.
+        #: Initial context of the walk.
         self.beginning = context or Context(here=visit_order.start_place(drives))
         self.context = self.beginning
         self._visited = VisitedIds(self.beginning.visited)
-        #: Where the robot itself is: the place in hand, or where a drive was blocked.
+        #: Position of the robot itself: the current place, or the point where a drive was blocked.
         self._standing = self.context.here
         self._speed = speed_of(task.constraints, robot)
         self.steps: list[WalkStep] = []
         self.decisions: list[Decision] = []
-        #: Tests of readings that nothing had taken: node and reading.
+        #: Tests of readings that were not taken: node id and reading.
         self.unread: list[tuple[str, str]] = []
-        #: Id of the node that drove last, or tried to.
+        #: Id of the node of the last drive, successful or not.
         self.bound_for = ""
-        #: The nodes in hand.
+        #: Execution of the plan, with its current nodes.
         self.plan = PlanRun(task.composition.plan)
         self.samples = samples
         self.spent = Spent()
-        #: Every place that was gone to, in order; also those where the walk stood already.
+        #: Destinations in order, including those at which the walk already was.
         self.stops: list[Place] = []
 
     def _drive_to(self, node: Node, place: Place) -> None:
         if place.xy != self.context.here.xy or self._stuck:
             leg = self._leg(node, "drive", place)
             if self.plan.is_caught and self.decide(node, "blocked"):
-                # As bad as it gets: all of the way is driven, and the robot stands just before the place.
+                # Worst case: the whole way is driven, and the robot stops just before the place.
                 self.note(replace(leg, reached=False))
                 self._standing = _on_the_way(leg.places[0])
                 raise Failed(node.id)
@@ -151,7 +151,7 @@ class WalkState:
         )
 
     def decide(self, node: Node, kind: DecisionKind) -> bool:
-        """Return the answer to what the walk cannot know, and record it as a decision."""
+        """Return the answer to a question that the walk cannot determine itself, and record it as a decision."""
         condition = node.tested if kind == "holds" else None
         possible: tuple[bool, ...] = (True, False)
         if condition is not None and self.readings is not None:
@@ -173,7 +173,7 @@ class WalkState:
             self.context = Context(here=self.context.here, visited=self.context.visited, bound=bound)
 
     def note(self, step: WalkStep) -> None:
-        """Add a step, and what it uses."""
+        """Add a step and the resources it uses."""
         self.steps.append(step)
         metres = 0.0 if step.drive is None else step.drive.length_m
         if self.samples is not None and self.plan.optional is None:

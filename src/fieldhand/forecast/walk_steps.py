@@ -18,12 +18,12 @@ if TYPE_CHECKING:
 StepKind = Literal["drive", "act", "visit-list", "decide", "exit"]
 DecisionKind = Literal["holds", "fails", "blocked", "taken"]
 
-#: Answers a question about a node by its id: does its condition hold, does its action fail.
+#: Answers a question about a node, given its id: whether its condition holds, or its action fails.
 Answer = Callable[[str], bool]
 
 
 def never(node_id: str) -> bool:  # noqa: ARG001
-    """No action fails."""
+    """Answer that no action fails."""
     return False
 
 
@@ -32,12 +32,12 @@ class Decision:
     """One answer along a walk.
 
     Attributes:
-        node: Whose condition (``If``, or ``until`` of a loop), whose action or drive inside a ``Try``, which optional
-            step or for-each.
+        node: Id of the node with the condition (``If``, or ``until`` of a loop), of the action or drive inside a
+            ``Try``, or of the optional step or for-each.
         kind: ``holds`` for a condition, ``fails`` for an action, ``blocked`` for a drive that never arrives, ``taken``
             for an optional step.
-        sure: No other answer can be on this branch: what was read before, or the site, says it.
-        place: Id of the place in hand.
+        sure: True if earlier readings or the site determine the answer on this branch.
+        place: Id of the current place.
     """
 
     node: str
@@ -62,21 +62,21 @@ class VisitForecast:
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class WalkStep:
-    """One thing that happens.
+    """A step of a walk: a drive, an action, a decision, a list of visits, or the exit.
 
     Attributes:
-        node: The plan node that it belongs to; for the exit, the ``Stop`` that takes it or the root of the plan.
-        kind: ``visit-list`` where a for-each has found its places, or where an optional step is decided on (a list of
-            one place, where it begins); ``exit`` for the way home, else what it says.
+        node: Plan node that the step belongs to; for the exit, the ``Stop`` that takes it or the root of the plan.
+        kind: Kind of step. ``visit-list``: a for-each has found its places, or an optional step is decided on (a list
+            of the one place where it begins); ``exit``: the way home; the others as named.
         context: The robot's place and visited trees before the step.
-        places: Of a drive or an exit, where to; of an act, where; of a visit list, the places in their order.
-        shed: Of a visit list, places for which the budget will hardly last.
+        places: Destination of a drive or an exit, place of an act, or places of a visit list in order.
+        shed: Places of a visit list for which the budget will probably not suffice.
         visit_forecast: Forecast of a list of optional visits.
-        drive: The way, of a drive, and of an exit that goes anywhere.
+        drive: Path of a drive, or of an exit that includes one.
         captures: Number of captures of an act.
-        seconds, joules: Mean time and energy of the step; energy without idle power.
+        seconds, joules: Mean time in seconds and energy in joules of the step; energy without idle power.
         answer: Answer of a decision.
-        reached: False of a drive that is blocked just before its end.
+        reached: False for a drive that is blocked just before its end.
     """
 
     node: Node
@@ -102,9 +102,10 @@ class Walk:
     Attributes:
         end: Final place of the robot.
         exit: Exit that was taken.
-        decisions: In the order in which they came up; they tell one walk from another.
-        unread: Conditions that test what nothing has read on this branch: id of the node, and the reading.
-        used: What missions use that go this way, each with its own optional visits; None where none were drawn.
+        decisions: Decisions in order, which identify the walk.
+        unread: Conditions that test a reading not taken on this branch: id of the node, and the reading.
+        used: Resources used by the missions sampled along the walk, each with its own optional visits; None if none
+            were sampled.
     """
 
     steps: tuple[WalkStep, ...]

@@ -1,4 +1,4 @@
-"""Check whether an assumed way home takes too large a share of a budget for optional visits."""
+"""Check of the share that an assumed way home takes of the budget for optional visits."""
 
 from __future__ import annotations
 
@@ -10,21 +10,21 @@ from fieldhand.site.model import Site
 from fieldhand.task.frames import Task, Then
 from fieldhand.task.plan import walk
 
-#: The way home may take this part of a budget before it is left out of a mission that did not ask for it.
+#: Fraction of a budget above which a way home that was not requested is left out.
 MAX_SHARE = 1 / 3
 
 
 def excessive_way_home(task: Task, site: Site, robot: RobotProfile, then: Then) -> float | None:
-    """Return the metres of the way home from the start if it takes much of a budget for optional visits.
+    """Return the length of the way home in metres, if it takes too much of a budget for optional visits.
 
-    A mission that visits as many trees as a budget allows would spend the budget on the way home in place of trees.
+    A mission that visits as many trees as its budget allows would otherwise spend the budget on the way home.
 
     Args:
-        task: With its budgets; only one with optional visits is looked at.
-        then: The exit that is assumed.
+        task: Task with its budgets; only one with optional visits is checked.
+        then: The assumed exit.
 
     Returns:
-        None where the way home is worth it, or leads nowhere.
+        None if the way home is short enough, or no drive is needed.
     """
     optional = any(n.is_optional and n.visits_each for n in walk(task.composition.plan))
     if not task.constraints.budgets or not optional:
