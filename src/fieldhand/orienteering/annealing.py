@@ -13,8 +13,8 @@ from fieldhand.orienteering.prepared_problem import PreparedProblem
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-#: Temperatures of the first and of the last round, in rewards of a typical vertex, and what part of all reward the
-#: whole budget counts for: chosen by trial on 100 to 1,000 random vertices.
+#: Initial and final temperature in rewards of a typical vertex, and the penalty for using the whole budget as a
+#: fraction of the total reward; tuned on 100 to 1,000 random vertices.
 HOT = 3.0
 WARM = 0.5
 _COLD = 0.1
@@ -28,11 +28,11 @@ class Annealing:
         prepared: The problem.
         here: First vertex of the route.
         free: Vertices that may be visited.
-        budgets: Amount that may be used of each limit.
-        tables: For each limit the quantiles of the cost that may not exceed its budget (:func:`quantile_table`).
-        stops: The route to begin with; where it takes too much, those of its stops worth least are left out.
-        state: One word, the state of the random numbers.
-        max_visits: Stops that the route may have; None for any number.
+        budgets: Amount left of each limit.
+        tables: For each limit the standardised cost quantiles at its failure probability (:func:`quantile_table`).
+        stops: Initial route; if it exceeds a limit, its least valuable stops are removed.
+        state: State of the random generator, one word.
+        max_visits: Maximum number of stops; None for no limit.
     """
 
     def __init__(
@@ -86,8 +86,8 @@ class Annealing:
 
         Args:
             rounds: Number of rounds.
-            heat: Temperature at the beginning of all rounds, in rewards of a typical vertex.
-            done, then: Share of all rounds done before these and after them.
+            heat: Initial temperature over all rounds, in rewards of a typical vertex.
+            done, then: Fraction of all rounds completed before and after this call.
         """
         if not len(self._free) or rounds < 0:
             return
@@ -110,6 +110,6 @@ class Annealing:
 
 
 def stops_of(stops: Sequence[int], free: Ints) -> Ints:
-    """Return the stops that are free, in their order."""
+    """Return the stops that are free, in the given order."""
     inside = set(free.tolist())
     return np.array([v for v in stops if v in inside], dtype=np.int64)

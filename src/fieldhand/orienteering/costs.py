@@ -14,13 +14,13 @@ from fieldhand.errors import ProblemError
 
 Floats = NDArray[np.float64]
 
-#: Probabilities between which the slices of a distribution lie: finer where costs are high, for these decide.
+#: Probabilities that bound the slices of a distribution: finer at high costs, which determine the overrun.
 _EDGES = np.array([0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.88, 0.94, 0.97, 0.985, 0.995, 1.0])
 _FINE = 64
 
 
 class CostModel(Protocol):
-    """The distribution of the factor, which has mean 1."""
+    """The distribution of the random factor by which a leg's length is multiplied; its mean is 1."""
 
     def cumulants(self) -> tuple[float, float]:
         """Return the variance and the third central moment of the factor."""
@@ -37,7 +37,7 @@ class CostModel(Protocol):
 
 @dataclass(frozen=True)
 class ShiftedExponential:
-    """``alpha + Exp``, the exponential part with mean ``1 - alpha``: the model of the published experiments."""
+    """``alpha + Exp`` with an exponential part of mean ``1 - alpha``: the model of the published experiments."""
 
     alpha: float = 0.5
 
@@ -58,7 +58,7 @@ class ShiftedExponential:
 
 @dataclass(frozen=True)
 class Deterministic:
-    """A leg costs its length."""
+    """A deterministic cost: each leg costs its length."""
 
     def cumulants(self) -> tuple[float, float]:
         return 0.0, 0.0
@@ -72,7 +72,7 @@ class Deterministic:
 
 @dataclass(frozen=True)
 class Gamma:
-    """Gamma distributed with this coefficient of variation (standard deviation by mean)."""
+    """A gamma distribution with a given coefficient of variation (standard deviation divided by mean)."""
 
     variation: float
 
@@ -95,7 +95,7 @@ class Gamma:
 
 @dataclass(frozen=True)
 class Lognormal:
-    """Lognormally distributed with this coefficient of variation (standard deviation by mean)."""
+    """A lognormal distribution with a given coefficient of variation (standard deviation divided by mean)."""
 
     variation: float
 
@@ -119,9 +119,9 @@ class Lognormal:
 
 @dataclass(frozen=True, eq=False)
 class Empirical:
-    """Factors that were measured: cost divided by length of at least two legs.
+    """An empirical distribution of measured factors: cost divided by length, of at least two legs.
 
-    The samples are divided by their mean; lengths are to be scaled by it where it is not 1.
+    The samples are divided by their mean; if it is not 1, the caller must scale the lengths by it.
     """
 
     samples: Sequence[float]
@@ -145,7 +145,7 @@ class Empirical:
 
 
 def slices(model: CostModel) -> tuple[Floats, Floats]:
-    """Return the factor as points and weights for the compiled loops; if exponential, its parameters and no weights."""
+    """Return the factor as points and weights for the compiled loops; an exponential has only parameters."""
     if isinstance(model, ShiftedExponential):
         return np.array([model.alpha, 1.0 - model.alpha]), np.zeros(0)
     if model.cumulants()[0] <= 0.0:
@@ -154,7 +154,7 @@ def slices(model: CostModel) -> tuple[Floats, Floats]:
     inside = (np.arange(_FINE) + 0.5) / _FINE
     points = model.quantile((_EDGES[:-1, None] + weights[:, None] * inside).reshape(-1))
     points = points.reshape(-1, _FINE).mean(axis=1)
-    # What the finest slice still leaves out of the far tail goes to the last point: the mean stays 1.
+    # The part of the tail beyond the finest slice is added to the last point, so that the mean stays 1.
     points[-1] += max(0.0, 1.0 - float(weights @ points)) / weights[-1]
     return points, weights
 

@@ -1,7 +1,7 @@
 """One decision of a mission that may skip stops: candidate visiting orders and the value of each.
 
-What a mission is to make much of is ``E[(reward + bonus) * keeps to the limits]``: reward counts where the mission
-succeeds, and success itself counts ``bonus``, the price on a failure. A bonus below 0 gives up safety for reward.
+A mission maximises ``E[(reward + bonus) * success]``, where success means that no limit is exceeded: reward counts only
+on success, and success itself counts ``bonus``, the price of a failure. A bonus below 0 trades safety for reward.
 """
 
 from __future__ import annotations
@@ -23,29 +23,30 @@ from fieldhand.orienteering.prepared_problem import PreparedProblem
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-#: Stops in an order from which on it is driven as planned, without a programme of what to skip.
+#: Orders with more stops than this are driven as planned, without a dynamic programme that decides what to skip.
 LONG = 64
-#: Levels of the fixed routes that a mission's first order is grown from.
+#: Overrun probabilities of the fixed routes from which the first order of a mission is grown.
 _FIRST = (0.15, 0.4)
-#: Stops in an order from which on it is taken apart less often.
+#: Orders with more stops than this are remade proportionally less often.
 _SHORT = 24
-#: Times the amount left over which the programme of missions with luck reaches at most.
+#: Maximum range of the programme for missions with cheap legs, as a multiple of the current amount left.
 _WIDEST = 4
-#: How far out of reach, as legs cost on average, a vertex may be that luck may bring within it.
+#: Vertices up to this multiple of the budget away, at mean leg cost, are considered: cheap legs may bring them within
+#: reach.
 _LUCK = 1.15
 
 
 @dataclass(frozen=True, kw_only=True)
 class SearchEffort:
-    """Search effort per decision, counted, so that the same problem gives the same mission on any machine.
+    """Search effort per decision, counted in steps so that a problem gives the same mission on any machine.
 
     Attributes:
-        levels: Chances of exceeding the budget at which fixed routes are searched to begin with.
-        rounds: Annealing rounds for each of them.
-        insertions: Stops that the order made of each may gain.
-        skip: Stops ahead that may be driven to.
-        points: Grid points of the amount left.
-        remakes: Times the initial order of a mission is partly removed and grown again.
+        levels: Overrun probabilities at which the initial fixed routes are searched.
+        rounds: Annealing rounds per initial route.
+        insertions: Maximum number of stops inserted into each initial route.
+        skip: Number of stops ahead among which the next one is chosen.
+        points: Number of grid points for the amount left.
+        remakes: How often part of a mission's initial order is removed and grown again.
     """
 
     levels: tuple[float, ...] = (0.4,)
@@ -58,12 +59,12 @@ class SearchEffort:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class SuccessAfterLeg:
-    """The chance to keep to the limits after a leg, as the programme has it before the leg is driven.
+    """The probability of success after a leg, by amount left, as computed before the leg is driven.
 
     Attributes:
-        limit: The programme runs over what is left of this one.
-        step: Between the points of its grid, from 0 on.
-        success: The chance at each of them, after the leg and the work at its end.
+        limit: Index of the limit whose amount left is the state of the programme.
+        step: Distance between grid points; the first point is 0.
+        success: Probability at each grid point, after the leg and the work at its end.
     """
 
     limit: int
@@ -81,10 +82,10 @@ class VisitOrder:
     """Stops in visiting order; the robot may skip some of them.
 
     Attributes:
-        stops: The stops, without the ends.
-        first: Position of the one that is driven to now; ``len(stops)`` for the end.
-        worth: Reward still to come, of missions that keep to the limits (0 for others), on average.
-        success: Chance that they do.
+        stops: The stops, without start and end.
+        first: Index of the next stop; ``len(stops)`` for the end.
+        worth: Expected further reward; missions that exceed a limit count 0.
+        success: Probability that no limit is exceeded.
     """
 
     stops: Ints
@@ -98,16 +99,16 @@ class VisitOrder:
 
 
 class DecisionSearch:
-    """A search for the best visiting order from one vertex, with the amounts left and the free vertices.
+    """A search for the best visiting order from one vertex, given the amounts left and the free vertices.
 
     Args:
         prepared: The problem.
-        here: The vertex.
+        here: Current vertex.
         left: Amount left of each limit.
         free: True for each vertex that may still be visited, shape (n,).
         effort: Search effort.
         state: State of the random generator.
-        max_visits: Stops that may still be visited; None for any number.
+        max_visits: Maximum number of further stops; None for no limit.
     """
 
     def __init__(
@@ -123,7 +124,7 @@ class DecisionSearch:
         self._max_visits = prepared.size if max_visits is None else max_visits
         self._prepared, self._here, self._effort, self._state = prepared, here, effort, state
         self._left = np.array(left, dtype=np.float64)
-        # The programme runs over what is left of the limit with least; the others come in by what they ask of it.
+        # The programme runs over the amount left of the tightest limit; the others enter as minimum amounts of it.
         by_budget = np.argsort(self._left, kind="stable")
         self._binding, self._budgets = int(by_budget[0]), self._left[by_budget]
         self._step = max(float(self._budgets[0]), 1e-300) / effort.points
@@ -142,7 +143,7 @@ class DecisionSearch:
         return found.best
 
     def is_safe(self, stops: Ints) -> bool:
-        """Return True if a fixed route keeps each limit with the chance that it accepts."""
+        """Return True if a fixed route keeps to each limit's failure probability."""
         prepared, problem = self._prepared, self._prepared.problem
         route = [self._here, *stops.tolist(), problem.end]
         legs = np.array([problem.length(a, b) for a, b in itertools.pairwise(route)])
@@ -169,7 +170,7 @@ class DecisionSearch:
         )
 
     def chances(self, stops: Ints, bonus: float) -> Floats:
-        """Return the probability of each stop of an order to be visited, if the mission only skips stops."""
+        """Return for each stop of an order the probability of a visit, if the mission only skips stops."""
         prepared, step = self._prepared, self._step
         route, choice, _ = self._programme(stops, bonus)
         mass = np.empty(choice.shape)
@@ -185,15 +186,15 @@ class DecisionSearch:
         return self._binding
 
     def choices(self, stops: Ints, bonus: float, most_left: float) -> tuple[Ints, float]:
-        """Return what a mission would do that only skips stops of an order.
+        """Return the choices of a mission that only skips stops of an order.
 
         Args:
-            stops, bonus: The order; what keeping to the limits counts.
+            stops, bonus: The order, and the value of success.
             most_left: Largest amount left of the binding limit over all missions.
 
         Returns:
-            For each position (0 for here) and amount left the position that it drives to, ``len(stops) + 1`` for the
-            end; and the step from an amount to the next, the first being 0.
+            For each position (0 for the current vertex) and amount left the next position, ``len(stops) + 1`` for the
+            end; and the step between amounts, of which the first is 0.
         """
         size = max(self._effort.points, int(np.ceil(most_left / self._step))) + 1
         return self._programme(stops, bonus, min(size, _WIDEST * self._effort.points))[1], self._step
@@ -212,7 +213,7 @@ class DecisionSearch:
 
     def remade(self, order: VisitOrder, bonus: float) -> VisitOrder:
         """Remove and reinsert stops several times; return the best order found."""
-        # Programmes of long orders take long; they are made anew under way.
+        # Programmes of long orders take long to compute, and they are replanned on the way anyway.
         for _ in range(self._effort.remakes * _SHORT // max(_SHORT, len(order.stops))):
             kept = self._thinned(order.stops)
             other = self.order(kept, bonus, len(order.stops) - len(kept) + 1)
@@ -268,7 +269,7 @@ class DecisionSearch:
         return route, choice, success
 
     def _thinned(self, stops: Ints) -> Ints:
-        """Return the stops without one to three of them, consecutive or near a random free vertex."""
+        """Return the stops with one to three of them removed, either consecutive or near a random free vertex."""
         gone = 1 + int(3.0 * uniform(self._state))
         if uniform(self._state) < 0.5:
             first = int(uniform(self._state) * len(stops))

@@ -1,4 +1,4 @@
-"""A sparse drivable graph: junctions and the edges between them; vertices worth a visit are some of its nodes."""
+"""A sparse graph of drivable ways. The vertices of an orienteering problem are a subset of its nodes."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-#: The most vertices whose distances are kept in double precision.
+#: Maximum number of vertices with distances in double precision.
 DOUBLE = 1_000
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Network:
-    """Ways that can be driven in both directions.
+    """An undirected graph of ways.
 
     Attributes:
         nodes: Number of nodes, numbered from 0.
@@ -34,7 +34,7 @@ class Network:
         lengths: Lengths of the edges, shape (m,).
 
     Raises:
-        ProblemError: A node that does not exist; a length that is negative or not a number.
+        ProblemError: A node does not exist, or a length is negative or not a number.
     """
 
     nodes: int
@@ -67,7 +67,7 @@ class Network:
         return np.minimum(found, found.T)
 
     def table(self, nodes: Sequence[int]) -> Table:
-        """Return the shortest distances between some nodes, each named once, in single precision.
+        """Return the shortest distances between distinct nodes in single precision.
 
         Raises:
             ProblemError: The nodes are too many.
@@ -84,12 +84,12 @@ class Network:
         order = np.lexsort((lengths, heads, tails))
         order = order[tails[order] != heads[order]]
         tails, heads = tails[order], heads[order]
-        # Of several edges between two nodes the shortest counts.
+        # Of parallel edges the shortest counts.
         other = np.ones(len(order), dtype=bool)
         other[1:] = (np.diff(tails) != 0) | (np.diff(heads) != 0)
         starts = np.zeros(self.nodes + 1, dtype=np.int64)
         np.cumsum(np.bincount(tails[other], minlength=self.nodes), out=starts[1:])
-        # An entry of 0 would mean no way.
+        # A sparse array treats 0 as no edge.
         kept = np.maximum(lengths[order][other].astype(np.float64), 1e-300)
         return csr_array((kept, heads[other].astype(np.int32), starts), shape=(self.nodes, self.nodes))
 
@@ -105,9 +105,9 @@ class Network:
         """Return the problem over the nodes that are worth a visit, with the node of each of its vertices.
 
         Args:
-            rewards: Reward of every node, 0 for a mere junction.
-            start, end: Nodes.
-            limits: With service for every node, where there is any.
+            rewards: Reward of every node; 0 for a plain junction.
+            start, end: Nodes at which routes start and end.
+            limits: Limits; service, if any, has one entry per node.
             costs: Cost model of the legs.
             precision: Precision of the distances; None for double up to ``DOUBLE`` vertices, single beyond.
 

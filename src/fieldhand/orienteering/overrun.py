@@ -1,7 +1,7 @@
-"""The probability that the legs of a route cost more than is left.
+"""The probability that the legs of a route cost more than the amount left.
 
-Cumulants of independent legs add up; the sum is taken as the Pearson III distribution (a shifted gamma) through its
-first three. docs/orienteering.md says how far that is from sampling.
+Cumulants of independent legs add up; the total is approximated by the Pearson III distribution (a shifted gamma) with
+the same first three cumulants. docs/orienteering.md gives the error against sampling.
 """
 
 from __future__ import annotations
@@ -18,7 +18,8 @@ _SYMMETRIC = 1e-3
 def overrun_probability(mean: ArrayLike, variance: ArrayLike, third: ArrayLike, left: ArrayLike) -> Floats:
     """Return P(cost > ``left``) of a sum with three known cumulants, elementwise (Pearson III).
 
-    Exact for equal exponential or gamma legs, and for certain ones. docs/orienteering.md has its error for others.
+    Exact for deterministic legs and for equal exponential or gamma legs; docs/orienteering.md gives the error for
+    others.
 
     Args:
         mean, variance, third: Cumulants of the sum: mean, variance, third central moment.
@@ -50,9 +51,9 @@ def quantile_table(chance: float) -> Floats:
 
 
 def standardised_quantile(table: Floats, variance: float, third: float) -> float:
-    """The entry of a :func:`quantile_table` for a sum with this variance and third central moment; 0 for a certain one.
+    """Return the entry of a :func:`quantile_table` for a sum with given central moments; 0 for a deterministic one.
 
-    Times the standard deviation it is by how much the sum exceeds its mean with the table's chance.
+    Multiplied by the standard deviation, it is the excess over the mean that is exceeded with the table's probability.
     """
     if variance <= 0.0:
         return 0.0

@@ -1,7 +1,7 @@
-"""The adaptive orienteering policy: it plans again after every leg and may skip stops.
+"""The adaptive orienteering policy, which replans after every leg and may skip stops.
 
-Exceeding a limit has a price in reward, constant over the mission, at which the failure probability of the whole
-mission equals the accepted one. docs/orienteering.md derives it.
+Exceeding a limit costs a price in reward, constant over the mission and chosen so that the failure probability of the
+whole mission equals the accepted one. docs/orienteering.md derives it.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Expectation", "Policy", "Route", "State", "StoppingCriterion", "compile_ahead", "solve"]
 
-#: Target failure probability of the initial order, as a fraction of the accepted one. A mission that plans again after
-#: every leg fails more or less often than one that only shortens its order; measured, by up to a third.
+#: Target failure probability of the initial order, as a fraction of the accepted one. A mission that replans after
+#: every leg fails up to a third more or less often (measured) than one that only skips stops of its order.
 _AIM = 0.8
 _PRICINGS = 3
 _BISECTIONS = 24
@@ -37,9 +37,9 @@ class State:
 
     Attributes:
         vertex: Index of the vertex at which the robot is.
-        left: Remaining amount of each limit, in the order and units of the problem's limits; may be negative.
+        left: Remaining amount of each limit, in the order and unit of the problem's limits; may be negative.
         visited: Vertices whose reward was collected.
-        given_up: Vertices that must not be visited any more, without a collected reward.
+        given_up: Vertices that must not be visited any more although their reward was not collected.
     """
 
     vertex: int
@@ -53,8 +53,9 @@ class Expectation:
     """The expected outcome of the rest of a mission.
 
     Attributes:
-        vertices: Planned order from the current vertex to the end; the actual leg costs decide which are skipped.
-        reward: Expected further reward of missions within the limits.
+        vertices: Planned order from the current vertex to the end; which of them are skipped depends on the actual leg
+            costs.
+        reward: Expected further reward; missions that exceed a limit count 0.
         success: Probability of keeping all limits.
     """
 
@@ -66,23 +67,24 @@ class Expectation:
 class Policy:
     """An adaptive policy for a stochastic orienteering problem (``fh.Policy``).
 
-    Ask :meth:`next` before each leg; it plans again from the robot's state. One object serves one mission.
+    Call :meth:`next` before each leg; it replans from the robot's current state. One object serves one mission.
 
     Example:
         >>> policy = Policy(problem, seed=1)
         >>> policy.next(State(vertex=problem.start, left=(120.0,)))  # 120 of the only limit are left
 
     Args:
-        problem: Problem before the mission: vertices, rewards, leg costs and limits.
+        problem: Problem at the start of the mission: vertices, rewards, leg costs and limits.
         seed: Seed of the random generator; equal seeds and leg costs give equal decisions.
         effort: Search effort per decision.
         risk_tolerance: Weight of reward against safety, 0 to 1: the price of a failure may fall to minus this share of
-            the expected reward. At 0 the policy collects the most over all missions, near 1 the most over successful
-            missions, for which it uses up the whole failure probability.
-        price: Price of a failure in reward, besides the lost reward; None to compute it at the first decision.
-        collected: Reward collected before, if the problem is the rest of a mission.
+            the expected reward. At 0 the policy maximises the mean reward over all missions; near 1 that of successful
+            missions, using up the whole failure probability.
+        price: Price of a failure in units of reward, in addition to the lost reward; None to compute it at the first
+            decision.
+        collected: Reward already collected, if the problem is the remainder of a mission.
         warm: Initial order of vertices for the search.
-        prepared: Prepared problem, if the caller has computed it already.
+        prepared: Result of :func:`prepare_problem` for ``problem``, if the caller already has it.
 
     Raises:
         ProblemError: ``risk_tolerance`` is not a number from 0 to 1.
@@ -117,7 +119,7 @@ class Policy:
 
     @property
     def expectation(self) -> Expectation:
-        """Return the expectation of the last decision."""
+        """Return the expected outcome as of the last decision."""
         return self._expectation
 
     @property
@@ -134,7 +136,7 @@ class Policy:
     def plan(self) -> tuple[DecisionSearch, VisitOrder, float] | None:
         """Return the search, order and bonus of the last decision.
 
-        None where there is nothing to decide, and where the order is long and driven as planned.
+        None if there was nothing to decide, or if the order is so long that it is driven as planned.
         """
         return self._last
 
@@ -162,15 +164,16 @@ class Policy:
         )
 
     def next(self, state: State, seconds: float | None = None) -> int:
-        """Return the next vertex to visit; the problem's end if no visit is worth its risk.
+        """Return the next vertex to visit, or the problem's end if no visit is worth its risk.
 
         Args:
             state: State of the mission.
-            seconds: Time to search; None for the counted effort, which alone is reproducible on any machine.
+            seconds: Search time in seconds; None to search by the counted effort, which gives reproducible results on
+                any machine.
 
         Raises:
-            ProblemError: The state is none of this problem: a vertex that does not exist, an amount that is missing or
-                not a number.
+            ProblemError: The state does not fit the problem: a vertex does not exist, or an amount is missing or not a
+                number.
         """
         from fieldhand.orienteering.annealing import stops_of
         from fieldhand.orienteering.decision import LONG, DecisionSearch, VisitOrder
@@ -193,12 +196,12 @@ class Policy:
         accepted = min(limit.failure_probability for limit in self._problem.limits)
         safe: tuple[int, ...] = ()
         if certain or len(search.free) > LONG:
-            # As likely to fail as is accepted, not as likely as not: a long last leg takes its risk all at once, when
-            # no stop is left that could be skipped.
+            # Search at the accepted probability, not at 50 %: a long last leg takes its risk all at once, when no stop
+            # is left that could be skipped.
             route = search.route(accepted, self._warm, self._rounds(search))
             while seconds is not None and time.perf_counter() - began < seconds:
                 route = search.route(accepted, route.tolist(), 16 * self._effort.rounds)
-            # Of legs that are certain nothing is to be learnt on the way: the best route is the best policy.
+            # With deterministic legs nothing is learned on the way: the best route is the best policy.
             if certain or len(route) > LONG:
                 ahead = VisitOrder(stops=route, first=0, worth=self._reward(route.tolist()), success=1.0)
                 return self._settle(state, ahead)
@@ -219,7 +222,7 @@ class Policy:
         if new and order.first == len(order.stops):
             setting_out = self._safe_route(search, accepted, safe)
             if setting_out is not None:
-                # The price is found anew after that leg, for what is left of this route.
+                # The price is computed anew after that leg, for the remainder of this route.
                 self._price, self._begun = None, False
                 return self._settle(state, setting_out)
         elif safe:
@@ -231,9 +234,9 @@ class Policy:
         return self._settle(state, order)
 
     def chances(self) -> dict[int, float]:
-        """Return the probability of each vertex of the expected order to be visited, if the mission only skips some.
+        """Return for each vertex of the planned order the probability of a visit, if the mission only skips stops.
 
-        Those that a policy plans anew for are not in it; where the order is long and driven as planned, all are 1.
+        Vertices that only a new plan would add are not included. If the order is long and driven as planned, all are 1.
         """
         ahead = self._expectation.vertices[1:-1]
         if self._last is None or not ahead:
@@ -261,12 +264,12 @@ class Policy:
             )
 
     def _priced(self, search: DecisionSearch, collected: float, safe: Sequence[int]) -> float:
-        """Return the least price at which the best order keeps to the binding failure probability.
+        """Return the lowest price at which the best order keeps to the binding failure probability.
 
         Args:
             search, collected: The search from the current state; reward already collected.
-            safe: Stops of a fixed route planned at the accepted chance, where there is one. It can be safer than any
-                part of the order worth most at no price: many short legs are less uncertain than one long leg home.
+            safe: Stops of a fixed route planned at the accepted probability, if there is one. It can be safer than any
+                part of the order that is best at price 0: many short legs are less uncertain than one long leg home.
         """
         from fieldhand.orienteering.annealing import stops_of
 
@@ -276,7 +279,7 @@ class Policy:
         if safe and order.success < accepted and order.first < len(order.stops):
             begun = search.order(stops_of(safe, search.free), price + collected, 0)
             safer = self._at_least_price(search, begun, collected, accepted)
-            # An order that shrank to nothing has a price that means nothing.
+            # The price of an order without stops is meaningless.
             if safer[1].success > order.success and safer[1].first < len(safer[1].stops):
                 price, order = safer
         self._plan(order)
@@ -285,7 +288,7 @@ class Policy:
     def _at_least_price(
         self, search: DecisionSearch, order: VisitOrder, collected: float, accepted: float
     ) -> tuple[float, VisitOrder]:
-        """Return the least price at which an order is safe enough, and the order improved at that price."""
+        """Return the lowest price at which an order is safe enough, and the order improved at that price."""
         price = 0.0
         for _ in range(_PRICINGS):
             expected = order.worth / max(order.success, 1e-9) + collected
@@ -303,14 +306,14 @@ class Policy:
         return price, order
 
     def _safe_route(self, search: DecisionSearch, accepted: float, safe: Sequence[int]) -> VisitOrder | None:
-        """Return the route to set out on where no price leads to a visit; None where no visit is safe enough.
+        """Return the route to start on if no price leads to a visit; None if no visit is safe enough.
 
-        A long first leg and a long last one take most of the accepted chance before anything is collected. Then no
-        price between staying and risking too much may be found; it is, once the first leg is driven.
+        A long first leg and a long last leg can use most of the accepted probability before any reward is collected.
+        Then there may be no price between staying and risking too much until the first leg has been driven.
 
         Args:
             search, accepted: The search from the current state; the accepted failure probability.
-            safe: Stops of a route that was found already, if any; it is searched for where they are not safe enough.
+            safe: Stops of a route found earlier; empty, or not safe enough, to search for one.
         """
         from fieldhand.orienteering.decision import VisitOrder
 
@@ -322,11 +325,11 @@ class Policy:
         return VisitOrder(stops=route, first=0, worth=self._reward(route.tolist()), success=1.0)
 
     def _plan(self, order: VisitOrder) -> None:
-        """Keep the order that the mission begins with."""
+        """Store the order with which the mission begins."""
         self._warm = self._first = tuple(order.stops.tolist())
 
     def _settle(self, state: State, order: VisitOrder | None) -> int:
-        """Remember what is planned, and give its first vertex."""
+        """Store the planned order and return its first vertex."""
         end = self._problem.end
         if order is None:
             self._warm, self._expectation = (), Expectation(vertices=(state.vertex, end), reward=0.0, success=0.0)
@@ -337,7 +340,7 @@ class Policy:
         return ahead[0] if ahead else end
 
     def _rounds(self, search: DecisionSearch) -> int:
-        """Return the number of annealing rounds; the first plan of a mission takes more."""
+        """Return the number of annealing rounds; the first plan of a mission gets more."""
         return self._effort.rounds if self._warm or self._begun else 100 * self._effort.rounds + 20 * len(search.free)
 
     def _reward(self, vertices: Sequence[int]) -> float:
@@ -345,10 +348,9 @@ class Policy:
 
 
 def compile_ahead() -> None:
-    """Compile the inner loops now and keep them on disk, so that no later process waits for it (some ten seconds).
+    """Compile the inner loops now (about ten seconds) and cache them on disk, so that no later process has to wait.
 
-    Covers fixed routes, policies and their chances, over distances of any kind, for the loops take all,
-    and orders of many visits.
+    Covers fixed routes, policies and their visit probabilities, for all forms of distances, and orders of many visits.
     """
     from fieldhand.orienteering.network import Network
     from fieldhand.orienteering.shortest_order import COMPILED_FROM, shortest_order

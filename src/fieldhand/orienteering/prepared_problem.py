@@ -1,4 +1,4 @@
-"""A problem as the arrays that the compiled loops read. The end is a node of its own after the vertices."""
+"""A problem as arrays for the compiled loops. The end is a separate node after the vertices."""
 
 from __future__ import annotations
 
@@ -34,11 +34,12 @@ class PreparedProblem:
         lengths: Lengths of the legs between nodes: the vertices and the end.
         near: Nearest vertices of each node, nearest first, shape (n + 1, k).
         rewards: Rewards of vertices and end, shape (n + 1,); 0 for the end.
-        service: For each limit what work takes at each node, shape (limits, n + 1).
-        afterwards: First three sums of the legs after the end.
-        cumulants: Second and third of the cost of a leg of length 1.
-        points, weights: That cost, for :func:`fieldhand.orienteering.kernels.order_value.drive`.
-        tables: For each limit the quantiles at its failure probability.
+        service: Service cost of each node in each limit, shape (limits, n + 1).
+        afterwards: Sums of the lengths, squares and cubes of the legs after the end.
+        cumulants: Second and third cumulant of the cost of a leg of length 1.
+        points, weights: Distribution of that cost, as :func:`fieldhand.orienteering.kernels.order_value.drive` reads
+            it.
+        tables: For each limit the standardised quantiles at its failure probability (:func:`quantile_table`).
     """
 
     problem: Problem
@@ -103,7 +104,7 @@ def _lengths(problem: Problem) -> LegLengths:
 
 
 def _nearest(lengths: LegLengths, problem: Problem) -> Ints:
-    """Return the nearest vertices of each node; the end's node is nobody's neighbour, nor is a vertex its own."""
+    """Return the nearest vertices of each node, without the node itself and without the end's node."""
     if problem.table is not None:
         near = problem.table.near
         return np.vstack([near, near[problem.end]])
@@ -117,7 +118,7 @@ def _nearest(lengths: LegLengths, problem: Problem) -> Ints:
 
         found = np.asarray(cKDTree(xy[:-1]).query(xy, k=count + 1)[1])
         own = found == np.arange(size)[:, None]
-        # Where a vertex shares its place with others it may be missing among its own nearest.
+        # A vertex that shares its place with others may be missing among its own nearest.
         own[~own.any(axis=1), -1] = True
         return np.ascontiguousarray(found[~own].reshape(size, count), dtype=np.int64)
     if len(xy):

@@ -1,4 +1,4 @@
-"""Protocol of a solver that is prepared for a problem and then decides in any number of missions."""
+"""Protocol of a solver that is prepared once for a problem and then decides in any number of missions."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ Decide = Callable[[State], int]
 
 
 class PreparedSolver(Protocol):
-    """A solver that has been prepared for a problem. It must be picklable: missions are driven in other processes."""
+    """A solver prepared for one problem. It must be picklable, because missions are simulated in other processes."""
 
     def mission(self, seed: int) -> Decide:
-        """Return the decisions of one mission, which does not depend on the missions before it.
+        """Return the decision function of a new mission, independent of earlier missions.
 
         Args:
-            seed: Seed of everything that is random in the mission's decisions.
+            seed: Seed of all random choices in the mission's decisions.
         """
         ...

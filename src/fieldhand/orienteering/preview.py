@@ -1,8 +1,8 @@
-"""Simulate a policy before it is driven: many missions at once, replanned in groups of similar luck.
+"""Simulate many missions of a policy at once, replanned in groups with similar amounts left.
 
-On board the order is planned anew after every leg. Here missions that have about as much left share a plan: of a long
-order they drive a few stops and plan anew with what they have left by then; of a short one each mission skips what the
-programme says that it cannot afford.
+On board the order is replanned after every leg. Here missions with similar amounts left share a plan. They drive a few
+stops of a long order and then replan with the amounts left; of a short order each mission skips the stops that it
+cannot afford according to the dynamic programme.
 """
 
 from __future__ import annotations
@@ -22,12 +22,12 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-#: Stops of an order that a group drives to before it plans anew; of one with no more than a few others it drives all.
+#: Number of stops that a group drives before it replans; if no more than the second number would remain, it drives all.
 _STRIDE, _FEW = 8, 4
-#: So much is searched for a group as the robot would at all of these stops.
+#: Search effort per plan of a group: as much as the robot spends at all stops of a stride.
 _DEPTH = SearchEffort(rounds=20 * _STRIDE, insertions=8, remakes=8)
-#: A group is divided where the standard deviation of what its missions have left is more than this part of its mean,
-#: down to this part of all missions.
+#: A group is split if the standard deviation of its amounts left exceeds the first value as a fraction of their mean,
+#: unless it would fall below the second value as a fraction of all missions.
 _SPREAD, _SMALLEST = 0.05, 1 / 8
 
 
@@ -36,10 +36,11 @@ class Preview:
     """Simulated missions, one per row.
 
     Attributes:
-        vertices: Those that some mission visits, shape (k,): of the group in the middle in its order, then the others.
+        vertices: Vertices visited by any mission, shape (k,): those of the median group in visiting order, then the
+            others.
         visited: True where a mission visits a vertex, shape (missions, k).
-        legs: Total cost of the legs to them, shape (missions,).
-        last: Cost of the leg from the last of them to the end, shape (missions,).
+        legs: Total cost of the legs to the visited vertices, shape (missions,).
+        last: Cost of the leg from the last visited vertex to the end, shape (missions,).
         groups: Index into ``orders`` per mission, shape (missions,).
         orders: Stops of each group in visiting order.
     """
@@ -57,19 +58,20 @@ class Preview:
         return np.asarray(self.visited.sum(axis=1), dtype=np.float64)
 
     def stops(self, mission: int) -> tuple[int, ...]:
-        """Return the vertices that a mission visits, in its order."""
+        """Return the vertices that a mission visits, in visiting order."""
         made = set(self.vertices[self.visited[mission]].tolist())
         return tuple(v for v in self.orders[self.groups[mission]].tolist() if v in made)
 
 
 def preview(policy: Policy, state: State, rng: np.random.Generator, used: Floats) -> Preview:
-    """Drive what a policy plans from a state on.
+    """Simulate the missions of a policy from a given state.
 
     Args:
         policy: The policy, before its first decision from that state.
         state: Common initial state of the missions.
         rng: Random generator of the leg costs.
-        used: By how much more than that each mission has used already, shape (missions,); negative where it is less.
+        used: Amount that each mission has used in excess of that state, shape (missions,); negative if it has used
+            less.
     """
     missions = _Missions(policy, state, used)
     fewest = max(1, int(len(used) * _SMALLEST))
@@ -107,14 +109,14 @@ def preview(policy: Policy, state: State, rng: np.random.Generator, used: Floats
 
 @dataclass(kw_only=True)
 class _Group:
-    """Missions that have made the same visits and have about as much left.
+    """Missions with the same visits so far and similar amounts left.
 
     Attributes:
-        policy: Plans for all of them.
+        policy: Policy that plans for all missions of the group.
         vertex: Their current vertex.
-        stops: Stops they have visited.
-        members: Their numbers.
-        warm: Stops that they mean to visit; empty before their first plan.
+        stops: Stops visited so far.
+        members: Indices of the missions.
+        warm: Stops of the current plan; empty before the first plan.
     """
 
     policy: Policy
@@ -124,7 +126,7 @@ class _Group:
     warm: tuple[int, ...] = ()
 
     def divided(self, left: Floats, rng: np.random.Generator) -> list[_Group]:
-        """Return those with less left and those with more, each with a plan of its own to come."""
+        """Split the group into missions with less and with more left, each to be planned separately."""
         order, half = np.argsort(left, kind="stable"), len(left) // 2
         return [
             _Group(
@@ -170,10 +172,10 @@ class _Missions:
         fewest: int,
         rng: np.random.Generator,
     ) -> list[_Group]:
-        """Drive each mission of a group over the next stops of an order that it does not skip with what it has left.
+        """Drive each mission of a group along the next stops of an order, skipping those that it cannot afford.
 
         Returns:
-            Groups of ``fewest`` missions or more that have come to the same stop, to be planned anew. All others have
+            Groups of at least ``fewest`` missions at the same stop, which are to be replanned. All other missions have
             been driven to the end.
         """
         members, last = group.members, len(order.stops) + 1
@@ -211,20 +213,20 @@ class _Missions:
         ]
 
     def end(self, members: Ints, stops: tuple[int, ...]) -> None:
-        """Make no more visits in some missions that followed ``stops``."""
+        """End the visits of missions that followed ``stops``."""
         if len(members):
             self._ended.append((members, stops))
 
     def collected(self, members: Ints) -> tuple[frozenset[int], frozenset[int]]:
-        """Return the vertices that most of some missions have visited, and those that only some of them have."""
+        """Return the vertices that at least half of the given missions have visited, and those that fewer have."""
         part = self._visited[members].mean(axis=0)
         return tuple(frozenset(np.flatnonzero(x).tolist()) for x in (part >= 0.5, (part > 0.0) & (part < 0.5)))  # type: ignore[return-value]
 
     def made(self, rng: np.random.Generator) -> Preview:
-        """Return what has become of them, with the way to the end."""
+        """Return the simulated missions, including the leg to the end."""
         prepared = self._prepared
         last = self._lengths(prepared.size, self._at) * prepared.problem.model.draw(rng, len(self._at))
-        # The group in the middle comes first: its order is the one that is drawn.
+        # The median group comes first, because its order is the one drawn on maps.
         visits = self._visited.sum(axis=1)
         typical = np.median(visits)
         ended = sorted(self._ended, key=lambda group: abs(float(np.median(visits[group[0]])) - typical))
@@ -251,7 +253,7 @@ class _Missions:
         self._visited[some, stop] = True
 
     def _lengths(self, to: int, vertices: Ints) -> Floats:
-        """Return the lengths from some vertices to a node; the way back may be another where there is a table."""
+        """Return the lengths from vertices to a node."""
         prepared = self._prepared
         if len(prepared.lengths.matrix):
             return np.asarray(prepared.lengths.matrix[vertices, to])

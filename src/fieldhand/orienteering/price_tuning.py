@@ -11,37 +11,38 @@ from fieldhand.orienteering.policy import Policy, State
 from fieldhand.orienteering.problem import Problem
 from fieldhand.orienteering.simulated_mission import simulate_mission
 
-#: What a policy that is set by trials aims at, of the chance that is accepted, and by how many standard errors of
-#: what it learnt it stays below that.
+#: Target of a tuned policy as a fraction of the accepted probability, and the margin below it in standard errors of the
+#: trials.
 _AIM, _CARE = 0.97, 1.5
-#: How fast the logit of the chance of failing falls with the logarithm of reward and price, how far it may be from
-#: that, and how far its curve from a straight line.
+#: Prior of the fit of the failure probability's logit against the logarithm of reward and price: its downward slope,
+#: the standard deviation of that slope, and the deviation of the curve from a straight line.
 _SLOPE, _FIRM, _BEND = 0.6, 0.25, 0.3
-#: Prices that are tried, and the farthest step between two of them, in that logarithm.
+#: Maximum number of prices that are tried, and the largest step between two of them on that logarithmic scale.
 _TRIALS, _STEP = 8, 0.5
-#: Standard errors below the accepted chance at which the least price needs no more missions.
+#: Margin below the accepted probability, in standard errors, at which the lowest price needs no further missions.
 _SURE = 3.0
 
 Floats = NDArray[np.float64]
 
 
 def tune_price(policy: Policy, problem: Problem, seed: int, missions: int) -> Policy:
-    """Return the policy with a price of failure tuned by simulated missions.
+    """Return the policy with the price of a failure tuned by simulated missions.
 
-    The price a policy begins with is right for a mission that only shortens its order; this one makes it anew after
-    every leg. So missions are driven at one price after another, each where a line through what the ones before told
-    comes down to the accepted chance, less what is still uncertain.
+    The initial price of a policy is computed for a mission that only skips stops, whereas the policy replans after
+    every leg. Therefore missions are simulated at a sequence of prices. Each next price is where a line through the
+    earlier results reaches the accepted probability, less a margin for their uncertainty.
 
     Args:
-        policy: As it is.
+        policy: The policy before tuning.
         problem: The problem of the policy.
         seed: Seed of the missions.
-        missions: Maximum number of missions; a few hundred bring the probability within a few percent of its value.
+        missions: Maximum number of missions; a few hundred determine the failure probability to within a few percent of
+            its value.
     """
     accepted = _AIM * min(limit.failure_probability for limit in problem.limits)
     policy.next(State(vertex=problem.start, left=tuple(limit.budget for limit in problem.limits)))
     if policy.price is None:
-        # The way is so long that its price is only found near its end.
+        # The order is so long that the price is only computed near its end.
         return policy.again(seed)
     typical = max(policy.expectation.reward, -1.25 * policy.least_price, 1e-9)
 
@@ -62,7 +63,7 @@ def tune_price(policy: Policy, problem: Problem, seed: int, missions: int) -> Po
 
 @dataclass(frozen=True, eq=False)
 class _Trial:
-    """At a logarithm of reward and price: the chance of failing in each mission."""
+    """The failure probability of each simulated mission, at one logarithm of reward and price."""
 
     at: float
     chances: Floats
@@ -79,7 +80,7 @@ def _trial(policy: Policy, problem: Problem, rng: np.random.Generator, at: float
 def _error(known: list[_Trial]) -> Floats:
     """Return the standard error of each mean chance.
 
-    The spread is estimated over all prices together: it hardly depends on the price, and a few missions do not show it.
+    The variance is pooled over all prices: it hardly depends on the price, and few missions do not determine it.
     """
     counts = np.array([len(trial.chances) for trial in known])
     squares = sum(float(((trial.chances - trial.chances.mean()) ** 2).sum()) for trial in known)
@@ -93,14 +94,14 @@ def _nearer(known: list[_Trial], accepted: float, care: float) -> float:
 
     Args:
         known: Trials so far.
-        accepted: The chance.
+        accepted: Accepted failure probability.
         care: Safety margin in standard errors of the line.
     """
     at, chance = np.array([trial.at for trial in known]), np.array([trial.chances.mean() for trial in known])
     error = _error(known)
     chance = np.clip(chance, 0.1 * accepted, 1.0 - 0.1 * (1.0 - accepted))
     logit, wanted = np.log(chance / (1.0 - chance)), float(np.log(accepted / (1.0 - accepted)))
-    # The line is only straight near the accepted chance, so what lies nearest counts most.
+    # The curve is straight only near the accepted probability, so the nearest trials count most.
     around = at - at[np.argmin(np.abs(logit - wanted))]
     weight = 1.0 / ((error / (chance * (1.0 - chance))) ** 2 + (_BEND * around) ** 2)
     gradient = np.array([(weight * logit).sum(), (weight * logit * around).sum() - _SLOPE / _FIRM**2])

@@ -19,13 +19,14 @@ Floats = NDArray[np.float64]
 class Limit:
     """A resource limit in units of leg cost, to be exceeded only with a small probability.
 
-    A resource that is not distance (seconds, percent of a battery) is brought to these units by dividing it by what
-    one unit of leg cost takes of it; so any number of resources share the legs' one random cost.
+    Resources other than distance (seconds, percent of a battery) are converted to these units by dividing by the amount
+    that one unit of leg cost uses; so all resources depend on the same random leg costs.
 
     Attributes:
         budget: Amount that may be used.
-        failure_probability: Accepted chance of using more (Pf), above 0 and below 1.
-        service: Amount used by a visit to each vertex, shape (n,), the start's not counted; None for nothing.
+        failure_probability: Accepted probability of exceeding the budget (Pf), above 0 and below 1.
+        service: Amount used by the work at each vertex, shape (n,); that of the start does not count. None if visits
+            use nothing.
     """
 
     budget: float
@@ -35,26 +36,27 @@ class Limit:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Problem:
-    """Go from ``start`` to ``end`` and collect reward; no limit may be exceeded more often than it accepts.
+    """A stochastic orienteering problem: collect reward on the way from ``start`` to ``end`` within resource limits.
 
-    A leg of length ``d`` costs ``d`` times a random factor with mean 1, known only when it has been driven. Unless a
-    cost model says otherwise that is ``d * (alpha + X)``, X exponential with mean ``1 - alpha``.
+    No limit may be exceeded with more than its failure probability. A leg of length ``d`` costs ``d`` times a random
+    factor with mean 1, known only once it has been driven. By default the cost is ``d * (alpha + X)``, with X
+    exponential of mean ``1 - alpha``.
 
     Attributes:
         distances: Lengths of the legs, symmetric, shape (n, n), in any unit; ``inf`` where there is no leg. Empty if
-            coordinates or a table give them.
-        rewards: Reward of each vertex, shape (n,); the start's and the end's do not count.
-        limits: At least one.
-        alpha: The certain part of a leg's cost, 0 to 1; 1 is a deterministic problem.
-        costs: Another cost model; ``alpha`` is not used then.
-        coordinates: Coordinates of the vertices, shape (n, 2), in place of distances: legs are straight, and thousands
-            of vertices need no table of distances.
+            given by ``coordinates`` or ``table`` instead.
+        rewards: Reward of each vertex, shape (n,); those of start and end do not count.
+        limits: Resource limits, at least one.
+        alpha: Deterministic fraction of a leg's cost, 0 to 1; 1 is a deterministic problem.
+        costs: Cost model that replaces the default one; ``alpha`` is then ignored.
+        coordinates: Coordinates of the vertices, shape (n, 2), instead of ``distances``: legs are straight lines, so
+            thousands of vertices need no distance matrix.
         table: Distances of a sparse network (:meth:`fieldhand.orienteering.network.Network.problem`).
         max_visits: Largest number of vertices with a reward that may be visited, start and end not counted; None for
             as many as fit.
-        legs_after: Lengths of the legs driven after the end, whatever the route; they count for every limit.
-        under_way: True for the rest of a mission that has begun. Nothing is checked then: the numbers were checked
-            before, and what is left of a budget may be too small for the way home.
+        legs_after: Lengths of legs that are driven after the end on every route; they count for every limit.
+        under_way: True for the remainder of a mission that has begun. The numbers are then not checked: they were
+            before, and the remaining budget may be too small for the way home.
 
     Raises:
         ProblemError: Numbers that are negative, NaN or of the wrong shape; a vertex that does not exist; an end that
@@ -104,7 +106,7 @@ class Problem:
 
 
 def count_visits(problem: Problem, vertices: Iterable[int]) -> int:
-    """Return how many of these vertices count against :attr:`Problem.max_visits`."""
+    """Return how many of the given vertices count towards :attr:`Problem.max_visits`."""
     return sum(problem.rewards[v] > 0.0 for v in set(vertices) - {problem.start, problem.end})
 
 

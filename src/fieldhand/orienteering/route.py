@@ -22,13 +22,14 @@ _BATCH_S = 0.05
 
 @dataclass(frozen=True, kw_only=True)
 class Route:
-    """A way from start to end.
+    """A fixed route from start to end.
 
     Attributes:
-        vertices: In their order, start and end included.
-        reward: Total reward of the vertices between them.
-        length: Expected cost of the legs, those after the end included.
-        chances: For each limit the chance of exceeding it.
+        vertices: Vertices in visiting order, including start and end.
+        reward: Total reward of the vertices between start and end.
+        length: Expected cost of the legs in the unit of the problem's distances, including :attr:`Problem.legs_after`;
+            service is not included.
+        chances: For each limit the probability that legs and service exceed its budget, 0 to 1.
     """
 
     vertices: tuple[int, ...]
@@ -42,8 +43,8 @@ class StoppingCriterion:
     """A stopping criterion of a search: a number of rounds or a time, whichever comes first.
 
     Attributes:
-        rounds: Rounds of the search; counted alone, the same seed gives the same route on any machine.
-        seconds: Time; None for as long as the rounds take.
+        rounds: Maximum number of rounds. If only rounds are limited, the same seed gives the same route on any machine.
+        seconds: Maximum time in seconds; None for no time limit.
     """
 
     rounds: int = 20_000
@@ -55,18 +56,21 @@ class StoppingCriterion:
 
 
 def solve(problem: Problem, seed: int, stop: StoppingCriterion | None = None) -> Route:
-    """Search for the best fixed route.
+    """Search for the fixed route of highest reward within the failure probability of every limit.
+
+    Simulated annealing with slack induction by string removals (Christiaens and Vanden Berghe 2020). Overrun
+    probabilities are computed by a Pearson III approximation (:mod:`fieldhand.orienteering.overrun`).
 
     Args:
-        problem: The problem.
-        seed: The same seed and the same rounds give the same route.
-        stop: When to end the search; without it, after :class:`StoppingCriterion`'s rounds.
+        problem: Vertices, rewards, leg costs and limits.
+        seed: Seed of the search; the same seed and number of rounds give the same route.
+        stop: When to end the search; by default after the rounds of :class:`StoppingCriterion`.
 
     Returns:
-        A route whose chances are within the limits' failure probabilities.
+        A route whose overrun probabilities are within the limits' failure probabilities.
 
     Raises:
-        ProblemError: No route was found that is safe enough, not even one that only goes to the end.
+        ProblemError: No route is safe enough, not even the direct one from start to end.
     """
     from fieldhand.orienteering.annealing import Annealing
     from fieldhand.orienteering.prepared_problem import prepare_problem

@@ -1,4 +1,4 @@
-"""The shortest way to visit every vertex: exact for a few, iterated local search for as many as there are.
+"""The shortest order that visits every vertex: exact for few vertices, iterated local search for more.
 
 Sources: Held and Karp 1962 (dynamic programme over subsets); for the local search see :mod:`kernels.local_search`.
 """
@@ -20,17 +20,18 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
 Lengths: TypeAlias = "Floats | LegLengths"
 
-#: Up to so many vertices between the ends the order is exact.
+#: Maximum number of vertices between the ends for which the order is exact.
 EXACT = 10
-#: From so many vertices on it pays to load compiled code: half a second once in a process.
+#: Number of vertices from which loading the compiled code (half a second per process) pays off.
 COMPILED_FROM = 250
-#: Of the local search, by trial on 15 to 3,000 vertices: beside how many one is put, most kicks for each vertex.
+#: Parameters of the local search, tuned on 15 to 3,000 vertices: number of neighbours, and maximum kicks per vertex.
 _NEAREST = 9
 _KICKS = 20
-#: Fruitless kicks in a row for each vertex and 30 more, and the longest segment that a kick swaps.
+#: Consecutive kicks without gain after which the search ends, per vertex (plus 30), and the longest segment that a kick
+#: swaps.
 _EFFORT = (0.5, 50)
 _EFFORT_COMPILED = (5.0, 100)
-#: Flips of one kick that can be taken back; 15 are usual.
+#: Capacity of the undo log of one kick, in flips; 15 are typical.
 _FLIPS = 200
 _GAIN = 1e-9
 _MAX_PASSES = 60
@@ -40,15 +41,16 @@ def shortest_order(distances: Lengths, start: int, end: int | None = None) -> tu
     """Return a short order of all vertices from ``start``; the shortest for up to 12 vertices.
 
     Args:
-        distances: Symmetric, shape (n, n), none of them negative or infinite; or the form that compiled loops read.
+        distances: Symmetric distances in any unit, shape (n, n), finite and non-negative; or :class:`LegLengths` for
+            the compiled loops.
         start: The first vertex.
         end: The last vertex; None leaves it open.
 
     Returns:
-        Each vertex once, ``start`` first and ``end`` last. The same for the same arguments.
+        Each vertex once, ``start`` first and ``end`` last. Equal arguments give equal orders.
 
     Raises:
-        ProblemError: Distances that are no finite square matrix, or a vertex that does not exist.
+        ProblemError: The distances are not a finite square matrix, or a vertex does not exist.
     """
     n = _vertices(distances)
     if not 0 <= start < n or (end is not None and not 0 <= end < n):
@@ -69,7 +71,7 @@ def _vertices(distances: Lengths) -> int:
     if not isinstance(distances, np.ndarray):
         return max(len(distances.matrix), len(distances.xy))
     n = len(distances)
-    # Sums say the same as a look at every entry, without another table of that size.
+    # The sum reveals any entry that is not finite, without a temporary array of that size.
     if distances.shape != (n, n) or not np.isfinite(distances.sum()) or distances.min(initial=0.0) < 0:
         raise ProblemError("distances must be a square matrix of finite numbers, none below 0")
     return n

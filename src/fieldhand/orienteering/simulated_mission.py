@@ -27,12 +27,12 @@ class SimulatedMission:
     """One mission that was driven.
 
     Attributes:
-        path: Vertices in their order, start and end included.
-        reward: Total reward of the vertices reached before any limit was exceeded, the end's included.
+        path: Vertices in visiting order, including start and end.
+        reward: Total reward of the vertices reached before any limit was exceeded, including the end.
         left: Amount left of each limit at the end; negative if exceeded.
-        chance: Of exceeding a limit, as it stood before the last leg; without the luck of the legs before, as far as
-            it was foreseen what that would mean. Its mean over missions is the chance of failing; of a single one it
-            may lie outside 0 to 1.
+        chance: Estimate of the failure probability with reduced variance: the overrun probability before the last leg,
+            corrected by a control variate for the random costs of the earlier legs. Its mean over missions is the
+            failure probability; a single value may lie outside 0 to 1.
     """
 
     path: tuple[int, ...]
@@ -52,10 +52,10 @@ def simulate_mission(
     rng: np.random.Generator,
     success_after_leg: Callable[[], SuccessAfterLeg | None] | None = None,
 ) -> SimulatedMission:
-    """Drive one mission.
+    """Simulate one mission.
 
     Args:
-        problem: As it stands before the mission.
+        problem: The problem at the start of the mission.
         following: Function that returns the next vertex.
         rng: Random generator of the leg costs.
         success_after_leg: Success probabilities after the leg to that vertex; called after ``following``.
@@ -72,7 +72,7 @@ def simulate_mission(
         before = left - work
         left = before - leg * float(problem.model.draw(rng, 1)[0])
         if seen is not None:
-            # A control variate: its mean is 0, and it is high where the legs were cheap.
+            # A control variate with mean 0, high if the legs were cheap.
             luck += float(seen.at(left[seen.limit]) - seen.at(before[seen.limit] - leg * factors).mean())
         if vertex == problem.end:
             for after in problem.legs_after:

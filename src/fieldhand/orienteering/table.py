@@ -13,11 +13,11 @@ from fieldhand.errors import ProblemError
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
 
-#: Neighbours of each vertex that a search looks at.
+#: Number of neighbours per vertex that a search considers.
 NEAREST = 24
-#: The most vertices of a table (1.6 GB).
+#: Maximum number of vertices of a table (1.6 GB).
 MOST = 20_000
-#: Rows that are computed at once.
+#: Number of rows computed at once.
 _ROWS = 64
 
 
@@ -25,11 +25,11 @@ _ROWS = 64
 class Table:
     """Shortest distances between vertices, each accurate to one part in 10 million.
 
-    :meth:`fieldhand.orienteering.network.Network.table` makes them.
+    Created by :meth:`fieldhand.orienteering.network.Network.table`.
 
     Attributes:
         distances: Symmetric, shape (n, n); ``inf`` where there is no way.
-        near: The nearest vertices of each, nearest first, shape (n, k); the vertex itself where there are no more.
+        near: The nearest vertices of each vertex, nearest first, shape (n, k); padded with the vertex itself.
     """
 
     distances: NDArray[np.float32]
@@ -42,11 +42,11 @@ class Table:
 
 
 def table_of(graph: csr_array, wanted: NDArray[np.int64]) -> Table:
-    """Return the table of some nodes of a graph, by Dijkstra's algorithm from each of them.
+    """Compute the table of distances between nodes of a graph by Dijkstra's algorithm from each of them.
 
     Args:
         graph: Lengths of the ways between all nodes.
-        wanted: Nodes, each once; they are the vertices.
+        wanted: Distinct nodes, which become the vertices.
 
     Raises:
         ProblemError: The nodes are too many.
@@ -65,7 +65,7 @@ def table_of(graph: csr_array, wanted: NDArray[np.int64]) -> Table:
         away = dijkstra(graph, indices=wanted[rows])[:, wanted]
         distances[rows] = away
         near[rows] = _nearest(away, np.arange(n)[rows], near.shape[1])
-    # There and back are equal to the last digit.
+    # Make the distances exactly symmetric.
     for first in range(0, n, _ROWS):
         rows = slice(first, first + _ROWS)
         lower = np.minimum(distances[rows], distances[:, rows].T)
@@ -74,12 +74,12 @@ def table_of(graph: csr_array, wanted: NDArray[np.int64]) -> Table:
 
 
 def _nearest(away: NDArray[np.float64], own: NDArray[np.int64], count: int) -> NDArray[np.int64]:
-    """Return the vertices nearest to some, nearest first, without the vertex itself.
+    """Return the nearest vertices of given vertices, nearest first, without the vertex itself.
 
     Args:
         away: Distances from each vertex to all, shape (m, n).
         own: The vertices, shape (m,).
-        count: How many.
+        count: Number of neighbours to return.
     """
     rows = np.arange(len(away))[:, None]
     away[rows[:, 0], own] = np.inf

@@ -1,4 +1,4 @@
-"""Compiled inner loops: arrays in, arrays out, nothing checked. Only :mod:`fieldhand.orienteering` calls them.
+"""Compiled inner loops on arrays, without validation of arguments; called only by :mod:`fieldhand.orienteering`.
 
-Vertices are 0 to n - 1; the end of a route is a node of its own with number n, so that a round trip has two ends.
+Vertices are numbered 0 to n - 1. The end of a route is a separate node n, so that a round trip has two ends.
 """

@@ -1,7 +1,7 @@
-"""Fixed routes: take strings of neighbouring stops out, put stops back greedily, keep what simulated annealing accepts.
+"""Search for fixed routes: remove strings of stops, reinsert greedily, accept or undo by simulated annealing.
 
-The route is a doubly linked list, so a move and its undoing cost what they touch. Source: slack induction by string
-removals, Christiaens and Vanden Berghe 2020, here with stops that may stay out.
+The route is a doubly linked list, so the cost of a move and of its undo is proportional to the stops it changes.
+Source: slack induction by string removals (Christiaens and Vanden Berghe 2020), extended by optional stops.
 """
 
 from __future__ import annotations
@@ -24,17 +24,17 @@ from fieldhand.orienteering.kernels.legs import (
     uniform,
 )
 
-# Entries of ``sums``: of the legs' lengths, squares and cubes; the reward; the number of stops.
+# Entries of ``sums``: sums of the legs' lengths, of their squares and of their cubes; total reward; number of stops.
 
-#: How often a place for a stop is overlooked, so that the best one is not always taken.
+#: Probability with which an insertion position is skipped, so that the best one is not always taken ("blinks").
 _BLINK = 0.02
-#: Of more free vertices only those beside the route are tried at the beginning of a search that goes on from a route.
+#: Number of free vertices above which a search that continues from a route first tries only those near the route.
 _FEW = 400
 
 
 @inner
 def excess(sums: Floats, used: Floats, budgets: Floats, cumulants: Floats, quantiles: Floats) -> float:
-    """Return the excess over the limit that binds most; zero or negative if all are kept."""
+    """Return the largest excess over any limit; zero or negative if all limits are kept."""
     worst = -np.inf
     for limit in range(len(budgets)):
         over = cost_quantile(sums[0], sums[1], sums[2], cumulants, quantiles[limit]) + used[limit] - budgets[limit]
@@ -47,7 +47,7 @@ def link(
     p: int, v: int, after: Ints, before: Ints, sums: Floats, used: Floats, lengths: LegLengths, rewards: Floats,
     service: Floats,
 ) -> None:  # fmt: skip
-    """Put v into the route after p."""
+    """Insert v into the route after p."""
     q = after[p]
     a, b, c = length(lengths, p, v), length(lengths, v, q), length(lengths, p, q)
     sums[0] += a + b - c
@@ -68,7 +68,7 @@ def unlink(
     v: int, after: Ints, before: Ints, sums: Floats, used: Floats, lengths: LegLengths, rewards: Floats,
     service: Floats,
 ) -> None:  # fmt: skip
-    """Take v out of the route."""
+    """Remove v from the route."""
     p, q = before[v], after[v]
     a, b, c = length(lengths, p, v), length(lengths, v, q), length(lengths, p, q)
     sums[0] -= a + b - c
@@ -169,7 +169,7 @@ def _take_out(
     seed: int, here: int, turn: int, allowed: NDArray[np.bool_], seen: Ints, moves: Ints, after: Ints, before: Ints,
     sums: Floats, used: Floats, lengths: LegLengths, near: Ints, rewards: Floats, service: Floats, state: Seeds,
 ) -> int:  # fmt: skip
-    """Take one or two strings of stops near ``seed`` out of the route; how many stops, which ``moves`` tells."""
+    """Remove one or two strings of stops near ``seed``; record them in ``moves`` and return their number."""
     end = len(rewards) - 1
     steps = 0
     strings = 1 + int(uniform(state) * 2.0)
@@ -200,7 +200,7 @@ def _take_out(
 
 @inner
 def _rank(out: Ints, key: Floats, count: int, seed: int, lengths: LegLengths, rewards: Floats, state: Seeds) -> None:
-    """Sort the stops that may be put in: at random, by reward, by reward with noise, or by nearness to ``seed``."""
+    """Sort the stops to be inserted: at random, by reward, by reward with noise, or by distance from ``seed``."""
     rule = int(uniform(state) * 4.0)
     for i in range(count):
         v = out[i]
@@ -217,7 +217,7 @@ def _rank(out: Ints, key: Floats, count: int, seed: int, lengths: LegLengths, re
 
 @inner
 def _drop(v: int, p: int, after: Ints, before: Ints) -> None:
-    """Take v, which follows p, out of the list; the figures are the caller's."""
+    """Unlink v, which follows p; the caller updates the sums."""
     q = after[v]
     after[p] = q
     before[q] = p
@@ -227,7 +227,7 @@ def _drop(v: int, p: int, after: Ints, before: Ints) -> None:
 
 @inner
 def _undo(moves: Ints, steps: int, after: Ints, before: Ints) -> None:
-    """Take the moves back, the last one first."""
+    """Undo the moves, the last one first."""
     for i in range(steps - 1, -1, -1):
         v, p = moves[i, 0], moves[i, 1]
         if moves[i, 2] == 1:
@@ -247,23 +247,24 @@ def anneal(
     quantiles: Floats, max_stops: int, worth: float, hot: float, cold: float, rounds: int, state: Seeds, best: Ints,
     record: Floats,
 ) -> int:  # fmt: skip
-    """Better the route in ``after`` and ``before`` by ``rounds`` rounds.
+    """Improve the route in ``after`` and ``before`` by a number of rounds of simulated annealing.
 
     Args:
         here: First vertex of the route.
         free: Vertices that may be visited; each of them not in the route has -1 in ``after``.
-        after, before, sums, used: The route and its figures, changed in place.
-        lengths, near: Lengths, and the nearest vertices of each, nearest first.
+        after, before, sums, used: The route and its sums, changed in place.
+        lengths, near: Leg lengths, and the nearest vertices of each node, nearest first.
         rewards, service, budgets: ``service`` has limits along its first axis.
         cumulants, quantiles: For :func:`cost_quantile`; ``quantiles`` has limits along its first axis.
-        max_visits: Stops that the route may have.
-        worth: Penalty of a unit of length, as a part of the best reward.
-        hot, cold: Temperature of the first and of the last round, in reward.
+        max_stops: Maximum number of stops.
+        worth: Penalty per unit of length, as a fraction of the best reward.
+        hot, cold: Temperature of the first and of the last round, in units of reward.
         state: State of the random generator.
-        best, record: The best route's stops; its reward and its length, both of them from earlier calls as well.
+        best, record: Overwritten: stops of the best route, and its reward and length; results of earlier calls are kept
+            if better.
 
     Returns:
-        Stops in ``best``.
+        Number of stops in ``best``.
     """
     end = len(rewards) - 1
     allowed, seen = np.zeros(end + 1, np.bool_), np.zeros(end + 1, np.int64)

@@ -1,4 +1,4 @@
-"""Compilation with numba, kept on disk so that only the first use of an installation waits for it."""
+"""Compilation with numba, cached on disk so that only the first use of an installation has to wait for it."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 
 def remove_stale(folder: Path) -> None:
-    """Remove machine code that was compiled from other sources than those in a folder.
+    """Remove cached machine code that was compiled from other sources than the present ones.
 
-    numba compares the source of each function, but fails to read an index in which a class is named that has been
-    renamed since.
+    numba checks the source of each function, but cannot read an index that refers to a class that has since been
+    renamed.
 
     Args:
         folder: Folder of the kernels' sources; the machine code is in its ``__pycache__``.
@@ -38,15 +38,15 @@ remove_stale(Path(__file__).parent)
 
 
 def compiled(function: F) -> F:
-    """Compile for this machine; kept beside the source, else in the user's cache folder, else for this process only."""
+    """Compile for this machine; cache beside the source, else in the user's cache folder, else only in this process."""
     return _compile(function, {})
 
 
 def inner(function: F) -> F:
-    """Compile a loop that makes no array, as :func:`compiled` does, without counting who holds the arrays.
+    """Compile, as :func:`compiled` does, a loop that creates no arrays, without reference counting.
 
-    numba counts at every access to an array of a tuple, atomically: measured, that takes 90 ns for a length that is
-    looked up in 3. Whoever calls holds the arrays for as long as the call lasts.
+    numba counts references atomically at every access to an array in a tuple: as measured, 90 ns for a length that is
+    looked up in 3 ns. The caller holds references to the arrays for the duration of the call.
     """
     return _compile(function, {"_nrt": False})
 
@@ -56,6 +56,6 @@ def _compile(function: F, more: dict[str, Any]) -> F:
     try:
         made: F = numba.njit(cache=True, **options)(function)
     except RuntimeError:
-        # No folder can be written that numba would keep it in.
+        # numba finds no writable folder for its cache.
         made = numba.njit(**options)(function)
     return made

@@ -1,4 +1,4 @@
-"""Insert stops into a visiting order where a robot that may skip stops gains most."""
+"""Insertion of the stops that add most value to a visiting order of which a robot may skip stops."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from fieldhand.orienteering.kernels.compiled import compiled, inner
 from fieldhand.orienteering.kernels.legs import Floats, Ints, LegLengths, length, sort_by
 from fieldhand.orienteering.kernels.order_value import WORK, backward, forward, gains
 
-#: Vertices that are tried for the first insertion, and for those after it.
+#: Number of vertices tried for the first insertion, and for each later one.
 CANDIDATES = 24
 _AGAIN = 8
-#: Free vertices from which on a candidate is only looked at beside its nearest.
+#: Number of free vertices from which a candidate is tried only next to its nearest vertices.
 _MANY = 400
 
 
 @inner
 def floors_of(route: Ints, service: Floats, budgets: Floats, floors: Floats) -> None:
-    """Compute, per position, what the other limits require to be left of the first limit at the end."""
+    """Compute for each position what must be left of the first limit at the end for the others to hold."""
     end = route[len(route) - 1]
     for i in range(len(floors)):
         floors[i] = 0.0
@@ -32,7 +32,7 @@ def floors_of(route: Ints, service: Floats, budgets: Floats, floors: Floats) -> 
 
 @inner
 def _detour(v: int, i: int, route: Ints, lengths: LegLengths) -> float:
-    """Return what the way over v adds to the leg that leads to position i."""
+    """Return the extra length of the leg to position i if it leads over v."""
     p, q = route[i - 1], route[i]
     return length(lengths, p, v) + length(lengths, v, q) - length(lengths, p, q)
 
@@ -50,7 +50,8 @@ def _promising(
     """Return the free vertices outside the route with the highest reward per detour."""
     count = 0
     outside, score = np.empty(len(free), np.int64), np.empty(len(free))
-    # Where very many are free, only places beside the nearest vertices of each are looked at, and the route's ends.
+    # With very many free vertices, only positions next to the nearest vertices of each, and the route's ends, are
+    # tried.
     position = np.full(len(inside), -1, np.int64)
     if len(free) > _MANY:
         for i in range(len(route)):
@@ -91,20 +92,20 @@ def grow(
     """Insert the most valuable stops into an order and compute its value.
 
     Args:
-        stops: The order to begin with, without its ends.
+        stops: Initial order, without its ends.
         here: The robot's vertex.
         free: Vertices that may be inserted.
-        longest: Stops that the order may have.
+        longest: Maximum number of stops.
         insertions: Maximum number of insertions.
-        near: Nearest vertices of each.
-        lengths, rewards, service, budgets, ends, bonus, skip, points, weights: As for :func:`backward`; ``service``
-            and ``budgets`` of every limit, the one with the least budget first.
-        order: Overwritten: the order's stops.
-        figures: Overwritten: reward still to come of missions that keep to the limits, chance that they do, and the
-            position driven to first (0 for the first stop, the number of stops for the end).
+        near: Nearest vertices of each node, nearest first.
+        lengths, rewards, service, budgets, ends, bonus, skip, points, weights: As for :func:`backward`; ``service`` and
+            ``budgets`` have one row per limit, the tightest limit first.
+        order: Overwritten: stops of the order.
+        figures: Overwritten: expected further reward (0 for missions that exceed a limit), probability of success, and
+            the position of the next stop (0 for the first stop, the number of stops for the end).
 
     Returns:
-        How many stops the order has.
+        Number of stops of the order.
     """
     end = len(rewards) - 1
     size = len(ends)
@@ -152,7 +153,7 @@ def grow(
             route[i + 1] = route[i]
         route[at + 1] = chosen
         count += 1
-        # What gains little now gains no more beside another stop, as a rule.
+        # Vertices with little gain now rarely gain more next to another stop.
         for i in range(left):
             gain[i] = -gain[i]
         sort_by(gain, candidates, left)

@@ -19,10 +19,10 @@ class LegLengths(NamedTuple):
     """Lengths of the legs between any two nodes.
 
     Attributes:
-        matrix: Lengths, shape (nodes, nodes); empty where something else gives them.
-        xy: Coordinates, shape (nodes, 2); empty where the legs are not straight.
-        table: Lengths in single precision, shape (nodes - 1, nodes - 1), where neither gives them.
-        end: The row and column of the last node in the table.
+        matrix: Lengths, shape (nodes, nodes); empty if given by ``xy`` or ``table``.
+        xy: Coordinates, shape (nodes, 2); empty unless legs are straight lines.
+        table: Lengths in single precision, shape (nodes - 1, nodes - 1), if neither ``matrix`` nor ``xy`` is given.
+        end: Row and column of the last node in ``table``.
     """
 
     matrix: Floats
@@ -61,12 +61,12 @@ def length(lengths: LegLengths, u: int, v: int) -> float:
 
 @inner
 def cost_quantile(first: float, second: float, third: float, cumulants: Floats, quantiles: Floats) -> float:
-    """Return the cost that legs exceed with a given probability (Pearson III through three cumulants).
+    """Return the cost that legs exceed with a given probability (Pearson III distribution with three given cumulants).
 
     Args:
         first, second, third: Sums of the legs' lengths, of their squares and of their cubes.
         cumulants: Second and third cumulant of the cost of a leg of length 1.
-        quantiles: Standardised quantile of that chance, by skewness.
+        quantiles: Standardised quantiles at that probability, by skewness.
     """
     variance = cumulants[0] * second
     if variance <= 0.0:
@@ -81,14 +81,14 @@ def cost_quantile(first: float, second: float, third: float, cumulants: Floats, 
 
 @inner
 def copy(values: Floats, to: Floats) -> None:
-    """Overwrite ``to``. Written out: an assignment of slices takes a second longer to compile."""
+    """Copy values into ``to``. A loop, because assigning slices takes a second longer to compile."""
     for i in range(len(values)):
         to[i] = values[i]
 
 
 @inner
 def sort_by(key: Floats, values: Ints, count: int) -> None:
-    """Sort the first ``count`` values by their keys, and the keys (Shell 1959). numpy's takes seconds to compile."""
+    """Sort the first ``count`` keys and their values (Shell 1959). numpy's sort takes seconds to compile."""
     gap = count // 2
     while gap > 0:
         for i in range(gap, count):

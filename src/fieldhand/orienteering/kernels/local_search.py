@@ -1,10 +1,10 @@
-"""Shortening a path between two ends: 2-opt, or-opt, and kicks that are taken back where they do not help.
+"""Local search that shortens a path between two ends: 2-opt, or-opt, and kicks that are undone if they do not help.
 
-Every function here is plain Python, which short paths are quick enough in; :func:`for_long_paths` compiles the same
-functions for long ones. So both give the same path, and nobody waits for a compiler who does not need it.
+All functions are plain Python, which is fast enough for short paths; :func:`for_long_paths` compiles the same functions
+for long ones. So both give the same path, and short paths need no compiler.
 
-Sources: Croes 1958 (2-opt); Or 1976 (moving short segments); Bentley 1992 (neighbour lists, vertices that need no
-look); Martin, Otto and Felten 1991 (a double bridge, then local search again); Park and Miller 1988 (random numbers).
+Sources: Croes 1958 (2-opt); Or 1976 (moving short segments); Bentley 1992 (neighbour lists, don't-look bits); Martin,
+Otto and Felten 1991 (a double bridge, then local search again); Park and Miller 1988 (random numbers).
 """
 
 from __future__ import annotations
@@ -15,29 +15,29 @@ from functools import cache
 from types import FunctionType
 from typing import Any, NamedTuple
 
-#: Sequences of whole numbers, and of these sequences: lists in plain Python, arrays where compiled.
+#: Sequences of integers: lists in plain Python, arrays in compiled code.
 Numbers = Any
 Lengths = Any
 
-#: The vertex that is as near to every other as can be: the end of a path whose end is open.
+#: Virtual end vertex of a path with an open end, at distance 0 from every vertex.
 ANYWHERE = -1
-#: What gains less than this part of the path's first length may be rounding and no gain.
+#: Smallest gain that counts, as a fraction of the initial length; smaller ones may be rounding errors.
 _LEAST = 1e-12
 _LONGEST_MOVED = 3
 
 
 class SearchState(NamedTuple):
-    """A path that is being changed. The last entries of ``place`` and ``waiting`` are those of ``ANYWHERE``.
+    """A path under local search. The last entries of ``place`` and ``waiting`` belong to ``ANYWHERE``.
 
     Attributes:
         path: Vertices from end to end, shape (n,).
         place: Position of each vertex in the path.
-        near: The nearest vertices of each, nearest first, those of one vertex behind those of the one before.
-        away: Their distances.
+        near: The nearest vertices of each vertex, nearest first, as one flat sequence.
+        away: Distances of the vertices in ``near``.
         size: Number of neighbours per vertex.
-        queue: Vertices to look at, in a ring, shape (n,).
-        waiting: 1 for each of them, else 0.
-        flips: First and last place of each part that was turned round, one pair behind the other.
+        queue: Ring buffer of the vertices to be examined, shape (n,).
+        waiting: 1 for each vertex in the queue, else 0.
+        flips: Undo log: first and last position of each reversed segment, as consecutive pairs.
         count: First index and length of the queue, and number of pairs in ``flips``.
     """
 
@@ -58,9 +58,10 @@ def leg(lengths: Lengths, u: int, v: int) -> float:
 
 
 def neighbours(lengths: Lengths, state: SearchState, vertices: int) -> None:
-    """Fill in the nearest of each vertex; the last place is for one beyond, so that no cluster is closed in itself.
+    """Fill in the nearest vertices of each vertex; the last one is chosen so that clusters stay connected.
 
-    That one is the nearest of all that none of the others is nearer to; where there is none, its distance is infinite.
+    That last one is the nearest vertex to which none of the others in the list is nearer; if there is none, its
+    distance is infinite.
     """
     near, away = state.near, state.away
     for v in range(vertices):
@@ -95,7 +96,7 @@ def neighbours(lengths: Lengths, state: SearchState, vertices: int) -> None:
 def begin(lengths: Lengths, state: SearchState) -> None:
     """Build the initial path by nearest neighbour between its fixed ends."""
     path, place = state.path, state.place
-    # What is left stands in the path behind the vertex that is being looked from.
+    # The unused vertices are in the path behind the current one.
     for i in range(len(path)):
         place[path[i]] = i
     for i in range(len(path) - 2):
@@ -115,21 +116,21 @@ def begin(lengths: Lengths, state: SearchState) -> None:
 
 
 def shorten(lengths: Lengths, state: SearchState, kicks: int, patience: int, reach: int) -> None:
-    """Shorten the path until no look helps, then kick it again and again; its ends stay.
+    """Shorten the path by local search, then by repeated kicks and local search; its ends stay fixed.
 
     Args:
-        lengths: Lengths of legs.
+        lengths: Leg lengths.
         state: The path; its queue is empty.
         kicks: Maximum number of kicks.
-        patience: Kicks without gain after which the search ends.
-        reach: Most vertices of each of the two segments that a kick swaps.
+        patience: Number of consecutive kicks without gain after which the search ends.
+        reach: Maximum number of vertices in each of the two segments that a kick swaps.
     """
     path = state.path
     least = 0.0
     for i in range(len(path) - 1):
         least += _LEAST * leg(lengths, path[i], path[i + 1])
     _settle_all(lengths, state, least)
-    # Between the ends there must be two segments to swap.
+    # A kick needs two segments between the ends.
     inner = len(path) - 2
     reach = min(reach, inner // 2)
     if reach < 1:
@@ -141,7 +142,7 @@ def shorten(lengths: Lengths, state: SearchState, kicks: int, patience: int, rea
         random = random * 48271 % 2147483647
         two = 1 + random % reach
         random = random * 48271 % 2147483647
-        # On along the path, so that what is looked at was looked at just before.
+        # Advance along the path, so that a kick touches memory that is still in the cache.
         first = (first + random % reach) % (inner + 1 - one - two)
         state.count[2] = 0
         gain = _kick(lengths, state, first, one, two) + _settle(lengths, state, least, False)
@@ -182,7 +183,7 @@ def _settle_all(lengths: Lengths, state: SearchState, least: float) -> None:
 
 
 def _settle(lengths: Lengths, state: SearchState, least: float, every: bool) -> float:
-    """Apply improving moves while the queue and the flip log last; return the total gain."""
+    """Apply improving moves until the queue is empty or the undo log is full; return the total gain."""
     total = 0.0
     while state.count[1] > 0 and 2 * state.count[2] + 6 <= len(state.flips):
         v = _next(state)
@@ -196,7 +197,7 @@ def _settle(lengths: Lengths, state: SearchState, least: float, every: bool) -> 
 def _turn(lengths: Lengths, state: SearchState, a: int, least: float, every: bool) -> float:
     """Apply the first improving 2-opt move of a vertex; return its gain, or 0 if there is none."""
     path, place, near, away, size = state.path, state.place, state.near, state.away, state.size
-    # Where all that are near have been tried and a leg is longer still, every vertex may be.
+    # If all near vertices have been tried and a leg is still longer than their distances, every vertex is tried.
     many = size + (len(near) // size if every else 0)
     i = place[a]
     for step in (1, -1):
@@ -238,7 +239,7 @@ def _shift(lengths: Lengths, state: SearchState, a: int, least: float, every: bo
         low, high = min(i, i + extent), max(i, i + extent)
         if low < 1 or high > len(path) - 2:
             continue
-        # The segment runs from a to z; p stands beside a, q beside z.
+        # The segment runs from a to z; p is the neighbour of a, and q of z.
         z = path[i + extent]
         p, q = path[low - 1], path[high + 1]
         if extent < 0:
@@ -260,7 +261,7 @@ def _shift(lengths: Lengths, state: SearchState, a: int, least: float, every: bo
                 d = path[j + step]
                 gain = saved + leg(lengths, c, d) - leg(lengths, z, d)
                 if gain > least:
-                    # Where a comes before z now and behind it then, or the other way round, the segment turns.
+                    # The segment is reversed if the order of a and z changes.
                     _move(state, low, high, min(j, j + step), (extent < 0) == (step > 0))
                     for v in (a, z, p, q, c, d):
                         _look(state, v)
@@ -269,7 +270,7 @@ def _shift(lengths: Lengths, state: SearchState, a: int, least: float, every: bo
 
 
 def _move(state: SearchState, low: int, high: int, behind: int, turned: bool) -> None:
-    """Take what stands from ``low`` to ``high`` to behind another place, the other way round where ``turned``."""
+    """Move the segment from ``low`` to ``high`` behind another position, reversed if ``turned``."""
     size = high - low + 1
     if behind > high:
         _flip(state, low, behind)
@@ -313,7 +314,7 @@ def _turn_round(path: Numbers, place: Numbers, i: int, j: int) -> None:
 
 
 def _take_back(state: SearchState) -> None:
-    """Undo every flip that was noted, and look at nothing any more."""
+    """Undo every logged flip, and clear the queue."""
     for k in range(state.count[2] - 1, -1, -1):
         _turn_round(state.path, state.place, state.flips[2 * k], state.flips[2 * k + 1])
     while state.count[1] > 0:
@@ -329,7 +330,7 @@ def for_long_paths() -> tuple[Callable[..., None], Callable[..., None], Callable
     def length(lengths: legs.LegLengths, u: int, v: int) -> float:
         return 0.0 if u < 0 or v < 0 else legs.length(lengths, u, v)
 
-    # The same code, but each name in it means what is compiled.
+    # The same code, with each name in it bound to its compiled counterpart.
     names: dict[str, Any] = {**globals(), "leg": inner(length)}
     for plain in (
         neighbours, begin, _turn_round, _flip, _look, _next, _move, _turn, _shift, _settle, _settle_all, _kick,

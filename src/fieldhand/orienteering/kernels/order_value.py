@@ -1,9 +1,9 @@
-"""The value of a visiting order to a robot that may skip stops: a dynamic programme over the amount left.
+"""The value of a visiting order for a robot that may skip stops: a dynamic programme over the amount left.
 
 At every stop and for every amount left (a grid) the robot drives on to one of the next few stops or straight to the
-end, whichever is worth most. ``worth`` is the reward still to come of missions that keep to the limits, ``success``
-the chance that they do; a mission that does counts ``bonus`` more. Both are linear between the points of the grid and 0
-below it.
+end, whichever has the highest value. ``worth`` is the expected further reward, with 0 for missions that exceed a limit;
+``success`` is the probability that no limit is exceeded, and each success counts ``bonus`` in addition. Both are linear
+between grid points and 0 below the grid.
 """
 
 from __future__ import annotations
@@ -15,9 +15,10 @@ import numpy as np
 from fieldhand.orienteering.kernels.compiled import inner
 from fieldhand.orienteering.kernels.legs import Floats, Ints, LegLengths, copy, length
 
-#: Rows that the programme works in.
+#: Number of rows of working memory.
 WORK = 7
-#: After how many positions a candidate is tried, and how rarely a mission comes to one where it is not.
+#: Number of positions at which a candidate is tried; positions that missions reach with a lower probability than the
+#: second value are not tried.
 _PLACES = 5
 _RARE = 1e-3
 
@@ -34,15 +35,15 @@ def drive(
     points: Floats,
     weights: Floats,
 ) -> None:
-    """Compute expectations before a leg and the service at its end from those after them.
+    """Compute the expectations before a leg and the service at its end from those after them.
 
     Args:
-        worth, success: After them, by what is left.
-        to_worth, to_success: Overwritten.
-        leg, service: The leg's length; what the work takes.
+        worth, success: Expectations after them, by amount left.
+        to_worth, to_success: Overwritten: expectations before them, by amount left.
+        leg, service: Length of the leg, and amount used by the work at its end.
         step: Distance between grid points.
-        points, weights: What a leg of length 1 may cost and how likely; where ``weights`` is empty, ``points[0]`` and
-            an exponential part with mean ``points[1]`` on top.
+        points, weights: Possible costs of a leg of length 1, and their probabilities. If ``weights`` is empty, the cost
+            is ``points[0]`` plus an exponential part with mean ``points[1]``.
     """
     size = len(worth)
     for k in range(size):
@@ -59,15 +60,15 @@ def drive(
         return
     if at >= size:
         return
-    # Exact for a function that is linear between grid points: over whole cells from point to point, then over the part
-    # of a cell to where the leg's certain cost leads.
+    # Exact for a function that is linear between grid points: integrate over whole cells, then over the partial cell
+    # that ends at the deterministic cost of the leg.
     whole = math.ceil(at)
     stay, earlier, later = cell(1.0, scale / step)
     last_stay, last_earlier, last_later = cell(whole - at, scale / step)
     mean_worth, mean_success = 0.0, 0.0
     low_worth, low_success = worth[0], success[0]
     high_worth, high_success = worth[min(1, size - 1)], success[min(1, size - 1)]
-    # With only ``whole`` left, what is left then lies below the grid's second point.
+    # With only ``whole`` left, the amount after the leg lies below the second grid point.
     if whole < size:
         to_worth[whole] = last_earlier * low_worth + last_later * high_worth
         to_success[whole] = last_earlier * low_success + last_later * high_success
@@ -82,10 +83,11 @@ def drive(
 
 @inner
 def cell(width: float, mean: float) -> tuple[float, float, float]:
-    """Return the expectation over an exponential cost at ``width`` above a grid point, in cells of the grid.
+    """Return the factors of the expectation over an exponential cost, ``width`` cells above a grid point.
 
     Returns:
-        Factors of the expectation at that point, of the function there, and of the function at the point after it.
+        Factors of the expectation at the grid point below, of the function there, and of the function at the next
+        point.
     """
     if width <= 0.0:
         return 1.0, 0.0, 0.0
@@ -163,7 +165,7 @@ def gather(
 
 @inner
 def home(success: Floats, to_success: Floats, floor: float, step: float) -> None:
-    """Compute success by amount left at the end where the other limits require ``floor`` of it."""
+    """Compute the probability of success by amount left at the end, if the other limits require at least ``floor``."""
     size = len(success)
     at = floor / step
     whole = int(at)
@@ -181,23 +183,23 @@ def backward(
     bonus: float, step: float, skip: int, points: Floats, weights: Floats,
     worth: Floats, success: Floats, ahead: Floats, choice: Ints, work: Floats,
 ) -> None:  # fmt: skip
-    """Fill the programme from the end of ``route`` to its beginning.
+    """Compute the dynamic programme from the end of ``route`` to its beginning.
 
     Args:
-        route: From here to the end, both included.
-        lengths: For :func:`length`.
+        route: Nodes from the current vertex to the end, both included.
+        lengths: Leg lengths, as for :func:`length`.
         rewards: Reward of each vertex.
         service: Service cost of each vertex in the first limit.
         ends: Probability, by amount left at the end, that the legs after it keep to the limit.
-        floors: For each position what must be left of the first limit on going home from there, so that the others
-            keep; 0 where there is but one limit.
-        bonus: Value of keeping to the limits, besides the rewards from here on.
-        step: Distance between grid points; the last point is the amount left here.
+        floors: For each position the amount of the first limit that must be left when driving to the end from there, so
+            that the other limits hold; 0 if there is only one limit.
+        bonus: Value of success in addition to further rewards.
+        step: Distance between grid points; the last point is the current amount left.
         skip: Number of stops ahead among which the next is chosen.
-        points, weights: For :func:`drive`.
+        points, weights: Cost distribution of a leg, as for :func:`drive`.
         worth, success: Overwritten, shape (positions, points of the grid).
         ahead: Overwritten: ``worth`` with the reward of the position itself.
-        choice: Overwritten: the position that is driven to.
+        choice: Overwritten: the next position.
         work: Overwritten, shape (:data:`WORK`, points of the grid).
     """
     last = len(route) - 1
@@ -235,7 +237,7 @@ def forward(
     route: Ints, lengths: LegLengths, service: Floats, step: float, skip: int, points: Floats, weights: Floats,
     choice: Ints, mass: Floats, work: Floats,
 ) -> None:  # fmt: skip
-    """Fill ``mass``: how likely a mission comes to each position with each amount left. ``work`` is overwritten."""
+    """Compute ``mass``: the probability of reaching each position with each amount left. ``work`` is overwritten."""
     last = len(route) - 1
     size = mass.shape[1]
     for i in range(last + 1):
@@ -256,7 +258,7 @@ def forward(
 
 @inner
 def _tried(v: int, route: Ints, lengths: LegLengths, coming: Floats, detour: Floats) -> float:
-    """Fill ``detour``: what the way over v adds after each position; the longest detour that is tried."""
+    """Compute the detour over v after each position; return the longest one that is tried."""
     last = len(route) - 1
     came = length(lengths, route[0], v)
     for i in range(last):
@@ -284,9 +286,9 @@ def gains(
 ) -> None:  # fmt: skip
     """Compute for each candidate the gain of inserting it at its best position.
 
-    From there the robot drives on to the next position or to the end. Those positions are tried where the way over
-    the candidate is the least detour. ``work`` is overwritten, shape (:data:`WORK`, points of the grid), and so is
-    ``detours``, shape (2, positions).
+    From the candidate the robot drives on to the next position or to the end. Only the positions with the shortest
+    detours are tried. ``work`` is overwritten, shape (:data:`WORK`, points of the grid), and so is ``detours``, shape
+    (2, positions).
     """
     last = len(route) - 1
     size = worth.shape[1]
