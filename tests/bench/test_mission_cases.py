@@ -18,7 +18,7 @@ from fieldhand_bench.missions.cases import Case
 from fieldhand_bench.missions.ground import load_ground
 from fieldhand_bench.missions.judge import judge
 from fieldhand_bench.missions.log import read_log
-from fieldhand_bench.missions.trial import Range, try_all
+from fieldhand_bench.missions.trial import TrialSetup, try_all
 from support.missions.outside_referee import HERE, SHARED, ground, referee
 from support.missions.tampered import tampered
 
@@ -53,14 +53,14 @@ def test_the_page_and_the_changelog_say_how_many_there_are() -> None:
 def test_every_case_is_as_asked_and_both_judges_agree_on_every_log(file: str) -> None:
     cases = [case for case in BUILT_IN if case.source == file]
     logs: list[tuple[Case, int, Sequence[str]]] = []
-    on = Range(
+    setup = TrialSetup(
         planner=EnglishPlanner(),
         model=None,
         seed=0,
         clock=lambda: 0.0,
         keep=lambda case, world, lines: logs.append((case, world, tuple(lines))),
     )
-    for trial in try_all(cases, on):
+    for trial in try_all(cases, setup):
         assert trial.as_asked, (trial.id, trial.why, trial.wrong)
     assert Counter(case.id for case, _, _ in logs) == {c.id: len(c.worlds) for c in cases if c.worlds}
     if HERE:

@@ -15,7 +15,7 @@ from fieldhand.task.plan import Act, AnyOrder, ForEach, InOrder, Node, Repeat, T
 from fieldhand.task.results import Acted, Arrived, Decided, Ended, Event, Exited, Shed, Visiting
 from fieldhand_bench.draw import Draft
 from fieldhand_bench.fly import fly
-from fieldhand_bench.referee import Ruling, judge
+from fieldhand_bench.referee import Judgement, judge
 from support.examples import examples
 from support.missions.rig import BudgetOf, Rig, husky, of_type, orchard, task_for
 
@@ -32,11 +32,11 @@ def flown(plan: Node, *, visits: int = 1000, **task: object) -> tuple[Task, list
     return made, list(replace(RIG, guard=BudgetOf(visits)).fly(made).events)
 
 
-def ruled(task: Task, events: list[Event]) -> Ruling:
+def ruled(task: Task, events: list[Event]) -> Judgement:
     return judge(task, orchard(), husky(), events)
 
 
-def sound(ruling: Ruling) -> bool:
+def sound(ruling: Judgement) -> bool:
     return not (ruling.silent or ruling.doubled or ruling.misplaced or ruling.odd)
 
 

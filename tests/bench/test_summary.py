@@ -11,12 +11,12 @@ from hypothesis import strategies as st
 from scipy.stats import binom
 
 from fieldhand_bench.fly import Forecast, Trial
-from fieldhand_bench.referee import Ruling, Use
+from fieldhand_bench.referee import Judgement, LimitUse
 from fieldhand_bench.summary import most_failures, summarize, worth_looking_at
 
-KEPT = Ruling(
+KEPT = Judgement(
     status="completed",
-    uses=(Use(kind="distance_m", used=90.0, limit=100.0), Use(kind="reserve", used=10.0, limit=80.0)),
+    uses=(LimitUse(kind="distance_m", used=90.0, limit=100.0), LimitUse(kind="reserve", used=10.0, limit=80.0)),
     done=2,
     given_up=(),
     silent=(),
@@ -29,10 +29,10 @@ KEPT = Ruling(
     misplaced="",
     odd=(),
 )
-OVER = replace(KEPT, uses=(Use(kind="distance_m", used=101.0, limit=100.0), KEPT.uses[1]))
+OVER = replace(KEPT, uses=(LimitUse(kind="distance_m", used=101.0, limit=100.0), KEPT.uses[1]))
 
 
-def trial(seed: int, ruling: Ruling = KEPT, **fields: object) -> Trial:
+def trial(seed: int, ruling: Judgement = KEPT, **fields: object) -> Trial:
     made = Trial(
         seed=seed, family="optional", limited="distance", factor=1.0, failure_probability=0.1, trees=20, alpha=0.5,
         then="stay", refused=(), promise="within", ruling=ruling, forecast=Forecast(visits=9, reward=9.0),
@@ -92,7 +92,7 @@ def test_visits_and_reward_are_held_against_the_forecast_and_the_best_route() ->
 
 
 def test_missions_worth_a_look_are_named_once_the_worst_first() -> None:
-    unused = replace(KEPT, uses=(Use(kind="distance_m", used=20.0, limit=100.0), KEPT.uses[1]))
+    unused = replace(KEPT, uses=(LimitUse(kind="distance_m", used=20.0, limit=100.0), KEPT.uses[1]))
     gave_up = replace(KEPT, given_up=("n2 at 4 (too little left)",))
     timid = replace(KEPT, caution=0.01)
     trials = [

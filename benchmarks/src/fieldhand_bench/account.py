@@ -1,4 +1,4 @@
-"""What a log shows of a plan."""
+"""The result of comparing a plan with an event log: work done, work undone, optional visits."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from fieldhand.task.results import Event
 
 @dataclass(frozen=True, kw_only=True)
 class Undone:
-    """Work that had to be done and that the log does not show; no places where only the robot would have known them."""
+    """Mandatory work that is missing from the log; without places if only the robot could have resolved them."""
 
     node: str
     places: tuple[str, ...] = ()
@@ -17,7 +17,7 @@ class Undone:
 
 @dataclass(frozen=True, kw_only=True)
 class Made:
-    """An optional visit that was made with all its work; ``run`` counts how often its loop had begun."""
+    """A completed optional visit; ``run`` numbers the executions of optional loops, so that repeated ones differ."""
 
     node: str
     run: int
@@ -26,15 +26,15 @@ class Made:
 
 @dataclass(kw_only=True)
 class Account:
-    """What a log shows of a plan.
+    """The work of a plan as found in an event log.
 
     Attributes:
-        done: Pieces of work (an action with its captures, a drive that was asked for) that had to be done and were.
-        undone: Those that were not.
-        made: Optional visits.
-        left_out: Optional visits that were given up.
-        odd: What the plan does not explain.
-        rest: Events from where the mission was cut short.
+        done: Number of mandatory pieces of work that were done; a piece is an action with its captures or a drive.
+        undone: Mandatory pieces of work that were not done.
+        made: Completed optional visits.
+        left_out: Number of optional visits that were given up.
+        odd: Events that the plan does not explain, one sentence each.
+        rest: Events from the point at which the mission was cut short.
     """
 
     done: int = 0

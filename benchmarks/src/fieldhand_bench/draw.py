@@ -1,4 +1,4 @@
-"""The mission of a seed: a scene, a plan, and limits drawn relative to what the plan needs, so that many bind."""
+"""The random mission of a seed: a scene, a plan, and limits relative to what the plan needs, so that many bind."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from fieldhand.task import plan
 from fieldhand.task.build import FAULTED_EXITS, make_task
 from fieldhand.task.frames import Budget, BudgetKind, Constraints, FaultedExit, Resource, Task, Then
 from fieldhand.task.plan import ForEach, Node
-from fieldhand_bench.families import FAMILIES, Ground
+from fieldhand_bench.families import FAMILIES, RandomChoices
 from fieldhand_bench.scenes import MOST_TREES, random_robot, random_site
 
 #: Accepted failure probabilities.
 PF = (0.05, 0.1, 0.2)
 
-#: What limits a mission, by name, and how often: ``charge`` begins with so little that the reserve binds.
+#: Limits of a mission by name: budgets and share of missions. ``charge`` starts with so little that the reserve binds.
 LIMITED: Mapping[str, tuple[tuple[BudgetKind, ...], float]] = {
     "distance": (("distance_m",), 0.25),
     "time": (("duration_s",), 0.25),
@@ -36,9 +36,9 @@ LIMITED: Mapping[str, tuple[tuple[BudgetKind, ...], float]] = {
 _KINDS: tuple[BudgetKind, ...] = ("distance_m", "duration_s", "energy_percent")
 _HOMES: tuple[tuple[Then, float], ...] = (("return_to_end", 0.45), ("return_to_start", 0.3), ("stay", 0.25))
 
-#: Limits are this many times what is needed. What must be done needs all of it, so there is less to play with.
+#: Ranges of limit over requirement. Mandatory work needs the whole requirement, so its range begins higher.
 _OPTIONAL, _MANDATORY = (0.3, 1.5), (0.7, 1.8)
-#: Percent of the battery that a mission limited by its charge needs: the battery is made to fit.
+#: Percent of the battery that a mission limited by its charge needs; the capacity is scaled to match.
 _NEEDS_PERCENT = (4.0, 40.0)
 
 
@@ -47,14 +47,14 @@ class Draft:
     """A mission before it is approved.
 
     Attributes:
-        seed: Of everything in it.
-        attempt: Which draw of that seed it is, from 0; drafts that are not approved are drawn again.
+        seed: Random seed of the whole mission.
+        attempt: Number of the draw with that seed, from 0; drafts that are not approved are drawn again.
         family: A name of :data:`fieldhand_bench.families.FAMILIES`.
         limited: A name of :data:`LIMITED`.
-        factor: The limit over what everything that is asked for needs on average.
-        failure_probability: Accepted, of every limit.
-        charge_percent: At the start.
-        flight_seed: Of the simulation.
+        factor: Limit divided by the mean requirement of everything that is requested.
+        failure_probability: Accepted probability of exceeding each limit.
+        charge_percent: Battery charge at the start, percent.
+        flight_seed: Random seed of the simulation.
     """
 
     seed: int
@@ -71,16 +71,16 @@ class Draft:
 
 
 def family_of(seed: int) -> str:
-    """The family of a seed: they take turns, so that all are equally common."""
+    """Return the family of a seed; successive seeds cycle through the families, so that all are equally common."""
     return tuple(FAMILIES)[seed % len(FAMILIES)]
 
 
 def draw(seed: int, attempt: int = 0, most_trees: int = MOST_TREES) -> Draft | None:
-    """The mission of a seed; None where this draw of it asks for what the site does not have."""
+    """Return the mission of a seed, or None if this draw requests something that the site does not have."""
     rng = np.random.default_rng([1872, seed, attempt])
     site, robot = random_site(rng, most_trees), random_robot(rng)
     family = family_of(seed)
-    task = _task(rng, FAMILIES[family](Ground(rng, site, robot)), site, robot)
+    task = _task(rng, FAMILIES[family](RandomChoices(rng, site, robot)), site, robot)
     try:
         needed = needs(task, site, robot)
     except (PlaceError, DriveFault):
@@ -92,7 +92,7 @@ def draw(seed: int, attempt: int = 0, most_trees: int = MOST_TREES) -> Draft | N
     factor = float(rng.uniform(low, high))
     charge = 100.0
     if limited == "charge":
-        # The reserve has no probability of its own: it takes that of the budgets, and without any the usual one.
+        # The reserve has no probability of its own: it uses that of the budgets, or the default without any.
         pf = Budget.failure_probability
         share = float(rng.uniform(*_NEEDS_PERCENT))
         capacity = max(robot.energy.capacity_j * needed.percent / share, 1.0)
@@ -116,7 +116,7 @@ def draw(seed: int, attempt: int = 0, most_trees: int = MOST_TREES) -> Draft | N
 
 
 def needs(task: Task, site: Site, robot: RobotProfile) -> Spent:
-    """What everything that a Task asks for takes on average, its optional visits too, were there no limits."""
+    """Return the mean requirement of a Task without limits, all optional visits included."""
     whole = replace(task.composition, plan=_all_of(task.composition.plan))
     everything = replace(task, composition=whole, constraints=replace(task.constraints, budgets=()))
     walked = walk_branch(everything, site, robot, holds=_longest(whole.plan))
@@ -129,7 +129,7 @@ def needs(task: Task, site: Site, robot: RobotProfile) -> Spent:
 def _task(rng: np.random.Generator, root: Node, site: Site, robot: RobotProfile) -> Task:
     homes = [then for then, _ in _HOMES]
     nominal = homes[int(rng.choice(len(homes), p=[share for _, share in _HOMES]))]
-    # Missions that are planned from words go to the end when little is left, or to the start if that was asked for.
+    # As in planned missions: on a low budget drive to the end, or to the start if the request says so.
     low: Then = "return_to_end" if nominal == "stay" and rng.random() < 0.5 else nominal
     exits = tuple(FaultedExit(fault=e.fault, then=low) if e.fault == "low_budget" else e for e in FAULTED_EXITS)
     return make_task(
@@ -160,12 +160,12 @@ def _budgets(rng: np.random.Generator, limited: str, needed: Spent, factor: floa
 
 
 def _all_of(node: Node) -> Node:
-    """The plan with every optional visit made mandatory."""
+    """Return the plan with every optional visit made mandatory."""
     whole = node.with_children([_all_of(child) for child in node.children])
     return replace(whole, optional=False) if isinstance(whole, ForEach) else whole
 
 
 def _longest(root: Node) -> Answer:
-    """Every condition adds its work, and no loop ends early."""
+    """Return answers for the longest branch: every condition adds its work, and no loop ends early."""
     branching = {n.id for n in plan.walk(root) if n.is_choice}
     return lambda node_id: node_id in branching

@@ -1,4 +1,4 @@
-"""The mission of a seed, approved, flown in simulation and judged."""
+"""Approve, simulate and judge the random mission of a seed."""
 
 from __future__ import annotations
 
@@ -26,25 +26,25 @@ from fieldhand.task.frames import Task, Then
 from fieldhand.task.plan import Node
 from fieldhand.task.results import Decided, Event
 from fieldhand_bench.draw import Draft, draw
-from fieldhand_bench.referee import Ruling, judge
+from fieldhand_bench.referee import Judgement, judge
 from fieldhand_bench.scenes import MOST_TREES
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
 
-#: How safe a mission was at approval: what must be done is within the accepted probability; it is not, so that the
-#: approval came with a warning; not even driving home at once is.
+#: Risk of a mission at approval. ``within``: mandatory work keeps to the accepted probability. ``warned``: it does not,
+#: so that the approval carried a warning. ``hopeless``: not even driving home at once does.
 Promise = Literal["within", "warned", "hopeless"]
 
 _APPROVED_AT = datetime(2026, 1, 1, tzinfo=UTC)
-#: Draws of a seed before it is given up; one in three or so is approved.
+#: Maximum number of draws of a seed; about one in three is approved.
 _DRAWS = 60
 _FEW_TREES = 20
 
 
 @dataclass(frozen=True, kw_only=True)
 class Forecast:
-    """Optional visits and their reward, as a walk along the branch that the mission took has them."""
+    """Optional visits and their reward, as forecast for the branch that the mission took."""
 
     visits: int
     reward: float
@@ -52,21 +52,22 @@ class Forecast:
 
 @dataclass(frozen=True, kw_only=True)
 class Trial:
-    """A mission that was flown and judged. It can be sent to another process.
+    """A simulated and judged mission. It can be sent to another process.
 
     Attributes:
-        seed, family, limited, factor, failure_probability: Of its draft.
-        trees: Of the site.
-        alpha: The certain part of a leg's cost.
-        then: Where the mission was to end.
-        refused: Why earlier draws of its seed were not approved, one sentence each.
-        promise: How safe it was at approval, seen with the charge that it really had.
-        ruling: What came of it.
-        forecast: What the approval expected of its optional visits.
-        certain: The same were every leg's cost its mean: more than chance allows.
-        first_s: Seconds of processor time of the guard's first decision.
-        choices_s: Of each later choice of an optional visit.
-        admissions_s: Of each later answer about mandatory work; much of it was granted with the visit before it.
+        seed, family, limited, factor, failure_probability: As in the draft.
+        trees: Number of trees of the site.
+        alpha: Certain part of a leg's cost, 0 to 1.
+        then: Intended end of the mission.
+        refused: Reasons why earlier draws of the seed were not approved, one sentence each.
+        promise: Risk at approval, computed with the actual charge at the start.
+        ruling: Judgement of the mission.
+        forecast: Optional visits that were forecast at approval.
+        certain: The same forecast with every leg's cost at its mean, which is an optimistic bound.
+        first_s: Processor time of the guard's first decision, seconds.
+        choices_s: Processor times of the later choices of an optional visit, seconds.
+        admissions_s: Processor times of the later decisions on mandatory work, seconds; many of these were already
+            made together with the visit before.
     """
 
     seed: int
@@ -79,7 +80,7 @@ class Trial:
     then: Then
     refused: tuple[str, ...]
     promise: Promise
-    ruling: Ruling
+    ruling: Judgement
     forecast: Forecast
     certain: Forecast
     first_s: float
@@ -88,13 +89,13 @@ class Trial:
 
     @property
     def failed(self) -> bool:
-        """Whether a budget or the reserve was exceeded."""
+        """Return True if a budget or the reserve was exceeded."""
         return bool(self.ruling.exceeded)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Flight:
-    """A trial with its draft and its event log."""
+    """A trial with its draft and its events."""
 
     trial: Trial
     draft: Draft
@@ -103,7 +104,7 @@ class Flight:
 
 @dataclass
 class TimedGuard:
-    """A guard that notes how much processor time another takes to answer: other programs do not count."""
+    """A guard that delegates to another and records the processor time of each decision."""
 
     guard: Guard
     first_s: list[float] = field(default_factory=list)
@@ -134,14 +135,14 @@ class TimedGuard:
 
 
 def fly(seed: int, most_trees: int = MOST_TREES) -> Flight:
-    """Draw the mission of a seed until it is approved, fly it, judge it.
+    """Draw the mission of a seed until it is approved, simulate it and judge it.
 
     Args:
-        seed: Of everything in it.
-        most_trees: Of its site.
+        seed: Random seed of the whole mission.
+        most_trees: Maximum number of trees of its site.
 
     Raises:
-        FieldhandError: Nothing that is drawn for the seed is approved.
+        FieldhandError: No draw of the seed is approved.
     """
     refused: list[str] = []
     for attempt in range(_DRAWS):
@@ -176,12 +177,12 @@ def _flown(draft: Draft, approved: mission.ApprovedMission, refused: tuple[str, 
 
 
 def fly_all(seeds: Sequence[int], *, most_trees: int = MOST_TREES, jobs: int = 1) -> Iterator[Trial]:
-    """Fly many missions; each as it is done, in the order of the seeds.
+    """Simulate many missions; yield each trial in the order of the seeds as soon as it is available.
 
     Args:
-        seeds: Of the missions.
-        most_trees: Of each site.
-        jobs: Processes; -1 for one on each processor.
+        seeds: Random seeds of the missions.
+        most_trees: Maximum number of trees of each site.
+        jobs: Number of processes; -1 for one per processor.
     """
     from joblib import Parallel, delayed
 
@@ -189,14 +190,14 @@ def fly_all(seeds: Sequence[int], *, most_trees: int = MOST_TREES, jobs: int = 1
 
 
 def _fly_one(seed: int, most_trees: int) -> Trial:
-    """At the top of the module so that other processes find it."""
+    """Return the trial of a seed; at module level so that other processes can import it."""
     _warm_up()
     return fly(seed, most_trees).trial
 
 
 @cache
 def _warm_up() -> None:
-    """Load what is compiled, once in a process, so that no decision is timed with it."""
+    """Load compiled code once per process, so that no measured decision includes it."""
     for family in range(2):
         fly(family, _FEW_TREES)
 
@@ -224,7 +225,7 @@ def _trial(draft: Draft, refused: tuple[str, ...], events: Sequence[Event], time
 
 
 def _promise(draft: Draft) -> Promise:
-    """What must be done, and the way home alone, against the limits, from the charge that the mission begins with."""
+    """Compare mandatory work, and the drive home alone, with the limits, from the charge at the start."""
     if not _exceeds(draft, mandatory_part(draft.task)):
         return "within"
     nothing = replace(draft.task.composition, plan=plan.InOrder(id=draft.task.composition.plan.id, steps=()))
@@ -248,13 +249,13 @@ def _forecast(draft: Draft, robot: RobotProfile, events: Sequence[Event]) -> For
 
 
 def _until(steps: Sequence[WalkStep], node: Node) -> int:
-    """Visits of a loop's places before it found what it was to stop at."""
+    """Return the number of visits that a loop made until its end condition held."""
     tests = (s.answer for s in steps if s.kind == "decide" and s.node is node)
     return next((number for number, found in enumerate(tests, start=1) if found), len(steps))
 
 
 def _as_it_went(events: Sequence[Event]) -> Answer:
-    """Every condition as it was found; beyond what was tested, as it was found last."""
+    """Return the answers that conditions had in the mission; beyond the tested ones, the last answer again."""
     answers: dict[str, deque[bool]] = defaultdict(deque)
     for event in events:
         if isinstance(event, Decided):

@@ -1,7 +1,7 @@
-"""A plan held against an event log: what was done of what must be done, what was not, and each optional visit.
+"""Compare a plan with an event log: mandatory work done and undone, and each optional visit.
 
-The events of a mission stand in the order in which the plan is gone through, so both are read side by side. Where the
-log does not go on as the plan does, the mission was cut short there: all that would have followed is undone.
+The events of a mission are in the order in which the plan is executed, so both are read in parallel. Where the log does
+not continue as the plan does, the mission was cut short there: all work that would have followed is undone.
 """
 
 from __future__ import annotations
@@ -32,15 +32,15 @@ from fieldhand_bench.account import Account, Made, Undone
 
 
 class _Cut(Exception):
-    """The log does not go on as the plan does. No error: it unwinds the plan."""
+    """Raised where the log does not continue as the plan does. Not an error: it unwinds the plan."""
 
 
 class _Stopped(Exception):
-    """The plan says to stop. No error: what follows is not wanted."""
+    """Raised at a stop of the plan. Not an error: the steps that follow are not required."""
 
 
 def follow(root: p.Node, site: Site, events: Sequence[Event]) -> Account:
-    """Read a plan and a log side by side."""
+    """Read a plan and an event log in parallel and return the work that was done and undone."""
     reader = _Reader(site, events)
     try:
         reader.play(root)
@@ -56,14 +56,14 @@ def follow(root: p.Node, site: Site, events: Sequence[Event]) -> Account:
 
 
 class _Reader:
-    """How far the log is read, and what it has shown."""
+    """A position in an event log, with the account of the work read so far."""
 
     def __init__(self, site: Site, events: Sequence[Event]) -> None:
         self._site = site
         over = next((k for k, e in enumerate(events) if isinstance(e, Exited | Ended)), len(events))
         self.left = [e for e in events[:over] if not isinstance(e, Started | LimitCrossed)]
         self.account = Account()
-        self._hand = ""
+        self._here = ""
         self._optional = 0
         self._runs = 0
 
@@ -75,12 +75,12 @@ class _Reader:
         return self.left[0] if self.left else None
 
     def _comes(self, node: p.Node) -> bool:
-        """Whether the next event belongs to a node or to one inside it."""
+        """Return True if the next event belongs to a node or to one inside it."""
         event = self._peek()
         return event is not None and any(n.id == event.node for n in p.walk(node))
 
     def _drives(self, node: p.Node) -> str | None:
-        """The place that a drive of the node ends at, if that is what comes next."""
+        """Consume the next drive of a node and return its destination; None if another event comes next."""
         event = self._peek()
         if isinstance(event, Driving) and event.node == node.id:
             self.left.pop(0)
@@ -90,7 +90,7 @@ class _Reader:
         if not isinstance(event, Arrived) or event.node != node.id:
             return None
         self.left.pop(0)
-        self._hand = event.place
+        self._here = event.place
         return event.place
 
     def _decided(self, node: p.Node) -> bool:
@@ -103,7 +103,7 @@ class _Reader:
     # --- nodes -------------------------------------------------------------------------------------------------------
 
     def play(self, node: p.Node) -> None:
-        """Go through a node along the log."""
+        """Execute a node, consuming its events from the log."""
         match node:
             case p.InOrder(steps=steps):
                 self._in_order(steps)
@@ -177,8 +177,8 @@ class _Reader:
             self.play(node.otherwise)
 
     def _go_to(self, node: p.GoTo) -> None:
-        # A robot that stands there already has nothing to report.
-        if self._drives(node) is None and self._hand not in self._known(node.place):
+        # A robot that is already there records no arrival.
+        if self._drives(node) is None and self._here not in self._known(node.place):
             self._miss(node)
             raise _Cut
         self._do()
@@ -190,7 +190,7 @@ class _Reader:
         while captures < node.count:
             event = self._peek()
             if not isinstance(event, Acted) or event.node != node.id:
-                self._undo(node.id, *((self._hand,) if node.at is None else self._known(node.at)))
+                self._undo(node.id, *((self._here,) if node.at is None else self._known(node.at)))
                 raise _Cut
             self.left.pop(0)
             captures += event.count if event.status == "success" else 0
@@ -247,7 +247,7 @@ class _Reader:
             self.account.odd.append(f"{node.id} left {len(left)} places out without a word")
 
     def _visit(self, node: p.ForEach, place: str) -> bool:
-        """Whether the visit was made with all its work."""
+        """Return True if the visit was made with all its work."""
         self._optional += 1
         try:
             self.play(node.body)
@@ -265,7 +265,7 @@ class _Reader:
         return True
 
     def _begun(self, node: p.ForEach) -> list[str] | None:
-        """The places of a loop as the robot found them; None where it never came to that."""
+        """Return the places of a loop as the robot resolved them; None if it never began the loop."""
         event = self._peek()
         if not isinstance(event, Visiting) or event.node != node.id:
             return None
@@ -277,10 +277,10 @@ class _Reader:
         return list(found)
 
     def _arrives(self, node: p.ForEach, left: Sequence[str]) -> str | None:
-        """The place of the next visit; the one in hand where the robot stands at it already."""
+        """Return the place of the next visit, which is the current place if the robot is already there."""
         place = self._drives(node)
-        if place is None and self._hand in left and self._comes(node.body):
-            return self._hand
+        if place is None and self._here in left and self._comes(node.body):
+            return self._here
         if place is not None and not node.optional and place not in left:
             self.account.odd.append(f"{node.id} came to {place}, which is none of its places or was visited")
             raise _Cut
@@ -295,7 +295,7 @@ class _Reader:
         left[:] = [place for place in left if place not in event.places]
         return True
 
-    # --- what was not done -------------------------------------------------------------------------------------------
+    # --- work done and undone ----------------------------------------------------------------------------------------
 
     def _do(self) -> None:
         self.account.done += not self._optional
@@ -305,7 +305,7 @@ class _Reader:
             self.account.undone.append(Undone(node=node, places=places))
 
     def _miss(self, *nodes: p.Node) -> None:
-        """Nodes that the robot did not come to, as far as it is known what they want."""
+        """Record nodes that were not reached as undone, with their places where these can be resolved."""
         for node in nodes:
             match node:
                 case p.InOrder(steps=steps) | p.AnyOrder(steps=steps):
@@ -320,7 +320,7 @@ class _Reader:
                     self._undo(node.id)
 
     def _known(self, selector: Selector) -> tuple[str, ...]:
-        """Ids of the places of a selector; none where only the robot knows them."""
+        """Return the ids of a selector's places; none if only the robot can resolve them."""
         if selector.relative:
             return ()
         try:

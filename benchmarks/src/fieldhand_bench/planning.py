@@ -1,4 +1,4 @@
-"""How long the English planner takes on an orchard of a size, over requests of every kind that it knows."""
+"""Measure the English planner on an orchard of a given size with requests of every kind that it understands."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from fieldhand_bench.site import benchmark_orchard
 
 ROBOT = "husky"
 
-#: From one tree to the longest published request; every kind of place, condition and limit stands in one of them.
+#: Requests from a single tree to the longest published one, with every kind of place, condition and limit.
 REQUESTS = (
     "Take a picture of tree 7.",
     "Photograph trees 4, 9 and 12.",
@@ -58,12 +58,13 @@ REQUESTS = (
 
 @dataclass(frozen=True, kw_only=True)
 class RequestTiming:
-    """How long a request took to plan.
+    """Durations of planning a request.
 
     Attributes:
-        answer: What the planner made of it on this orchard; a question or a refusal takes its time, too.
-        first_s: The first time, when what the site remembers of selectors is worked out.
-        median_s, worst_s: Of the repeats.
+        request: Text of the request.
+        answer: Answer of the planner on this orchard; a question or a refusal is measured, too.
+        first_s: Duration of the first time, before the site has cached any selectors, seconds.
+        median_s, worst_s: Median and maximum duration of the repeats, seconds.
     """
 
     request: str
@@ -75,12 +76,15 @@ class RequestTiming:
 
 @dataclass(frozen=True, kw_only=True)
 class PlanningBenchmark:
-    """The planner on an orchard of a size.
+    """Measurements of the planner on one orchard.
 
     Attributes:
-        load_s: Reading the site, its rows and its drivable graph, once.
-        grammar_s: The very first request of a process, for which grammar and lexicon are loaded.
-        requests: In the order of :data:`REQUESTS`.
+        trees, rows: Size of the orchard.
+        repeats: Number of repeats of each request.
+        seed: Random seed of the orchard.
+        load_s: Duration of loading the site, its rows and its drivable graph once, seconds.
+        grammar_s: Duration of the first request of the process, which loads grammar and lexicon, seconds.
+        requests: Durations in the order of :data:`REQUESTS`.
     """
 
     trees: int
@@ -93,31 +97,31 @@ class PlanningBenchmark:
 
     @property
     def median_s(self) -> float:
-        """The median over the requests of their medians."""
+        """Median of the requests' median durations, seconds."""
         return statistics.median(timing.median_s for timing in self.requests)
 
     @property
     def slowest(self) -> RequestTiming:
-        """The request with the largest median."""
+        """Timing of the request with the largest median."""
         return max(self.requests, key=lambda timing: timing.median_s)
 
     @property
     def worst_s(self) -> float:
-        """The longest that any request took at any time after the first of the process, first times included."""
+        """Longest duration of any request, its first time included, seconds; without ``grammar_s``."""
         return max(max(timing.first_s, timing.worst_s) for timing in self.requests)
 
 
 def measure_planning(trees: int, *, seed: int, repeats: int, clock: Callable[[], float]) -> PlanningBenchmark:
-    """Plan each request on an orchard of so many trees; nothing is approved or driven.
+    """Plan each request on an orchard of so many trees; nothing is approved or simulated.
 
     Args:
-        trees: 20 or more.
-        seed: Of the orchard.
-        repeats: Of each request; 1 or more.
-        clock: Seconds, running.
+        trees: Number of trees, 20 or more.
+        seed: Random seed of the orchard.
+        repeats: Number of repeats of each request, 1 or more.
+        clock: Function that returns the current time in seconds.
 
     Raises:
-        InputError: Too few trees.
+        InputError: There are too few trees.
     """
     data = benchmark_orchard(trees, seed)
     robot, planner = load_robot(ROBOT), EnglishPlanner()
@@ -125,7 +129,7 @@ def measure_planning(trees: int, *, seed: int, repeats: int, clock: Callable[[],
     site = parse_site(data, name="benchmark")
     drives = drives_for(site, robot)
     low, high = int(np.argmin(site.xy.sum(axis=1))), int(np.argmax(site.xy.sum(axis=1)))
-    with contextlib.suppress(DriveFault):  # the graph is complete then all the same
+    with contextlib.suppress(DriveFault):  # the graph is complete even without a path
         drives.between(site.trees[low].place, site.trees[high].place)
     loaded = clock()
     planner.plan("Take a picture of the first tree.", site, robot)

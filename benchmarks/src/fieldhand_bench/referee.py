@@ -1,4 +1,4 @@
-"""A finished mission judged from its Task, its site and its event log alone; how the guard decides is not asked."""
+"""Judge a finished mission from its Task, its site and its event log alone, independent of the guard."""
 
 from __future__ import annotations
 
@@ -29,16 +29,16 @@ from fieldhand.task.results import (
 from fieldhand_bench.account import Undone
 from fieldhand_bench.follow import follow
 
-#: What floating-point sums may differ by.
+#: Relative tolerance of floating-point sums.
 _SUMS = 1e-6
-#: Metres from where the log says that the robot is.
+#: Maximum distance between the last arrival and the final position, metres.
 _THERE_M = 0.5
 _WORD = re.compile(r"[A-Za-z]{3,}")
 
 
 @dataclass(frozen=True, kw_only=True)
-class Use:
-    """What was used of a limit: metres, seconds, or percent of the battery (``reserve``: of what is above it)."""
+class LimitUse:
+    """The use of a limit in metres, seconds or percent of the battery; ``reserve``: of the charge above the reserve."""
 
     kind: str
     used: float
@@ -46,37 +46,38 @@ class Use:
 
     @property
     def exceeded(self) -> bool:
-        """Whether that is too much."""
+        """Return True if more was used than the limit."""
         return self.used > self.limit + _SUMS * max(1.0, self.limit)
 
     @property
     def share(self) -> float:
-        """Used over limit."""
+        """Amount used divided by the limit."""
         return self.used / self.limit if self.limit > 0 else math.inf
 
 
 @dataclass(frozen=True, kw_only=True)
-class Ruling:
-    """What came of a mission.
+class Judgement:
+    """The judgement of a mission.
 
     Attributes:
-        uses: Of each budget and of the charge above the reserve.
-        done: Pieces of work that had to be done and were.
-        given_up: Places of work that had to be done and was given up, each with node and reason.
-        silent: Work that had to be done, was not, and of which the log says nothing that a person could read.
-        faulted: What ended the mission if a fault did; work that was lost by it is not given up in silence.
-        visits: Optional visits that were made with all their work.
-        left_out: Optional visits that were given up.
-        caution: The least chance of running short with which anything was given up, by the log's own words; None where
-            nothing was. Below the accepted probability the guard gave up what it need not have.
-        reward: Of the optional visits made.
+        status: Final status of the mission.
+        uses: Use of each budget and of the charge above the reserve.
+        done: Number of mandatory pieces of work that were done.
+        given_up: Mandatory work that was given up, with node, place and reason.
+        silent: Mandatory work that was not done and for which the log gives no readable reason.
+        faulted: Fault that ended the mission, empty for none; work lost by it does not count as ``silent``.
+        visits: Number of completed optional visits.
+        left_out: Number of optional visits that were given up.
+        caution: Lowest logged overrun probability at which work was given up; None if none was. Below the accepted
+            probability the guard gave up more than necessary.
+        reward: Total reward of the completed optional visits.
         doubled: Places that a loop visited twice.
-        misplaced: How the mission ended where it should not have; empty if it did not.
-        odd: Where the log and the plan do not fit.
+        misplaced: Description of a wrong end of the mission; empty if the end is right.
+        odd: Contradictions between log and plan, one sentence each.
     """
 
     status: MissionStatus
-    uses: tuple[Use, ...]
+    uses: tuple[LimitUse, ...]
     done: int
     given_up: tuple[str, ...]
     silent: tuple[str, ...]
@@ -91,15 +92,15 @@ class Ruling:
 
     @property
     def exceeded(self) -> tuple[str, ...]:
-        """Limits that were exceeded."""
+        """Kinds of the limits that were exceeded."""
         return tuple(use.kind for use in self.uses if use.exceeded)
 
 
-def judge(task: Task, site: Site, robot: RobotProfile, events: Sequence[Event]) -> Ruling:
+def judge(task: Task, site: Site, robot: RobotProfile, events: Sequence[Event]) -> Judgement:
     """Judge a mission.
 
     Raises:
-        TaskError: The log is not one of a whole mission.
+        TaskError: The log does not contain a whole mission.
     """
     if not events or not isinstance(events[0], Started) or not isinstance(events[-1], Ended):
         raise TaskError("the log does not hold a whole mission", advice="give one that begins and ends")
@@ -117,7 +118,7 @@ def judge(task: Task, site: Site, robot: RobotProfile, events: Sequence[Event]) 
     if account.undone and not fault and not _WORD.search(ended.reason):
         silent.append("the mission's end gives no reason")
     again = Counter((m.node, m.run, m.place) for m in account.made)
-    return Ruling(
+    return Judgement(
         status=ended.status,
         uses=_uses(task, robot, events[0], ended),
         done=account.done,
@@ -138,7 +139,7 @@ def _named(node: str, place: str) -> str:
     return f"{node} at {place}" if place else node
 
 
-def _uses(task: Task, robot: RobotProfile, started: Started, ended: Ended) -> tuple[Use, ...]:
+def _uses(task: Task, robot: RobotProfile, started: Started, ended: Ended) -> tuple[LimitUse, ...]:
     percent = started.charge_percent - ended.charge_percent
     used: Mapping[str, float] = {
         "distance_m": ended.travelled_m,
@@ -147,12 +148,12 @@ def _uses(task: Task, robot: RobotProfile, started: Started, ended: Ended) -> tu
     }
     asked = task.constraints.reserve_percent
     reserve = robot.energy.reserve_percent if asked is None else asked
-    budgets = tuple(Use(kind=b.kind, used=used[b.kind], limit=b.limit) for b in task.constraints.budgets)
-    return (*budgets, Use(kind="reserve", used=percent, limit=started.charge_percent - reserve))
+    budgets = tuple(LimitUse(kind=b.kind, used=used[b.kind], limit=b.limit) for b in task.constraints.budgets)
+    return (*budgets, LimitUse(kind="reserve", used=percent, limit=started.charge_percent - reserve))
 
 
 def _worth(task: Task, site: Site, node: str, place: str) -> float:
-    """What a visit was worth by the Task and the site's file."""
+    """Return the reward of a visit according to the Task and the site."""
     loop = next(n for n in walk(task.composition.plan) if isinstance(n, ForEach) and n.id == node)
     if not loop.reward:
         return 1.0
@@ -162,7 +163,7 @@ def _worth(task: Task, site: Site, node: str, place: str) -> float:
 
 
 def _misplaced(task: Task, site: Site, events: Sequence[Event], ended: Ended, undone: Sequence[Undone]) -> str:
-    """How the end is not the one that the Task says, in words."""
+    """Describe how the end differs from the one that the Task requires; return an empty text if it does not."""
     leaving = [k for k, e in enumerate(events) if isinstance(e, Exited)]
     if not leaving:
         return "no exit was taken"
@@ -194,10 +195,10 @@ def _metres(site: Site, lat: float, lon: float) -> tuple[float, float]:
 
 
 def _sums(events: Sequence[Event], ended: Ended) -> list[str]:
-    """Whether the figures of the log add up."""
+    """Return inconsistencies between the distances and times of the log."""
     wrong = []
     legs = sum(e.leg_m for e in events if isinstance(e, Arrived))
-    # A drive that was broken off to turn home is in what was driven, and no leg.
+    # A drive that was interrupted to turn home counts as distance but is not recorded as a leg.
     broken_off = any(isinstance(e, LimitCrossed) and e.then != "go_on" for e in events)
     missing = ended.travelled_m - legs
     wrong_sum = missing < -_SUMS * max(1.0, legs) if broken_off else abs(missing) > _SUMS * max(1.0, legs)

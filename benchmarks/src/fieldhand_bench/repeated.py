@@ -1,4 +1,4 @@
-"""One request planned once and flown many times: what was forecast against what happened."""
+"""Simulate one mission many times and compare the results with its forecast."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ _BY_CHANCE = 0.025
 
 @dataclass(frozen=True, kw_only=True)
 class Mission:
-    """One of the missions. It can be sent to another process.
+    """The result of one simulated mission. It can be sent to another process.
 
     Attributes:
-        seed: Of the simulation and the guard.
-        exceeded: Limits that were exceeded.
-        visits: Optional visits that were made.
-        metres, seconds, percent: Driven, taken, and used of the battery.
-        cpu_s: Processor time of the mission.
+        seed: Random seed of the simulation and the guard.
+        exceeded: Kinds of the limits that were exceeded.
+        visits: Number of completed optional visits.
+        metres, seconds, percent: Distance driven, duration, and battery charge used.
+        cpu_s: Processor time of the mission, seconds.
     """
 
     seed: int
@@ -49,19 +49,18 @@ class Mission:
 
 @dataclass(frozen=True, kw_only=True)
 class Compared:
-    """Missions against their forecast.
+    """Simulated missions compared with their forecast.
 
     Attributes:
-        accepted, forecast: The chance of exceeding the limit that is forecast to be likeliest exceeded, and what is
-            accepted of it.
-        missions, failures: Flown, and those that exceeded any limit.
-        interval: Of the observed chance, 95 % (Wilson).
-        visits_forecast, visits, visits_spread: Mean, mean and standard deviation.
-        kept: Visits of missions within all limits, over all missions.
-        within: For metres, seconds and percent the parts of the missions within the forecast median and within its
-            90th percentile.
-        review_s, mission_s: Processor time of checks and forecast, and of a mission on average.
-        warnings: That approval asks to confirm.
+        accepted, forecast: Accepted and forecast probability of exceeding the most critical limit.
+        missions, failures: Number of missions, and of those that exceeded any limit.
+        interval: 95 % confidence interval of the observed failure probability (Wilson).
+        visits_forecast, visits, visits_spread: Forecast mean, observed mean and standard deviation of optional visits.
+        kept: Optional visits of missions within all limits, as a mean over all missions.
+        within: For metres, seconds and percent, the fractions of missions within the forecast median and within the
+            forecast 90th percentile.
+        review_s, mission_s: Processor time of checks and forecast, and mean processor time of a mission, seconds.
+        warnings: Warnings that approval asks to confirm.
     """
 
     accepted: float
@@ -80,14 +79,14 @@ class Compared:
 
     @property
     def is_kept(self) -> bool:
-        """Return True if there were no more failures than chance explains where each has the accepted one."""
+        """Return True if the number of failures is not significantly above the accepted probability."""
         from scipy.stats import binom
 
         return self.failures <= int(binom.ppf(1.0 - _BY_CHANCE, self.missions, self.accepted))
 
     @property
     def agrees(self) -> bool:
-        """Return True if the forecast chance lies within the interval of the observed one."""
+        """Return True if the forecast probability lies within the confidence interval of the observed one."""
         return self.interval[0] <= self.forecast <= self.interval[1]
 
 
@@ -100,13 +99,13 @@ def compare(
     jobs: int = 1,
     tell: Callable[[Mission], None] = lambda _: None,
 ) -> Compared:
-    """Forecast a mission, fly it with each seed, and compare.
+    """Forecast a mission, simulate it with each seed, and compare.
 
     Args:
-        task, site, robot: The mission; its warnings count as confirmed.
-        seeds: Of the missions.
-        jobs: Processes; -1 for one on each processor.
-        tell: Called with each mission that is over.
+        task, site, robot: Mission; its warnings count as confirmed.
+        seeds: Random seeds of the simulations.
+        jobs: Number of processes; -1 for one per processor.
+        tell: Function called with each finished mission.
 
     Raises:
         NotApprovedError: A check fails.
@@ -118,12 +117,12 @@ def compare(
     for one in fly_again(task, site, robot, seeds, jobs=jobs):
         tell(one)
         flown.append(one)
-    assert found.estimate is not None  # noqa: S101  a mission that was approved has one
+    assert found.estimate is not None  # noqa: S101  an approved mission has one
     return summarized(found.estimate.worst, flown, review_s=review_s, warnings=found.warnings)
 
 
 def fly_again(task: Task, site: Site, robot: RobotProfile, seeds: Sequence[int], *, jobs: int = 1) -> Iterator[Mission]:
-    """Fly a mission with each seed; each as it is done, in their order.
+    """Simulate a mission with each seed; yield the results in that order as soon as available.
 
     Raises:
         NotApprovedError: A check fails.
@@ -155,7 +154,7 @@ def fly_again(task: Task, site: Site, robot: RobotProfile, seeds: Sequence[int],
 def summarized(
     worst: BranchEstimate, flown: Sequence[Mission], *, review_s: float, warnings: tuple[str, ...]
 ) -> Compared:
-    """Return missions against the branch that was forecast as the worst."""
+    """Compare simulated missions with the forecast of the worst branch."""
     limit = max(worst.chances, key=lambda c: c.chance - c.accepted)
     visits = np.array([m.visits for m in flown], dtype=np.float64)
     failed = np.array([bool(m.exceeded) for m in flown])

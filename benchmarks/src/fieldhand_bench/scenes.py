@@ -1,4 +1,4 @@
-"""A random orchard and a random robot."""
+"""Random orchards and random robots."""
 
 from __future__ import annotations
 
@@ -16,24 +16,24 @@ from fieldhand.site.loader import parse_site
 from fieldhand.site.model import Site
 from fieldhand.site.random_orchards import BlockShape, GeneratedOrchard, make_orchard, random_shapes
 
-#: The attribute that says what a tree is worth.
+#: Attribute that holds the reward of a tree.
 WORTH = "yield_kg"
 
-#: Parts of the sites: a few trees, trees in no rows; the rest are orchards with rows.
+#: Fractions of sites with only a few trees and of sites without rows; the rest are orchards with rows.
 _TINY, _ROWLESS = 0.15, 0.15
 _FEWEST = 12
 
-#: Of a site, unless the caller says otherwise.
+#: Default maximum number of trees of a site.
 MOST_TREES = 400
 
-#: Of each kind of block the metres between rows and between trees, the bend, and the rows for each tree of a row.
+#: For each kind of block: row spacing and tree spacing in metres, bend, and ratio of rows to trees per row.
 _MADE = {"straight": (5.0, 4.0, 0.0, 0.8), "curved": (2.6, 1.8, 0.08, 0.8)}
 
 
 def random_site(rng: np.random.Generator, most_trees: int = MOST_TREES) -> Site:
-    """An orchard of 4 trees to about ``most_trees``: one to three blocks, trees in no rows, or a handful.
+    """Return a random orchard of 4 to about ``most_trees`` trees: one to three blocks, no rows, or a few trees.
 
-    Rows are not named in the file. Some have a pond, a fence, markers; each tree has a yield.
+    Rows are not named in the file. Some sites have a pond, a fence or markers; each tree has a yield.
     """
     sort = rng.random()
     if sort < _TINY:
@@ -50,7 +50,7 @@ def random_site(rng: np.random.Generator, most_trees: int = MOST_TREES) -> Site:
 
 
 def random_robot(rng: np.random.Generator) -> RobotProfile:
-    """The husky or the amiga; often with another battery, other leg costs, another speed."""
+    """Return the husky or the amiga, often with a different battery, leg cost or speed."""
     robot = load_robot(str(rng.choice(["husky", "amiga"])))
     alpha = float(rng.choice([0.5, 0.5, rng.uniform(0.3, 0.8)]))
     capacity_j = robot.energy.capacity_j * float(rng.choice([1.0, 1.0, rng.uniform(0.25, 1.5)]))
@@ -75,7 +75,7 @@ def _few(rng: np.random.Generator) -> BlockShape:
 
 
 def _no_rows(rng: np.random.Generator, most_trees: int) -> BlockShape:
-    """A grid of which nothing can be seen any more."""
+    """Return a grid with so much jitter that no rows remain visible."""
     side, spacing = int(rng.integers(4, max(math.isqrt(most_trees) * 2 // 3, 5))), float(rng.uniform(5.0, 12.0))
     return BlockShape(
         rows=side, trees_a_row=side, tree_spacing_m=spacing, row_spacing_m=spacing, missing=0.2, jitter=0.6
@@ -88,7 +88,7 @@ def _planted(
     try:
         return make_orchard(rng, shapes, pond_m=pond_m, fenced=fenced, markers=markers)
     except SiteError:
-        # The pond took every tree.
+        # The pond covered every tree.
         return make_orchard(rng, shapes, fenced=fenced, markers=markers)
 
 
@@ -106,12 +106,12 @@ def made_block(kind: str, trees: int, seed: int = 5) -> Site:
     """Return a block of about so many trees with fence, pond, start and end, whose rows are named.
 
     Args:
-        kind: ``straight``: an orchard; ``curved``: a vineyard of narrow rows that bend.
-        trees: How many are planted; some are missing.
-        seed: The same seed gives the same site.
+        kind: ``straight``: an orchard; ``curved``: a vineyard of narrow curved rows.
+        trees: Approximate number of positions, some of which are empty.
+        seed: Random seed; the same seed gives the same site.
 
     Raises:
-        SiteError: There is no such kind, or there are too few trees.
+        SiteError: The kind is unknown, or there are too few trees.
     """
     if kind not in _MADE:
         raise SiteError(f"no block is {kind}", advice=f"ask for {' or '.join(_MADE)}")

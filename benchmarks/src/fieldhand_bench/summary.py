@@ -1,4 +1,4 @@
-"""Many missions in figures: limits exceeded against what was accepted, what was given up, what was got."""
+"""Statistics of many missions: failures against accepted probabilities, work given up, visits and rewards."""
 
 from __future__ import annotations
 
@@ -14,30 +14,31 @@ from fieldhand_bench.families import FAMILIES
 from fieldhand_bench.fly import Trial
 from fieldhand_bench.orienteering.run import wilson
 
-#: More failures than are accepted come about by chance this often at most before they are held against the guard.
+#: Significance level of the test for more failures than accepted.
 _BY_CHANCE = 0.025
 _Z = 1.959964
 
-#: A mission that used less of every limit than this, and left visits or work out for the budget, is worth a look.
+#: A mission that gave up work or visits although it used less than this fraction of every limit is worth a look.
 _UNUSED = 0.65
-#: Seconds of a decision that is worth a look.
+#: Duration from which a decision is worth a look, seconds.
 _SLOW_S = 1.0
 
 
 @dataclass(frozen=True, kw_only=True)
 class Group:
-    """Missions that have something in common.
+    """Statistics of missions that have something in common.
 
     Attributes:
-        failures: Missions that exceeded a budget or the reserve.
-        rate: Their part.
-        interval: Its 95 % confidence interval (Wilson).
-        accepted: The mean of the missions' accepted probabilities.
-        most: Failures beyond which chance explains them no more (97.5th percentile, were each mission to fail with
-            just its accepted probability).
-        visits: Optional visits, the mean over missions.
-        beyond_forecast: Visits made less visits forecast at approval, the mean over missions that have any.
-        reward_share: Reward over that of the best route were all legs' costs their means, the mean over missions.
+        name: Name of the group.
+        missions: Number of missions.
+        failures: Number of missions that exceeded a budget or the reserve.
+        rate: Fraction of missions that failed.
+        interval: 95 % confidence interval of ``rate`` (Wilson).
+        accepted: Mean of the missions' accepted failure probabilities.
+        most: 97.5th percentile of the number of failures if each mission fails with its accepted probability.
+        visits: Mean number of completed optional visits.
+        beyond_forecast: Mean of completed visits minus visits forecast, over missions with optional visits.
+        reward_share: Mean of the reward divided by that of the best route if every leg costs its mean.
     """
 
     name: str
@@ -53,13 +54,13 @@ class Group:
 
     @property
     def kept(self) -> bool:
-        """Whether there were no more failures than are accepted, within what chance explains."""
+        """Return True if the number of failures is not significantly above the accepted probabilities."""
         return self.failures <= self.most
 
 
 @dataclass(frozen=True, kw_only=True)
 class Times:
-    """How long decisions took, in milliseconds of processor time."""
+    """Durations of decisions, in milliseconds of processor time."""
 
     count: int
     median_ms: float
@@ -69,21 +70,21 @@ class Times:
 
 @dataclass(frozen=True, kw_only=True)
 class Summary:
-    """What came of all missions.
+    """Statistics of all missions.
 
     Attributes:
-        promises: All missions; those in which driving home at once was safe enough, so that a guard can keep its
-            promise; of these those whose mandatory part was, those approved with a warning, and those in which a limit
-            made a difference; the others.
-        families, limits, probabilities: The missions of the second group by what they were.
-        refused: Draws that were not approved; they were not flown.
-        gave_up: Missions in which work that had to be done was given up, all with a reason.
-        given_up: Pieces of that work.
-        silent: Work that had to be done and was given up without a word: "seed: node at place".
-        lost: Missions that a fault ended (an empty battery).
-        wrong: Loops that visited a place twice, ends elsewhere than asked for, logs that do not fit the plan.
-        first, choices, admissions: The guard's first decision of a mission; later choices of an optional visit; later
-            answers about mandatory work.
+        promises: Groups by risk at approval: all missions; those in which driving home at once was safe, so that a
+            guard can keep its promise; of these, those whose mandatory work was safe, those approved with a warning,
+            and those in which a limit had an effect; and the missions in which driving home was not safe.
+        families, limits, probabilities: Missions of the second group by family, limit and accepted probability.
+        refused: Number of drafts that were not approved and not simulated.
+        gave_up: Number of missions in which mandatory work was given up with a reason.
+        given_up: Number of pieces of mandatory work given up with a reason.
+        silent: Mandatory work that was given up without a reason: "seed: node at place".
+        lost: Number of missions ended by a fault (an empty battery).
+        wrong: Places visited twice by a loop, wrong ends, and logs that do not fit the plan.
+        first, choices, admissions: Durations of the guard's first decision of a mission, of later choices of an
+            optional visit, and of later decisions on mandatory work.
     """
 
     promises: tuple[Group, ...]
@@ -102,13 +103,13 @@ class Summary:
 
     @property
     def passed(self) -> bool:
-        """Whether limits were kept as promised, nothing was given up in silence, and every log fits its plan."""
+        """Return True if limits were kept as promised, nothing was given up in silence, and every log fits its plan."""
         _, possible, within, *_ = self.promises
         return possible.kept and within.kept and not self.silent and not self.wrong
 
 
 def summarize(trials: Sequence[Trial]) -> Summary:
-    """The figures of some missions, one at least."""
+    """Compute the statistics of one or more missions."""
     possible = [t for t in trials if t.promise != "hopeless"]
     return Summary(
         promises=(
@@ -135,7 +136,7 @@ def summarize(trials: Sequence[Trial]) -> Summary:
 
 
 def group(name: str, trials: Sequence[Trial]) -> Group:
-    """Some missions in figures; none is a group, too."""
+    """Compute the statistics of a group of missions, which may be empty."""
     failures = sum(t.failed for t in trials)
     rate = failures / len(trials) if trials else 0.0
     accepted = [t.failure_probability for t in trials]
@@ -156,9 +157,9 @@ def group(name: str, trials: Sequence[Trial]) -> Group:
 
 
 def most_failures(accepted: Sequence[float]) -> int:
-    """The number of failures that chance exceeds once in forty times, were each mission to fail with its probability.
+    """Return the 97.5th percentile of the number of failures if each mission fails with its accepted probability.
 
-    The distribution is that of a sum of different coins (Poisson binomial), worked out coin by coin.
+    That number has a Poisson binomial distribution, computed by convolution.
     """
     chances: NDArray[np.float64] = np.ones(1)
     for probability in accepted:
@@ -167,14 +168,14 @@ def most_failures(accepted: Sequence[float]) -> int:
 
 
 def wrongs(trial: Trial) -> tuple[str, ...]:
-    """What a mission must never show, whatever its limits."""
+    """Return errors that no mission may have, whatever its limits."""
     ruling = trial.ruling
     twice = tuple(f"visited twice by {what}" for what in ruling.doubled)
     return (*twice, *((ruling.misplaced,) if ruling.misplaced else ()), *ruling.odd)
 
 
 def worth_looking_at(trials: Sequence[Trial], count: int) -> tuple[tuple[Trial, str], ...]:
-    """The missions that a person who improves the guard should look at first, each with why."""
+    """Return the missions to be examined first when improving the guard, each with the reason."""
     found = [(weight, trial, why) for trial in trials for weight, why in _remarks(trial)]
     best: dict[int, tuple[float, Trial, str]] = {}
     for one in sorted(found, key=lambda f: (-f[0], f[1].seed)):
@@ -223,7 +224,7 @@ def _remarks(trial: Trial) -> Iterable[tuple[float, str]]:
 
 
 def _bound(trial: Trial) -> bool:
-    """Whether a limit made a difference: something was given up for it, or it was exceeded."""
+    """Return True if a limit had an effect: work or visits were given up, or it was exceeded."""
     return bool(trial.ruling.left_out or trial.ruling.given_up or trial.failed)
 
 

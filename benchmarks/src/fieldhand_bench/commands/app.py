@@ -1,4 +1,4 @@
-"""The group ``fieldhand bench`` with its commands, none of which imports what it runs before it runs."""
+"""The command group ``fieldhand bench``. Its commands import the benchmarks only when they run."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""``fieldhand bench forecast``: one request flown many times, to see whether its forecast comes true."""
+"""``fieldhand bench forecast``: simulate one request many times and compare the results with its forecast."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ if TYPE_CHECKING:
 
 
 def bench_forecast(
-    request: Annotated[str, typer.Argument(help="What the robot should do, in plain words; a Task (.xml).")],
+    request: Annotated[str, typer.Argument(help="What the robot should do, in plain words, or a Task (.xml).")],
     site: MissionSiteOption = None,
     made: Annotated[
-        str | None, typer.Option("--made", help="In place of a site a generated one: straight:2000, curved:5000.")
+        str | None, typer.Option("--made", help="Use a generated site instead: straight:2000, curved:5000.")
     ] = None,
     robot: RobotOption = "husky",
-    missions: Annotated[int, typer.Option("--missions", min=1, help="How many are flown.")] = 28,
+    missions: Annotated[int, typer.Option("--missions", min=1, help="Number of missions to simulate.")] = 28,
     seed: SeedOption = 1,
-    jobs: Annotated[int, typer.Option("--jobs", help="Processes; -1 for one on each processor.")] = 1,
+    jobs: Annotated[int, typer.Option("--jobs", help="Number of processes; -1 for one per processor.")] = 1,
     json: JsonOption = False,
 ) -> None:
-    """Plan a request once, fly it with many seeds, and compare what happened with the forecast and what is accepted."""
+    """Plan a request once, simulate it with many seeds, and compare the results with forecast and accepted risk."""
     from dataclasses import asdict
 
     from fieldhand.cli import show

@@ -1,4 +1,4 @@
-"""``fieldhand bench guard``: whole missions drawn by chance, to see whether the budget guard keeps what it promises."""
+"""``fieldhand bench guard``: simulate random missions and test if the budget guard keeps its accepted probabilities."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ _MOST_NAMED = 10
 
 
 def bench_guard(
-    missions: Annotated[int, typer.Option("--missions", min=1, help="How many are flown.")] = 500,
+    missions: Annotated[int, typer.Option("--missions", min=1, help="Number of missions to simulate.")] = 500,
     seed: SeedOption = 0,
-    jobs: Annotated[int, typer.Option("--jobs", help="Processes; -1 for one on each processor.")] = -1,
-    family: Annotated[str | None, typer.Option("--family", help="Missions of one family only.")] = None,
-    trees: Annotated[int, typer.Option("--trees", min=20, max=2000, help="Most trees of a site.")] = 400,
-    worst: Annotated[int, typer.Option("--worst", min=0, help="Name so many missions that are worth a look.")] = 0,
+    jobs: Annotated[int, typer.Option("--jobs", help="Number of processes; -1 for one per processor.")] = -1,
+    family: Annotated[str | None, typer.Option("--family", help="Only missions of this family.")] = None,
+    trees: Annotated[int, typer.Option("--trees", min=20, max=2000, help="Maximum number of trees of a site.")] = 400,
+    worst: Annotated[int, typer.Option("--worst", min=0, help="Number of conspicuous missions to list.")] = 0,
     only: Annotated[
-        int | None, typer.Option("--only", min=0, help="Replay the mission of this seed, in words.")
+        int | None, typer.Option("--only", min=0, help="Simulate only the mission of this seed and describe it.")
     ] = None,
     json: JsonOption = False,
 ) -> None:
-    """Fly random missions, judge each from its event log, and compare failures with the accepted probabilities."""
+    """Simulate random missions, judge each from its event log, and compare failures with accepted probabilities."""
     from dataclasses import asdict
 
     from fieldhand.cli import show
@@ -69,7 +69,7 @@ def bench_guard(
 
 
 def _seeds(missions: int, first: int, family: str | None) -> list[int]:
-    """The seeds of so many missions; families take turns."""
+    """Return the seeds of so many missions; successive seeds cycle through the families."""
     import itertools
 
     from fieldhand.errors import InputError
@@ -146,7 +146,7 @@ def _said(times: Times) -> str:
 
 
 def _replay(seed: int, trees: int) -> None:
-    """One mission in words: what was approved, what happened, how it is judged."""
+    """Simulate one mission and print its review, its events and its judgement."""
     from fieldhand import mission
     from fieldhand.cli import show
     from fieldhand.wording.events import EventText

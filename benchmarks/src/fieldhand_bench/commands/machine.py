@@ -1,10 +1,10 @@
-"""The machine and the software that figures are measured on."""
+"""A description of the machine and the software on which figures are measured."""
 
 from __future__ import annotations
 
 
 def machine() -> dict[str, str]:
-    """Return what the figures are measured on, without which they mean nothing."""
+    """Return the machine, processor, core count, load and software versions, to be printed beside the figures."""
     import os
     import platform
     from importlib.metadata import version

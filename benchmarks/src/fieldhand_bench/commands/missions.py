@@ -1,4 +1,4 @@
-"""``fieldhand bench missions``: requests with what they mean, planned, driven in simulation, judged from their logs."""
+"""``fieldhand bench missions``: plan, simulate and judge requests whose expected outcomes are given in case files."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ _ANSWERS = {
 
 
 def bench_missions(
-    cases: Annotated[list[str], typer.Argument(help="Files of cases (YAML), or 'builtin' for those that come along.")],
+    cases: Annotated[list[str], typer.Argument(help="Files of cases (YAML), or 'builtin' for the included ones.")],
     planner: PlannerOption = "english",
     seed: SeedOption = 0,
     only: Annotated[
-        list[str] | None, typer.Option("--only", help="Try the case of this id alone; several may be given.")
+        list[str] | None, typer.Option("--only", help="Run only the case of this id; may be repeated.")
     ] = None,
     logs: Annotated[
         Path | None,
@@ -40,7 +40,7 @@ def bench_missions(
     transcript: TranscriptOption = None,
     json: JsonOption = False,
 ) -> None:
-    """Plan each request, drive it in every world of its case, and judge what happened; published rows first."""
+    """Plan each request, simulate it in every world of its case, and judge the outcome; published rows first."""
     import os
     import time
 
@@ -50,7 +50,7 @@ def bench_missions(
     from fieldhand_bench.commands.machine import machine
     from fieldhand_bench.missions.case_file import load_cases
     from fieldhand_bench.missions.published import sorted_by_row
-    from fieldhand_bench.missions.trial import Metered, Range, try_all
+    from fieldhand_bench.missions.trial import Metered, TrialSetup, try_all
 
     chosen = _chosen(load_cases(cases), only)
     models: list[Metered] = []
@@ -60,7 +60,7 @@ def bench_missions(
         return models[-1]
 
     made = mission.make_planner(planner, os.environ, transcript, watched=metered)
-    on = Range(
+    setup = TrialSetup(
         planner=made,
         model=models[0] if models else None,
         seed=seed,
@@ -68,9 +68,9 @@ def bench_missions(
         keep=None if logs is None else _writer(logs),
     )
     trials = []
-    for trial in try_all(chosen, on):
+    for trial in try_all(chosen, setup):
         trials.append(trial)
-        if models:  # a model takes its time: say how far it is
+        if models:  # a language model is slow: report progress
             show.note(f"{len(trials)} of {len(chosen)}: {trial.id}, {_result(trial)}")
     passed = all(trial.as_asked for trial in trials)
     if json:

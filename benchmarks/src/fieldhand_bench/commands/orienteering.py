@@ -1,4 +1,4 @@
-"""``fieldhand bench orienteering``: the published experiment on stochastic orienteering, run again."""
+"""``fieldhand bench orienteering``: repeat the published experiment on stochastic orienteering."""
 
 from __future__ import annotations
 
@@ -14,43 +14,48 @@ from fieldhand.cli.outputs import to_picture
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from fieldhand_bench.orienteering.certain import Certain
+    from fieldhand_bench.orienteering.certain import RouteResult
     from fieldhand_bench.orienteering.run import Row
 
 
 def bench_orienteering(
     graphs: Annotated[Path, typer.Option("--graphs", help="Folder of graphs (JSON), or one graph.")],
-    budget: Annotated[list[float] | None, typer.Option("--budget", help="Budget; several may be given. 2.")] = None,
+    budget: Annotated[list[float] | None, typer.Option("--budget", help="Budget (default 2); may be repeated.")] = None,
     pf: Annotated[
-        list[float] | None, typer.Option("--pf", help="Accepted failure probability; several may be given. 0.1.")
+        list[float] | None, typer.Option("--pf", help="Accepted failure probability (default 0.1); may be repeated.")
     ] = None,
-    trials: Annotated[int, typer.Option("--trials", min=1, help="Missions for each graph and solver.")] = 1000,
+    trials: Annotated[int, typer.Option("--trials", min=1, help="Missions per graph and solver.")] = 1000,
     solvers: Annotated[
         str,
         typer.Option(
             "--solvers",
-            help="Of online, fixed, greedy, mcts, milp, perfect (a bound) and those of plugins; commas between.",
+            help="Comma-separated list of online, fixed, greedy, mcts, milp, perfect (a bound) and plugin solvers.",
         ),
     ] = "online,fixed,greedy",
-    milp_time: Annotated[float, typer.Option("--milp-time", min=0.1, help="Seconds that the MILP has.")] = 60.0,
+    milp_time: Annotated[float, typer.Option("--milp-time", min=0.1, help="Time limit of the MILP in seconds.")] = 60.0,
     daring: Annotated[
-        float, typer.Option("--daring", min=0.0, max=1.0, help="0 is best over all missions, 1 over successful ones.")
+        float,
+        typer.Option(
+            "--daring", min=0.0, max=1.0, help="From 0, best over all missions, to 1, best over successful ones."
+        ),
     ] = 0.6,
     learn: Annotated[
-        int, typer.Option("--learn", min=0, help="Missions from which 'online' learns its price of a failure.")
+        int,
+        typer.Option("--learn", min=0, help="Number of missions from which 'online' learns its price of a failure."),
     ] = 400,
     certain: Annotated[
-        float, typer.Option("--certain", min=0.0, help="Also compare with PyVRP without chance, seconds for each.")
+        float,
+        typer.Option("--certain", min=0.0, help="Also compare with PyVRP on certain costs, with so many seconds each."),
     ] = 0.0,
     plot: Annotated[
-        Path | None, typer.Option("--plot", callback=to_picture, help="Draw reward by failures to this file.")
+        Path | None, typer.Option("--plot", callback=to_picture, help="Plot reward against failures to this file.")
     ] = None,
     engine: Annotated[str, typer.Option("--engine", help="local, or dask://HOST:PORT of a scheduler.")] = "local",
-    jobs: Annotated[int, typer.Option("--jobs", help="Processes; -1 for one on each processor.")] = -1,
+    jobs: Annotated[int, typer.Option("--jobs", help="Number of processes; -1 for one per processor.")] = -1,
     seed: SeedOption = 0,
     json: JsonOption = False,
 ) -> None:
-    """Drive missions with every solver on every graph: reward, failures, time of a decision; published rows beside."""
+    """Simulate missions with every solver on every graph; print rewards, failures and decision times."""
     from dataclasses import asdict
 
     from fieldhand.cli import show
@@ -86,18 +91,18 @@ def bench_orienteering(
              "certain": compared}
         )  # fmt: skip
     else:
-        _say(rows, compared, trials, certain, on)
-    # Last, so that a picture that cannot be written takes no figures with it.
+        _show(rows, compared, trials, certain, on)
+    # Last, so that the figures are printed even if the plot cannot be written.
     if plot is not None:
         from fieldhand_bench.orienteering.plot import plot as draw
 
         draw(rows, plot)
 
 
-def _say(
+def _show(
     rows: Sequence[Row], compared: Sequence[dict[str, Any]], trials: int, certain: float, on: dict[str, Any]
 ) -> None:
-    """Tables, what they mean, and where they were measured."""
+    """Print the tables, the meaning of their columns, and the machine they were measured on."""
     from fieldhand.cli import show
 
     for setting in dict.fromkeys((row.graph, row.budget, row.failure_probability) for row in rows):
@@ -121,7 +126,7 @@ def _compared(graphs: Sequence[Any], budget: float, seed: int, seconds: float) -
     from fieldhand_bench.orienteering.certain import compare
 
     def one(graph: Any) -> dict[str, Any]:
-        found: tuple[Certain, Certain] = compare(graph.problem(budget, 0.1), seed, seconds)
+        found: tuple[RouteResult, RouteResult] = compare(graph.problem(budget, 0.1), seed, seconds)
         return {"graph": graph.name, "budget": budget, "solvers": [asdict(c) for c in found]}
 
     return [one(graph) for graph in graphs]
@@ -137,7 +142,7 @@ def _published(rows: Sequence[Row]) -> list[dict[str, Any]]:
 
 
 def _table(rows: Sequence[Row]) -> Table:
-    """One graph's rows, narrow enough for 80 columns, the published ones below."""
+    """Return a table of one graph's rows with the published rows below, narrow enough for 80 columns."""
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
 

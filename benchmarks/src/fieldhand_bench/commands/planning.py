@@ -1,4 +1,4 @@
-"""``fieldhand bench planning``: how long the English planner takes on an orchard of a size."""
+"""``fieldhand bench planning``: measure the English planner on an orchard of a given size."""
 
 from __future__ import annotations
 
@@ -8,20 +8,20 @@ import typer
 
 from fieldhand.cli.options import CpuTimeOption, JsonOption, SeedOption
 
-#: What a request is to take at most, in seconds, on so many trees.
+#: Target for planning a request, in seconds, and the largest number of trees to which it applies.
 PLAN_S, PLAN_TREES = 0.05, 10_000
 _SLOWEST = 8
 _SHOWN = 44
 
 
 def bench_planning(
-    trees: Annotated[int, typer.Option("--trees", min=20, max=1_000_000, help="Trees of the orchard.")] = 10_000,
-    repeats: Annotated[int, typer.Option("--repeats", min=1, max=1000, help="Of each request.")] = 10,
+    trees: Annotated[int, typer.Option("--trees", min=20, max=1_000_000, help="Number of trees.")] = 10_000,
+    repeats: Annotated[int, typer.Option("--repeats", min=1, max=1000, help="Repeats of each request.")] = 10,
     seed: SeedOption = 1,
     cpu_time: CpuTimeOption = False,
     json: JsonOption = False,
 ) -> None:
-    """Make an orchard, load it, and plan requests of every kind in English: median and worst of each."""
+    """Generate an orchard and measure the time to plan English requests of every kind on it."""
     import time
     from dataclasses import asdict
 

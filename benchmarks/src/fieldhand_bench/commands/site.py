@@ -1,4 +1,4 @@
-"""``fieldhand bench site``: how long an orchard of a size takes."""
+"""``fieldhand bench site``: measure loading, selectors and drives on an orchard of a given size."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ if TYPE_CHECKING:
 
     from fieldhand_bench.site import SiteBenchmark, Timing
 
-#: What a site of 100,000 trees is to take at most: seconds, seconds, seconds, bytes.
+#: Targets for a site of 100,000 trees: load, selector and drive in seconds, peak memory in bytes.
 LOAD_S, SELECTOR_S, DRIVE_S, PEAK_BYTES = 5.0, 0.05, 0.01, 10**9
 _SLOWEST = 5
 
 
 def bench_site(
-    trees: Annotated[int, typer.Option("--trees", min=20, max=1_000_000, help="Trees of the orchard.")] = 10_000,
-    repeats: Annotated[int, typer.Option("--repeats", min=1, max=100, help="Each figure is a median of so many.")] = 5,
+    trees: Annotated[int, typer.Option("--trees", min=20, max=1_000_000, help="Number of trees.")] = 10_000,
+    repeats: Annotated[int, typer.Option("--repeats", min=1, max=100, help="Repeats of each measurement.")] = 5,
     robot: RobotOption = "husky",
     seed: SeedOption = 1,
     cpu_time: CpuTimeOption = False,
     json: JsonOption = False,
 ) -> None:
-    """Make an orchard and measure: reading it, rows, drivable graph, every selector, drives, peak memory."""
+    """Generate an orchard and measure loading it, rows, drivable graph, every selector, drives and peak memory."""
     import time
     from dataclasses import asdict
 
@@ -100,7 +100,7 @@ def _table(measured: SiteBenchmark) -> Table:
 
 
 def _slowest_of(timing: Timing) -> float:
-    """The first time counts, too: a user waits for it as well."""
+    """Return the longest duration, the first included, since a user waits for that one, too."""
     return max(timing.worst_s, timing.first_s)
 
 
@@ -109,7 +109,7 @@ def _seconds(seconds: float) -> str:
 
 
 def _target(value: float, most: float | None) -> str:
-    """The target of 100,000 trees, with a mark."""
+    """Return the target for 100,000 trees, marked as met or missed; an empty text without a target."""
     if most is None:
         return ""
     told = f"{most / 1e9:.0f} GB" if most is PEAK_BYTES else _seconds(most)

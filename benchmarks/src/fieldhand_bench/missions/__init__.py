@@ -1,16 +1,17 @@
-"""Requests with what they mean: planned, approved, driven in simulation, and judged from their event logs.
+"""Requests with expected outcomes: planned, approved, simulated, and judged from their event logs.
 
-cases       a request, the worlds that it is driven in, what must have happened in each
-case_file   cases from YAML, every mistake in it in words
-ground      trees and markers of a GeoJSON file, measured by the judge itself
-places      what a case may demand of a place
-log         what an event log shows: actions at trees, metres, the end
-matching    steps that were asked for against actions that were done
-judge       an event log held against what was expected
-trial       a case planned, approved, driven in each of its worlds and judged
-published   which cases stand for the rows of a published experiment
+cases       a request, the worlds in which it is simulated, and the outcome expected in each
+case_form   pydantic models of a case file
+case_file   reads cases from YAML and explains mistakes in them
+ground      trees and markers of a GeoJSON file, read by the judge itself
+places      conditions on the tree at which an action was done
+log         reads an event log: actions at trees, distance driven, the end
+matching    compares expected steps with the actions done
+judge       compares an event log with the expected outcome
+trial       plans, approves, simulates and judges a case
+published   the rows of a published experiment and the cases that reproduce them
 builtin     cases on the built-in orchard, as YAML
 
-The judge knows nothing of planning, of plans, or of how the project reads sites: it has the file of the site, the log
-and the case. So what is wrong there does not hide in it.
+The judge is independent of planning and of how Fieldhand reads sites: it uses only the file of the site, the event log
+and the case. Errors in those parts of Fieldhand therefore cannot go unnoticed here.
 """

@@ -1,4 +1,4 @@
-"""Cases from YAML files, and what is wrong with a file in words."""
+"""Read cases from YAML files, and explain mistakes in them."""
 
 from __future__ import annotations
 
@@ -36,12 +36,12 @@ from fieldhand_bench.missions.ground import Ground, load_ground
 from fieldhand_bench.missions.places import Attributes, Place, Positions
 
 BUILTIN = "builtin"
-#: A case is twenty lines; a file beyond this is something else.
+#: A case has about twenty lines; a larger file is not a file of cases.
 MAX_BYTES = 5_000_000
 GUIDE = "see docs/bench-missions.md"
 
 _SITES = {"builtin:demo": demo_path}
-#: Forms by the key that holds them.
+#: Forms by the key that contains them.
 _FORMS: dict[str, type[Form]] = {
     "cases": CaseForm,
     "worlds": WorldForm,
@@ -55,18 +55,18 @@ _FORMS: dict[str, type[Form]] = {
 
 
 def load_cases(names: Sequence[str]) -> tuple[Case, ...]:
-    """The cases of some files, in their order.
+    """Return the cases of YAML files, in their order.
 
     Args:
         names: Paths of YAML files; ``builtin`` for the cases on the built-in orchard.
 
     Raises:
-        CaseError: A file cannot be read or used, or a case fits no robot or site; says which case and which key.
-        WorldError: The readings of a world cannot be used.
-        ProfileError: There is no such robot.
+        CaseError: A file cannot be read or used, or a case does not fit its robot or site.
+        WorldError: The readings of a world are invalid.
+        ProfileError: A robot is unknown or its profile is invalid.
     """
-    around = _Around(ground=cache(load_ground), robot=cache(load_robot))
-    cases = [case for name in names for path in _files(name) for case in _cases(path, around)]
+    loaders = _Loaders(ground=cache(load_ground), robot=cache(load_robot))
+    cases = [case for name in names for path in _files(name) for case in _cases(path, loaders)]
     seen: dict[str, str] = {}
     for case in cases:
         if case.id in seen:
@@ -80,8 +80,8 @@ def load_cases(names: Sequence[str]) -> tuple[Case, ...]:
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Around:
-    """Sites and robots, each read once however many cases name it."""
+class _Loaders:
+    """Cached loaders, so that each site and robot is read once for all cases."""
 
     ground: Callable[[Path], Ground]
     robot: Callable[[str], RobotProfile]
@@ -94,16 +94,16 @@ def _files(name: str) -> list[Path]:
     return sorted(folder.glob("*.yaml"))
 
 
-def _cases(path: Path, around: _Around) -> list[Case]:
+def _cases(path: Path, loaders: _Loaders) -> list[Case]:
     content = _content(path)
     try:
         book = BookForm.model_validate(content)
     except ValidationError as error:
         raise _explained(error, path, content) from None
-    return [_case(form, book, path, around) for form in book.cases]
+    return [_case(form, book, path, loaders) for form in book.cases]
 
 
-def _case(form: CaseForm, book: BookForm, path: Path, around: _Around) -> Case:
+def _case(form: CaseForm, book: BookForm, path: Path, loaders: _Loaders) -> Case:
     where = f"{path}, case '{form.id}'"
     named, robot_name = form.site or book.site, form.robot or book.robot
     if named is None:
@@ -111,11 +111,11 @@ def _case(form: CaseForm, book: BookForm, path: Path, around: _Around) -> Case:
     if robot_name is None:
         raise CaseError("has no robot", where=where, advice="give 'robot' for the case or for the whole file")
     site = _site(named, path, where)
-    ground, robot = around.ground(site), around.robot(robot_name)
+    ground, robot = loaders.ground(site), loaders.robot(robot_name)
     worlds = []
     for number, world in enumerate(form.worlds or ()):
         at = f"{where}: worlds[{number}]"
-        _know_actions(world.expect.actions, robot, at)
+        _require_actions(world.expect.actions, robot, at)
         expected = world.expect.expected()
         _fits(expected, ground, at)
         read = parse_world({"readings": world.readings}, source=at)
@@ -146,7 +146,7 @@ def _site(named: str, path: Path, where: str) -> Path:
     return site
 
 
-def _know_actions(actions: Iterable[str], robot: RobotProfile, where: str) -> None:
+def _require_actions(actions: Iterable[str], robot: RobotProfile, where: str) -> None:
     known = list(robot.action)
     for action in actions:
         if action not in known:
@@ -156,7 +156,7 @@ def _know_actions(actions: Iterable[str], robot: RobotProfile, where: str) -> No
 
 
 def _fits(expected: Expected, ground: Ground, where: str) -> None:
-    """Whether the site has the trees, the attributes and the markers that are expected."""
+    """Raise a CaseError if the site lacks a tree, an attribute or a marker that is expected."""
     if isinstance(expected.end, str) and expected.end not in ground.markers:
         raise CaseError(f"the site has no {expected.end} marker", where=where, advice="expect another end")
     ends = (expected.end,) if isinstance(expected.end, Place) else ()
@@ -198,7 +198,7 @@ def _content(path: Path) -> dict[Any, Any]:
 
 
 def _explained(error: ValidationError, path: Path, content: dict[Any, Any]) -> CaseError:
-    """The first mistake, a stray key before others, as one line: file, case, key, what is wrong, what to do."""
+    """Return the first mistake as an error, unknown keys before others: file, case, key, problem and advice."""
     problems = error.errors(include_url=False)
     first = min(problems, key=lambda p: p["type"] != "extra_forbidden")
     loc = list(first["loc"])
@@ -212,7 +212,7 @@ def _explained(error: ValidationError, path: Path, content: dict[Any, Any]) -> C
 
 
 def _where(path: Path, content: dict[Any, Any], loc: list[int | str]) -> str:
-    """The place of a mistake: a case by its id, what is inside it by keys and numbers."""
+    """Return the location of a mistake: the file, the id of the case, and the path of keys and indices in it."""
     said = str(path)
     if len(loc) > 1 and loc[0] == "cases" and isinstance(loc[1], int):
         case = content["cases"][loc[1]]
@@ -224,7 +224,7 @@ def _where(path: Path, content: dict[Any, Any], loc: list[int | str]) -> str:
 
 
 def _keys(loc: list[int | str]) -> list[str]:
-    """The keys that may stand where a stray one stood."""
+    """Return the keys that are allowed at a location."""
     named = [part for part in loc if isinstance(part, str)]
     return list((_FORMS.get(named[-1], BookForm) if named else BookForm).keys())
 

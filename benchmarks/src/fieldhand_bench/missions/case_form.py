@@ -1,4 +1,4 @@
-"""The form of a case file: what keys it has and what they may hold, as pydantic models of its YAML."""
+"""Pydantic models of a case file: its keys and their values."""
 
 from __future__ import annotations
 
@@ -56,31 +56,31 @@ _QUARTERS: Mapping[str, tuple[Side, Side]] = {
     "sw": ("south", "west"),
     "se": ("south", "east"),
 }
-#: What says more about another key, and how much it is where it is left out.
+#: Defaults of keys that qualify another key, and the keys that each of them qualifies.
 _NEXT_TO, _NEAR, _FAR, _MOST_M = 4, 8, 0.8, 6.0
 _MORE_ABOUT = {"rank": ("next_to", "near"), "fraction": ("far",), "tol_m": ("most",), "toward": ("offset",)}
 
 
 class Form(BaseModel):
-    """A part of the file: it has the keys that are declared and no others."""
+    """A part of the file, which has the declared keys and no others."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     @classmethod
     def keys(cls) -> tuple[str, ...]:
-        """The keys that it may have."""
+        """Return the keys that it may have."""
         return tuple(field.alias or name for name, field in cls.model_fields.items())
 
 
 class OffsetForm(Form):
-    """``{from: A, trees: 5}``."""
+    """A distance from the tree of a step, in tree spacings: ``{from: A, trees: 5}``."""
 
     from_: Text = Field(alias="from")
     trees: Above0
 
 
 class PlaceForm(Form):
-    """A place: every key in it must hold."""
+    """A place: a tree that meets the condition of every key."""
 
     any: Literal[True] | None = None
     corner: CornerName | Literal["any"] | None = None
@@ -112,11 +112,11 @@ class PlaceForm(Form):
         return self
 
     def place(self) -> Place:
-        """As the judge uses it."""
+        """Return the place as used by the judge."""
         return Place(demands=tuple(self._demands()), words=self.words())
 
     def words(self) -> str:
-        """As the file says it, on one line."""
+        """Return the place as written in the file, on one line."""
         said = self.model_dump(by_alias=True, exclude_none=True)
         return "{" + ", ".join(f"{key}: {_flow(value)}" for key, value in said.items()) + "}"
 
@@ -156,7 +156,7 @@ class PlaceForm(Form):
 
 
 class EndForm(PlaceForm):
-    """Where the robot must be at the end: a marker alone, or a place."""
+    """The expected position of the robot at the end: either a marker or a place."""
 
     marker: MarkerName | None = None
 
@@ -168,7 +168,7 @@ class EndForm(PlaceForm):
 
 
 class StepForm(Form):
-    """An action that must happen."""
+    """An action that must be done."""
 
     do: Text
     n: Least1 = 1
@@ -176,13 +176,13 @@ class StepForm(Form):
     as_: Text | None = Field(None, alias="as")
 
     def step(self) -> Step:
-        """As the judge uses it."""
+        """Return the step as used by the judge."""
         at = ANYWHERE if self.at is None else self.at.place()
         return Step(action=self.do, captures=self.n, at=at, label=self.as_ or "")
 
 
 class ExpectForm(Form):
-    """What must have happened in a world."""
+    """The outcome expected in a world."""
 
     steps: tuple[StepForm, ...] | None = None
     order: Literal["any"] | None = None
@@ -198,16 +198,16 @@ class ExpectForm(Form):
     end: EndForm | None = None
 
     @model_validator(mode="after")
-    def _says_what(self) -> ExpectForm:
+    def _require_content(self) -> ExpectForm:
         if self.steps is None and self.count_only is None:
             raise ValueError("nothing is said of what must be done: give steps or count_only")
         if self.order is not None and self.steps is None:
             raise ValueError("'order' is about steps, which are not here")
-        self._know_labels()
+        self._require_labels()
         return self
 
-    def _know_labels(self) -> None:
-        """A label is given by an earlier step, once, and known to later steps alone."""
+    def _require_labels(self) -> None:
+        """Raise a ValueError if a label is defined twice, or used before or outside the steps that define it."""
         known: set[str] = set()
         for number, step in enumerate(self.steps or (), start=1):
             if step.at is not None:
@@ -221,13 +221,13 @@ class ExpectForm(Form):
 
     @property
     def actions(self) -> Iterator[str]:
-        """Every action that is named."""
+        """Every action that is named, with repetitions."""
         yield from (step.do for step in self.steps or ())
         yield from self.count_only or {}
         yield from self.distinct_trees
 
     def expected(self) -> Expected:
-        """As the judge uses it."""
+        """Return the expected outcome as used by the judge."""
         return Expected(
             steps=None if self.steps is None else tuple(step.step() for step in self.steps),
             any_order=self.order == "any",
@@ -245,7 +245,7 @@ class ExpectForm(Form):
 
 
 class WorldForm(Form):
-    """What the sensors would read, and what must happen then. ``context`` is for people who read the case."""
+    """Sensor readings and the outcome expected with them. ``context`` is a note for readers of the case."""
 
     readings: dict[str, Any] = {}
     expect: ExpectForm
@@ -253,7 +253,7 @@ class WorldForm(Form):
 
 
 class CaseForm(Form):
-    """A request with what it means."""
+    """A request with its expected outcomes."""
 
     id: Annotated[Text, Field(pattern=r"^\S+$")]
     request: Text

@@ -1,4 +1,4 @@
-"""A case: a request, the worlds that its mission is driven in, and what must have happened in each of them."""
+"""Cases: a request, the worlds in which its mission is simulated, and the outcome expected in each."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ from fieldhand.execution.drivers.simulation.world import World
 from fieldhand_bench.missions.places import ANYWHERE, Place
 
 MarkerName = Literal["start", "end"]
-#: The least and the most of something.
+#: Minimum and maximum, both included.
 Bounds = tuple[float, float]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Step:
-    """An action that must happen.
+    """An action that must be done.
 
     Attributes:
-        action: By its name in the robot's profile.
-        captures: How many at that place.
-        at: Where.
-        label: Under which later steps find the tree; empty for none.
+        action: Name in the robot's profile.
+        captures: Number of captures.
+        at: Place of the action.
+        label: Name by which later steps refer to the tree; empty for none.
     """
 
     action: str
@@ -34,21 +34,21 @@ class Step:
 
 @dataclass(frozen=True, kw_only=True)
 class Expected:
-    """What must have happened.
+    """The outcome that a mission must have.
 
     Attributes:
-        steps: These actions and no others; None where only their numbers count.
-        any_order: In whatever order.
-        counts: Captures of each action; actions that are not named must not happen. None where steps say it.
-        trees: At how many different trees each action was done.
-        at_all: Where every action must have been done.
-        free_points: Actions may be done away from trees.
-        repeats: Where numbers count, a tree may be worked on twice.
-        apart_m: Metres between a stop with an action and the next one.
-        most_travel_m: Metres driven in all.
-        least_stops: At how many stops something must have been done.
-        status: With which the mission must end.
-        end: Where the robot must be then: a marker, or a place whose tree is the nearest one. None for anywhere.
+        steps: Required actions, without any others; None if only ``counts`` are given.
+        any_order: True if the steps may be done in any order.
+        counts: Captures of each action, without any other actions; None if only ``steps`` are given.
+        trees: Number of different trees at which each action was done.
+        at_all: Place of every action.
+        free_points: True if actions may be done away from trees.
+        repeats: True if an action may be repeated at a tree; used with ``counts``.
+        apart_m: Distance between successive stops, metres.
+        most_travel_m: Maximum distance driven, metres.
+        least_stops: Minimum number of actions done.
+        status: Final status of the mission.
+        end: Final position: a marker, or a place that the nearest tree must match. None for anywhere.
     """
 
     steps: tuple[Step, ...] | None = None
@@ -67,7 +67,7 @@ class Expected:
 
 @dataclass(frozen=True, kw_only=True)
 class CaseWorld:
-    """What the sensors would read, and what must happen then."""
+    """A simulated world and the outcome expected in it."""
 
     world: World
     expected: Expected
@@ -75,14 +75,15 @@ class CaseWorld:
 
 @dataclass(frozen=True, kw_only=True)
 class Case:
-    """A request with what it means.
+    """A request with its expected outcomes.
 
     Attributes:
-        id: Among all cases that are run together.
-        site: GeoJSON file.
-        robot: Name or profile file.
-        worlds: One or more; none where the request ``asks``.
-        asks: The request can be understood in two ways, or not at all: a question or a refusal is right, a plan wrong.
+        id: Identifier, unique among all cases that are run together.
+        request: Text of the request.
+        site: Path of a GeoJSON file.
+        robot: Name or profile file of the robot.
+        worlds: Worlds in which the mission is simulated; none if ``asks``.
+        asks: True if the request is ambiguous or cannot be fulfilled, so that a question or a refusal is right.
         source: File of the case, for messages.
     """
 

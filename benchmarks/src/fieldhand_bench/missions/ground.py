@@ -1,4 +1,4 @@
-"""Trees and markers of a site as its GeoJSON has them, measured by the judge itself."""
+"""Trees and markers of a GeoJSON file with the distances between them, independent of how Fieldhand reads sites."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from fieldhand.errors import CaseError
 
 CornerName = Literal["nw", "ne", "sw", "se"]
 
-#: WGS 84: half the long axis in metres, and the squared eccentricity.
+#: WGS 84: semi-major axis in metres, and squared eccentricity.
 _AXIS_M, _ECCENTRICITY2 = 6_378_137.0, 6.694_379_990_14e-3
 _TOWARD: Mapping[CornerName, tuple[float, float]] = {
     "nw": (-1.0, 1.0),
@@ -33,12 +33,12 @@ Points = NDArray[np.float64]
 class Ground:
     """Trees and markers in metres east and north of the first tree.
 
-    A degree is as long as on the ellipsoid at that tree, which is right to a few parts in ten thousand within a farm.
+    The length of a degree is that of the ellipsoid at that tree, accurate to a few parts in 10,000 within a farm.
 
     Args:
         trees: (n, 2), latitude and longitude in degrees, in the order of the file; two or more.
-        properties: Of each tree.
-        markers: Latitude and longitude of ``start`` and ``end``, where there are any.
+        properties: Properties of each tree.
+        markers: Latitude and longitude of ``start`` and ``end``, degrees; markers may be missing.
     """
 
     def __init__(
@@ -59,50 +59,50 @@ class Ground:
         self._near = KDTree(self.xy)
 
     def metres(self, degrees: Points) -> Points:
-        """Metres east and north of latitudes and longitudes; the last axis holds the two."""
+        """Return metres east and north for latitudes and longitudes in degrees, along the last axis."""
         return np.asarray(((degrees - self._origin) * self._metres_a_degree)[..., ::-1])
 
     def nearest(self, at: Points) -> tuple[int, float]:
-        """The tree nearest to a point, and the metres to it."""
+        """Return the index of the tree nearest to a point and its distance in metres."""
         away, tree = self._near.query(at)
         return int(tree), float(away)
 
     def ranked(self, at: Points, count: int) -> list[int]:
-        """The ``count`` trees nearest to a point, nearest first; of equally near ones the earlier in the file."""
+        """Return the ``count`` trees nearest to a point, nearest first; ties are in the order of the file."""
         away = np.hypot(*(self.xy - at).T)
         return [int(k) for k in np.argsort(away, kind="stable")[:count]]
 
     def distances(self, tree: int) -> Points:
-        """Metres from a tree to each."""
+        """Return the distances from a tree to every tree, metres."""
         return np.asarray(np.hypot(*(self.xy - self.xy[tree]).T))
 
     @cached_property
     def spacing_m(self) -> float:
-        """How far a tree's nearest neighbour is, for the tree in the middle of all when sorted by that."""
+        """Median distance from a tree to its nearest neighbour, metres."""
         away = np.sort(np.asarray(self._near.query(self.xy, k=2)[0])[:, 1])
         return float(away[len(away) // 2])
 
     @cached_property
     def low(self) -> Points:
-        """Westernmost and southernmost metres of any tree."""
+        """Minimum east and north of the trees, metres."""
         return np.asarray(self.xy.min(axis=0))
 
     @cached_property
     def high(self) -> Points:
-        """Easternmost and northernmost metres of any tree."""
+        """Maximum east and north of the trees, metres."""
         return np.asarray(self.xy.max(axis=0))
 
     @cached_property
     def middle(self) -> Points:
-        """Of the trees' extent."""
+        """Middle of the trees' extent, metres east and north."""
         return (self.low + self.high) / 2
 
     @cached_property
     def corners(self) -> Mapping[CornerName, frozenset[int]]:
-        """The trees that may pass for each corner of the farm.
+        """Trees that count as each corner of the farm.
 
-        The tree nearest to that corner of the smallest enclosing rectangle, others that are hardly farther from it, and
-        the tree that lies farthest in that direction of the compass.
+        These are the tree nearest to that corner of the smallest enclosing rectangle, others hardly farther from it,
+        and the tree that lies farthest in that compass direction.
         """
         hull = shapely.oriented_envelope(shapely.MultiPoint(self.xy))
         rectangle = np.unique(shapely.get_coordinates(hull), axis=0)
@@ -117,13 +117,13 @@ class Ground:
 
 
 def load_ground(path: Path) -> Ground:
-    """The ground of a GeoJSON file.
+    """Return the trees and markers of a GeoJSON file.
 
     Points are trees if their ``marker-symbol`` or ``kind`` says so or if they have neither; ``start`` and ``end`` are
-    markers; whatever else the file holds is nothing to the judge.
+    markers. All other features are ignored.
 
     Raises:
-        CaseError: The file cannot be read, is no GeoJSON, or holds fewer than two trees.
+        CaseError: The file cannot be read, is not GeoJSON, or contains fewer than two trees.
     """
     trees: list[tuple[float, float]] = []
     properties: list[Mapping[str, Any]] = []
@@ -143,7 +143,7 @@ def load_ground(path: Path) -> Ground:
 
 
 def _points(path: Path) -> list[tuple[Mapping[str, Any], tuple[float, float]]]:
-    """Properties, latitude and longitude of each point."""
+    """Return properties, latitude and longitude of each point."""
     try:
         features = json.loads(path.read_text(encoding="utf-8-sig"))["features"]
         points = [f for f in features if f["geometry"]["type"] == "Point"]

@@ -1,4 +1,4 @@
-"""An event log held against what was expected."""
+"""Compare an event log with the expected outcome."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from collections.abc import Iterator, Mapping
 from fieldhand_bench.missions.cases import Bounds, Expected
 from fieldhand_bench.missions.ground import Ground
 from fieldhand_bench.missions.log import Done, Log
-from fieldhand_bench.missions.matching import mismatch, told
+from fieldhand_bench.missions.matching import describe, mismatch
 
-#: An action farther from any tree than so many spacings, and than so many metres, was done at none.
+#: An action is away from trees if the nearest one is farther than both so many spacings and so many metres.
 _AT_TREE, _AT_TREE_M = 0.75, 3.0
-#: Metres from a marker that are at the marker.
+#: Maximum distance at which a position counts as at a marker, metres.
 _AT_MARKER_M = 3.0
 
 
 def judge(ground: Ground, expected: Expected, log: Log) -> tuple[str, ...]:
-    """What is wrong with a mission, one sentence each; nothing if it is as asked."""
+    """Return the deviations from the expected outcome, one sentence each; empty if there are none."""
     return (
         *_away_from_trees(ground, expected, log),
         *_steps(ground, expected, log),
@@ -69,7 +69,7 @@ def _uncalled_for(counts: Mapping[str, Bounds], expected: Expected, done: tuple[
 def _elsewhere(ground: Ground, expected: Expected, log: Log) -> Iterator[str]:
     for one in log.done:
         if not expected.at_all.holds(ground, one.tree, {}):
-            yield f"{told(ground, one)} is not at {expected.at_all.words}"
+            yield f"{describe(ground, one)} is not at {expected.at_all.words}"
 
 
 def _distances(expected: Expected, log: Log) -> Iterator[str]:

@@ -1,4 +1,4 @@
-"""What an event log shows: actions at trees, metres driven, how and where it ended. Only what was written is read."""
+"""Read an event log: actions at trees, distance driven, final status and position."""
 
 from __future__ import annotations
 
@@ -13,17 +13,19 @@ import numpy as np
 from fieldhand.errors import CaseError
 from fieldhand_bench.missions.ground import Ground, Points
 
-#: Metres between the places of two captures that are one stop all the same.
+#: Maximum distance between two captures that belong to one stop, metres.
 _ONE_STOP_M = 0.5
 
 
 @dataclass(frozen=True, kw_only=True)
 class Done:
-    """An action that was done; captures that follow one another at one tree are one.
+    """An action that was done; successive captures at one tree are combined.
 
     Attributes:
-        tree: The tree nearest to where it was done, by its position in the file.
-        off_m: Metres from that tree.
+        action: Name of the action.
+        tree: Index in the file of the tree nearest to the action.
+        captures: Number of captures.
+        off_m: Distance from that tree, metres.
     """
 
     action: str
@@ -34,14 +36,14 @@ class Done:
 
 @dataclass(frozen=True, kw_only=True)
 class Log:
-    """What an event log shows.
+    """The content of an event log that is judged.
 
     Attributes:
         done: Actions that succeeded, in their order.
-        stops: (k, 2), metres east and north of each stop at which something was done.
-        travelled_m: Driven in all.
-        status: With which the mission ended; None where the log does not say.
-        end: (2,), where it ended, metres east and north.
+        stops: (k, 2), stops at which an action was done, metres east and north.
+        travelled_m: Distance driven in total, metres.
+        status: Final status of the mission; None if the log does not record it.
+        end: (2,), final position, metres east and north; None if the log does not record it.
     """
 
     done: tuple[Done, ...]
@@ -52,10 +54,10 @@ class Log:
 
 
 def read_log(lines: Iterable[str], ground: Ground) -> Log:
-    """An event log, one JSON object a line, on the ground that it is about.
+    """Parse an event log, one JSON object per line, and assign its actions to trees.
 
     Raises:
-        CaseError: A line is no event, or lacks what has to be known of it.
+        CaseError: A line is not an event, or lacks a required field.
     """
     done: list[Done] = []
     stops: list[Points] = []

@@ -1,4 +1,4 @@
-"""Steps that were asked for against actions that were done: one for one, in order or in any order."""
+"""Match expected steps one to one with the actions done, in order or in any order."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from fieldhand_bench.missions.places import Labels
 
 
 def mismatch(ground: Ground, steps: Sequence[Step], done: Sequence[Done], *, any_order: bool) -> str | None:
-    """Why what was done is not just these steps, in words; None if it is."""
+    """Return why the actions done are not exactly these steps, in words; None if they are."""
     if len(done) != len(steps):
         return f"{len(done)} actions were done where {len(steps)} were asked for{_surplus(steps, done)}"
     return _out_of_order(ground, steps, done) if not any_order else _unassignable(ground, steps, done)
@@ -40,14 +40,17 @@ def _out_of_order(ground: Ground, steps: Sequence[Step], done: Sequence[Done]) -
     for number, (step, one) in enumerate(zip(steps, done, strict=True), start=1):
         if not _fits(ground, step, one, labels):
             wanted = f"{step.action} x{step.captures} at {step.at.words}"
-            return f"step {number} was to be {wanted}, and was {told(ground, one)}"
+            return f"step {number} was to be {wanted}, and was {describe(ground, one)}"
         if step.label:
             labels[step.label] = one.tree
     return None
 
 
 def _unassignable(ground: Ground, steps: Sequence[Step], done: Sequence[Done]) -> str | None:
-    """Steps that name each other are tried in turn; all others then are a matching of two sides."""
+    """Return why no assignment of the actions to the steps fits; None if there is one.
+
+    Steps that refer to each other are assigned by backtracking, all others by bipartite matching.
+    """
     named = {label for step in steps for label in step.at.labels}
     tied = [step for step in steps if step.label in named or step.at.labels]
     free = [step for step in steps if step not in tied]
@@ -71,7 +74,7 @@ def _unassignable(ground: Ground, steps: Sequence[Step], done: Sequence[Done]) -
 
 
 def _unmatched(ground: Ground, steps: Sequence[Step], done: Sequence[Done]) -> list[Step]:
-    """Steps that get no action in the best assignment."""
+    """Return the steps that get no action in a maximum matching."""
     if not steps:
         return []
     fits = np.array([[_fits(ground, step, one, {}) for one in done] for step in steps])
@@ -79,8 +82,8 @@ def _unmatched(ground: Ground, steps: Sequence[Step], done: Sequence[Done]) -> l
     return [step for step, k in zip(steps, matched, strict=True) if k < 0]
 
 
-def told(ground: Ground, done: Done) -> str:
-    """An action that was done, in words."""
+def describe(ground: Ground, done: Done) -> str:
+    """Describe an action that was done, in words."""
     east, north = ground.xy[done.tree]
     return (
         f"{done.action} x{done.captures} at the tree at position {done.tree} ({east:.0f} m east, {north:.0f} m north)"

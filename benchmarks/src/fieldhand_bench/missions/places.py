@@ -1,4 +1,4 @@
-"""What a case may demand of the tree at which something was done, one class a demand."""
+"""Conditions on the tree at which an action was done, one class each."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import numpy as np
 from fieldhand_bench.missions.ground import CornerName, Ground, Points
 
 Side = Literal["north", "south", "east", "west"]
-#: The trees of steps that have a label, by their position in the file.
+#: Trees of the labelled steps, by label, as indices in the file.
 Labels = Mapping[str, int]
 
 _WAYS: Mapping[Side, tuple[float, float]] = {
@@ -21,20 +21,20 @@ _WAYS: Mapping[Side, tuple[float, float]] = {
     "east": (1.0, 0.0),
     "west": (-1.0, 0.0),
 }
-#: Neighbours are at most so many spacings apart.
+#: Maximum distance between neighbours, in spacings.
 _NEIGHBOUR = 1.7
-#: Near an edge, and near the middle of all trees: at least so many spacings count.
+#: Minimum tolerance for trees near the middle or an edge, in spacings; and near an edge in metres.
 _BESIDE = 1.5
 _EDGE_M = 6.0
-#: Part of a leg along a row that must lead towards the side asked for (45 degrees, as good as).
+#: Minimum part of a distance that leads towards the required side: a cosine of about 45 degrees.
 _TOWARD = 0.7
-#: How many of the trees nearest to a marker may pass for the first or last tree.
+#: Number of trees nearest to a marker that count as the first or last tree.
 _AT_MARKER = 2
 
 
 @dataclass(frozen=True, kw_only=True)
 class Candidate:
-    """A tree of which something is to hold, with those of the steps before it."""
+    """A tree to be tested, with the trees of the steps before it."""
 
     ground: Ground
     tree: int
@@ -42,24 +42,25 @@ class Candidate:
 
 
 class Demand(Protocol):
-    """One thing that must hold of a tree."""
+    """A condition on a tree."""
 
     @property
     def labels(self) -> tuple[str, ...]:
-        """Labels of other steps without whose trees this cannot be told."""
+        """Labels of the steps whose trees the condition depends on."""
         ...
 
     def holds(self, it: Candidate) -> bool:
-        """Whether it holds of that tree."""
+        """Return True if the tree meets the condition."""
         ...
 
 
 @dataclass(frozen=True, kw_only=True)
 class Place:
-    """Where something must be done: every demand holds of its tree. None means at any tree.
+    """A place: the trees that meet every condition; without conditions, any tree.
 
     Attributes:
-        words: As the case says it, for messages.
+        demands: Conditions on the tree.
+        words: The place as written in the case, for messages.
     """
 
     demands: tuple[Demand, ...] = ()
@@ -67,11 +68,11 @@ class Place:
 
     @property
     def labels(self) -> frozenset[str]:
-        """Labels of the steps that must be known first."""
+        """Labels of the steps whose trees the place depends on."""
         return frozenset(label for demand in self.demands for label in demand.labels)
 
     def holds(self, ground: Ground, tree: int, labels: Labels) -> bool:
-        """Whether a tree is such a place."""
+        """Return True if a tree is such a place."""
         it = Candidate(ground=ground, tree=tree, labels=labels)
         return all(demand.holds(it) for demand in self.demands)
 
@@ -80,7 +81,7 @@ ANYWHERE = Place()
 
 
 class _Alone:
-    """A demand that needs no other step."""
+    """A condition that depends on no other step."""
 
     @property
     def labels(self) -> tuple[str, ...]:
@@ -89,7 +90,7 @@ class _Alone:
 
 @dataclass(frozen=True)
 class Corner(_Alone):
-    """A corner of the smallest rectangle about the trees; None for any of the four."""
+    """A corner of the smallest rectangle around the trees; None for any of the four."""
 
     name: CornerName | None
 
@@ -100,9 +101,9 @@ class Corner(_Alone):
 
 @dataclass(frozen=True)
 class Beyond(_Alone):
-    """On these sides of the middle lines of the trees' extent: one side for a half, two for a quarter.
+    """The part of the trees' extent on these sides of its middle: one side for a half, two for a quarter.
 
-    Half a spacing on the other side is still well, since people do not measure it.
+    Half a spacing beyond the middle is tolerated, since people do not measure it.
     """
 
     sides: tuple[Side, ...]
@@ -114,7 +115,7 @@ class Beyond(_Alone):
 
 @dataclass(frozen=True)
 class Most(_Alone):
-    """At most ``within_m`` metres short of the tree that lies farthest on that side."""
+    """The trees at most ``within_m`` metres from the line through the farthest tree on that side."""
 
     side: Side
     within_m: float
@@ -125,7 +126,7 @@ class Most(_Alone):
 
 @dataclass(frozen=True)
 class Central(_Alone):
-    """Within that part of half the diagonal from the middle of the trees' extent."""
+    """The middle of the trees' extent: within that part of half its diagonal."""
 
     part: float
 
@@ -137,7 +138,7 @@ class Central(_Alone):
 
 @dataclass(frozen=True)
 class MidEdge(_Alone):
-    """Near the edge on that side, in the middle third of it."""
+    """The middle third of the edge on that side."""
 
     side: Side
 
@@ -151,7 +152,7 @@ class MidEdge(_Alone):
 
 @dataclass(frozen=True)
 class Same:
-    """The tree of that step."""
+    """The tree of the labelled step."""
 
     label: str
 
@@ -165,7 +166,7 @@ class Same:
 
 @dataclass(frozen=True)
 class OtherThan:
-    """None of the trees of those steps."""
+    """All trees except those of the labelled steps."""
 
     labels: tuple[str, ...]
 
@@ -175,7 +176,7 @@ class OtherThan:
 
 @dataclass(frozen=True)
 class Near:
-    """One of the ``rank`` other trees nearest to that step's; if ``adjacent``, a neighbour of it, too."""
+    """The ``rank`` trees nearest to the labelled step's tree; if ``adjacent``, only those next to it."""
 
     label: str
     rank: int
@@ -195,7 +196,7 @@ class Near:
 
 @dataclass(frozen=True)
 class Far:
-    """As far from that step's tree as ``fraction`` of the farthest tree is, at least."""
+    """The trees far from the labelled step's: at least ``fraction`` of the distance of the farthest one."""
 
     label: str
     fraction: float
@@ -211,9 +212,9 @@ class Far:
 
 @dataclass(frozen=True)
 class Offset:
-    """So many spacings from that step's tree, in either direction unless one is asked for.
+    """The trees at a distance of so many spacings from the labelled step's tree, towards a side if one is given.
 
-    Rows have gaps and spacings vary, so it may be 1.5 spacings more or less, or three tenths of the distance.
+    Rows have gaps and spacings vary, so the tolerance is 1.5 spacings or 30 % of the distance, whichever is larger.
     """
 
     label: str
@@ -235,7 +236,7 @@ class Offset:
 
 @dataclass(frozen=True)
 class Positions(_Alone):
-    """One of the trees at these positions in the file, counted from 0."""
+    """The trees at these indices in the file, counted from 0."""
 
     positions: frozenset[int]
 
@@ -245,7 +246,7 @@ class Positions(_Alone):
 
 @dataclass(frozen=True)
 class Terminal(_Alone):
-    """The first or the last tree: the file's, or one of the two nearest to the marker of that name."""
+    """The first or last tree: that of the file, or one of the two nearest to the marker."""
 
     marker: Literal["start", "end"]
 
@@ -258,7 +259,7 @@ class Terminal(_Alone):
 
 @dataclass(frozen=True)
 class Attributes(_Alone):
-    """The file says these values of the tree."""
+    """The trees that have these attribute values in the file."""
 
     values: Mapping[str, Any]
 
@@ -267,11 +268,11 @@ class Attributes(_Alone):
 
 
 def _along(leg: Points, side: Side) -> float:
-    """Metres of a leg towards a side."""
+    """Return the component of a distance towards a side, metres."""
     return float(leg @ np.array(_WAYS[side]))
 
 
 def _to_edge(it: Candidate, side: Side) -> float:
-    """Metres from a tree to the farthest of all on that side, across."""
+    """Return the distance from a tree to the line through the farthest tree on that side, metres."""
     edge = it.ground.high if side in ("north", "east") else it.ground.low
     return _along(edge - it.ground.xy[it.tree], side)

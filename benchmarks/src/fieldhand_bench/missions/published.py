@@ -1,4 +1,4 @@
-"""Which cases stand for the rows of the published experiment, and what was published of them (``published.yaml``)."""
+"""The rows of the published experiment, their published verdicts and their cases (``published.yaml``)."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ class Row:
     """A row of the published table.
 
     Attributes:
-        case: Id of the case.
-        row: What it is about.
-        spatial: Whether the request is about places beyond the ids of trees.
-        verdict: On the published system.
+        case: Id of the case that reproduces the row.
+        row: Title of the row.
+        spatial: True if the request refers to places other than by the ids of trees.
+        verdict: Published verdict on the published system.
     """
 
     case: str
@@ -32,7 +32,7 @@ class Row:
 
 @dataclass(frozen=True, kw_only=True)
 class Tally:
-    """Rows of one kind: how many were tried, how many came out as asked, how many of them were published as right."""
+    """Counts of the rows of one kind: tried, fulfilled as asked here, and published as right."""
 
     spatial: bool
     tried: int
@@ -42,24 +42,24 @@ class Tally:
 
 @cache
 def published() -> tuple[Row, ...]:
-    """The rows, in the order in which they were published."""
+    """Return the rows in the order in which they were published."""
     text = (resources.files("fieldhand_bench.missions") / "published.yaml").read_text(encoding="utf-8")
     return tuple(Row(**row) for row in yaml.safe_load(text))
 
 
 def row_of(case: str) -> Row | None:
-    """The row that a case stands for, if it does for one."""
+    """Return the row that a case reproduces; None if it reproduces none."""
     return next((row for row in published() if row.case == case), None)
 
 
 def sorted_by_row(trials: Iterable[Trial]) -> tuple[Trial, ...]:
-    """The rows of the published table first, as they were published, then all others as they came."""
+    """Sort trials: rows of the published table first, in its order, then all others in their own order."""
     place = {row.case: number for number, row in enumerate(published())}
     return tuple(sorted(trials, key=lambda trial: place.get(trial.id, len(place))))
 
 
 def tallies(trials: Iterable[Trial]) -> tuple[Tally, ...]:
-    """Rows that are not about space, then rows that are; only kinds that were tried."""
+    """Count the rows that are not spatial, then those that are; kinds without trials are left out."""
     known = [(row, trial) for trial in trials if (row := row_of(trial.id)) is not None]
     return tuple(
         Tally(

@@ -1,4 +1,4 @@
-"""A case planned, approved, driven in each of its worlds, and judged."""
+"""Plan a case, approve it, simulate it in each of its worlds, and judge the event logs."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ from fieldhand_bench.missions.ground import Ground, load_ground
 from fieldhand_bench.missions.judge import judge
 from fieldhand_bench.missions.log import read_log
 
-#: What became of a request: a mission; a question; a refusal; no answer of a model that could be used; a Task that a
-#: check forbids.
+#: Result of planning a request: ``planned`` a mission, ``asked`` a question, ``refused``; ``failed`` without a usable
+#: answer of the model; ``not approved`` because a check forbids the Task.
 Answer = Literal["planned", "asked", "refused", "failed", "not approved"]
 
 _APPROVED_AT = datetime(2026, 1, 1, tzinfo=UTC)
@@ -35,11 +35,11 @@ _FIRST = "go to the first tree"
 
 
 class Metered:
-    """A language model whose answers are counted.
+    """A language model that counts its answers and tokens.
 
     Attributes:
-        tries: Answers that were asked for.
-        tokens: Of prompts and answers together, in the endpoint's count.
+        tries: Number of answers requested.
+        tokens: Tokens of prompts and answers together, as counted by the endpoint.
     """
 
     def __init__(self, chat: Chat) -> None:
@@ -56,16 +56,19 @@ class Metered:
 
 @dataclass(frozen=True, kw_only=True)
 class Trial:
-    """What came of a case.
+    """The result of a case.
 
     Attributes:
-        why: The question, the reasons of a refusal, or what else kept the mission from being driven; else empty.
-        wrong: Of each world what was not as asked, one sentence each; a world that was as asked has none.
-        worlds: How many the case has.
-        tasks: Actions in the plan.
-        conditionals: Conditions in the plan.
-        plan_s: Seconds that planning took.
-        tokens, tries: Of a language model, as long as this case was planned; 0 where none was asked.
+        id, request, source: As in the case.
+        answer: Result of planning.
+        as_asked: True if the case was fulfilled in every world, or a question or refusal was right.
+        why: Question, reasons of a refusal, or other reason why the mission was not simulated; empty if it was.
+        wrong: Deviations in each world, one sentence each; a world with none was as asked.
+        worlds: Number of worlds of the case.
+        tasks: Number of actions in the plan.
+        conditionals: Number of conditions in the plan.
+        plan_s: Time of planning, seconds.
+        tokens, tries: Tokens used by and answers requested from a language model for this case; 0 without a model.
     """
 
     id: str
@@ -84,20 +87,20 @@ class Trial:
 
     @property
     def worlds_right(self) -> int:
-        """Worlds in which what happened was as asked."""
+        """Number of worlds in which the outcome was as asked."""
         return sum(not wrong for wrong in self.wrong)
 
 
 @dataclass(kw_only=True)
-class Range:
-    """Where cases are tried: the planner, and sites and robots, each opened once.
+class TrialSetup:
+    """The setup in which cases are tried: the planner, and sites that are loaded once.
 
     Attributes:
-        planner: Plans the requests.
-        model: Counts what the planner asks a language model; None where it asks none.
-        seed: Of every random thing in a simulated mission.
-        clock: Seconds, running.
-        keep: Takes the lines of each event log, with the case and the number of its world; None keeps none.
+        planner: Planner of the requests.
+        model: Language model of the planner, for its counts; None if it uses none.
+        seed: Random seed of the simulated missions.
+        clock: Function that returns the current time in seconds.
+        keep: Function called with the case, the index of its world and the lines of the event log; None for none.
     """
 
     planner: Planner
@@ -109,42 +112,42 @@ class Range:
     _sites: dict[Path, Site] = field(default_factory=dict)
 
     def ground(self, path: Path) -> Ground:
-        """The judge's view of a site."""
+        """Return a site as read by the judge."""
         if path not in self._grounds:
             self._grounds[path] = load_ground(path)
         return self._grounds[path]
 
     def site(self, path: Path) -> Site:
-        """The site as missions know it, with its rows, so that no request is timed with them."""
+        """Return a site as used by missions, with its rows computed so that no measured time includes them."""
         if path not in self._sites:
             self._sites[path] = load_site(path)
             _ = self._sites[path].planting
         return self._sites[path]
 
 
-def try_all(cases: Sequence[Case], on: Range) -> Iterator[Trial]:
-    """Each case in turn.
+def try_all(cases: Sequence[Case], setup: TrialSetup) -> Iterator[Trial]:
+    """Plan, simulate and judge each case; yield its trial.
 
     Raises:
-        SiteError: A site cannot be used.
-        WorldError: A world speaks of what the site or the robot does not have.
+        SiteError: A site cannot be loaded.
+        WorldError: A world refers to something that the site or the robot does not have.
     """
     robots = {name: load_robot(name) for name in dict.fromkeys(case.robot for case in cases)}
     for case in cases:
         for world in case.worlds:
-            mission.check_world(world.world, on.site(case.site), robots[case.robot])
-    for case in cases[:1]:  # grammar and lexicon are loaded with the first request, which is not to be timed with them
-        EnglishPlanner().plan(_FIRST, on.site(case.site), robots[case.robot])
+            mission.check_world(world.world, setup.site(case.site), robots[case.robot])
+    for case in cases[:1]:  # the first request loads grammar and lexicon, which must not be timed
+        EnglishPlanner().plan(_FIRST, setup.site(case.site), robots[case.robot])
     for case in cases:
-        yield _try(case, robots[case.robot], on)
+        yield _try(case, robots[case.robot], setup)
 
 
-def _try(case: Case, robot: RobotProfile, on: Range) -> Trial:
-    site = on.site(case.site)
-    tries, tokens = (0, 0) if on.model is None else (on.model.tries, on.model.tokens)
-    began = on.clock()
-    outcome = _plan(case, site, robot, on.planner)
-    plan_s = on.clock() - began
+def _try(case: Case, robot: RobotProfile, setup: TrialSetup) -> Trial:
+    site = setup.site(case.site)
+    tries, tokens = (0, 0) if setup.model is None else (setup.model.tries, setup.model.tokens)
+    began = setup.clock()
+    outcome = _plan(case, site, robot, setup.planner)
+    plan_s = setup.clock() - began
     answer, why = _answer(outcome)
     tasks, conditionals, wrong = 0, 0, []
     if isinstance(outcome, Planned):
@@ -152,8 +155,8 @@ def _try(case: Case, robot: RobotProfile, on: Range) -> Trial:
         if not case.asks:
             try:
                 approved = _approve(outcome.task, site, robot)
-                logs = [_drive(approved, world, on.seed) for world in case.worlds]
-                wrong = _judged(case, logs, on)
+                logs = [_drive(approved, world, setup.seed) for world in case.worlds]
+                wrong = _judged(case, logs, setup)
             except NotApprovedError as error:
                 answer, why = "not approved", str(error)
     right = answer in ("asked", "refused") if case.asks else bool(wrong) and not any(wrong)
@@ -169,13 +172,13 @@ def _try(case: Case, robot: RobotProfile, on: Range) -> Trial:
         tasks=tasks,
         conditionals=conditionals,
         plan_s=plan_s,
-        tokens=0 if on.model is None else on.model.tokens - tokens,
-        tries=0 if on.model is None else on.model.tries - tries,
+        tokens=0 if setup.model is None else setup.model.tokens - tokens,
+        tries=0 if setup.model is None else setup.model.tries - tries,
     )
 
 
 def _plan(case: Case, site: Site, robot: RobotProfile, planner: Planner) -> Outcome | ModelError:
-    """A model that gives no usable answer fails this case, not the others."""
+    """Plan the request of a case; return a ModelError, so that it fails this case and not the others."""
     try:
         return mission.plan(case.request, site, robot, planner)
     except ModelError as error:
@@ -195,16 +198,16 @@ def _answer(outcome: Outcome | ModelError) -> tuple[Answer, str]:
 
 
 def _size(task: Task) -> tuple[int, int]:
-    """Actions and conditions of a plan."""
+    """Return the numbers of actions and of conditions in a plan."""
     nodes = list(walk(task.composition.plan))
     return sum(n.act is not None for n in nodes), sum(n.tested is not None for n in nodes)
 
 
 def _approve(task: Task, site: Site, robot: RobotProfile) -> mission.ApprovedMission:
-    """Approved with every warning, as by a person who accepts them all.
+    """Approve a Task, confirming every warning.
 
     Raises:
-        NotApprovedError: A check forbids it.
+        NotApprovedError: A check fails.
     """
     return mission.authorize(
         mission.review(task, site, robot), by="the experiment", at=_APPROVED_AT, confirmed=EveryWarning()
@@ -216,12 +219,12 @@ def _drive(approved: mission.ApprovedMission, world: CaseWorld, seed: int) -> tu
     return tuple(to_json(event) for event in mission.simulate(approved, world=world.world, seed=seed).events)
 
 
-def _judged(case: Case, logs: Sequence[Sequence[str]], on: Range) -> list[tuple[str, ...]]:
-    """What is wrong in each world, seen from the lines of its log alone."""
-    ground = on.ground(case.site)
-    if on.keep is not None:
+def _judged(case: Case, logs: Sequence[Sequence[str]], setup: TrialSetup) -> list[tuple[str, ...]]:
+    """Return the deviations in each world, judged from the lines of its event log alone."""
+    ground = setup.ground(case.site)
+    if setup.keep is not None:
         for number, lines in enumerate(logs):
-            on.keep(case, number, lines)
+            setup.keep(case, number, lines)
     return [
         judge(ground, world.expected, read_log(lines, ground)) for world, lines in zip(case.worlds, logs, strict=True)
     ]

@@ -1,4 +1,4 @@
-"""The published experiment, run again: solvers against each other on graphs from files.
+"""The published experiment on stochastic orienteering, repeated: solvers compared on graphs from files.
 
-:func:`fieldhand_bench.orienteering.run.run` drives missions with each solver and says what they collected.
+:func:`fieldhand_bench.orienteering.run.run` simulates missions with each solver and returns their statistics.
 """

@@ -1,7 +1,7 @@
-"""What a robot would collect that knew beforehand what every leg costs.
+"""An upper bound on the mean reward: that of a robot which knows every leg's cost in advance.
 
-No policy can collect more on average. Each drawn world is a certain orienteering problem of its own; it is solved by
-the same search as fixed routes, so the figure is a bound as far as that search finds the best route.
+No policy collects more on average. Each sampled world is a deterministic orienteering problem. It is solved by the
+same search as fixed routes, so the result is a bound only as far as that search finds the best route.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from fieldhand.orienteering.route import StoppingCriterion, solve
 
 
 def with_perfect_information(problem: Problem, seed: int, rounds: int = 2000) -> tuple[float, bool]:
-    """Reward in one drawn world, the end's included, and whether its end can be reached within the budget."""
+    """Return the reward in one sampled world, the end's included, and True if the end is within the budget."""
     factors = problem.model.draw(np.random.default_rng(seed), problem.size**2).reshape(problem.size, problem.size)
     factors = np.triu(factors) + np.triu(factors, 1).T
     try:

@@ -1,4 +1,4 @@
-"""Without chance: the search for fixed routes against PyVRP's prize collecting, in the same time on the same graph."""
+"""Compare the search for fixed routes with PyVRP on deterministic costs, with the same graph and time."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ from fieldhand.orienteering.costs import Deterministic
 from fieldhand.orienteering.problem import Problem
 from fieldhand.orienteering.route import StoppingCriterion, solve
 
-#: PyVRP counts in whole numbers: a budget is so many units of length, all reward so many units of prize. One unit of
-#: length is worth next to nothing beside the prizes.
+#: PyVRP uses integers: units of length in the budget, and units of prize in the total reward. Its objective also counts
+#: length, which this scale makes negligible beside the prizes.
 _LENGTHS, _PRIZES = 1_000_000, 1_000_000_000
 
 
 @dataclass(frozen=True, kw_only=True)
-class Certain:
-    """What a solver collected where every leg costs its length.
+class RouteResult:
+    """A solver's route where every leg costs its length.
 
     Attributes:
-        solver: Its name.
-        reward: Of the stops, the end's not counted.
-        length: Of the route.
-        seconds: What it took.
+        solver: Name of the solver.
+        reward: Total reward of the stops, without the end's.
+        length: Length of the route, in the unit of the graph.
+        seconds: Time taken, seconds.
     """
 
     solver: str
@@ -35,16 +35,16 @@ class Certain:
     seconds: float
 
 
-def compare(problem: Problem, seed: int, seconds: float) -> tuple[Certain, Certain]:
-    """This library and PyVRP, each given the same time.
+def compare(problem: Problem, seed: int, seconds: float) -> tuple[RouteResult, RouteResult]:
+    """Solve a problem with this library and with PyVRP, in the same time each.
 
     Args:
-        problem: With distances and one limit, and no service; its cost model is left out.
-        seed: Of both.
-        seconds: Time for each.
+        problem: Problem with distances, one limit and no service; its cost model is ignored.
+        seed: Random seed of both solvers.
+        seconds: Time limit of each solver, seconds.
 
     Raises:
-        ProblemError: PyVRP is not installed, or the problem is of another kind.
+        ProblemError: PyVRP is not installed, or the problem has another form.
     """
     if (
         len(problem.limits) != 1
@@ -56,25 +56,25 @@ def compare(problem: Problem, seed: int, seconds: float) -> tuple[Certain, Certa
     certain = replace(problem, costs=Deterministic())
     began = time.perf_counter()
     route = solve(certain, seed, StoppingCriterion(rounds=10**9, seconds=seconds))
-    ours = Certain(
+    ours = RouteResult(
         solver="fieldhand", reward=route.reward, length=route.length, seconds=time.perf_counter() - began
     )  # fmt: skip
     return ours, _pyvrp(certain, seed, seconds)
 
 
-def _pyvrp(problem: Problem, seed: int, seconds: float) -> Certain:
+def _pyvrp(problem: Problem, seed: int, seconds: float) -> RouteResult:
     try:
         from pyvrp import Model
         from pyvrp.stop import MaxRuntime
     except ImportError as error:
         raise ProblemError("PyVRP is not installed", advice="install it with: pip install pyvrp") from error
     budget = problem.limits[0].budget
-    # Rounded up: no route is taken for one that fits because of the rounding.
+    # Rounded up, so that no route keeps to the budget merely because of rounding.
     lengths = np.ceil(problem.distances / budget * _LENGTHS).astype(np.int64)
     prizes = np.round(problem.rewards / max(problem.rewards.sum(), 1e-300) * _PRIZES).astype(np.int64)
     model = Model()
     inner = [v for v in range(problem.size) if v not in (problem.start, problem.end)]
-    # Every leg is given, so the coordinates say nothing.
+    # The distance of every leg is given, so the coordinates are not used.
     places = [model.add_location(x=v, y=0) for v in range(problem.size)]
     depots = {v: model.add_depot(places[v]) for v in dict.fromkeys((problem.start, problem.end))}
     for v in inner:
@@ -89,7 +89,7 @@ def _pyvrp(problem: Problem, seed: int, seconds: float) -> Certain:
     routes = result.best.routes() if result.is_feasible() else []
     stops = [inner[activity.idx] for route in routes for activity in route if activity.is_client()]
     way = [problem.start, *stops, problem.end]
-    return Certain(
+    return RouteResult(
         solver="PyVRP",
         reward=float(problem.rewards[stops].sum()),
         length=float(sum(problem.distances[a, b] for a, b in pairwise(way))),

@@ -1,4 +1,4 @@
-"""Where trials run: in this process, in processes of this machine (joblib), or on a Dask cluster."""
+"""Run trials in this process, in several processes of this machine (joblib), or on a Dask cluster."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ _CONNECT_S = 15
 
 
 def spread(work: Work[T], pieces: Sequence[Any], engine: str = "local", jobs: int = -1) -> list[T]:
-    """``work`` done on each piece, in their order.
+    """Call a function with each piece and return the results, in the order of the pieces.
 
     Args:
-        work: A function at the top of a module.
-        pieces: What it is given; it and its answers travel between processes.
+        work: Function at module level.
+        pieces: Arguments of the calls; they and the results must be picklable.
         engine: ``local``, or ``dask://HOST:PORT`` of a scheduler.
-        jobs: Processes of this machine; -1 for as many as it has processors, 1 for none but this one.
+        jobs: Number of local processes; -1 for one per processor, 1 for this process alone.
 
     Raises:
         ProblemError: The engine is unknown, or the cluster does not answer.

@@ -14,7 +14,7 @@ from fieldhand.orienteering.problem import Limit, Problem
 
 
 class Graph(BaseModel):
-    """One graph file. Distances are straight lines, in the unit of the coordinates."""
+    """A graph file. Distances are straight lines, in the unit of the coordinates."""
 
     model_config = ConfigDict(frozen=True)
 
@@ -26,7 +26,7 @@ class Graph(BaseModel):
     alpha: float = 0.5
 
     def problem(self, budget: float, failure_probability: float, costs: CostModel | None = None) -> Problem:
-        """The graph with a budget; a negative ``end`` counts from the last vertex."""
+        """Return the orienteering problem on the graph; a negative ``end`` counts from the last vertex."""
         xy = np.array(self.xy, dtype=np.float64).reshape(-1, 2)
         return Problem(
             distances=np.hypot(*(xy[:, None] - xy[None]).transpose(2, 0, 1)),
@@ -40,10 +40,10 @@ class Graph(BaseModel):
 
 
 def load_graphs(folder: Path) -> tuple[Graph, ...]:
-    """Every ``*.json`` graph of a folder, or one file, in the order of their sizes.
+    """Load a graph file, or every ``*.json`` file of a folder, in order of size.
 
     Raises:
-        ProblemError: There is none, or a file is no graph.
+        ProblemError: There is no file, or a file is not a graph.
     """
     files = [folder] if folder.is_file() else sorted(folder.glob("*.json"))
     if not files:

@@ -1,4 +1,4 @@
-"""Greedy by reward per distance, which is what a language model says that it does."""
+"""Greedy selection by reward per distance: the strategy that language models state for this problem."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from fieldhand.orienteering.problem import Problem, count_visits
 
 
 class Greedy:
-    """Goes to the vertex with most reward for the way there from which it still gets home safely enough."""
+    """A policy that drives to the vertex with the most reward per distance from which the end can be reached safely."""
 
     def __init__(self, problem: Problem) -> None:
         self._problem = problem
 
     def next(self, state: State) -> int:
-        """The vertex to go to next."""
+        """Return the vertex to drive to next."""
         problem, here, end = self._problem, state.vertex, self._problem.end
         there = np.array([problem.length(here, v) for v in range(problem.size)])
         home = np.array([problem.length(v, end) for v in range(problem.size)])

@@ -1,7 +1,7 @@
-"""Plain Monte Carlo tree search: UCT over the next vertices, with random missions from the leaves.
+"""Plain Monte Carlo tree search: UCT over the next vertices, with random rollouts from the leaves.
 
-Source: Kocsis and Szepesvári 2006. The tree is open-loop: a node is the vertices driven to so far, whatever they cost.
-A move is open only where going there and straight home is safe enough; a mission over budget is worth nothing.
+Source: Kocsis and Szepesvári 2006. The tree is open-loop: a node is a sequence of vertices, regardless of its cost.
+A move is allowed only if the drive there and directly to the end is safe; a mission over budget has no value.
 """
 
 from __future__ import annotations
@@ -28,15 +28,15 @@ def require_supported(problem: Problem) -> None:
 
 
 class TreeSearch:
-    """Decides by simulated missions from where the robot is.
+    """A policy that chooses the next vertex by simulating missions from the current state.
 
     Args:
-        problem: With one limit and distances.
-        seed: Of the simulations.
-        simulations: For each decision.
+        problem: Problem with one limit and distances.
+        seed: Random seed of the simulations.
+        simulations: Number of simulations per decision.
 
     Raises:
-        ProblemError: The problem is of another kind (:func:`require_supported`).
+        ProblemError: The problem has another form (:func:`require_supported`).
     """
 
     def __init__(self, problem: Problem, seed: int, simulations: int = 2000) -> None:
@@ -45,13 +45,13 @@ class TreeSearch:
         self._state = np.array([seed], dtype=np.uint64)
         service = problem.limits[0].service
         self._service = np.zeros(problem.size) if service is None else np.asarray(service, dtype=np.float64)
-        # Of a sum of two legs, in standard deviations of a leg of length 1.
+        # Margin for the sum of two legs, per root of their summed squared lengths.
         deviation = math.sqrt(problem.model.cumulants()[0])
         self._spare = deviation * float(np.interp(1.5, *_skewnesses(problem.limits[0].failure_probability)))
         self._factors = problem.model.draw(np.random.default_rng(seed), 20_000)
 
     def next(self, state: State) -> int:
-        """The vertex to go to next."""
+        """Return the vertex to drive to next."""
         problem = self._problem
         free = (problem.rewards > 0.0).copy()
         free[[*state.visited, state.vertex, problem.start, problem.end]] = False
@@ -81,7 +81,7 @@ def _search(
     for v in moves[: count - 1]:
         scale += rewards[v]
     scale = max(scale, 1e-300)
-    # Nodes by number, each with a child for every move; the root is 0.
+    # Children of each node, one per move, as node numbers; the root is 0, -1 means none.
     child = np.full((simulations + 2, count), -1, np.int64)
     visits, value = np.zeros(simulations + 2), np.zeros(simulations + 2)
     path = np.empty(count + 2, np.int64)
@@ -127,7 +127,7 @@ def _search(
 def _pick(
     child: Ints, visits: Floats, value: Floats, safe: NDArray[np.bool_], total: float, scale: float, state: Seeds
 ) -> int:
-    """The child with the highest upper bound; one that was never tried, in a random order, comes first."""
+    """Return the move with the highest upper bound; untried moves come first, in random order."""
     best, most = -1, -np.inf
     for i in range(len(child)):
         if not safe[i]:
@@ -147,7 +147,7 @@ def _open_moves(
     at: int, moves: Ints, distances: Floats, service: Floats, taken: NDArray[np.bool_], room: float, spare: float,
     safe: NDArray[np.bool_],
 ) -> None:  # fmt: skip
-    """Going home is always open, a vertex where going there and straight home is safe enough."""
+    """Mark the allowed moves in ``safe``: the end always, a vertex if driving there and on to the end is safe."""
     end = len(moves) - 1
     for i in range(end):
         a, b = distances[at, moves[i]], distances[moves[i], moves[end]]
@@ -158,7 +158,7 @@ def _open_moves(
 
 @compiled
 def _random_move(at: int, moves: Ints, distances: Floats, safe: NDArray[np.bool_], state: Seeds) -> int:
-    """A random open vertex, a near one more likely; the end where there is none."""
+    """Return a random allowed move, with a preference for near vertices; the end if there is no other."""
     end = len(moves) - 1
     best, most = end, -1.0
     for i in range(end):

@@ -1,7 +1,7 @@
-"""The sample-average mixed-integer programme for a fixed route, solved by HiGHS within a time limit.
+"""The sample-average mixed-integer program for a fixed route, solved by HiGHS within a time limit.
 
-Binary ``x`` says which legs are driven, ``u`` orders the vertices (Miller, Tucker and Zemlin 1960), ``z`` says in which
-of the sampled worlds the budget may be exceeded; they may be no more than the failure probability times their number.
+Binary ``x`` selects the legs, ``u`` orders the vertices (Miller, Tucker and Zemlin 1960), and binary ``z`` marks the
+sampled worlds in which the budget may be exceeded: at most the failure probability times their number.
 Source: Varakantham and Kumar, *Optimization approaches for solving chance constrained stochastic orienteering
 problems*, 2013.
 """
@@ -22,19 +22,19 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-#: A sampled world may exceed the budget by so many budgets, when it may.
+#: Maximum excess in a sampled world in which the budget may be exceeded, in multiples of the budget.
 _MORE = 2.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class Programme:
-    """What the solver found.
+class MilpRoute:
+    """A route found by the mixed-integer program.
 
     Attributes:
-        vertices: The route.
-        reward: Of its stops.
-        bound: No route that keeps to the samples is worth more.
-        optimal: Whether that was proven to be the best.
+        vertices: Vertices of the route, from start to end.
+        reward: Total reward of its stops.
+        bound: Upper bound on the reward of any route that satisfies the sampled constraint.
+        optimal: True if the route was proven optimal.
     """
 
     vertices: tuple[int, ...]
@@ -43,14 +43,14 @@ class Programme:
     optimal: bool
 
 
-def solve_milp(problem: Problem, seed: int, seconds: float, samples: int = 40) -> Programme:
-    """The best fixed route over sampled worlds that HiGHS finds in the time.
+def solve_milp(problem: Problem, seed: int, seconds: float, samples: int = 40) -> MilpRoute:
+    """Return the best fixed route over sampled worlds that HiGHS finds in the given time.
 
     Args:
-        problem: With one limit and distances; no legs after the end.
-        seed: Of the samples.
-        seconds: Time limit.
-        samples: Worlds.
+        problem: Problem with one limit and distances, without legs after the end.
+        seed: Random seed of the samples.
+        seconds: Time limit, seconds.
+        samples: Number of sampled worlds.
 
     Raises:
         ProblemError: More than one limit, legs after the end, no distances, or no route found in the time.
@@ -77,7 +77,7 @@ def solve_milp(problem: Problem, seed: int, seconds: float, samples: int = 40) -
     route = [problem.start]
     while route[-1] != problem.end:
         route.append(following[route[-1]])
-    return Programme(
+    return MilpRoute(
         vertices=tuple(route),
         reward=float(problem.rewards[route[1:-1]].sum()),
         bound=float(info.mip_dual_bound) * -1.0,

@@ -1,4 +1,4 @@
-"""The benchmark as a picture: reward of each solver by its failures, a panel for each graph, budget and chance."""
+"""Plot the benchmark: reward against failures of each solver, one panel per graph, budget and failure probability."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def plot(rows: Sequence[Row], file: Path) -> None:
-    """Draw the rows to a file of the kind that its ending says (png, svg, pdf).
+    """Plot the rows to a file; its suffix selects the format (png, svg, pdf).
 
     Raises:
         OutputError: The file cannot be written.

@@ -1,4 +1,4 @@
-"""What was published for the benchmark graphs graph20, graph30 and graph40: budget 2, failure probability 0.1."""
+"""Published results on the graphs graph20, graph30 and graph40: budget 2, failure probability 0.1."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, kw_only=True)
 class Published:
-    """One published figure: mean reward of the missions that did not fail, and the part that failed."""
+    """A published result: mean reward of the missions that did not fail, and the fraction that failed."""
 
     solver: str
     graph: str
@@ -31,7 +31,7 @@ PUBLISHED = (
 
 
 def published_for(graph: str, budget: float, failure_probability: float) -> tuple[Published, ...]:
-    """The published rows for a graph; none for other settings."""
+    """Return the published results for a graph; none for other budgets or probabilities."""
     if abs(budget - 2.0) > 1e-9 or abs(failure_probability - 0.1) > 1e-9:
         return ()
     return tuple(row for row in PUBLISHED if row.graph == graph)

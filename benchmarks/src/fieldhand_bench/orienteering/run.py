@@ -1,4 +1,4 @@
-"""Drive missions with every solver on every graph, and say what they collected and how often they failed."""
+"""Simulate missions with every solver on every graph, and compute rewards, failures and decision times."""
 
 from __future__ import annotations
 
@@ -27,20 +27,20 @@ _Z = 1.959964
 
 @dataclass(frozen=True, kw_only=True)
 class Row:
-    """What one solver did on one graph.
+    """The results of one solver on one graph.
 
     Attributes:
-        graph, solver: Their names.
-        budget, failure_probability: Of the missions.
-        trials: How many were driven.
-        reward: Mean over the missions that kept to the budget, every vertex arrived at counted, the end's too.
-        reward_interval: Its 95 % confidence interval.
-        reward_over_all: Mean over all missions, where one over budget counts 0.
-        failures: Part of the missions that went over budget.
-        failures_interval: Its 95 % confidence interval (Wilson).
-        median_ms, p99_ms: Time of a decision, in each process after its first mission.
-        plan_s: Time before the first mission, compilation not counted.
-        peak_mb: Most memory of a process that drove missions, with Python and its libraries.
+        graph, solver: Names of graph and solver.
+        budget, failure_probability: Budget of the missions and accepted probability of exceeding it.
+        trials: Number of missions.
+        reward: Mean reward of the missions within budget, including that of the end.
+        reward_interval: 95 % confidence interval of ``reward``.
+        reward_over_all: Mean reward of all missions, where one over budget counts 0.
+        failures: Fraction of the missions over budget.
+        failures_interval: 95 % confidence interval of ``failures`` (Wilson).
+        median_ms, p99_ms: Median and 99th percentile of the decision time, without each process's first mission.
+        plan_s: Preparation time before the first mission, without compilation, seconds.
+        peak_mb: Peak memory of a process that ran missions, including Python and its libraries, MB.
     """
 
     graph: str
@@ -85,18 +85,18 @@ def run(
     engine: str = "local",
     jobs: int = -1,
 ) -> Iterator[Row]:
-    """One row for each graph and solver, as they are done. The same seed gives the same rewards on any engine.
+    """Yield one row per graph and solver, as they are computed. A seed gives the same rewards on any engine.
 
     Args:
-        graphs: What to drive on.
-        budget, failure_probability: Of every mission.
-        trials: Missions for each row.
+        graphs: Graphs of the missions.
+        budget, failure_probability: Budget of every mission and accepted probability of exceeding it.
+        trials: Number of missions per row.
         solvers: Names, see :func:`fieldhand_bench.orienteering.solvers.solver_names`; ``perfect`` is a bound.
-        options: Of the solvers.
+        options: Options of the solvers.
         engine, jobs: See :func:`fieldhand_bench.orienteering.engine.spread`.
 
     Raises:
-        ProblemError: A graph, a budget, a probability or a solver that is none.
+        ProblemError: A graph, the budget, the probability or a solver is invalid.
     """
     for graph in graphs:
         problem = graph.problem(budget, failure_probability)
@@ -110,17 +110,17 @@ def run(
 
 
 def wilson(part: float, count: int) -> tuple[float, float]:
-    """95 % confidence interval of a probability of which ``part`` was seen in ``count`` trials."""
+    """Return the 95 % confidence interval of a probability, given the observed fraction of ``count`` trials."""
     square = _Z**2 / count
     middle = (part + 0.5 * square) / (1.0 + square)
     half = _Z / (1.0 + square) * np.sqrt(part * (1.0 - part) / count + 0.25 * square / count)
-    # Where none or all failed, rounding may leave the part itself outside.
+    # If none or all failed, rounding could leave the observed fraction outside.
     return max(0.0, min(part, float(middle - half))), min(1.0, max(part, float(middle + half)))
 
 
 def _prepare(solver: str, problem: Problem, options: Options) -> tuple[PreparedSolver, float]:
     if solver in {"online", "fixed"}:
-        # Compile first: that is waited for once in the life of an installation.
+        # Compile first, since compiled code is cached for later runs.
         prepare("fixed", problem, options)
         simulate_mission(problem, prepare("online", problem, _once(options)).mission(0), np.random.default_rng(0))
     began = time.perf_counter()
@@ -133,7 +133,7 @@ def _once(options: Options) -> Options:
 
 
 def _drive(piece: _Piece) -> _Driven:
-    """Missions with the given seeds; at the top of the module so that other processes find it."""
+    """Simulate the missions of a piece; at module level so that other processes can import it."""
     rewards: list[float] = []
     kept: list[bool] = []
     seconds: list[float] = []

@@ -1,6 +1,6 @@
-"""Solvers by name: entry points of the group ``fieldhand.solvers``.
+"""Solvers by name, from the entry points of the group ``fieldhand.solvers``.
 
-Each is prepared once for a problem, then drives any number of missions.
+A solver is prepared once for a problem and then decides in any number of missions.
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ from fieldhand.plugins import active
 
 @dataclass(frozen=True, kw_only=True)
 class Options:
-    """How the solvers are prepared.
+    """Options of the solvers.
 
     Attributes:
-        seed: Of all that is random in them.
-        milp_s: Time limit of the mixed-integer programme, seconds.
-        daring: Of the policy.
-        missions: From which the policy learns its price of a failure before the trials; 0 for none.
-        simulations: Of the tree search at each decision.
+        seed: Random seed.
+        milp_s: Time limit of the mixed-integer program, seconds.
+        daring: Risk tolerance of the online policy, 0 to 1.
+        missions: Number of missions from which the online policy learns its price of a failure; 0 for none.
+        simulations: Number of simulations of the tree search per decision.
     """
 
     seed: int = 0
@@ -78,7 +78,7 @@ class Solver:
     """A solver of stochastic orienteering problems, registered under ``fieldhand.solvers``.
 
     Attributes:
-        prepare: Does what the solver does before its missions: takes the problem and the options.
+        prepare: Function that prepares the solver for a problem with the given options.
         summary: One line for help texts.
     """
 
@@ -126,8 +126,8 @@ def prepare(name: str, problem: Problem, options: Options) -> PreparedSolver:
     """Prepare a solver for a problem.
 
     Raises:
-        ProblemError: No solver has that name, or it finds nothing.
-        PluginError: The solver cannot be imported, or is none.
+        ProblemError: No solver has that name, or it finds no solution.
+        PluginError: The entry point cannot be imported, or is not a :class:`Solver`.
     """
     plugins = active("fieldhand.solvers")
     if name not in plugins:

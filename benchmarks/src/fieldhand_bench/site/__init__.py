@@ -1,9 +1,9 @@
-"""How fast a site of a size is read, understood and driven, and how much memory that takes.
+"""Measure time and memory for loading a site of a given size, resolving selectors and computing drives on it.
 
-orchard    an orchard of so many trees, with all that makes a site slow
-samples    each selector once, as a planner would write it
-memory     the peak of a process of its own that only loads
-measure    all of it, with a clock
+orchard    generates an orchard of a given size, with all features that make a site slow
+samples    an example of each selector, as a planner would write it
+memory     peak memory of a separate process that only loads a site
+measure    runs and times all steps
 """
 
 from fieldhand_bench.site.measure import SiteBenchmark, Timing, measure_site

@@ -1,4 +1,4 @@
-"""Measures a site of a size: each step as a median of repeats, each selector, drives, and peak memory."""
+"""Measure a site of a given size: loading steps, each selector, drives, and peak memory."""
 
 from __future__ import annotations
 
@@ -33,13 +33,14 @@ _VISITED = 50
 
 @dataclass(frozen=True, kw_only=True)
 class Timing:
-    """How long something took.
+    """Durations of a repeated step.
 
     Attributes:
-        first_s: The first time, when nothing is remembered from before.
-        median_s: Of the repeats.
-        worst_s: Of the repeats.
-        found: Places that a selector found; 0 for other things.
+        name: Name of the step.
+        first_s: Duration of the first time, before anything is cached, seconds.
+        median_s: Median duration of the repeats, seconds.
+        worst_s: Maximum duration of the repeats, seconds.
+        found: Number of places that a selector found; 0 for other steps.
     """
 
     name: str
@@ -51,16 +52,18 @@ class Timing:
 
 @dataclass(frozen=True, kw_only=True)
 class SiteBenchmark:
-    """A site of a size, measured.
+    """Measurements of one site.
 
     Attributes:
-        trees, blocks, rows: Of the orchard as it was understood.
-        file_bytes: Of its GeoJSON.
-        steps: Reading, rows, drivable graph, and all of it in one.
-        selectors: Each resolved on the same site.
-        drives: Between two random trees, the way itself; none is asked for twice.
-        unreachable: Of the pairs, those with no way.
-        peak_bytes: Memory of a process that only loads; None where the system does not tell.
+        trees, blocks, rows: Numbers of trees, blocks and rows as recognised by Fieldhand.
+        file_bytes: Size of the GeoJSON file.
+        repeats: Number of repeats of each step.
+        seed: Random seed of the orchard.
+        steps: Timings of reading, rows, drivable graph, and the sum of these.
+        selectors: Timings of the selectors, resolved on the same site.
+        drives: Timing of computing the path between two random trees, each pair once.
+        unreachable: Number of pairs without a path.
+        peak_bytes: Peak memory of a process that only loads the site; None if the system does not report it.
     """
 
     trees: int
@@ -77,12 +80,12 @@ class SiteBenchmark:
 
     @property
     def load(self) -> Timing:
-        """Reading, rows and graph in one."""
+        """Timing of reading, rows and graph together."""
         return self.steps[-1]
 
     @property
     def slowest_selector(self) -> Timing:
-        """By its median."""
+        """Timing of the selector with the largest median."""
         return max(self.selectors, key=lambda t: t.median_s)
 
 
@@ -98,15 +101,15 @@ def measure_site(
     """Measure an orchard of so many trees.
 
     Args:
-        trees: 20 or more.
-        seed: Of the orchard and of the trees that are driven to.
-        repeats: Of each step and each selector; 1 or more.
-        clearance_m: Half the robot's width.
-        standoff_m: At which it works on a tree.
-        clock: Seconds, running.
+        trees: Number of trees, 20 or more.
+        seed: Random seed of the orchard and of the trees between which drives are computed.
+        repeats: Number of repeats of each step and each selector, 1 or more.
+        clearance_m: Half the robot's width, metres.
+        standoff_m: Distance at which the robot works on a tree, metres.
+        clock: Function that returns the current time in seconds.
 
     Raises:
-        InputError: Too few trees.
+        InputError: There are too few trees.
     """
     data = benchmark_orchard(trees, seed)
     memory = _peak(data, clearance_m, standoff_m)
@@ -130,7 +133,7 @@ def measure_site(
 
 
 def load(file: str, clearance_m: str, standoff_m: str) -> None:
-    """Load a site with all that missions need of it, in a fresh process, and print the peak of its memory."""
+    """Load a site with its rows and drivable graph and print the peak memory of this process."""
     _graph(load_site(Path(file)), float(clearance_m), float(standoff_m))
     peak = own_peak_bytes()
     if peak is not None:
@@ -138,16 +141,16 @@ def load(file: str, clearance_m: str, standoff_m: str) -> None:
 
 
 def _graph(site: Site, clearance_m: float, standoff_m: float) -> Drives:
-    """The graph is complete when the first drive across the site is known."""
+    """Build the drivable graph, which is complete once the first drive across the site has been computed."""
     drives = Drives(site, clearance_m, standoff_m)
     low, high = int(np.argmin(site.xy.sum(axis=1))), int(np.argmax(site.xy.sum(axis=1)))
-    with contextlib.suppress(DriveFault):  # no way is an answer, too, and takes the whole graph
+    with contextlib.suppress(DriveFault):  # also without a path the whole graph is built
         drives.between(site.trees[low].place, site.trees[high].place)
     return drives
 
 
 def _steps(data: bytes, repeats: int, clearance_m: float, standoff_m: float, clock: Clock) -> tuple[Timing, ...]:
-    """Reading, rows, graph and all of it, on a fresh site each time."""
+    """Time reading, rows and graph on a fresh site each time."""
     taken: list[tuple[float, float, float]] = []
     for _ in range(repeats):
         gc.collect()
@@ -180,14 +183,14 @@ def _selectors(site: Site, repeats: int, clock: Clock) -> tuple[Timing, ...]:
             try:
                 found = len(resolve(selector, site, context))
             except PlaceError:
-                found = 0  # that there is none takes as long to find out
+                found = 0  # finding no place takes as long
             taken.append(clock() - begun)
         timings.append(_timing(name, taken[1:], first_s=taken[0], found=found))
     return tuple(timings)
 
 
 def _drives(site: Site, drives: Drives, rng: np.random.Generator, clock: Clock) -> tuple[Timing, int]:
-    """Drives between random trees; the graph stands before the first of them is timed."""
+    """Time drives between random trees on a graph that is already built; return unreachable pairs, too."""
     places: list[Place] = [site.trees[k].place for k in rng.integers(len(site.trees), size=2 * _DRIVES).tolist()]
     taken: list[float] = []
     unreachable = 0

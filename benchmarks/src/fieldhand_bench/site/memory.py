@@ -1,4 +1,4 @@
-"""The peak memory of a fresh process that does nothing but load a site with its rows and its drivable graph."""
+"""Measure the peak memory of a fresh process that only loads a site with its rows and its drivable graph."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ _PROGRAM = "import sys; from fieldhand_bench.site.measure import load; load(*sys
 
 
 def peak_bytes(file: Path, clearance_m: float, standoff_m: float) -> int | None:
-    """Most bytes that the process held at once; None where the system does not tell."""
+    """Return the peak memory of loading a file, bytes; None if the system does not report it."""
     done = subprocess.run(  # noqa: S603  (our own interpreter, our own program)
         [sys.executable, "-c", _PROGRAM, str(file), str(clearance_m), str(standoff_m)],
         capture_output=True,
@@ -22,8 +22,8 @@ def peak_bytes(file: Path, clearance_m: float, standoff_m: float) -> int | None:
 
 
 def own_peak_bytes() -> int | None:
-    """Return the most bytes that this process held at once; None where the system does not tell."""
-    # On Linux ru_maxrss of a started process holds the peak of the one that started it; the high-water mark does not.
+    """Return the peak memory of this process, bytes; None if the system does not report it."""
+    # On Linux ru_maxrss of a child process includes the peak of its parent; VmHWM does not.
     status = Path("/proc/self/status")
     if status.exists():
         for line in status.read_text().splitlines():

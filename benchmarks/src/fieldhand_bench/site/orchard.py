@@ -1,4 +1,4 @@
-"""An orchard to measure with: turned blocks without named rows, missing trees, a pond, a fence, markers, attributes."""
+"""Generate the benchmark orchard: blocks without named rows, missing trees, pond, fence, markers, attributes."""
 
 from __future__ import annotations
 
@@ -25,19 +25,19 @@ Points = NDArray[np.float64]
 
 
 def benchmark_orchard(trees: int, seed: int) -> bytes:
-    """GeoJSON of an orchard of exactly so many trees; the same seed gives the same one.
+    """Return the GeoJSON of an orchard of exactly so many trees; the same seed gives the same orchard.
 
-    One block for up to about 200 trees, two up to 2,000, else four, each turned its own way. About one tree in
-    twenty is missing, one more for each that would stand in the pond. Rows are not named in the file.
+    It has one block for up to about 200 trees, two for up to 2,000, else four, each with its own bearing. About one
+    tree in twenty is missing, besides those in the pond. Rows are not named in the file.
 
     Raises:
-        InputError: Fewer than 20 trees.
+        InputError: There are fewer than 20 trees.
     """
     if trees < LEAST_TREES:
         raise InputError(f"an orchard of {trees} trees says nothing", advice=f"take {LEAST_TREES} or more")
     rng = np.random.default_rng(seed)
     dry, pond = _planted(rng, trees)
-    # Which trees are missing is left to chance; how many are left is not.
+    # The missing trees are random, the number of remaining trees is exact.
     xy = dry[np.sort(rng.permutation(len(dry))[:trees])]
     return json.dumps(
         {
@@ -50,7 +50,7 @@ def benchmark_orchard(trees: int, seed: int) -> bytes:
 
 
 def _planted(rng: np.random.Generator, trees: int) -> tuple[Points, Polygon]:
-    """Places of a few more trees than are wanted, none in the pond; and the pond."""
+    """Return positions for somewhat more trees than required, none of them in the pond, and the pond."""
     wanted = trees / (1.0 - _MISSING)
     room = 1.0
     while True:
@@ -63,7 +63,7 @@ def _planted(rng: np.random.Generator, trees: int) -> tuple[Points, Polygon]:
 
 
 def _shapes(rng: np.random.Generator, trees: float) -> tuple[BlockShape, ...]:
-    """Blocks that hold as many trees together, or somewhat fewer where their rows end unevenly."""
+    """Return blocks with about so many trees in total, somewhat fewer if their rows end unevenly."""
     blocks = 1 if trees < 250 else 2 if trees < 2500 else 4
     wanted = trees / blocks
     shapes = []
@@ -85,7 +85,7 @@ def _shapes(rng: np.random.Generator, trees: float) -> tuple[BlockShape, ...]:
 
 
 def _pond(rng: np.random.Generator, xy: Points) -> Polygon:
-    """A pond among the trees of the middle, of a few per cent of the orchard, 40 m across at most."""
+    """Return a pond near the middle of the orchard, a few percent of its size, up to a mean radius of about 25 m."""
     middle = xy[int(np.argmin(np.hypot(*(xy - np.median(xy, axis=0)).T)))]
     size = min(0.08 * float(np.ptp(xy, axis=0).min()), 20.0)
     turn = np.linspace(0.0, 2 * math.pi, 24, endpoint=False)

@@ -1,4 +1,4 @@
-"""Each selector as a planner would write it, for any site that has rows, a zone and attributes, and some that nest."""
+"""Examples of each selector and of nested ones, for any site that has rows, a zone and attributes."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from fieldhand.terms import Side
 
 
 def samples(site: Site) -> Mapping[str, Selector]:
-    """A selector of each kind by name, and some that nest; for a context in which a tree is in hand and bound."""
+    """Return an example of each selector, and nested ones, by name; their context needs a current and a bound tree."""
     zone, block = InZone.example(site).zone, InBlock.example(site).block
     nested: dict[str, Selector] = {
         "every third old tree of rows 2 to 5 of a block in one half": EveryNth(
@@ -46,7 +46,7 @@ def samples(site: Site) -> Mapping[str, Selector]:
 
 
 def _half_of_first_rows(site: Site) -> Side:
-    """The half of the site in which the third row of the first block stands for the most part."""
+    """Return the half of the site that contains most of the third row of the first block."""
     rows = site.planting.blocks[0].rows if site.planting.blocks else ()
     if len(rows) < 3:
         return "north"
