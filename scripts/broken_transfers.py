@@ -1,20 +1,20 @@
-"""Break many transfers of missions to an agent, and see that no partial and no old mission ever runs.
+"""Break many transfers of missions to an agent, and check that no partial and no old mission ever runs.
 
     python scripts/broken_transfers.py --transfers 200 --seed 1
 
-An agent runs as a process of its own, over real sockets. Each transfer brings it a new signed mission that is to be
-started, and is broken in one of these ways, at a random point:
+The agent runs in its own process, reached over real sockets. Each transfer sends and starts a new signed mission, and
+is broken at a random point in one of these ways:
 
     cut           the connection ends within the body
     corrupt       one to three bits of the body are flipped
-    stuffed       bytes are added to the body, or left out, beside a right Content-Length
-    lost answer   all that goes one way or the other is dropped from some byte on: also the acknowledgement is lost
-    killed agent  kill -9 while the upload runs
+    stuffed       bytes are appended to the body or cut off its end, with a matching Content-Length
+    lost answer   from some byte on all data in one direction is dropped, so that the acknowledgement may be lost
+    killed agent  kill -9 of the agent during the upload
     killed sender kill -9 of fieldhand send
 
-After each of them the agent is asked, and its store is looked into: what was not whole is not there; nothing has begun
-that was not whole and told to start; a mission that waits still waits; one that ran does not run again when it is sent
-again. Then the mission is delivered as any sender would do it, and has to run, once, to its end.
+After each transfer the agent is queried and its store is checked: it contains no partial mission; no mission has begun
+without being complete and started; a waiting mission still waits; a mission that has run does not run again when it is
+sent again. Then the mission is delivered normally and must run once, to its end.
 """
 
 from __future__ import annotations
@@ -56,8 +56,8 @@ KINDS = ("cut", "corrupt", "stuffed", "lost answer", "killed agent", "killed sen
 TOKEN = "0123456789abcdef" * 2
 
 
-class Field:
-    """A robot's agent as a process, and who sends to it."""
+class AgentUnderTest:
+    """An agent in its own process, with a sender's keys and missions."""
 
     def __init__(self, folder: Path, rng: random.Random) -> None:
         self.folder, self.rng = folder, rng
@@ -72,33 +72,33 @@ class Field:
         self.key, _ = SigningKeys(folder / "config").make("Ada", None)
         TrustStore(folder / "config").trust(self.key.public, name="Ada", at=datetime.now(UTC))
         self.at = datetime.now(UTC) - timedelta(days=1)
-        self.agent: subprocess.Popen[bytes] | None = None
+        self.process: subprocess.Popen[bytes] | None = None
 
     def begin(self) -> None:
         """Start the agent and wait until it answers."""
         command = [sys.executable, "-m", "fieldhand", "agent", "--robot", "husky", "--site", "demo"]
         command += ["--store", str(self.folder / "store"), "--port", str(self.port), "--speed", "max"]
-        self.agent = subprocess.Popen(command, env=self.env, stderr=subprocess.PIPE)
+        self.process = subprocess.Popen(command, env=self.env, stderr=subprocess.PIPE)
         for _ in range(2400):
             with suppress(OSError), closing(socket.create_connection(("127.0.0.1", self.port), timeout=1)):
                 return
-            if self.agent.poll() is not None:
-                raise SystemExit(f"the agent ended: {self.agent.stderr.read()!r}")  # type: ignore[union-attr]
+            if self.process.poll() is not None:
+                raise SystemExit(f"the agent ended: {self.process.stderr.read()!r}")  # type: ignore[union-attr]
             time.sleep(0.05)
         raise SystemExit("the agent does not answer")
 
     def end(self, how: signal.Signals = signal.SIGTERM) -> None:
         """End the agent."""
-        if self.agent is not None:
-            self.agent.send_signal(how)
-            self.agent.communicate(timeout=60)
+        if self.process is not None:
+            self.process.send_signal(how)
+            self.process.communicate(timeout=60)
 
     def link(self) -> RobotClient:
-        """A sender's link."""
+        """Return a client of the agent."""
         return RobotClient(open_client(self.url, TOKEN, None))
 
     def bundle(self) -> bytes:
-        """A new mission, approved a little later than the one before."""
+        """Return a new signed mission, approved one minute later than the one before."""
         self.at += timedelta(minutes=1)
         tree = str(self.rng.randint(1, len(self.site.trees)))
         task = make_task(
@@ -121,23 +121,23 @@ class Field:
 
 
 def free_port() -> int:
-    """A port that nothing listens on."""
+    """Return a free port."""
     with socket.socket() as tried:
         tried.bind(("127.0.0.1", 0))
         return int(tried.getsockname()[1])
 
 
 def head(data: bytes, length: int) -> bytes:
-    """The head of an upload."""
+    """Return the request line and headers of an upload."""
     return (
         f"PUT /agent/missions/{sha256(data).hexdigest()} HTTP/1.1\r\nHost: 127.0.0.1\r\n"
         f"Authorization: Bearer {TOKEN}\r\nContent-Length: {length}\r\nConnection: close\r\n\r\n"
     ).encode()
 
 
-def upload(field: Field, data: bytes, body: bytes, length: int) -> bytes:
-    """Send these bytes as the upload of that bundle, and give the answer, if there is one."""
-    with socket.create_connection(("127.0.0.1", field.port), timeout=30) as link:
+def upload(agent: AgentUnderTest, data: bytes, body: bytes, length: int) -> bytes:
+    """Send a body as the upload of a bundle, and return the answer, empty if there is none."""
+    with socket.create_connection(("127.0.0.1", agent.port), timeout=30) as link:
         answer = b""
         with suppress(OSError):
             link.sendall(head(data, length) + body)
@@ -148,38 +148,38 @@ def upload(field: Field, data: bytes, body: bytes, length: int) -> bytes:
     return answer
 
 
-def cut(field: Field, data: bytes) -> bool:
+def cut(agent: AgentUnderTest, data: bytes) -> bool:
     """End the connection within the body."""
-    point = field.rng.randrange(len(data))
-    upload(field, data, data[:point], len(data))
+    point = agent.rng.randrange(len(data))
+    upload(agent, data, data[:point], len(data))
     return False
 
 
-def corrupt(field: Field, data: bytes) -> bool:
+def corrupt(agent: AgentUnderTest, data: bytes) -> bool:
     """Flip some bits of the body."""
     body = bytearray(data)
-    for bit in field.rng.sample(range(len(data) * 8), field.rng.randint(1, 3)):
+    for bit in agent.rng.sample(range(len(data) * 8), agent.rng.randint(1, 3)):
         body[bit // 8] ^= 1 << bit % 8
-    answer = upload(field, data, bytes(body), len(data))
+    answer = upload(agent, data, bytes(body), len(data))
     if b" 400 " not in answer[:20]:
         raise SystemExit(f"a corrupted upload was answered with {answer[:200]!r}")
     return False
 
 
-def stuffed(field: Field, data: bytes) -> bool:
-    """Say another length than the mission has, with as many bytes."""
-    more = field.rng.randint(1, 5000)
-    body = data + bytes(more) if field.rng.random() < 0.5 else data[:-more]
-    upload(field, data, body, len(body))
+def stuffed(agent: AgentUnderTest, data: bytes) -> bool:
+    """Send a body longer or shorter than the mission, with a matching Content-Length."""
+    more = agent.rng.randint(1, 5000)
+    body = data + bytes(more) if agent.rng.random() < 0.5 else data[:-more]
+    upload(agent, data, body, len(body))
     return False
 
 
-def lost_answer(field: Field, data: bytes) -> bool:
-    """Send through a line that goes dead after some bytes in one of its directions."""
-    forward = field.rng.random() < 0.5
-    left = field.rng.randrange(len(data) if forward else 3000)
+def lost_answer(agent: AgentUnderTest, data: bytes) -> bool:
+    """Send through a connection that drops all data in one direction after some bytes."""
+    forward = agent.rng.random() < 0.5
+    left = agent.rng.randrange(len(data) if forward else 3000)
     with socket.create_server(("127.0.0.1", 0)) as line:
-        thread = threading.Thread(target=_relay, args=(line, field.port, left, forward), daemon=True)
+        thread = threading.Thread(target=_relay, args=(line, agent.port, left, forward), daemon=True)
         thread.start()
         client = open_client(f"http://127.0.0.1:{line.getsockname()[1]}", TOKEN, None)
         with closing(RobotClient(client)) as link, suppress(DeliveryError):
@@ -190,7 +190,7 @@ def lost_answer(field: Field, data: bytes) -> bool:
 
 
 def _relay(line: socket.socket, port: int, left: int, forward: bool) -> None:
-    """Pass bytes on, over one or more connections, until so many have gone that way; then drop everything."""
+    """Relay connections until ``left`` bytes have passed in one direction; then drop everything."""
     line.settimeout(5)
     while left > 0:
         try:
@@ -218,12 +218,12 @@ def _relay(line: socket.socket, port: int, left: int, forward: bool) -> None:
                 break
 
 
-def killed_agent(field: Field, data: bytes) -> bool:
+def killed_agent(agent: AgentUnderTest, data: bytes) -> bool:
     """Kill the agent at a random moment of an upload, or shortly after."""
-    wait = field.rng.uniform(0.0, 0.5)
-    kill = threading.Timer(wait, lambda: field.end(signal.SIGKILL))
-    pace = field.rng.uniform(0.0, 0.2)
-    with suppress(OSError), socket.create_connection(("127.0.0.1", field.port), timeout=5) as link:
+    wait = agent.rng.uniform(0.0, 0.5)
+    kill = threading.Timer(wait, lambda: agent.end(signal.SIGKILL))
+    pace = agent.rng.uniform(0.0, 0.2)
+    with suppress(OSError), socket.create_connection(("127.0.0.1", agent.port), timeout=5) as link:
         kill.start()
         link.sendall(head(data, len(data)))
         for k in range(0, len(data), 8192):
@@ -231,27 +231,27 @@ def killed_agent(field: Field, data: bytes) -> bool:
             time.sleep(pace / (len(data) / 8192))
         link.recv(4096)
     kill.join()
-    field.begin()
+    agent.begin()
     return True
 
 
-def killed_sender(field: Field, data: bytes) -> bool:
-    """Kill ``fieldhand send --start`` at a random moment; what it kept is sent later."""
-    shutil.rmtree(field.folder / "outbox", ignore_errors=True)
-    file = field.folder / "m.mission"
+def killed_sender(agent: AgentUnderTest, data: bytes) -> bool:
+    """Kill ``fieldhand send --start`` at a random moment, then send the missions left in its outbox."""
+    shutil.rmtree(agent.folder / "outbox", ignore_errors=True)
+    file = agent.folder / "m.mission"
     file.write_bytes(data)
-    command = [sys.executable, "-m", "fieldhand", "send", str(file), "--to", field.url, "--start"]
-    sender = subprocess.Popen(command, env=field.env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    # Most of its time goes into starting; what counts is the moment at which it keeps the mission, and what follows.
+    command = [sys.executable, "-m", "fieldhand", "send", str(file), "--to", agent.url, "--start"]
+    sender = subprocess.Popen(command, env=agent.env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    # Starting takes most of its time; the kill must come around or after the moment at which it stores the mission.
     until = time.monotonic() + 60.0
-    while sender.poll() is None and not (field.folder / "outbox").exists() and time.monotonic() < until:
+    while sender.poll() is None and not (agent.folder / "outbox").exists() and time.monotonic() < until:
         time.sleep(0.002)
     with suppress(subprocess.TimeoutExpired):
-        sender.wait(field.rng.uniform(0.0, 0.8))
+        sender.wait(agent.rng.uniform(0.0, 0.8))
     sender.kill()
     sender.wait()
     pending = [sys.executable, "-m", "fieldhand", "send", "--pending"]
-    subprocess.run(pending, env=field.env, capture_output=True, timeout=120, check=False)
+    subprocess.run(pending, env=agent.env, capture_output=True, timeout=120, check=False)
     return True
 
 
@@ -266,16 +266,16 @@ BREAK = {
 
 
 class Judge:
-    """What has to hold of the store of the agent at any time."""
+    """Checks of the agent's store that must pass at any time."""
 
-    def __init__(self, field: Field) -> None:
-        self.field = field
+    def __init__(self, agent: AgentUnderTest) -> None:
+        self.agent = agent
         self.whole: dict[str, bytes] = {}
         self.allowed: set[str] = set()
 
-    def look(self) -> list[str]:
-        """What is wrong in the store."""
-        store, wrong = self.field.folder / "store", list[str]()
+    def errors(self) -> list[str]:
+        """Return what is wrong in the store, one sentence each."""
+        store, wrong = self.agent.folder / "store", list[str]()
         wrong += [
             f"{path.name} is no whole mission"
             for path in (store / "bundles").iterdir()
@@ -292,21 +292,23 @@ class Judge:
         return wrong
 
 
-def transfer(field: Field, judge: Judge, kind: str, waiting: str, before: bytes | None) -> tuple[list[str], bool]:
-    """Break one transfer, judge it, then deliver it for good.
+def transfer(
+    agent: AgentUnderTest, judge: Judge, kind: str, waiting: str, before: bytes | None
+) -> tuple[list[str], bool]:
+    """Break one transfer, check the agent, then deliver the mission normally.
 
     Returns:
-        What was wrong, and whether the mission had arrived in spite of all.
+        Errors, one sentence each, and True if the mission had arrived in spite of the broken transfer.
     """
-    data = field.bundle()
+    data = agent.bundle()
     name = sha256(data).hexdigest()
     judge.whole[name] = data
-    may_start = BREAK[kind](field, data)
+    may_start = BREAK[kind](agent, data)
     if may_start:
         judge.allowed.add(name)
-    with closing(field.link()) as link:
+    with closing(agent.link()) as link:
         arrived = link.mission(name)
-        wrong = judge.look()
+        wrong = judge.errors()
         if arrived is not None and not may_start:
             wrong.append(f"{kind}: a broken upload is there")
         held = link.mission(waiting)
@@ -330,11 +332,11 @@ def transfer(field: Field, judge: Judge, kind: str, waiting: str, before: bytes 
             wrong.append(f"mission {name[:16]} does not end: {stands.mission}")
         if stands.mission.status != "completed":
             wrong.append(f"mission {name[:16]} ended {stands.mission.status}")
-    return wrong + judge.look(), arrived is not None
+    return wrong + judge.errors(), arrived is not None
 
 
 def main() -> None:
-    """Break transfers and count."""
+    """Break transfers, and print their number and the errors found."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--transfers", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1)
@@ -344,19 +346,19 @@ def main() -> None:
     broken, arrived, wrong = Counter[str](), Counter[str](), list[str]()
     begun = time.monotonic()
     with tempfile.TemporaryDirectory() as folder:
-        field = Field(Path(folder), rng)
-        judge = Judge(field)
-        field.begin()
+        agent = AgentUnderTest(Path(folder), rng)
+        judge = Judge(agent)
+        agent.begin()
         try:
-            old = field.bundle()
+            old = agent.bundle()
             waiting = sha256(old).hexdigest()
             judge.whole[waiting] = old
-            with closing(field.link()) as link:
+            with closing(agent.link()) as link:
                 link.deliver(old, unseal(old, source="m").hashes)
             before: bytes | None = None
             for number in range(1, given.transfers + 1):
                 kind = rng.choice(given.kinds)
-                found, came = transfer(field, judge, kind, waiting, before)
+                found, came = transfer(agent, judge, kind, waiting, before)
                 broken[kind] += 1
                 arrived[kind] += came
                 wrong += [f"transfer {number}, {kind}: {one}" for one in found]
@@ -364,7 +366,7 @@ def main() -> None:
                 if number % 20 == 0:
                     print(f"{number} transfers, {len(wrong)} wrong, {time.monotonic() - begun:.0f} s", flush=True)
         finally:
-            field.end()
+            agent.end()
     for line in wrong:
         print(line)
     print(f"\n{'broken by':<15}{'transfers':>10}{'had arrived all the same':>26}")

@@ -1,10 +1,10 @@
-"""Exports Tasks as trees, has BehaviorTree.CPP tick them, and holds what it did against the meaning of the plan.
+"""Export Tasks as trees, tick them with BehaviorTree.CPP, and compare the ticked leaves with the meaning of the plan.
 
     python scripts/btcpp_acceptance.py CHECKER [--tasks 50]
 
-CHECKER is scripts/btcpp_check.cpp, built (docs/exchange.md). The Tasks are the demo's and random ones. Each is ticked
-with conditions that hold, do not hold and are unknown, and with actions that succeed and fail. What must come is worked
-out here from the plan's own rules (fieldhand.task.plan), with no look at the tree.
+CHECKER is the program built from scripts/btcpp_check.cpp (docs/exchange.md). The Tasks are that of the demo and random
+ones. Each is ticked with conditions that hold, do not hold and are unknown, and with actions that succeed and fail. The
+expected leaves are computed here from the semantics of the plan (fieldhand.task.plan), independent of the tree.
 """
 
 from __future__ import annotations
@@ -35,19 +35,19 @@ MOST_LINES = 20_000
 
 
 class Failed(Exception):
-    """An action failed."""
+    """Raised when an action fails."""
 
 
 class Stopped(Exception):
-    """A stop was reached."""
+    """Raised when a stop is reached."""
 
 
 class TooLong(Exception):
-    """The mission is longer than is worth ticking."""
+    """Raised when a mission has too many leaves to be ticked."""
 
 
 class Mission:
-    """What a mission does, leaf by leaf, if conditions and actions are all of one kind."""
+    """The leaves that a mission executes if all conditions and all actions have the same result."""
 
     def __init__(self, conditions: str, actions: str) -> None:
         self.answer = {"yes": True, "no": False, "unknown": None}[conditions]
@@ -55,8 +55,8 @@ class Mission:
         self.lines: list[str] = []
 
     def run(self, task: Task) -> list[str]:
-        """The lines that the checker must print."""
-        self.say("BeginMission")
+        """Return the lines that the checker must print."""
+        self.add("BeginMission")
         try:
             self.play(task.composition.plan)
             ending = "nominal"
@@ -68,7 +68,7 @@ class Mission:
             return [*self.lines, f"TakeExit {task.composition.nominal}", "= SUCCESS"]
         return [*self.lines, "HandleFault", "= FAILURE"]
 
-    def say(self, line: str) -> None:
+    def add(self, line: str) -> None:
         self.lines.append(line)
         if len(self.lines) > MOST_LINES:
             raise TooLong
@@ -79,15 +79,15 @@ class Mission:
                 for step in steps:
                     self.play(step)
             case p.AnyOrder(steps=steps):
-                self.say("OrderSteps")
+                self.add("OrderSteps")
                 for step in reversed(steps):
                     self.play(step)
             case p.ForEach():
-                self.say("ResolvePlaces")
+                self.add("ResolvePlaces")
                 for _ in range(PLACES):
                     if node.optional and not self.answer:
                         continue
-                    self.say("GoToPlace")
+                    self.add("GoToPlace")
                     self.play(node.body)
                     if node.until is not None and self.truth(node.until) is True:
                         break
@@ -110,18 +110,18 @@ class Mission:
                 if self.answer:
                     self.play(node.body)
             case p.GoTo():
-                self.say("GoToPlace")
+                self.add("GoToPlace")
             case p.Act():
                 if node.at is not None:
-                    self.say("GoToPlace")
-                self.say(node.action)
+                    self.add("GoToPlace")
+                self.add(node.action)
                 if self.fails:
                     raise Failed
             case p.StopMission():
                 raise Stopped(node.exit)
 
     def truth(self, condition: Condition) -> bool | None:
-        """Kleene's logic over leaves that all have the same answer."""
+        """Evaluate a condition in Kleene's logic over leaves that all have the same answer."""
         match condition:
             case Not(condition=inner):
                 found = self.truth(inner)
@@ -137,7 +137,7 @@ class Mission:
 
 
 def random_tasks(count: int) -> list[Task]:
-    """Tasks of at least five nodes, the same for the same count."""
+    """Return random Tasks of at least five nodes; the same count gives the same Tasks."""
     found: list[Task] = []
     checks = (HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.filter_too_much)
     plans = Parts(ROVER).tasks().filter(lambda t: len(list(p.walk(t.composition.plan))) >= 5)
@@ -154,14 +154,14 @@ def random_tasks(count: int) -> list[Task]:
 
 
 def main() -> int:
-    """Run everything; 0 if every tree did what its plan means."""
+    """Check all Tasks; return 0 if every tree agrees with its plan."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("checker", type=Path)
     parser.add_argument("--tasks", type=int, default=50)
     given_ = parser.parse_args()
     done = {"tasks": 0, "runs": 0, "leaves": 0, "not carried": 0, "too long": 0}
 
-    def hold(task: Task, document: bytes) -> None:
+    def check(task: Task, document: bytes) -> None:
         with tempfile.NamedTemporaryFile(suffix=".xml") as file:
             file.write(document)
             file.flush()
@@ -185,7 +185,7 @@ def main() -> int:
     planned = EnglishPlanner().plan(REQUEST, site, husky)
     if not isinstance(planned, Planned):
         sys.exit("the demo's request was not planned")
-    hold(planned.task, write_tree(planned.task, capabilities_of(husky)))
+    check(planned.task, write_tree(planned.task, capabilities_of(husky)))
 
     for task in random_tasks(given_.tasks):
         try:
@@ -193,7 +193,7 @@ def main() -> int:
         except TaskError:
             done["not carried"] += 1
             continue
-        hold(task, document)
+        check(task, document)
     print(", ".join(f"{name} {count}" for name, count in done.items()))
     return 0
 

@@ -1,9 +1,10 @@
-"""The messages of the source, and each language's catalogue brought up to date with them.
+"""Update each language's catalogue with the messages of the source.
 
     python scripts/catalogue.py
 
-adds what is new to every ``src/fieldhand/language/locale/*/LC_MESSAGES/fieldhand.po`` with an empty translation, takes
-out what the source does not say any more, and names what is still to be translated; exit status 1 if anything is.
+adds new messages to every ``src/fieldhand/language/locale/*/LC_MESSAGES/fieldhand.po`` with an empty translation,
+removes messages that the source no longer contains, and prints those without a translation; exit status 1 if there are
+any.
 """
 
 from __future__ import annotations
@@ -25,12 +26,12 @@ from fieldhand.planning.english.languages import known_languages  # noqa: E402
 from fieldhand.planning.english.vocabulary import vocabulary  # noqa: E402
 from fieldhand.robot.loader import load_robot, robot_names  # noqa: E402
 
-#: Words of the built-in orchard, of site files everywhere, and of Tasks: they come from data, not from the source.
+#: Attribute names of the built-in orchard, of common site files and of Tasks: they come from data, not from the source.
 ATTRIBUTES = (
     *("variety", "cultivar", "species", "rootstock", "age_years", "yield_kg", "reward", "leaf_color", "color"),
     *("height_m", "diameter_cm", "health", "status", "condition", "planted", "priority", "row", "block"),
 )
-#: Why a file is not read (`fieldhand.files`, which knows no language), and what the system says of files.
+#: Messages of `fieldhand.files`, which does not use catalogues, and file errors of the operating system.
 FILE_FAULTS = (
     "cannot be read: {reason}",
     "is larger than {most} bytes",
@@ -45,7 +46,7 @@ COLOURS = ("yellow", "green", "brown", "red", "healthy", "sick", "dead", "young"
 
 
 def source_entries() -> dict[tuple[str, str], Entry]:
-    """Every message of the source, by its context and its English, without translations."""
+    """Return every message of the source, by context and English text, without translations."""
     found: dict[tuple[str, str], Entry] = {}
     for file in sorted(SOURCE.rglob("*.py")):
         for entry in _of_file(ast.parse(file.read_text(encoding="utf-8"))):
@@ -138,12 +139,12 @@ def _entry(said: str) -> Entry:
 
 
 def catalogues() -> Iterator[Path]:
-    """The catalogue of each language."""
+    """Yield the path of each language's catalogue."""
     yield from sorted((SOURCE / "language" / "locale").glob("*/LC_MESSAGES/*.po"))
 
 
 def updated(text: str) -> tuple[str, list[Entry]]:
-    """A catalogue brought up to date, and what it does not translate."""
+    """Return an updated catalogue and its entries without a translation."""
     known = {entry.key: entry for entry in read_entries(text)}
     header = text.split("\n\n", 1)[0]
     parts, missing = [header], []
@@ -173,7 +174,7 @@ def _quoted(text: str) -> str:
 
 
 def main() -> int:
-    """Bring every catalogue up to date."""
+    """Update every catalogue; return 1 if any message lacks a translation."""
     status = 0
     for file in catalogues():
         text, missing = updated(file.read_text(encoding="utf-8"))

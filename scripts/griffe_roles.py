@@ -1,4 +1,4 @@
-"""Extension of griffe (mkdocs.yml): docstrings as Markdown, with the roles of reStructuredText as code."""
+"""A griffe extension (mkdocs.yml) that turns reStructuredText roles in docstrings into Markdown code."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ _ROLE = re.compile(r":(?:class|func|meth|mod|attr|data|exc|obj):`(~?)([^`]+)`")
 
 
 class Roles(Extension):
-    """Replaces roles in every docstring: of ``~`` and a dotted name the last part remains."""
+    """Extension that replaces the roles of every docstring; ``~`` reduces a dotted name to its last part."""
 
     def on_instance(self, *, obj: Object, **_: Any) -> None:
         """Rewrite the docstring of an object."""

@@ -1,17 +1,17 @@
-"""Kill missions with ``kill -9`` at random instants, resume each to its end, and hold its log against what was done.
+"""Kill missions with ``kill -9`` at random instants, resume them, and compare their logs with the robot's record.
 
     python scripts/kill_nine.py --kills 300 [--seed 1] [--json]
 
-The robot is simulated in this process; the mission is carried out in another, which is killed at any moment: inside a
-commit, between two, while a goal is under way. The robot outlives it, as a real one does, and keeps its own account of
-what it made. Missions are drawn as ``fieldhand bench guard`` draws them (conditions, loops, optional visits, budgets
-that bind), with faults of actions, sensors and aisles.
+The robot is simulated in this process; the mission runs in another, which is killed at any moment: during a commit,
+between two, or while a goal is executed. The robot survives, as a real one does, and keeps its own record of the
+captures it made. Missions are drawn as in ``fieldhand bench guard`` (conditions, loops, optional visits, budgets that
+bind), with faults of actions, sensors and aisles.
 
-Judged of each mission, from journal, event log and the robot's account:
+Each mission is judged from its journal, its event log and the robot's record:
 
 * lost: captures that the robot made and that are neither in the log nor in doubt;
-* repeated: captures beyond what the plan asks for on the branch that was taken, or more often in the log than made;
-* incomplete: the log does not end with one end, differs from the journal, or runs back in time.
+* repeated: captures beyond those that the plan requires on its branch, or more captures in the log than were made;
+* incomplete: the log does not end with a single end, differs from the journal, or goes back in time.
 """
 
 from __future__ import annotations
@@ -62,8 +62,8 @@ from fieldhand.task.event_lines import from_json
 from fieldhand.task.results import Acted, Ended, InDoubt, Started
 from fieldhand_bench.draw import Draft, draw
 
-#: What a driver and a clock are asked over the line.
-ASKED = (
+#: Methods of the driver that are called over the connection, besides those of the clock.
+DRIVER_METHODS = (
     "start_drive",
     "start_action",
     "poll",
@@ -79,7 +79,7 @@ LONGEST_S = 1800.0
 
 @dataclass
 class Robot:
-    """The simulated robot, which outlives every process that sends it anywhere, and what it made."""
+    """The simulated robot, which survives the processes that control it, and its record of captures."""
 
     driver: Driver
     clock: Clock
@@ -87,7 +87,7 @@ class Robot:
     open: ActionGoal | None = None
 
     def answer(self, name: str, *words: Any) -> Any:
-        """Do or say what is asked."""
+        """Call a method of the driver or the clock and return its result."""
         if name in ("now", "advance"):
             return getattr(self.clock, name)(*words)
         if name == "seed":
@@ -101,7 +101,7 @@ class Robot:
         return said
 
     def note(self) -> None:
-        """Note a capture that is made."""
+        """Record the current capture if it has succeeded."""
         progress: Progress = self.driver.poll()
         if self.open is not None and progress.over:
             if progress.state == "succeeded":
@@ -109,16 +109,16 @@ class Robot:
             self.open = None
 
 
-class Line:
-    """A driver and a clock at the other end of a line."""
+class RemoteDriver:
+    """A proxy of the driver and the clock in the parent process."""
 
-    def __init__(self, line: Connection) -> None:
-        self._line = line
+    def __init__(self, connection: Connection) -> None:
+        self._connection = connection
         self.seed: int | None = self._ask("seed")
 
     def _ask(self, name: str, *words: Any) -> Any:
-        self._line.send((name, *words))
-        return self._line.recv()
+        self._connection.send((name, *words))
+        return self._connection.recv()
 
     def start_drive(self, goal: DriveGoal) -> None:
         self._ask("start_drive", goal)
@@ -127,14 +127,14 @@ class Line:
         self._ask("start_action", goal)
 
     def __getattr__(self, name: str) -> Any:
-        if name not in (*ASKED, "now", "advance"):
+        if name not in (*DRIVER_METHODS, "now", "advance"):
             raise AttributeError(name)
         return lambda *words: self._ask(name, *words)
 
 
 @dataclass
-class Verdict:
-    """What came of the missions."""
+class KillTotals:
+    """Totals of all missions."""
 
     missions: int = 0
     kills: int = 0
@@ -150,7 +150,7 @@ class Verdict:
 
 
 def world_of(draft: Draft, rng: random.Random) -> World:
-    """The world of a mission: now and then something fails."""
+    """Return the world of a mission, with random faults."""
     spots = [TreeRef(id=tree.place.id) for tree in draft.site.trees]
     faults: list[WorldFault] = []
     if rng.random() < 0.4:
@@ -165,18 +165,18 @@ def world_of(draft: Draft, rng: random.Random) -> World:
     return World(faults=tuple(faults), charge_percent=draft.charge_percent)
 
 
-def nobody_hears(told: object) -> None:
-    """Takes an event, and does nothing."""
+def ignore_event(told: object) -> None:
+    """Ignore an event."""
 
 
-def live(folder: Path, approved: AuthorizedTask, draft: Draft, line: Connection) -> None:
-    """Carry the mission out, or go on with it: this is what is killed."""
-    robot: Any = Line(line)
+def live(folder: Path, approved: AuthorizedTask, draft: Draft, connection: Connection) -> None:
+    """Start or resume the mission; runs in the process that is killed."""
+    robot: Any = RemoteDriver(connection)
     task, site, profile = draft.task, draft.site, draft.robot
     guard = BudgetGuard(
         task, site, profile, drives_for(site, profile), draft.flight_seed, charge_percent=draft.charge_percent
     )
-    with Journal(folder / "journal.sqlite", "kill -9", folder / "events.jsonl", nobody_hears) as journal:
+    with Journal(folder / "journal.sqlite", "kill -9", folder / "events.jsonl", ignore_event) as journal:
         run(
             approved,
             site=site,
@@ -185,7 +185,7 @@ def live(folder: Path, approved: AuthorizedTask, draft: Draft, line: Connection)
             guard=guard,
             failsafe=BudgetFailsafe(task, profile, guard.drain),
             clock=robot,
-            emit=nobody_hears,
+            emit=ignore_event,
             log=journal,
         )
 
@@ -193,10 +193,10 @@ def live(folder: Path, approved: AuthorizedTask, draft: Draft, line: Connection)
 def one_life(
     folder: Path, approved: AuthorizedTask, draft: Draft, robot: Robot, until_s: float | None
 ) -> tuple[bool, float]:
-    """One process, killed after so many seconds.
+    """Run the mission in a child process, and kill it after so many seconds; None waits for its end.
 
     Returns:
-        Whether it was killed, and how long it lived.
+        True if it was killed, and its lifetime in seconds.
     """
     here, there = multiprocessing.Pipe()
     sys.stdout.flush()
@@ -207,7 +207,7 @@ def one_life(
             here.close()
             live(folder, approved, draft, there)
             status = 0
-        except BaseException as error:  # noqa: BLE001  whatever it is, the parent has to see it
+        except BaseException as error:  # noqa: BLE001  the parent must see any exception
             print(f"{type(error).__name__}: {error}", file=sys.stderr)
         finally:
             os._exit(status)
@@ -232,7 +232,7 @@ def one_life(
 
 
 def approved_draft(seed: int) -> tuple[Draft, AuthorizedTask] | None:
-    """The mission of a seed, if it is approved."""
+    """Return the mission of a seed, or None if it is not approved."""
     draft = draw(seed, 0, 60)
     if draft is None:
         return None
@@ -244,42 +244,42 @@ def approved_draft(seed: int) -> tuple[Draft, AuthorizedTask] | None:
         return None
 
 
-def judge(folder: Path, draft: Draft, robot: Robot, verdict: Verdict) -> None:
-    """Hold journal and log against what the robot made."""
+def judge(folder: Path, draft: Draft, robot: Robot, totals: KillTotals) -> None:
+    """Compare journal and event log with the robot's record, and add the result to the totals."""
     robot.note()
     lines = (folder / "events.jsonl").read_text().splitlines()
-    with Journal(folder / "journal.sqlite", "kill -9", folder / "events.jsonl", nobody_hears) as journal:
+    with Journal(folder / "journal.sqlite", "kill -9", folder / "events.jsonl", ignore_event) as journal:
         kept = list(journal.before)
     events = [event for event in map(from_json, lines) if event is not None]
     told = Counter((e.action, e.place) for e in events if isinstance(e, Acted) and e.status == "success")
     failed = Counter((e.action, e.place) for e in events if isinstance(e, Acted) and e.status == "failed")
     doubt = Counter((e.action, e.place) for e in events if isinstance(e, InDoubt))
     made = Counter(robot.made)
-    # A capture whose reading was not believed was made as well.
-    verdict.lost += (made - told - failed - doubt).total()
-    verdict.repeated += (told - made).total()
+    # A capture whose reading was rejected was made as well.
+    totals.lost += (made - told - failed - doubt).total()
+    totals.repeated += (told - made).total()
     ends = [e for e in events if isinstance(e, Ended)]
     whole = lines == kept and len(ends) == 1 and events[-1] is ends[0] and isinstance(events[0], Started)
     whole = whole and all(a.t <= b.t + 1e-9 for a, b in itertools.pairwise(events))
     outcomes = mission.assess(draft.task, events).outcomes
     for goal in outcomes:
         if goal.wanted is not None and goal.done > goal.wanted:
-            verdict.repeated += goal.done - goal.wanted
-            verdict.troubles.append(f"seed {draft.seed}: goal {goal.goal}: {goal.why}")
-        verdict.outcomes[goal.outcome] += 1
+            totals.repeated += goal.done - goal.wanted
+            totals.troubles.append(f"seed {draft.seed}: goal {goal.goal}: {goal.why}")
+        totals.outcomes[goal.outcome] += 1
     if not whole:
-        verdict.incomplete += 1
-        verdict.troubles.append(f"seed {draft.seed}: the log is not whole")
-    verdict.missions += 1
-    verdict.made += made.total()
-    verdict.in_doubt += doubt.total()
-    verdict.ends[ends[0].status if ends else "none"] += 1
+        totals.incomplete += 1
+        totals.troubles.append(f"seed {draft.seed}: the log is not whole")
+    totals.missions += 1
+    totals.made += made.total()
+    totals.in_doubt += doubt.total()
+    totals.ends[ends[0].status if ends else "none"] += 1
 
 
-def measure(kills: int, seed: int) -> Verdict:
-    """Kill so many times, missions of one seed after the other."""
-    rng, verdict, number = random.Random(seed), Verdict(), seed * 100_000
-    while verdict.kills < kills:
+def measure(kills: int, seed: int) -> KillTotals:
+    """Kill and resume missions of successive seeds until the number of kills is reached."""
+    rng, totals, number = random.Random(seed), KillTotals(), seed * 100_000
+    while totals.kills < kills:
         number += 1
         drawn = approved_draft(number)
         if drawn is None:
@@ -301,19 +301,19 @@ def measure(kills: int, seed: int) -> Verdict:
             robot = new_robot()
             for _ in range(rng.choice((1, 1, 2, 3, 5))):
                 killed, _ = one_life(folder, approved, draft, robot, rng.uniform(0.0, lasts_s))
-                verdict.kills += killed
-                verdict.lives += 1
+                totals.kills += killed
+                totals.lives += 1
                 if not killed:
                     break
             else:
                 one_life(folder, approved, draft, robot, None)
-                verdict.lives += 1
-            judge(folder, draft, robot, verdict)
-    return verdict
+                totals.lives += 1
+            judge(folder, draft, robot, totals)
+    return totals
 
 
 def main(words: Sequence[str] | None = None) -> int:
-    """The command line; status 1 if anything was lost, repeated or incomplete."""
+    """Run the command line; return 1 if anything was lost, repeated or incomplete."""
     parser = argparse.ArgumentParser(description="Kill missions with kill -9 at random instants and resume them.")
     parser.add_argument("--kills", type=int, default=300)
     parser.add_argument("--seed", type=int, default=1)

@@ -1,4 +1,4 @@
-"""Writes the built-in orchard into the package: ``python scripts/make_demo_orchard.py``."""
+"""Write the built-in orchard into the package: ``python scripts/make_demo_orchard.py``."""
 
 from __future__ import annotations
 

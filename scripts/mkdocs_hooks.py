@@ -9,7 +9,7 @@ from typing import Any
 
 ROOT = Path(__file__).resolve().parents[1]
 
-#: Pages that are made from files of the repository, by their names on the site.
+#: Pages generated from files of the repository, by their names on the site.
 SOURCES = {
     "notebook.md": "docs/notebook.ipynb",
     "example-plugin.md": "examples/plugin/README.md",
@@ -22,7 +22,7 @@ _LINK = re.compile(r"(?<!!)\[([^\]]+)\]\((?!https?://|mailto:|#)([^)\s#]+)(#[^)\
 
 
 def on_files(files: Any, config: Any) -> Any:
-    """Add the pages that are made from other files."""
+    """Add the pages that are generated from other files."""
     from mkdocs.structure.files import File
 
     for page, source in SOURCES.items():

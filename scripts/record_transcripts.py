@@ -1,10 +1,10 @@
-"""Record transcripts of the llm planner: one file a request, as test data.
+"""Record transcripts of the llm planner as test data, one file per request.
 
     record_transcripts.py OUT --cases CASES.yaml [--only ID ...] --base-url URL [--model NAME] [--note TEXT]
 
 CASES.yaml lists requests (``cases: [{id, request, site?, robot?}]``, with ``site`` and ``robot`` for all of them at the
-top; sites are relative to the file). Any OpenAI-compatible endpoint answers, also one behind which a person or a
-program of your own sits. A key, if the endpoint wants one, comes from FIELDHAND_API_KEY.
+top; sites are relative to the file). The endpoint may be any OpenAI-compatible one, including one operated by a person
+or by a program of your own. If it requires a key, set FIELDHAND_API_KEY.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from fieldhand.site.loader import open_site
 
 
 def main() -> int:
-    """Record each case; the exit status is how many had no outcome."""
+    """Record each case; return the number of cases without an outcome, 125 at most."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("out", type=Path)
     parser.add_argument("--cases", type=Path, required=True)

@@ -1,11 +1,11 @@
-"""Call a service over DDS many times, and send many goals: how long each takes, and that none is lost.
+"""Measure the latency of service calls and goals over DDS, and count those that are lost.
 
     python scripts/ros2_latency.py --calls 1000 --goals 200
 
-The other process answers both ends of what a mission uses: ``robot_localization/srv/FromLL``, which it answers with
-the latitude and longitude as metres, and ``nav2_msgs/action/NavigateToPose``, each goal of which takes some messages of
-feedback and then succeeds. A call is lost where no reply, or a wrong one, comes within 10 s. Only this machine's
-loopback interface is used, unless CYCLONEDDS_URI says another.
+A second process provides the two interfaces that a mission uses: ``robot_localization/srv/FromLL``, which returns the
+latitude and longitude as metres, and ``nav2_msgs/action/NavigateToPose``, whose goals send some messages of feedback
+and then succeed. A call is lost if no correct reply arrives within 10 s. Only the loopback interface is used unless
+CYCLONEDDS_URI selects another.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ _Seen = TypeVar("_Seen")
 
 
 def main() -> int:
-    """Start the other process, measure, and say what was found."""
+    """Start the other process, measure, and print the results."""
     options = _options()
     os.environ.setdefault("CYCLONEDDS_URI", LOOPBACK)
     os.environ["ROS_DOMAIN_ID"] = str(options.domain)
@@ -51,13 +51,13 @@ def main() -> int:
         return 0
     calls, goals = measured(options.calls, options.goals, options.feedback)
     print(f"{platform.node()}: {os.cpu_count()} cores, {platform.machine()}, Python {platform.python_version()}")
-    _say("calls of a service", calls)
-    _say(f"goals of {options.feedback} feedback each", goals)
+    _print_times("calls of a service", calls)
+    _print_times(f"goals of {options.feedback} feedback each", goals)
     return 1 if None in calls + goals else 0
 
 
 def measured(calls: int, goals: int, feedback: int) -> tuple[list[float | None], list[float | None]]:
-    """Seconds of each call and each goal to another process on this domain; None for one that was lost."""
+    """Return the duration of each call and each goal to another process, seconds; None for one that was lost."""
     own = [sys.executable, __file__, "--answer", "--domain", os.environ["ROS_DOMAIN_ID"], "--feedback", str(feedback)]
     with subprocess.Popen(own, stdin=subprocess.PIPE) as other, closing(open_dds(Interfaces.of(DISTRO))) as node:
         assert other.stdin is not None  # noqa: S101 - it is a pipe
@@ -75,7 +75,7 @@ def _times(many: int, done: Callable[[int], bool]) -> list[float | None]:
 
 
 def answer(feedback: int) -> None:
-    """Be the robot until the standard input ends."""
+    """Serve calls and goals as the robot until the standard input ends."""
     with closing(open_dds(Interfaces.of(DISTRO))) as node:
         from_ll = node.serve("/fromLL", FROM_LL)
         send = node.serve("/navigate/_action/send_goal", f"{NAVIGATE}_SendGoal")
@@ -138,7 +138,7 @@ def _until(seen: Callable[[], _Seen]) -> _Seen | None:
     return None
 
 
-def _say(what: str, times: list[float | None]) -> None:
+def _print_times(what: str, times: list[float | None]) -> None:
     took = [t for t in times if t is not None]
     lost, ordered = len(times) - len(took), sorted(took) or [float("nan")]
     figures = (statistics.median(ordered), ordered[int(0.99 * (len(ordered) - 1))], ordered[-1])

@@ -1,1 +1,1 @@
-"""What ``scripts/fuzz.py`` feeds to the readers of Fieldhand: seeds, mutations, targets."""
+"""Seeds, mutations and targets of ``scripts/fuzz.py``."""

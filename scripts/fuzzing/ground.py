@@ -1,4 +1,4 @@
-"""What the targets stand on: a small orchard, a robot, Tasks, a flown mission, a signed bundle. All made here."""
+"""Valid documents for the targets, all generated: a small orchard, a robot, Tasks, an event log, a signed bundle."""
 
 from __future__ import annotations
 
@@ -47,8 +47,8 @@ REQUESTS = (
 
 
 @dataclass(frozen=True, kw_only=True)
-class Ground:
-    """Site and robot with the bytes that they were read from."""
+class SiteAndRobotFiles:
+    """A site and a robot with the bytes from which they were read."""
 
     files: SiteFiles
     site: Site
@@ -57,15 +57,17 @@ class Ground:
 
 
 @cache
-def ground() -> Ground:
-    """An orchard of 3 rows of 5 trees with a pond and a fence, and the husky."""
+def ground() -> SiteAndRobotFiles:
+    """Return an orchard of 3 rows of 5 trees with a pond and a fence, and the husky."""
     files = SiteFiles(parts={"orchard.geojson": orchard()}, source="orchard.geojson")
     profile, source = profile_bytes("husky")
-    return Ground(files=files, site=site_of(files), profile=profile, robot=parse_profile(profile, source=source))
+    return SiteAndRobotFiles(
+        files=files, site=site_of(files), profile=profile, robot=parse_profile(profile, source=source)
+    )
 
 
 def orchard() -> bytes:
-    """Its GeoJSON."""
+    """Return the GeoJSON of the orchard."""
 
     def at(row: float, column: float) -> list[float]:
         return [round(-120.0 + column * 5.6e-5, 7), round(37.0 + row * 6e-5, 7)]
@@ -95,7 +97,7 @@ def orchard() -> bytes:
 
 @cache
 def tasks() -> tuple[Task, ...]:
-    """A Task for each of the requests that are understood as they stand."""
+    """Return a Task for each request that can be planned without a question."""
     here, planner = ground(), EnglishPlanner()
     outcomes = (planner.plan(request, here.site, here.robot) for request in REQUESTS)
     return tuple(outcome.task for outcome in outcomes if isinstance(outcome, Planned))
@@ -103,13 +105,13 @@ def tasks() -> tuple[Task, ...]:
 
 @cache
 def approved() -> AuthorizedTask:
-    """The first of them, approved."""
+    """Return the first Task, approved."""
     here = ground()
     return approve(examine(tasks()[0], here.site, here.robot), by="Ada", at=WHEN, confirmed=EveryWarning())
 
 
 def flown(world: World, *, approved_mission: mission.ApprovedMission | None = None) -> tuple[Event, ...]:
-    """Return the events of a mission in a world."""
+    """Return the events of a mission simulated in a world."""
     here = ground()
     given = mission.ApprovedMission(authorized=approved(), site=here.site, robot=here.robot)
     return mission.simulate(approved_mission or given, world=world).events
@@ -117,7 +119,7 @@ def flown(world: World, *, approved_mission: mission.ApprovedMission | None = No
 
 @cache
 def log() -> bytes:
-    """The event log of a mission that tests a condition."""
+    """Return the event log of a mission that tests a condition."""
     here = ground()
     review = mission.review(tasks()[2], here.site, here.robot)
     given = mission.authorize(review, by="Ada", at=NOW, confirmed=EveryWarning())
@@ -126,21 +128,21 @@ def log() -> bytes:
 
 @cache
 def key() -> SigningKey:
-    """The key that signs here: always the same, and of no use anywhere else."""
+    """Return the signing key, which is fixed and trusted nowhere else."""
     private = Ed25519PrivateKey.from_private_bytes(b"\1" * 32)
     return SigningKey(public=PublicKey(raw=private.public_key().public_bytes_raw(), name="Ada"), _private=private)
 
 
 @cache
 def known() -> dict[str, KnownKey]:
-    """What a robot knows that trusts it."""
+    """Return the trusted keys of a robot that trusts this key."""
     public = key().public
     return {public.fingerprint: KnownKey(fingerprint=public.fingerprint, name="Ada", since=WHEN, public=public)}
 
 
 @cache
 def bundle() -> bytes:
-    """The mission that was approved."""
+    """Return the approved mission as a signed bundle."""
     here = ground()
     return pack(
         approved(),
@@ -155,11 +157,11 @@ def bundle() -> bytes:
 
 
 def sealed(members: dict[str, bytes], *, hashes: bool) -> bytes:
-    """A bundle of these members, signed again by a trusted key: what a faulty program would write.
+    """Return a bundle of these members, signed by a trusted key, as a faulty program could write it.
 
     Args:
-        members: By name.
-        hashes: Whether the manifest gets the hashes of the members, so that what stands behind them is reached.
+        members: Contents of the members by name.
+        hashes: True to update the hashes in the manifest, so that the checks after the hash check are reached.
     """
     if hashes:
         manifest = json.loads(members[MANIFEST])
@@ -172,12 +174,12 @@ def sealed(members: dict[str, bytes], *, hashes: bool) -> bytes:
 
 
 def members_of(data: bytes) -> dict[str, bytes]:
-    """The members of a bundle that can still be opened."""
+    """Return the members of a bundle that can still be unpacked."""
     return dict(unwrap(data, source="bundle"))
 
 
 def scratch(folder: Path, name: str, data: bytes) -> Path:
-    """A file with these bytes, for readers that take a path."""
+    """Write a file for readers that take a path, and return its path."""
     path = folder / name
     path.write_bytes(data)
     return path

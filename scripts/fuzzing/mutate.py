@@ -1,4 +1,4 @@
-"""Documents that are nearly right: text, JSON, YAML and XML with something changed that readers trip over."""
+"""Mutate text, JSON, YAML and XML into almost valid documents."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ _WORD = re.compile(r"[A-Za-z_]+|[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?|\s+|[^\sA-Za
 _LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _DUMPER = getattr(yaml, "CSafeDumper", yaml.SafeDumper)
 # fmt: off
-#: Numbers at the edge of what a number can be, and what only looks like one.
+#: Numbers at the limits of their formats, and texts that only resemble numbers.
 NUMBERS = (
     *("0", "-0.0", "-1", "1", "2", "0.1", "1e-320", "1e308", "-1e308", "1e999", "-1e999", "NaN", ".nan", ".inf"),
     *("Infinity", "0x10", "0o17", "017", "1_000", "1:30", "1:2:3.5", "90:59:59:59:59:59", "9007199254740993", "1,5"),
     *(f"1{'0' * 30}", f"{'9' * 5000}", f"0x{'f' * 5000}", f"1.{'1' * 400}", f"{':'.join(['59'] * 400)}.5", "--1", "½"),
 )
-#: Signs that steer terminals, end strings, or are half of something.
+#: Characters that control terminals, end strings, or are half of a pair.
 SIGNS = (
     *("\0", "\x01", "\x1b[2J", "\r", "\n", "\t", "\x85", "\u2028"),
     *("\u202e", "\ufeff", "\ufffe", "\U0001f333", "é", "ﬁ"),
@@ -55,7 +55,7 @@ XML_PARTS = (
 
 
 def mutate_text(data: bytes, rng: random.Random, *, parts: Sequence[str] = ()) -> bytes:
-    """A few places of a text changed: words swapped, dropped, doubled, or something in their place."""
+    """Change a few places of a text: swap, drop, repeat or replace words."""
     text = data.decode("utf-8", errors="surrogateescape")
     for _ in range(rng.choice((1, 1, 1, 2, 3, 6))):
         text = _changed(text, rng, parts)
@@ -66,18 +66,18 @@ def mutate_text(data: bytes, rng: random.Random, *, parts: Sequence[str] = ()) -
 
 
 def mutate_yaml(data: bytes, rng: random.Random) -> bytes:
-    """A YAML document with something changed, in its text or in what it says."""
+    """Change a YAML document, in its text or in its content."""
     if rng.random() < 0.5:
         return mutate_text(data, rng, parts=YAML_PARTS)
     try:
         content = mutate_value(yaml.load(data, Loader=_LOADER), rng)  # noqa: S506  a safe one
         return bytes(yaml.dump(content, Dumper=_DUMPER, sort_keys=False, allow_unicode=True), "utf-8")
-    except Exception:  # noqa: BLE001  it is broken already, as text it can still be changed
+    except Exception:  # noqa: BLE001  a document that is already broken can be changed as text
         return mutate_text(data, rng, parts=YAML_PARTS)
 
 
 def mutate_json(data: bytes, rng: random.Random) -> bytes:
-    """A JSON document with something changed, in its text or in what it says."""
+    """Change a JSON document, in its text or in its content."""
     if rng.random() < 0.4:
         return mutate_text(data, rng)
     try:
@@ -87,7 +87,7 @@ def mutate_json(data: bytes, rng: random.Random) -> bytes:
 
 
 def mutate_lines(data: bytes, rng: random.Random) -> bytes:
-    """JSON lines, one of them changed, dropped or moved."""
+    """Change, drop or repeat one of several JSON lines."""
     lines = data.split(b"\n")
     k = rng.randrange(len(lines))
     match rng.randrange(6):
@@ -101,7 +101,7 @@ def mutate_lines(data: bytes, rng: random.Random) -> bytes:
 
 
 def mutate_xml(data: bytes, rng: random.Random) -> bytes:
-    """An XML document with an element or an attribute changed, or its text."""
+    """Change an XML document, in its text or in its elements and attributes."""
     if rng.random() < 0.4:
         return mutate_text(data, rng, parts=XML_PARTS)
     try:
@@ -114,7 +114,7 @@ def mutate_xml(data: bytes, rng: random.Random) -> bytes:
 
 
 def mutate_value(value: Any, rng: random.Random) -> Any:
-    """A value of JSON or YAML with one thing in it changed."""
+    """Return a JSON or YAML value with one change."""
     if isinstance(value, dict) and value and rng.random() < 0.9:
         key = rng.choice(list(value))
         match rng.randrange(8):
@@ -147,7 +147,7 @@ def _shuffled(value: dict[Any, Any], rng: random.Random) -> list[tuple[Any, Any]
 
 
 def _value(rng: random.Random, before: Any) -> Any:
-    """Something else in the place of a value."""
+    """Return a value to replace another."""
     if isinstance(before, str) and rng.random() < 0.5:
         return _changed(before, rng, ())
     if isinstance(before, int | float) and not isinstance(before, bool) and rng.random() < 0.5:
@@ -195,18 +195,18 @@ def _changed(text: str, rng: random.Random, parts: Sequence[str]) -> str:
 
 
 def _word(text: str, rng: random.Random) -> tuple[int, int]:
-    """Where a word, a number, a sign or a space of it stands."""
+    """Return the span of a random word, number, sign or space."""
     if not text:
         return 0, 0
     at = rng.randrange(len(text))
     while at and rng.random() < 0.9 and text[at - 1].isalnum() and text[at].isalnum():
-        at -= 1  # to the beginning of a word, most of the time
+        at -= 1  # mostly from the beginning of a word
     found = _WORD.search(text, at)
     return found.span() if found else (len(text), len(text))
 
 
 def _spliced(text: str, rng: random.Random) -> str:
-    """Lines of it taken out, doubled, moved, or all behind one place cut off."""
+    """Remove, repeat or move lines, or truncate the text."""
     lines = text.splitlines(keepends=True) or [""]
     start = rng.randrange(len(lines))
     end = min(len(lines), start + rng.choice((1, 1, 2, 5, 20)))
@@ -224,7 +224,7 @@ def _spliced(text: str, rng: random.Random) -> str:
 
 
 def _encoded(data: bytes, rng: random.Random) -> bytes:
-    """The same text as another encoding would have it, or with a byte order mark."""
+    """Return the text in another encoding, or with a byte order mark."""
     text = data.decode("utf-8", errors="replace")
     match rng.randrange(4):
         case 0:

@@ -1,7 +1,7 @@
-"""The readers that are fuzzed: seeds that are right, mutations, and one call as a user's file would make it.
+"""The readers that are fuzzed: valid seeds, mutations, and a call as with a user's file.
 
-A target may raise what the command line answers with a sentence (:class:`fieldhand.errors.FieldhandError`), and nothing
-else. What it reads without complaint is used: written again, bound to a site, carried out.
+A target may raise only errors that the command line reports as a message (:class:`fieldhand.errors.FieldhandError`).
+A document that is read without an error is also used: written again, bound to a site, simulated.
 """
 
 from __future__ import annotations
@@ -76,12 +76,12 @@ id,kind,latitude,longitude,row,variety,age (years)
 
 @dataclass(frozen=True, kw_only=True)
 class Target:
-    """One reader.
+    """A reader to be fuzzed.
 
     Attributes:
-        seeds: Makes documents that are read without complaint.
-        mutate: Changes one of them.
-        read: Reads one; the folder is for readers that take a path.
+        seeds: Function that returns valid documents.
+        mutate: Function that changes a document.
+        read: Function that reads a document; the folder is for readers that take a path.
     """
 
     seeds: Callable[[Path], list[bytes]]
@@ -156,7 +156,7 @@ def _mcap(data: bytes, folder: Path) -> None:
 
 
 def _key(data: bytes, folder: Path) -> None:
-    """A public key as it comes by mail, and the file that a robot keeps of one."""
+    """Read the bytes as a public key, as the file of a trusted key, and as an own signing key."""
     trusted = folder / "trusted"
     trusted.mkdir(exist_ok=True, mode=0o700)
     g.scratch(trusted, f"{g.key().public.fingerprint}.json", data).chmod(0o600)
@@ -174,7 +174,7 @@ def _own_key(folder: Path, data: bytes) -> OwnKey:
 
 
 def _mutate_bundle(data: bytes, rng: random.Random) -> bytes:
-    """Another member, signed again, with the right hashes or not; now and then the zip file itself."""
+    """Change a member and sign the bundle again, with or without correct hashes; sometimes change the zip file."""
     if rng.random() < 0.15:
         return mutate_text(data, rng)
     try:
@@ -199,7 +199,7 @@ def _mutate_bundle(data: bytes, rng: random.Random) -> bytes:
 
 
 def _mutate_mcap(data: bytes, rng: random.Random) -> bytes:
-    """A few bytes, or a piece from elsewhere."""
+    """Change a few bytes, or copy a piece from elsewhere in the file."""
     changed = bytearray(data)
     for _ in range(rng.choice((1, 1, 2, 4, 16))):
         k, other = rng.randrange(len(changed) + 1), rng.randrange(len(changed) + 1)

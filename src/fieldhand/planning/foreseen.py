@@ -1,4 +1,4 @@
-"""What of a selector can be looked up on the site before the robot has moved."""
+"""Find the parts of a selector whose places can be resolved on the site before the mission starts."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from fieldhand.places.selector import Selector
 
 
 def foreseeable(selector: Selector) -> Iterator[Selector]:
-    """The largest parts of a selector whose places exist or not wherever the robot will be.
+    """Yield the largest parts of a selector whose places exist or not regardless of where the robot will be.
 
-    A line of points and a row of so many trees are near to the robot, but that there is one does not depend on it:
-    they are looked for from the start.
+    The nearest line of points or row of so many trees depends on the robot's position, but its existence does not:
+    such parts are searched from the start.
     """
     near_start = selector.from_start
     if not any(part.depends_on == "mission" for part in near_start.walk()):
@@ -21,6 +21,6 @@ def foreseeable(selector: Selector) -> Iterator[Selector]:
         return
     for part in selector.inner:
         if part is selector.measured_from and part.whole_zone:
-            yield Farthest(origin=InZone(zone=part.whole_zone))  # a zone without trees is a place to measure from, too
+            yield Farthest(origin=InZone(zone=part.whole_zone))  # a zone without trees can be measured from, too
         else:
             yield from foreseeable(part)
