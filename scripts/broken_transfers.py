@@ -44,8 +44,9 @@ from fieldhand.approval.bundle.opening import unseal
 from fieldhand.approval.bundle.packing import pack
 from fieldhand.approval.keys.signing import SigningKeys
 from fieldhand.approval.keys.trust import TrustStore
+from fieldhand.delivery.json_models import AgentCommand, Heard
 from fieldhand.delivery.robot_client import RobotClient, open_client
-from fieldhand.errors import DeliveryError
+from fieldhand.errors import DeliveryError, UnreachableError
 from fieldhand.places.selectors import TreeIs
 from fieldhand.robot.loader import load_robot, profile_bytes
 from fieldhand.site.loader import open_site, site_files
@@ -54,6 +55,8 @@ from fieldhand.task.plan import Act
 
 KINDS = ("cut", "corrupt", "stuffed", "lost answer", "killed agent", "killed sender")
 TOKEN = "0123456789abcdef" * 2
+#: Repeats of a command that the agent could not write to its disk in time, one per second.
+_PATIENCE = 60
 
 
 class AgentUnderTest:
@@ -292,6 +295,15 @@ class Judge:
         return wrong
 
 
+def give(link: RobotClient, name: str, command: AgentCommand) -> Heard:
+    """Give a mission a command, again while the agent answers that its disk is too slow: commands are idempotent."""
+    for _ in range(_PATIENCE):
+        with suppress(UnreachableError):
+            return link.order(name, command)
+        time.sleep(1.0)
+    return link.order(name, command)
+
+
 def transfer(
     agent: AgentUnderTest, judge: Judge, kind: str, waiting: str, before: bytes | None
 ) -> tuple[list[str], bool]:
@@ -316,18 +328,18 @@ def transfer(
             wrong.append("the mission that waits does not wait any more")
         if before is not None:
             again = link.deliver(before, unseal(before, source="m").hashes)
-            state = link.order(again.mission.bundle, "start").mission
+            state = give(link, again.mission.bundle, "start").mission
             if again.new or state.state != "ended":
                 wrong.append(f"a mission that has run is {state.state} after it was sent again")
         judge.allowed.add(name)
         link.deliver(data, unseal(data, source="m").hashes)
-        link.order(name, "start")
+        give(link, name, "start")
         for _ in range(2400):
             stands = link.events(name, 0, 0.2)
             if stands.idle and stands.mission.state == "ended":
                 break
             if stands.mission.state == "interrupted" and stands.idle:
-                link.order(name, "resume")
+                give(link, name, "resume")
         else:
             wrong.append(f"mission {name[:16]} does not end: {stands.mission}")
         if stands.mission.status != "completed":
