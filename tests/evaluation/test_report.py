@@ -162,7 +162,7 @@ def test_a_log_that_was_cut_off_is_reported_as_such(tmp_path):
 def test_no_estimate_and_no_approval_are_said_to_be_missing(tmp_path):
     text = text_of(written(tmp_path, log(), estimate=None, authorization=None))
     assert "forecast 3" not in text
-    assert "Approved by not known" in text
+    assert "Approved by unknown" in text
 
 
 HOSTILE = (

@@ -121,7 +121,11 @@ class VisitChooser:
             open_, cut_off = self._reachable(state.context.here, candidates, rest.first)
             if not open_:
                 return VisitChoice(
-                    index=None, shed=tuple(cut_off), reason=no_way(candidates, cut_off), chance_short=1.0
+                    index=None,
+                    shed=tuple(cut_off),
+                    reason=no_way(candidates, cut_off),
+                    chance_short=1.0,
+                    cause="unreachable",
                 )
             within = cheapest(state.context.here, [candidates[i] for i in open_], rest, self._budget.drives)
             open_ = [open_[k] for k in within]
@@ -154,7 +158,13 @@ class VisitChooser:
         if index is None and beyond:
             gone = [*gone, *beyond]
             reasons.append(too_many(candidates, beyond, len(run.vertex)))
-        return VisitChoice(index=index, shed=(*cut_off, *gone), reason=joined("; ", reasons), chance_short=chance)
+        return VisitChoice(
+            index=index,
+            shed=(*cut_off, *gone),
+            reason=joined("; ", reasons),
+            chance_short=chance,
+            cause="unreachable" if cut_off and not gone else "budget",
+        )
 
     # --- a run -------------------------------------------------------------------------------------------------------
 

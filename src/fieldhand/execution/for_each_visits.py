@@ -159,8 +159,8 @@ class ForEachVisits:
 
     def _give_up(self, places: Sequence[Place], why: str) -> None:
         self._why = why
-        choice, optional = VisitChoice(index=None, reason=why), self.node.optional
-        report_shed(self.mission, self.node.id, places, choice, optional=optional, cause="unreachable")
+        choice = VisitChoice(index=None, reason=why, cause="unreachable")
+        report_shed(self.mission, self.node.id, places, choice, optional=self.node.optional)
 
     def _parted(self, places: Sequence[Place]) -> tuple[tuple[Place, ...], tuple[Place, ...]]:
         """Split places into those that can be reached from the robot's position and those that obstacles cut off."""

@@ -195,8 +195,8 @@ class PlanExecutor:
             visit = mission.visits.of_step(node, state.context)
         except DriveFault as fault:
             why = message("cannot be reached: {why}", context="log", why=fault.what)
-            never = VisitChoice(index=None, reason=why)
-            report_shed(mission, node.id, first_places_of(node, mission), never, optional=True, cause="unreachable")
+            never = VisitChoice(index=None, reason=why, cause="unreachable")
+            report_shed(mission, node.id, first_places_of(node, mission), never, optional=True)
             return False
         mission.run.frame.tour = OptionalStepVisit(place=visit.place)
         choice = mission.guard.choose(state, [visit], still_to_come=mandatory_visits_left(mission))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Literal
 
 from fieldhand.errors import PlaceError
 from fieldhand.execution.active_mission import ActiveMission, Ending
@@ -74,8 +73,8 @@ def shed_unreachable(mission: ActiveMission, why: str) -> str:
             return ""
         if frame.node.is_optional:
             places = [] if frame.tour is None or frame.tour.place is None else [frame.tour.place]
-            never = VisitChoice(index=None, reason=why)
-            report_shed(mission, frame.node.id, places, never, optional=True, cause="unreachable")
+            never = VisitChoice(index=None, reason=why, cause="unreachable")
+            report_shed(mission, frame.node.id, places, never, optional=True)
             return frame.node.id
     return ""
 
@@ -151,7 +150,6 @@ def report_shed(
     verdict: Verdict | VisitChoice,
     *,
     optional: bool,
-    cause: Literal["budget", "unreachable"] = "budget",
 ) -> None:
     """Report work that is given up, with the reason."""
     mission.emit(
@@ -162,6 +160,6 @@ def report_shed(
             optional=optional,
             reason=verdict.reason,
             chance_short=verdict.chance_short,
-            cause=cause,
+            cause=verdict.cause,
         )
     )

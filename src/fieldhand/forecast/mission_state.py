@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from fieldhand.places.context import Context
 from fieldhand.site.model import Place
+from fieldhand.task.results import ShedCause
 
 if TYPE_CHECKING:
     from fieldhand.task.run import StackFrame
@@ -105,11 +106,12 @@ class MissionState:
 
 @dataclass(frozen=True, kw_only=True)
 class Verdict:
-    """The guard's decision about a mandatory visit, with its reason and the probability of running short."""
+    """The guard's decision about a mandatory visit: reason, probability of running short, and cause of a refusal."""
 
     go: bool
     reason: str = ""
     chance_short: float = 0.0
+    cause: ShedCause = "budget"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -118,9 +120,11 @@ class VisitChoice:
 
     Attributes:
         chance_short: Probability of running short by the visits given up, if there are any; otherwise by the next one.
+        cause: Why they are given up.
     """
 
     index: int | None
     shed: tuple[int, ...] = ()
     reason: str = ""
     chance_short: float = 0.0
+    cause: ShedCause = "budget"

@@ -175,6 +175,10 @@ class Decided:
     why: str
 
 
+#: Why work is given up: to stay within the budget, or because there is no way to its place.
+ShedCause = Literal["budget", "unreachable"]
+
+
 @dataclass(frozen=True, kw_only=True)
 class Shed:
     """Work was dropped, to stay within the budget or because no way leads to it: the places, and the reason."""
@@ -186,7 +190,7 @@ class Shed:
     optional: bool
     reason: str
     chance_short: float = 0.0
-    cause: Literal["budget", "unreachable"] = "budget"
+    cause: ShedCause = "budget"
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from fieldhand.clock import clock_time
-from fieldhand.evaluation.report.log_facts import end_of, no_way_led_to, places_ahead
+from fieldhand.evaluation.report.log_facts import end_of, places_ahead
 from fieldhand.evaluation.report.place_names import PlaceNames
 from fieldhand.language.words import say_action, say_count
 from fieldhand.robot.model import RobotProfile
@@ -64,7 +64,7 @@ def left_out(task: Task, events: Sequence[Event], names: PlaceNames) -> tuple[Le
     groups: dict[tuple[bool, bool], list[Shed]] = {}
     for event in events:
         if isinstance(event, Shed):
-            groups.setdefault((event.optional, no_way_led_to(event)), []).append(event)
+            groups.setdefault((event.optional, event.cause == "unreachable"), []).append(event)
     found = [
         _given_up(group, optional=optional, cut_off=cut_off, names=names)
         for (optional, cut_off), group in sorted(groups.items())

@@ -64,17 +64,11 @@ def branch_taken(events: Sequence[Event], estimate: Estimate) -> BranchEstimate:
     return estimate.worst
 
 
-def no_way_led_to(event: Shed) -> bool:
-    """Return True if work was given up because no way led to it, rather than to save budget."""
-    # The guard gives what cannot be driven to no chance but certainty.
-    return event.cause == "unreachable" or (event.chance_short >= 1.0 and "no way" in event.reason)
-
-
 def cut_off_places(events: Sequence[Event]) -> tuple[str, ...]:
     """Return the places given up because no way led to them, without those captured later."""
     found: dict[str, None] = {}
     for event in events:
-        if isinstance(event, Shed) and no_way_led_to(event):
+        if isinstance(event, Shed) and event.cause == "unreachable":
             found.update(dict.fromkeys(event.places))
         elif isinstance(event, Acted) and event.status == "success":
             found.pop(event.place, None)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.evaluation.report.log_facts import captures, cut_off_places, end_of, failed_targets, no_way_led_to
+from fieldhand.evaluation.report.log_facts import captures, cut_off_places, end_of, failed_targets
 from fieldhand.evaluation.report.readings import ReadingSummary
 from fieldhand.language.words import capitalised, say_action
 from fieldhand.site.drawing.colours import FAILED, INK, PATH
@@ -96,7 +96,7 @@ def draw_left_out(
     """Draw trees that were given up or not reached, and those to which a drive failed."""
     entries: list[LegendEntry] = []
     # Those to which no way led are drawn by draw_incidents.
-    shed = [e for e in events if isinstance(e, Shed) and not no_way_led_to(e)]
+    shed = [e for e in events if isinstance(e, Shed) and e.cause == "budget"]
     groups: tuple[tuple[str, str, Sequence[str]], ...] = (
         ("ring", "left out", [p for e in shed if e.optional for p in e.places]),
         ("cross", "given up, though to be done", [p for e in shed if not e.optional for p in e.places]),
