@@ -12,6 +12,7 @@ from contextlib import ExitStack
 from importlib import import_module
 from importlib.util import find_spec, module_from_spec, spec_from_file_location
 from pathlib import Path
+from pydoc import locate
 from types import ModuleType
 
 import pytest
@@ -44,6 +45,11 @@ def commands(page: Path) -> list[str]:
     """The ``fieldhand`` commands of a page's shell blocks, in their order."""
     lines = [line for block in SHELL.findall(page.read_text()) for line in block.replace("\\\n", " ").splitlines()]
     return [line.strip() for line in lines if line.strip().startswith("fieldhand ")]
+
+
+def _has_examples(page: Path) -> bool:
+    """Return True for a page with examples in Python that have no test of their own."""
+    return page.stem not in ("planning-llm", "testing") and PYTHON.search(page.read_text()) is not None
 
 
 @pytest.mark.parametrize("page", [page for page in PAGES if page.stem != ROBOT], ids=page_name)
@@ -82,17 +88,19 @@ def _anchors(page: Path) -> set[str]:
     return {re.sub(r"\s+", "-", re.sub(r"[^\w\s-]", "", heading.lower()).strip()) for heading in headings}
 
 
-def test_every_python_example_runs(tmp_path: Path) -> None:
-    for library in ("dask.distributed", "geopandas"):
-        pytest.importorskip(library)
-    page, script = PYTHON_PAGE.read_text(), ""
-    for found in PYTHON.finditer(page):
-        above = page[: found.start(1)].count("\n")  # a failure names the line of the page
+@pytest.mark.parametrize("page", [page for page in PAGES if _has_examples(page)], ids=page_name)
+def test_every_python_example_runs(page: Path, tmp_path: Path) -> None:
+    if page == PYTHON_PAGE:
+        for library in ("dask.distributed", "geopandas"):
+            pytest.importorskip(library)
+    text, script = page.read_text(), ""
+    for found in PYTHON.finditer(text):
+        above = text[: found.start(1)].count("\n")  # a failure names the line of the page
         script += "\n" * (above - script.count("\n")) + found[1]
-    (tmp_path / "python.md").write_text(script)
+    (tmp_path / page.name).write_text(script)
     # A process of its own: Dask looks for the addresses of this machine, which no test may do.
     run = subprocess.run(
-        [sys.executable, "-W", "error", "python.md"], cwd=tmp_path, capture_output=True, text=True, timeout=300
+        [sys.executable, "-W", "error", page.name], cwd=tmp_path, capture_output=True, text=True, timeout=300
     )
     assert run.returncode == 0, run.stderr[-2000:]
 
@@ -113,6 +121,11 @@ def test_the_reference_lists_every_public_name() -> None:
 def test_the_reference_lists_every_error() -> None:
     listed = re.findall(r"^::: fieldhand\.(?:errors\.)?(\w+)$", REFERENCE.read_text(), re.MULTILINE)
     assert set(errors.__all__) - {"few"} <= set(listed)
+
+
+def test_every_name_of_the_reference_is_there() -> None:
+    for name in re.findall(r"^::: (\S+)$", REFERENCE.read_text(), re.MULTILINE):
+        assert locate(name) is not None, name
 
 
 def test_the_site_of_the_docs_leads_to_every_page() -> None:
