@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -12,36 +11,13 @@ from fieldhand.cli.options import JsonOption, LangOption
 
 if TYPE_CHECKING:
     from fieldhand.approval.bundle.manifest import Manifest
-    from fieldhand.approval.bundle.opening import Content, Sealed
+    from fieldhand.approval.bundle.opening import Content
     from fieldhand.language import Language
-    from fieldhand.mission import Review
+    from fieldhand.mission import BundleInspection
 
 
 #: Prefix of all rows from the signed mission, so that none can look like a line of this program.
 _MARK = "  | "
-
-
-@dataclass(frozen=True, kw_only=True)
-class _Findings:
-    """The findings about a signed mission; fields after the first failure are None.
-
-    Attributes:
-        state: State of its key: ``trusted``, ``unknown`` or ``revoked``; ``broken`` if the file is damaged.
-        problems: Reasons why it may not run here; empty if it may.
-        whose: Name of the key; empty if it is unknown.
-        sealed: Verified members and hashes.
-        manifest: Manifest.
-        content: Task, site and robot.
-        review: Review of the Task.
-    """
-
-    state: str
-    problems: tuple[str, ...]
-    whose: str = ""
-    sealed: Sealed | None = None
-    manifest: Manifest | None = None
-    content: Content | None = None
-    review: Review | None = None
 
 
 def inspect(
@@ -51,64 +27,30 @@ def inspect(
 ) -> None:
     """Show who approved a mission, when, and what it will do; exit status 1 if it would not run here."""
     import os
+    from datetime import UTC, datetime
 
+    from fieldhand import mission
     from fieldhand.approval.bundle.container import read_bundle_file
     from fieldhand.cli import show
     from fieldhand.language import spoken
 
     language = spoken(lang, os.environ)
-    found = _findings(read_bundle_file(file), str(file), language)
+    data = read_bundle_file(file)
+    found = mission.inspect_bundle(data, source=str(file), environ=os.environ, now=datetime.now(UTC), language=language)
     if json:
         show.print_json(_record(file, found, language))
     else:
         with show.out.behind(), show.err.behind():
             _show(file, found, language)
-    if found.problems:
+    if not found.may_run:
         raise SystemExit(1)
 
 
-def _findings(data: bytes, source: str, language: Language) -> _Findings:
-    import os
-    from datetime import UTC, datetime
-
-    from fieldhand import mission
-    from fieldhand.approval.bundle.opening import content_of, manifest_of, require_trusted, unseal
-    from fieldhand.approval.memory import approval_memory, require_unexpired, trust_store
-    from fieldhand.errors import BundleError, FieldhandError, NotApprovedError, NotTrustedError
-
-    known = trust_store(os.environ).known()
-    try:
-        sealed = unseal(data, source=source)
-    except BundleError as error:
-        return _Findings(state="broken", problems=(str(error),))
-    signer = known.get(sealed.signature.public.fingerprint)
-    state, whose = ("unknown", "") if signer is None else (signer.state, signer.name)
-    problems: list[str] = []
-    try:
-        require_trusted(sealed, known)
-    except NotTrustedError as error:
-        problems.append(str(error))
-    found = _Findings(state=state, problems=(), whose=whose, sealed=sealed)
-    now = datetime.now(UTC)
-    try:
-        found = replace(found, manifest=manifest_of(sealed, now=now))
-        try:
-            require_unexpired(manifest_of(sealed, now=now), approval_memory(os.environ).time(now), now, source)
-        except NotApprovedError as error:
-            problems.append(str(error))
-        content = content_of(sealed, now=now, stranger=state != "trusted")
-    except FieldhandError as error:
-        return replace(found, problems=(*problems, str(error)))
-    review = mission.review(content.task, content.site, content.robot)
-    problems.extend(language.say(problem.line()) for problem in review.errors)
-    return replace(found, problems=tuple(problems), content=content, review=review)
-
-
-def _show(file: Path, found: _Findings, language: Language) -> None:
+def _show(file: Path, found: BundleInspection, language: Language) -> None:
     from fieldhand.cli import show
 
     if found.sealed is not None:
-        whose = f" of {found.whose}" if found.whose else ""
+        whose = f" of {found.signer}" if found.signer else ""
         show.out.print(f"Signature {found.state}: key{whose} {found.sealed.signature.public.fingerprint}")
         show.out.print("SHA-256")
         for name, sha256 in found.sealed.hashes.items():
@@ -123,7 +65,7 @@ def _show(file: Path, found: _Findings, language: Language) -> None:
         show.out.print()
     for problem in found.problems:
         show.err.print(f"fieldhand: {problem}")
-    show.out.print(f"{file} would not run here." if found.problems else f"{file} would run here.")
+    show.out.print(f"{file} would run here." if found.may_run else f"{file} would not run here.")
 
 
 def _show_manifest(manifest: Manifest, content: Content | None) -> None:
@@ -141,17 +83,17 @@ def _show_manifest(manifest: Manifest, content: Content | None) -> None:
         show.out.print(f"  confirmed: {warning}")
 
 
-def _record(file: Path, found: _Findings, language: Language) -> dict[str, Any]:
+def _record(file: Path, found: BundleInspection, language: Language) -> dict[str, Any]:
     from fieldhand.cli import show
 
     sealed, manifest = found.sealed, found.manifest
     return {
         "file": str(file),
-        "runs": not found.problems,
+        "runs": found.may_run,
         "problems": list(found.problems),
         "signature": {
             "state": found.state,
-            "name": found.whose,
+            "name": found.signer,
             "fingerprint": "" if sealed is None else sealed.signature.public.fingerprint,
         },
         "hashes": {} if sealed is None else dict(sealed.hashes),

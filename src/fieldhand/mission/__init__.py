@@ -6,6 +6,7 @@ request ──plan──▶ Task ──review──▶ Review ──authorize─
 from fieldhand.mission.approve import ApprovedMission, approved_earlier, authorize
 from fieldhand.mission.documents import decode_task, open_bundle, read_task
 from fieldhand.mission.execute import carry_out, check_world, read_world, simulate
+from fieldhand.mission.inspect_bundle import BundleInspection, inspect_bundle
 from fieldhand.mission.plan_request import Plan, make_planner, plan, transcript_path
 from fieldhand.mission.review_task import Review, review
 from fieldhand.mission.run import Assessment, Run, assess, report
@@ -15,6 +16,7 @@ from fieldhand.mission.task_builder import build_task
 __all__ = [
     "ApprovedMission",
     "Assessment",
+    "BundleInspection",
     "Plan",
     "Review",
     "Run",
@@ -28,6 +30,7 @@ __all__ = [
     "check_world",
     "decode_task",
     "fly_many",
+    "inspect_bundle",
     "make_planner",
     "open_bundle",
     "plan",

@@ -1,0 +1,94 @@
+"""Inspect a signed mission: who signed it, what it contains, and whether it may run on this machine."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from datetime import datetime
+from typing import TYPE_CHECKING, Literal
+
+from fieldhand.mission.review_task import Review, review
+
+if TYPE_CHECKING:
+    from fieldhand.approval.bundle.manifest import Manifest
+    from fieldhand.approval.bundle.opening import Content, Sealed
+    from fieldhand.language import Language
+
+
+@dataclass(frozen=True, kw_only=True)
+class BundleInspection:
+    """The result of inspecting a signed mission; the parts after the first one that is not valid are None.
+
+    Attributes:
+        state: State of its key on this machine; ``broken`` if the file is damaged.
+        problems: Reasons why it may not run here, in words; empty if it may.
+        signer: Name under which this machine knows the key; empty if it is unknown.
+        sealed: Verified members and their hashes.
+        manifest: Manifest.
+        content: Task, site and robot.
+        review: Review of the Task.
+    """
+
+    state: Literal["trusted", "unknown", "revoked", "broken"]
+    problems: tuple[str, ...]
+    signer: str = ""
+    sealed: Sealed | None = None
+    manifest: Manifest | None = None
+    content: Content | None = None
+    review: Review | None = None
+
+    @property
+    def may_run(self) -> bool:
+        """True if the mission may run on this machine."""
+        return not self.problems
+
+
+def inspect_bundle(
+    data: bytes, *, source: str, environ: Mapping[str, str], now: datetime, language: Language
+) -> BundleInspection:
+    """Inspect a signed mission with the trusted keys of this machine. A mission that may not run is not an error.
+
+    Args:
+        data: Bytes of the file.
+        source: Name of the file, for messages.
+        environ: Environment variables, which name the folder of the trusted keys.
+        now: Current time, with time zone.
+        language: Language of the problems.
+
+    Raises:
+        KeyFileError: The trusted keys cannot be read.
+    """
+    from fieldhand.approval.bundle.opening import content_of, manifest_of, require_trusted, unseal
+    from fieldhand.approval.memory import approval_memory, require_unexpired, trust_store
+    from fieldhand.errors import BundleError, FieldhandError, NotApprovedError, NotTrustedError
+
+    known = trust_store(environ).known()
+    try:
+        sealed = unseal(data, source=source)
+    except BundleError as error:
+        return BundleInspection(state="broken", problems=(str(error),))
+    signer = known.get(sealed.signature.public.fingerprint)
+    found = BundleInspection(
+        state="unknown" if signer is None else signer.state,
+        problems=(),
+        signer="" if signer is None else signer.name,
+        sealed=sealed,
+    )
+    problems: list[str] = []
+    try:
+        require_trusted(sealed, known)
+    except NotTrustedError as error:
+        problems.append(str(error))
+    try:
+        manifest = manifest_of(sealed, now=now)
+        found = replace(found, manifest=manifest)
+        try:
+            require_unexpired(manifest, approval_memory(environ).time(now), now, source)
+        except NotApprovedError as error:
+            problems.append(str(error))
+        content = content_of(sealed, now=now, stranger=found.state != "trusted")
+    except FieldhandError as error:
+        return replace(found, problems=(*problems, str(error)))
+    reviewed = review(content.task, content.site, content.robot)
+    problems.extend(language.say(problem.line()) for problem in reviewed.errors)
+    return replace(found, problems=tuple(problems), content=content, review=reviewed)
