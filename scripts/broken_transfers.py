@@ -44,7 +44,7 @@ from fieldhand.approval.bundle.opening import unseal
 from fieldhand.approval.bundle.packing import pack
 from fieldhand.approval.keys.signing import SigningKeys
 from fieldhand.approval.keys.trust import TrustStore
-from fieldhand.delivery.json_models import AgentCommand, Heard
+from fieldhand.delivery.json_models import AgentCommand, CommandResponse
 from fieldhand.delivery.robot_client import RobotClient, open_client
 from fieldhand.errors import DeliveryError, UnreachableError
 from fieldhand.places.selectors import TreeIs
@@ -295,7 +295,7 @@ class Judge:
         return wrong
 
 
-def give(link: RobotClient, name: str, command: AgentCommand) -> Heard:
+def give(link: RobotClient, name: str, command: AgentCommand) -> CommandResponse:
     """Give a mission a command, again while the agent answers that its disk is too slow: commands are idempotent."""
     for _ in range(_PATIENCE):
         with suppress(UnreachableError):

@@ -14,7 +14,7 @@ from functools import partial
 import anyio
 
 from fieldhand.api.problems import RefusedRequest
-from fieldhand.delivery.json_models import CommandRequest, Heard, mission_summary
+from fieldhand.delivery.json_models import CommandRequest, CommandResponse, mission_summary
 from fieldhand.delivery.mission_store import MissionStore
 from fieldhand.delivery.mission_supervisor import DirectCommand, MissionSupervisor
 from fieldhand.delivery.received_missions import ReceivedMission
@@ -48,7 +48,7 @@ class CommandHandler:
         self._answer_s, self._disk_s = answer_within_s, disk_within_s
         self._threads = ThreadPoolExecutor(AT_ONCE, thread_name_prefix="order")
 
-    async def take(self, order: CommandRequest, bundle: str | None) -> Heard:
+    async def take(self, order: CommandRequest, bundle: str | None) -> CommandResponse:
         """Pass a command to a mission; by default, to the running one, else to the one begun last.
 
         Raises:
@@ -68,7 +68,9 @@ class CommandHandler:
             )
         if direct is None or active is None:
             raise RefusedRequest(503, "the robot's disk does not answer", "try again in a moment")
-        return Heard(heard=direct.heard, mission=mission_summary(ReceivedStatus(received=active, state="running")))
+        return CommandResponse(
+            heard=direct.heard, mission=mission_summary(ReceivedStatus(received=active, state="running"))
+        )
 
     def _write_command(
         self,
@@ -77,7 +79,7 @@ class CommandHandler:
         bundle: str | None,
         active: ReceivedMission | None,
         direct: DirectCommand | None,
-    ) -> Heard:
+    ) -> CommandResponse:
         """Write the command to the mission's folder, and wait until the mission receives it."""
         until = time.monotonic() + self._answer_s
 
@@ -91,7 +93,7 @@ class CommandHandler:
         else:
             received = self._found(bundle)
             heard = self._supervisor.give_command(received, order.order, reason, wait=wait)
-        return Heard(heard=heard, mission=mission_summary(self._supervisor.status_of(received)))
+        return CommandResponse(heard=heard, mission=mission_summary(self._supervisor.status_of(received)))
 
     def _found(self, bundle: str | None) -> ReceivedMission:
         received = self._supervisor.latest if bundle is None else self._mission_store.find(bundle)

@@ -18,8 +18,8 @@ from fieldhand.delivery.json_models import (
     LONGEST_WAIT_S,
     MOST_EVENTS,
     CommandRequest,
+    CommandResponse,
     Events,
-    Heard,
     Receipt,
     RobotState,
     event_lines,
@@ -106,12 +106,12 @@ def router(
         return Receipt(hashes=dict(received.hashes), new=False, mission=mission_summary(supervisor.status_of(received)))
 
     @routes.post("/agent/missions/{bundle}/orders")
-    async def order(bundle: Bundle, body: CommandRequest) -> Heard:
+    async def order(bundle: Bundle, body: CommandRequest) -> CommandResponse:
         """Command a mission to start, pause, resume, return or abort."""
         return await orders.take(body, bundle)
 
     @routes.post("/agent/orders")
-    async def order_now(body: CommandRequest) -> Heard:
+    async def order_now(body: CommandRequest) -> CommandResponse:
         """Command the running mission, else the one begun last, to pause, resume, return or abort."""
         return await orders.take(body, None)
 

@@ -102,7 +102,7 @@ class CommandRequest(BaseModel):
     because: Annotated[str, Field(max_length=500)] = ""
 
 
-class Heard(_Answer):
+class CommandResponse(_Answer):
     """The response to a command: True if the mission has received it, and the state of the mission."""
 
     heard: bool

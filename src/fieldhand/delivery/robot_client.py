@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, TypeVar
 from pydantic import BaseModel, ValidationError
 
 from fieldhand.delivery.bundle_checks import sha256_of
-from fieldhand.delivery.json_models import LONGEST_WAIT_S, Events, Heard, Receipt, RobotState
+from fieldhand.delivery.json_models import LONGEST_WAIT_S, CommandResponse, Events, Receipt, RobotState
 from fieldhand.errors import DeliveryError, InputError, UnreachableError
 from fieldhand.execution.operator_commands import AgentCommand
 
@@ -103,12 +103,12 @@ class RobotClient:
         answer = self._send("GET", f"/agent/missions/{sha256}")
         return None if answer[0] == 404 else self._read(Receipt, *answer)
 
-    def order(self, sha256: str, command: AgentCommand, because: str = "") -> Heard:
+    def order(self, sha256: str, command: AgentCommand, because: str = "") -> CommandResponse:
         """Send a command to a mission; the same command may be sent again."""
         body = {"order": command, "because": because}
-        return self._ask(Heard, "POST", f"/agent/missions/{sha256}/orders", json=body)
+        return self._ask(CommandResponse, "POST", f"/agent/missions/{sha256}/orders", json=body)
 
-    def order_now(self, command: AgentCommand, because: str = "") -> Heard | None:
+    def order_now(self, command: AgentCommand, because: str = "") -> CommandResponse | None:
         """Send a command to the running mission, else to the one begun last.
 
         Returns:
@@ -119,7 +119,11 @@ class RobotClient:
         """
         status, body = self._send("POST", "/agent/orders", json={"order": command, "because": because})
         # An agent of an earlier version does not have this address.
-        return None if status in (404, 405) and b"there is nothing here" in body else self._read(Heard, status, body)
+        return (
+            None
+            if status in (404, 405) and b"there is nothing here" in body
+            else self._read(CommandResponse, status, body)
+        )
 
     def events(self, sha256: str, after: int, wait_s: float) -> Events:
         """Return the events after number ``after``.
