@@ -720,5 +720,5 @@ def test_zones_hold_what_stands_inside_or_on_their_edge_and_are_called_without_c
 def test_one_place_is_one_place():
     site = orchard()
     assert resolve_one(TreeIs(tree="3"), site, at_start(site)).id == "3"
-    with pytest.raises(PlaceError, match="20 places are meant"):
+    with pytest.raises(PlaceError, match="'every tree' selects 20 places"):
         resolve_one(Trees(), site, at_start(site))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -49,11 +50,14 @@ def in_row(spots: PlaceGroup, selector: InRow, notes: ResolutionNotes) -> PlaceG
     low, high = (np.where(n < 0, count + 1 + n, n) for n in (first, last))
     kept = (number >= low) & (number <= high) & (number > 0)
     notes.rule = f"trees in a row are counted from {side}"
+    by_file: Collection[int] = ()
     if selector.counted_from == "usual":
-        kept = _by_own_numbers(spots, kept, (first, last), notes)
+        kept, by_file = _by_own_numbers(spots, kept, (first, last))
+    if by_file:
+        notes.rule = "trees in a row go by their numbers in the file"
     if not kept.any():
         raise _no_such_tree_in_row(spots, selector, count)
-    _note_short_rows(spots, max(first, last), count, notes)
+    _note_short_rows(spots, max(first, last), count, by_file, notes)
     return spots.keep(kept)
 
 
@@ -124,10 +128,15 @@ def _ways(spots: PlaceGroup, side: CountedFrom) -> tuple[Indices, str]:
     return way, " or ".join(sides)
 
 
-def _by_own_numbers(spots: PlaceGroup, kept: Mask, ends: tuple[int, int], notes: ResolutionNotes) -> Mask:
-    """Return the choice by numbers of the file, for numbered rows of which the group contains every tree."""
+def _by_own_numbers(spots: PlaceGroup, kept: Mask, ends: tuple[int, int]) -> tuple[Mask, Collection[int]]:
+    """Apply the numbers of the file in numbered rows of which the group contains every tree.
+
+    Returns:
+        The choice, which is that of ``kept`` in all other rows, and the numbered rows by their index.
+    """
     site = spots.site
     rows = spots.row
+    by_file: list[int] = []
     there = np.bincount(rows[rows >= 0], minlength=len(site.planting.rows))
     for k in np.flatnonzero(there).tolist():
         row = site.planting.rows[k]
@@ -139,8 +148,8 @@ def _by_own_numbers(spots: PlaceGroup, kept: Mask, ends: tuple[int, int], notes:
         low, high = (n if n > 0 else int(slots[len(slots) + n]) if -n <= len(slots) else 0 for n in ends)
         number = row.slots[site.planting.rank[spots.index[mine]]]
         kept[mine] = (number >= low) & (number <= high)
-        notes.rule = "trees in a row go by their numbers in the file"
-    return kept
+        by_file.append(k)
+    return kept, by_file
 
 
 def _no_such_tree_in_row(spots: PlaceGroup, selector: InRow, count: Indices) -> PlaceError:
@@ -162,9 +171,11 @@ def _no_such_tree_in_row(spots: PlaceGroup, selector: InRow, count: Indices) -> 
     )
 
 
-def _note_short_rows(spots: PlaceGroup, last: int, count: Indices, notes: ResolutionNotes) -> None:
-    short_rows = np.unique(spots.row[(count > 0) & (count < last)]).tolist()
-    if short_rows and notes.rule.startswith("trees in a row count"):
+def _note_short_rows(
+    spots: PlaceGroup, last: int, count: Indices, by_file: Collection[int], notes: ResolutionNotes
+) -> None:
+    short_rows = [k for k in np.unique(spots.row[(count > 0) & (count < last)]).tolist() if k not in by_file]
+    if short_rows:
         names = [row_words(spots.site, spots.site.planting.rows[k]) for k in short_rows]
         trees = counted("{count} tree", "{count} trees", last)
         if len(names) == 1:
