@@ -71,7 +71,7 @@ def test_blocks_and_rows_are_described_with_direction_and_spacing():
     assert (block.row_spacing_m, block.tree_spacing_m) == (pytest.approx(6.0), pytest.approx(4.0))
     said = "\n".join(report_lines(site))
     assert "4 rows running north-south, 6.0 m apart, trees 4.0 m apart, 20 trees; named in the file." in said
-    assert "ows count from west to east, trees in a row from north to south." in said
+    assert "Rows are counted from west to east, trees in a row from north to south." in said
 
 
 def test_the_table_has_each_row_with_its_ends_and_its_empty_positions():

@@ -87,7 +87,7 @@ def test_damaged_archives_and_archives_without_a_site_are_reported(tmp_path):
     data = bytearray(path.read_bytes())
     data[data.index(b"PK\x01\x02") + 8] |= 1  # the flag of encryption, in the directory
     assert "encrypted" in told(path, bytes(data))
-    assert "no zip file" in told(tmp_path / "f.zip", b"lat,lon")
+    assert "the name ends in zip, but the content is not in that format" in told(tmp_path / "f.zip", b"lat,lon")
 
 
 def test_a_geopackage_with_views_or_virtual_tables_is_rejected(tmp_path):

@@ -159,7 +159,7 @@ def test_an_obedient_model_gives_a_checked_plan_a_question_or_a_refusal_and_noth
         assert decode(encode(outcome.task)) == outcome.task
         found = mismatches(outcome.task, site, HUSKY)
         assert found, "what contradicts the request is not approved in silence"
-        shown = [*(one.message for one in found), *outcome.task.command.assumptions]
+        shown = [*(one.what for one in found), *outcome.task.command.assumptions]
         assert not any(INVISIBLE.search(text) for text in shown)
     else:
         assert isinstance(outcome, Clarify | Refused)

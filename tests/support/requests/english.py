@@ -1026,7 +1026,7 @@ ASKED = [
     (
         "husky",
         "Take a picture of tree 4, if the battery allows, and measure CO2 at tree 5.",
-        "'if the battery allows': is that said of 'Take a picture of tree 4' or of 'measure CO2 at tree 5'?",
+        "'if the battery allows': does that apply to 'Take a picture of tree 4' or to 'measure CO2 at tree 5'?",
     ),
     (
         "husky",

@@ -1255,7 +1255,7 @@ REFUSED = [
     (
         "husky",
         "Take a CO2 reading every 10 m from tree 40 to tree 45.",
-        "'tree 40 to tree 45': 'tree 40' is one place: cannot be restricted further",
+        "'tree 40 to tree 45': 'tree 40' is a single place and cannot be restricted further",
     ),
     (
         "husky",
