@@ -11,10 +11,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from fieldhand.errors import StoreError
+from fieldhand.files import sqlite_code
 from fieldhand.folders import FolderLock, FolderTaken
 
 #: Format of the database; other versions refuse it.
 FORMAT = 1
+#: Result codes of SQLite for a disk that is full, broken or write-protected.
+_UNWRITABLE = (sqlite3.SQLITE_FULL, sqlite3.SQLITE_IOERR, sqlite3.SQLITE_READONLY, sqlite3.SQLITE_CANTOPEN)
 
 _TABLES = (
     "CREATE TABLE about (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID",
@@ -198,17 +201,16 @@ class ReceivedMissions:
                 advice="check its permissions",
             ) from None
         except (sqlite3.Error, ValueError, FolderTaken) as error:
-            if isinstance(error, FolderTaken) or "locked" in str(error):
+            if isinstance(error, FolderTaken) or sqlite_code(error) in (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED):
                 raise StoreError(
                     "another agent has this store open",
                     where=str(self._path),
                     advice="end that one first, or give another --store",
                 ) from None
-            for sign in ("full", "disk I/O", "readonly", "unable to open"):
-                if sign in str(error):
-                    raise StoreError(
-                        f"the store cannot be written: {error}", where=str(self._path), advice="free some space"
-                    ) from None
+            if sqlite_code(error) in _UNWRITABLE:
+                raise StoreError(
+                    f"the store cannot be written: {error}", where=str(self._path), advice="free some space"
+                ) from None
             raise StoreError(
                 f"the store is damaged: {error}",
                 where=str(self._path),

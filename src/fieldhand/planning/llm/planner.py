@@ -137,7 +137,9 @@ class LlmPlanner:
         answer = read_answer(reply)
         match answer:
             case Unusable():
-                return _Understood(problems=(AnswerProblem(kind="answer", message=answer.reason),))
+                return _Understood(
+                    problems=(AnswerProblem(kind="answer", message=answer.reason, truncated=answer.truncated),)
+                )
             case QuestionAnswer():
                 question = Clarify(question=answer.question, choices=answer.choices, planner=name, free=True)
                 return _Understood(outcome=question)
@@ -158,7 +160,7 @@ class LlmPlanner:
         """Return the error for the last failed attempt, with its problems."""
         shown = "; ".join(str(problem) for problem in problems[:MOST_PROBLEMS])
         advice: str = message("say the request in other words, or use a larger model")
-        if any(problem.kind == "answer" and "cut off" in problem.message for problem in problems):
+        if any(problem.truncated for problem in problems):
             advice = message("set FIELDHAND_MODEL_MAX_TOKENS higher, or give the model a larger context")
         if self._transcript_path is not None:
             kept = message("{file} contains the whole conversation", file=str(self._transcript_path))

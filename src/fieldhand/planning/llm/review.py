@@ -49,11 +49,13 @@ class AnswerProblem:
             request; ``reference``: an unbound name; ``site``: something that the site lacks; ``coordinate``: an
             invented position; ``request``: a contradiction with the request.
         where: Line and element; empty if the problem has no position in the document.
+        truncated: True if the answer ended before its document did.
     """
 
     kind: Kind
     message: str
     where: str = ""
+    truncated: bool = False
 
     def __str__(self) -> str:
         return f"[{self.kind}] " + (f"{self.where}: " if self.where else "") + self.message
