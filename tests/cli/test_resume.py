@@ -69,7 +69,7 @@ def status() -> dict[str, Any]:
 
 
 def test_paused_killed_twice_and_resumed(missions: Path, tmp_path: Path) -> None:
-    process = under_way(*MISSION, "--speed", "5", captures=2)
+    process = under_way(*MISSION, "--speed", "10", captures=2)
     assert "paused" in fieldhand("pause", "--because", "lunch").out
     assert status()["state"] == "paused"
     assert "continues" in fieldhand("resume").out
@@ -79,7 +79,7 @@ def test_paused_killed_twice_and_resumed(missions: Path, tmp_path: Path) -> None
     assert "interrupted" in fieldhand("status").out
     unheard = fieldhand("pause")
     assert (unheard.status, "was interrupted; the order remains in force" in unheard.out) == (1, True)
-    kill(under_way("resume", "--speed", "10", captures=2))
+    kill(under_way("resume", "--speed", "15", captures=2))
     done = fieldhand("resume", "--json", "-o", str(tmp_path / "out"), "--events", str(tmp_path / "e.jsonl"))
     assert done.status == 0, (done.out, done.err)
     found = status()

@@ -14,12 +14,14 @@ import os
 import pkgutil
 import signal
 import sys
+import tempfile
 from typing import Any
 
 
 def load() -> None:
     """Load the whole package; what a planner makes ready for its first request, once."""
     import matplotlib.backends.backend_agg  # noqa: F401
+    import pydantic_ai.models.openai  # noqa: F401
 
     import fieldhand
     import fieldhand_bench
@@ -31,11 +33,20 @@ def load() -> None:
         # What needs a ROS that is sourced is loaded by whoever asks for it, and no command needs what is for tests.
         if not module.name.endswith("__main__") and not any(s in module.name for s in (".ros2.rclpy.", ".testing")):
             importlib.import_module(module.name)
-    from fieldhand.planning.english.planner import EnglishPlanner
-    from fieldhand.robot.loader import load_robot
-    from fieldhand.site.loader import open_site
+    _prepare()
 
-    EnglishPlanner().plan("Take pictures of the corner trees.", open_site("demo"), load_robot("husky"))
+
+def _prepare() -> None:
+    """Do once what the first command of a process takes its time for: compiled code, fonts, tables of the grammar."""
+    import fieldhand as fh
+
+    site, robot = fh.Site.demo(), fh.Robot.load("husky")
+    plan = fh.plan("Take as many pictures as you can within 100 m.", site, robot)
+    assert isinstance(plan, fh.Plan)
+    review = fh.review(plan.task, site, robot)
+    done = fh.simulate(fh.authorize(review, by="Ada"), seed=1)
+    with tempfile.TemporaryDirectory() as folder:
+        done.report(folder)
 
 
 def become(order: dict[str, Any]) -> None:
