@@ -1,0 +1,1 @@
+"""A grammar of constructions: requests as phrases whose meanings are composed."""

@@ -1,0 +1,222 @@
+"""A weighted chart parser: constructions combine the meanings of neighbouring phrases.
+
+A construction is a pattern of categories with a function that composes their meanings. The parser works bottom-up and
+from left to right, keeps for each category and range of tokens the cheapest edges of different meaning, and may skip
+fillers at a price. Nothing in it knows a language or a farm.
+"""
+
+from __future__ import annotations
+
+import heapq
+import inspect
+import re
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import product
+from typing import Any, TypeVar
+
+#: Maximum number of edges with different meanings for one category and range of tokens.
+_BEAM = 8
+#: Price of a skipped filler. It only decides between parses that are equal otherwise.
+_FILLER_COST = 0.05
+#: Maximum number of successive fillers that are skipped.
+_LONGEST_GAP = 8
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+_SYMBOL = re.compile(r"(\[)?(?:(\w+)=)?(\w+)(\])?")
+
+
+@dataclass(frozen=True, slots=True)
+class Edge:
+    """A phrase that was recognised.
+
+    Attributes:
+        category: Category of the phrase.
+        start, end: Range of its tokens, the end excluded.
+        meaning: Hashable meaning.
+        cost: Sum of the costs of its words, constructions and skipped fillers.
+        used: Bit mask of the tokens that are part of the phrase; fillers inside it that were skipped are not.
+    """
+
+    category: str
+    start: int
+    end: int
+    meaning: Any
+    cost: float
+    used: int
+
+
+@dataclass(frozen=True, slots=True)
+class Construction:
+    """A pattern without optional parts.
+
+    Attributes:
+        result: Category of the phrase.
+        symbols: Categories of its parts.
+        names: Name under which each part's meaning is passed to ``compose``; empty if it is not passed.
+        compose: Returns the meaning of the phrase, a list of possible meanings, or None if the parts do not fit.
+        takes_range: True if ``compose`` takes the tokens of the phrase as ``used``.
+        cost: Cost of the construction.
+    """
+
+    result: str
+    symbols: tuple[str, ...]
+    names: tuple[str, ...]
+    compose: Callable[..., Any]
+    takes_range: bool
+    cost: float
+
+
+class Grammar:
+    """A set of constructions, which register by decorators (:meth:`construction`)."""
+
+    def __init__(self) -> None:
+        self.by_first: dict[str, list[Construction]] = defaultdict(list)
+
+    def construction(self, *patterns: str, cost: float = 1.0) -> Callable[[F], F]:
+        """Register a function that composes the meanings of the parts of each pattern.
+
+        A pattern reads ``result: part name=part [optional] [name=optional]``. Named parts are passed by name.
+        """
+
+        def register(compose: F) -> F:
+            takes_range = "used" in inspect.signature(compose).parameters
+            for pattern in patterns:
+                result, _, right = pattern.partition(":")
+                parts = [found.groups() for found in _SYMBOL.finditer(right)]
+                for present in product(*([(True, False) if bracket else (True,) for bracket, *_ in parts])):
+                    kept = [part for part, there in zip(parts, present, strict=True) if there]
+                    if not kept:
+                        continue
+                    made = Construction(
+                        result=result.strip(),
+                        symbols=tuple(category for _, _, category, _ in kept),
+                        names=tuple(name or "" for _, name, _, _ in kept),
+                        compose=compose,
+                        takes_range=takes_range,
+                        cost=cost,
+                    )
+                    self.by_first[made.symbols[0]].append(made)
+            return compose
+
+        return register
+
+    def include(self, other: Grammar) -> None:
+        """Add the constructions of another grammar."""
+        for first, constructions in other.by_first.items():
+            self.by_first[first].extend(constructions)
+
+
+@dataclass(frozen=True, slots=True)
+class _Partial:
+    """A construction of which the first parts were recognised."""
+
+    construction: Construction
+    start: int
+    meanings: tuple[Any, ...]
+    cost: float
+    used: int
+
+
+@dataclass
+class Chart:
+    """The edges over a sequence of tokens.
+
+    Args:
+        grammar: Constructions.
+        length: Number of tokens.
+        fillers: Tokens that may be skipped.
+    """
+
+    grammar: Grammar
+    length: int
+    fillers: frozenset[int]
+    _best: dict[tuple[str, int, int], dict[Any, Edge]] = field(default_factory=dict)
+    _partial: list[dict[str, list[_Partial]]] = field(default_factory=list)
+    _agenda: list[tuple[float, int, Edge]] = field(default_factory=list)
+    _added: int = 0
+
+    def parse(self, words: Iterable[Edge]) -> None:
+        """Fill the chart from the edges of words and fixed phrases."""
+        by_end: Mapping[int, list[Edge]] = defaultdict(list)
+        for word in words:
+            by_end[word.end].append(word)
+        self._partial = [defaultdict(list) for _ in range(self.length + 1)]
+        for end in range(1, self.length + 1):
+            for word in by_end[end]:
+                self._add(word)
+            while self._agenda:
+                self._use(heapq.heappop(self._agenda)[2])
+
+    def edges(self, category: str, start: int, end: int) -> list[Edge]:
+        """Return the edges of a category over exactly these tokens, cheapest first."""
+        found = self._best.get((category, start, end), {})
+        return sorted(found.values(), key=lambda edge: edge.cost)
+
+    def whole(self, category: str) -> list[Edge]:
+        """Return the edges of a category over all tokens but fillers at either end, cheapest first."""
+        found: list[Edge] = []
+        for start in self._before(0):
+            for end in self._after(self.length):
+                found += self.edges(category, start, end)
+        return sorted(found, key=lambda edge: edge.cost)
+
+    def _before(self, start: int) -> Iterator[int]:
+        """Yield the positions that are reached from ``start`` by skipping fillers."""
+        yield start
+        while start in self.fillers:
+            start += 1
+            yield start
+
+    def _after(self, end: int) -> Iterator[int]:
+        yield end
+        while end - 1 in self.fillers:
+            end -= 1
+            yield end
+
+    def _add(self, edge: Edge) -> None:
+        known = self._best.setdefault((edge.category, edge.start, edge.end), {})
+        same = known.get(edge.meaning)
+        if same is not None and same.cost <= edge.cost:
+            return
+        if same is None and len(known) >= _BEAM and edge.cost >= max(other.cost for other in known.values()):
+            return
+        known[edge.meaning] = edge
+        self._added += 1
+        heapq.heappush(self._agenda, (edge.cost, self._added, edge))
+
+    def _use(self, edge: Edge) -> None:
+        """Begin constructions with an edge, and continue those that wait for it."""
+        for construction in self.grammar.by_first.get(edge.category, ()):
+            empty = _Partial(construction, edge.start, (), construction.cost, 0)
+            self._advance(empty, edge, 0.0)
+        position, skipped = edge.start, 0.0
+        for _ in range(_LONGEST_GAP):
+            for partial in self._partial[position].get(edge.category, ()):
+                self._advance(partial, edge, skipped)
+            if position - 1 not in self.fillers:
+                break
+            position, skipped = position - 1, skipped + _FILLER_COST
+
+    def _advance(self, partial: _Partial, edge: Edge, skipped: float) -> None:
+        construction = partial.construction
+        meanings = (*partial.meanings, edge.meaning)
+        cost = partial.cost + edge.cost + skipped
+        used = partial.used | edge.used
+        if len(meanings) < len(construction.symbols):
+            waiting = _Partial(construction, partial.start, meanings, cost, used)
+            self._partial[edge.end][construction.symbols[len(meanings)]].append(waiting)
+            return
+        named = {name: meaning for name, meaning in zip(construction.names, meanings, strict=True) if name}
+        if construction.takes_range:
+            named["used"] = used
+        composed = construction.compose(**named)
+        for meaning in composed if isinstance(composed, list) else () if composed is None else (composed,):
+            self._add(Edge(construction.result, partial.start, edge.end, meaning, cost, used))
+
+
+def tokens_of(used: int) -> Sequence[int]:
+    """Return the numbers of the tokens in a bit mask."""
+    return [k for k in range(used.bit_length()) if used >> k & 1]
