@@ -1,0 +1,250 @@
+"""Constructions of commands to capture something: at a place, at each of several, or at a spacing."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.english.naming import Naming
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.meaning import LAST_THING, Amount, Capture, Place, Thing
+from fieldhand.planning.grammar.words import Lex
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+
+@construction(
+    "capture: verb things=things word=relation place=place", "capture: verb things=things place=here", cost=0.3
+)
+def capture_at(things: tuple[Thing, ...], place: Place, used: int, word: str = "at") -> Capture:
+    """Compose "take a picture at tree 4"."""
+    return Capture(things, place, used, relation=word)
+
+
+@construction("capture: verb things=things", cost=0.4)
+def capture_here(things: tuple[Thing, ...], used: int) -> Capture:
+    """Compose "take a picture"."""
+    return Capture(things, None, used)
+
+
+@construction(
+    "capture: things=things SHOULD verb relation place=place",
+    "capture: things=things SHOULD verb place=here",
+    "capture: things=things SHOULD verb",
+    cost=0.4,
+)
+def passive(things: tuple[Thing, ...], used: int, place: Place | None = None) -> Capture:
+    """Compose "a picture should be taken at tree 4"."""
+    return Capture(things, place, used)
+
+
+@construction("capture: place=place COMMA things=things", "capture: place=place things=things", cost=0.9)
+def topic(place: Place, things: tuple[Thing, ...], used: int) -> Capture | None:
+    """Compose "tree 4: a picture"."""
+    if place.shape not in ("one", "several", "area") or any(one.action == LAST_THING for one in things):
+        return None
+    several = tuple(replace(one, plural=True) for one in things) if place.shape == "area" else things
+    return Capture(several, place, used)
+
+
+@construction("capture: things=things COLON place=place", "capture: things=things COMMA place=place", cost=1.2)
+def comment(things: tuple[Thing, ...], place: Place, used: int) -> Capture | None:
+    """Compose "a picture: tree 4"."""
+    return topic(place, things, used)
+
+
+@construction("capture: place=place SHOULD things=things", cost=0.5)
+def needs(place: Place, things: tuple[Thing, ...], used: int) -> Capture | None:
+    """Compose "tree 4 needs a picture"."""
+    return topic(place, things, used)
+
+
+@construction(
+    "capture: verb=ACTV place=place WITH things=things", "capture: GO ALONG place=place WITH things=things", cost=0.6
+)
+def with_camera(place: Place, things: tuple[Thing, ...], used: int, verb: Lex | None = None) -> Capture | None:
+    """Compose "photograph tree 4 with two pictures"."""
+    if verb is not None and verb.value.actions[0] != things[0].action:
+        return None
+    return Capture(tuple(replace(one, count=None) for one in things), place, used)
+
+
+@construction("capture: place=place SHOULD verb=ACTV", cost=0.4)
+def place_passive(place: Place, verb: Lex, used: int) -> Capture:
+    """Compose "tree 4 should be photographed"."""
+    return act_on(verb, place, used)
+
+
+@construction("capture: verb things=things PER noun=ROW", "capture: things=things PER noun=ROW", cost=0.3)
+def per_row(things: tuple[Thing, ...], noun: Lex, used: int) -> Capture | None:
+    """Compose "take a picture per row"."""
+    return None if noun.plural else Capture(things, Place(s.Trees(), "area", each=True, per=s.Rows()), used)
+
+
+@construction(
+    "capture: verb things=things PER noun=CORNER", "capture: things=things PER noun=CORNER [OF] [site]", cost=0.3
+)
+def per_corner(things: tuple[Thing, ...], noun: Lex, used: int) -> Capture | None:
+    """Compose "take one picture per corner"."""
+    return None if noun.plural else Capture(things, Place(s.Corners(), "several", each=True, count=4), used)
+
+
+@construction(
+    "capture: verb things=things relation n=count POINT dist=spaced",
+    "capture: things=things relation n=count POINT dist=spaced",
+    "capture: verb things=things relation n=count POINT dist=spaced relation place=place",
+    cost=0.3,
+)
+def at_points(
+    things: tuple[Thing, ...], n: int, dist: tuple[float, bool], used: int, place: Place | None = None
+) -> Capture | None:
+    """Compose "take pictures at 5 points every 10 m"."""
+    if place is not None and place.shape != "area":
+        return None
+    return Capture(tuple(replace(one, count=n) for one in things), place, used, spacing=dist[0])
+
+
+@construction("capture: verb things=things SPREAD [DET] zone=ZONE", cost=0.3)
+def spread_over(things: tuple[Thing, ...], zone: Lex, used: int) -> Capture | None:
+    """Compose "take 6 pictures spread over the pond zone"."""
+    counts = {one.count for one in things}
+    count = counts.pop()
+    if counts or count is None or count < 2:
+        return None
+    points = Place(s.PointsIn(zone=zone.value, count=count), "several", count=count)
+    return Capture(tuple(replace(one, count=None) for one in things), points, used)
+
+
+@construction("here: word=THERE", cost=0.1)
+def here(word: Lex) -> Place:
+    """Compose "there"."""
+    several = any(part in word.text.split() for part in ("them", "each", "every", "both", "these", "those", "all"))
+    return Place(
+        s.Trees() if "tree" in word.text and several else s.Here(),
+        "those" if several else "here",
+        each="each" in word.text or "every" in word.text,
+    )
+
+
+@construction("capture: verb=ACTV place=place", "capture: verb=ACTV relation place=place", cost=0.3)
+def act_on(verb: Lex, place: Place, used: int) -> Capture:
+    """Compose "photograph tree 4"."""
+    naming: Naming = verb.value
+    return Capture((Thing(naming.actions[0]),), place, used, relation="of")
+
+
+@construction("capture: verb=ACTV", cost=0.6)
+def act_here(verb: Lex, used: int) -> Capture:
+    """Compose "photograph"."""
+    naming: Naming = verb.value
+    return Capture((Thing(naming.actions[0]),), None, used)
+
+
+@construction(
+    "capture: verb place=place FOR things=things", "capture: verb relation place=place FOR things=things", cost=0.4
+)
+def measure_for(place: Place, things: tuple[Thing, ...], used: int) -> Capture:
+    """Compose "measure tree 4 for temperature"."""
+    return Capture(things, place, used)
+
+
+@construction(
+    "capture: verb ASMANY things=things relation place=place ASCAN",
+    "capture: verb ASMANY things=things ASCAN relation place=place",
+    "capture: verb ASMANY things=things ASCAN",
+    "capture: verb ASMANY things=things relation place=place",
+    cost=0.3,
+)
+def as_many_captures(things: tuple[Thing, ...], used: int, place: Place | None = None) -> Capture | None:
+    """Compose "take as many pictures as you can in row 3"."""
+    if not all(one.plural and one.count is None for one in things):
+        return None
+    if place is None:
+        place = Place(s.Trees(), "several")
+    if place.shape not in ("several", "area") or place.count is not None:
+        return None
+    return Capture(things, replace(place, shape="several", optional=True), used)
+
+
+@construction("capture: things=things word=relation place=place", cost=1.2)
+def without_verb(things: tuple[Thing, ...], word: str, place: Place, used: int) -> Capture | None:
+    """Compose "a picture of tree 4"."""
+    if word == "of" and any(one.action == LAST_THING for one in things):
+        return None
+    return Capture(things, place, used, relation=word)
+
+
+@construction("capture: act=capture times=COUNT", cost=0.2)
+def so_often(act: Capture, times: Lex, used: int) -> Capture | None:
+    """Compose "take a picture twice"."""
+    return replace(act, times=times.value, used=used) if act.times == 1 else None
+
+
+@construction("every: EACH far=amount", cost=0.1)
+def every_so_far(far: Amount) -> float | None:
+    """Compose "every 10 m"."""
+    return far.number if far.unit == "metres" else None
+
+
+@construction(
+    "apart: far=amount APART",
+    "apart: SPACEDBY far=amount APART",
+    "apart: SPACEDBY every=every",
+    "apart: SPACEDBY far=amount",
+    "apart: AT far=amount INTERVAL",
+    "apart: AT INTERVAL OF far=amount",
+    cost=0.1,
+)
+def apart(far: Amount | None = None, every: float | None = None) -> float | None:
+    """Compose "10 m apart"."""
+    if every is not None:
+        return every
+    return far.number if far is not None and far.unit == "metres" else None
+
+
+@construction("spaced: dist=every", cost=0.0)
+def spacing_of_one(dist: float) -> tuple[float, bool]:
+    """Compose "every 10 m"."""
+    return (dist, False)
+
+
+@construction("spaced: dist=apart", cost=0.0)
+def spacing_of_many(dist: float) -> tuple[float, bool]:
+    """Compose "10 m apart"."""
+    return (dist, True)
+
+
+@construction(
+    "capture: verb things=things [COMMA] dist=spaced",
+    "capture: verb things=things dist=spaced relation place=place",
+    "capture: verb things=things relation place=place [COMMA] dist=spaced",
+    "capture: verb=ACTV dist=spaced relation place=place",
+    cost=0.3,
+)
+def at_spacing(
+    dist: tuple[float, bool],
+    used: int,
+    things: tuple[Thing, ...] = (),
+    place: Place | None = None,
+    verb: Lex | None = None,
+) -> Capture | None:
+    """Compose "take a picture every 10 m along row 3"."""
+    if verb is not None:
+        naming: Naming = verb.value
+        things = (Thing(naming.actions[0]),)
+    if place is not None and place.shape not in ("area", "those", "here"):
+        return None
+    if not dist[1] and any(one.count is not None and one.count > 1 for one in things):
+        return None  # "three pictures every 10 m": three stops, or three at each stop?
+    if not dist[1]:
+        things = tuple(replace(one, count=None) for one in things)
+    return Capture(things, place, used, spacing=dist[0])
+
+
+@construction("capture: VISIT place=place AND verb things=things", cost=0.6)
+def visit_and(place: Place, things: tuple[Thing, ...], used: int) -> Capture | None:
+    """Compose "visit three trees and take a picture"."""
+    if place.shape != "several" or any(one.count not in (None, 1) for one in things):
+        return None
+    return Capture(things, place, used)

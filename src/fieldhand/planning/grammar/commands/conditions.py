@@ -1,0 +1,283 @@
+"""Constructions of tests, conditions and questions, and of work that depends on the budget or on a failure."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from fieldhand.planning.english.naming import Naming
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.meaning import (
+    Allowed,
+    AllTests,
+    Amount,
+    Failing,
+    Otherwise,
+    Place,
+    Question,
+    Test,
+    Until,
+    When,
+)
+from fieldhand.planning.grammar.words import Lex
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+
+@construction("subject: IT", "subject: [DET] READING", cost=0.0)
+def anything() -> str:
+    """Compose "it"."""
+    return ""
+
+
+@construction("asked: [DET] noun=NOUN [READING] relation place=place", cost=0.0)
+def quantity_at(noun: Lex, place: Place) -> tuple[str, Place] | None:
+    """Compose "the temperature at tree 4"."""
+    naming: Naming = noun.value
+    if len(naming.quantities) != 1 or place.shape != "one":
+        return None
+    return (naming.quantities[0], place)
+
+
+@construction("measured: asked=asked IS test=predicate", "measured: asked=asked test=predicate", cost=0.2)
+def measured(asked: tuple[str, Place], test: Test) -> tuple[Place, Test]:
+    """Compose "the temperature at tree 4 is above 30 degC"."""
+    return (asked[1], replace(test, quantity=asked[0]))
+
+
+@construction("measured: asked=asked ISNOT test=predicate", cost=0.2)
+def not_measured(asked: tuple[str, Place], test: Test) -> tuple[Place, Test]:
+    """Compose "the temperature at tree 4 is not above 30 degC"."""
+    return (asked[1], replace(test, quantity=asked[0], negated=not test.negated))
+
+
+@construction("when: IF one=measured", cost=0.3)
+def when_measured(one: tuple[Place, Test], used: int) -> When:
+    """Compose "if the temperature at tree 4 is above 30 degC"."""
+    return When(AllTests((one[1],)), used, measured_at=one[0])
+
+
+@construction(
+    "subject: [DET] noun=NOUN", "subject: [DET] noun=NOUN READING", "subject: [DET] noun=NOUN THERE", cost=0.0
+)
+def named_quantity(noun: Lex) -> list[str] | None:
+    """Compose "the temperature"."""
+    naming: Naming = noun.value
+    return list(naming.quantities) or None
+
+
+@construction("threshold: value=amount", cost=0.0)
+def with_unit(value: Amount) -> tuple[float, str]:
+    """Compose "30 degC"."""
+    return (value.number, value.unit)
+
+
+@construction("threshold: value=NUM", cost=0.2)
+def without_unit(value: Lex) -> tuple[float, str]:
+    """Compose "30"."""
+    return (value.value, "")
+
+
+@construction("predicate: check=CMP value=threshold", "predicate: check=UPTO value=threshold", cost=0.1)
+def compared(check: Lex, value: tuple[float, str]) -> Test | None:
+    """Compose "above 30 degC"."""
+    if check.value in (None, "UPTO"):
+        return Test("", "le", value[0], value[1])
+    return Test("", check.value[0], value[0], value[1]) if not check.value[1] else None
+
+
+@construction(
+    "predicate: BETWEEN low=threshold AND high=threshold",
+    "predicate: BETWEEN low=threshold range_to high=threshold",
+    cost=0.1,
+)
+def between(low: tuple[float, str], high: tuple[float, str]) -> Test | None:
+    """Compose "between 20 and 30 degC"."""
+    if low[0] >= high[0] or (low[1] and high[1] and low[1] != high[1]):
+        return None
+    return Test("", "between", (low[0], high[0]), low[1] or high[1])
+
+
+@construction("predicate: BETWEEN low=NUM AND high=NUM unit=UNIT", cost=0.1)
+def between_in_unit(low: Lex, high: Lex, unit: Lex) -> Test | None:
+    """Compose "between 20 and 30 degC"."""
+    name, factor, offset = unit.value
+    first, second = (round(n.value * factor + offset, 6) for n in (low, high))
+    return Test("", "between", (first, second), name) if first < second else None
+
+
+@construction("predicate: value=amount OR MORE", "predicate: value=amount OR_MORE", cost=0.1)
+def or_more(value: Amount) -> Test:
+    """Compose "30 degC or more"."""
+    return Test("", "ge", value.number, value.unit)
+
+
+@construction("predicate: level=LEVEL", cost=0.1)
+def level(level: Lex) -> Test:
+    """Compose "high"."""
+    return Test("", "level", level.value)
+
+
+@construction("predicate: NOT test=predicate", cost=0.1)
+def negated(test: Test) -> Test:
+    """Compose "not above 30 degC"."""
+    return replace(test, negated=not test.negated)
+
+
+@construction(
+    "test: subject=subject IS test=predicate",
+    "test: subject=subject test=predicate",
+    "test: IS test=predicate",
+    "test: subject=subject IS [STILL] test=predicate",
+    cost=0.2,
+)
+def reading_is(test: Test, subject: str = "") -> Test:
+    """Compose "it is above 30 degC"."""
+    return replace(test, quantity=subject)
+
+
+@construction("test: subject=subject ISNOT test=predicate", "test: ISNOT test=predicate", cost=0.2)
+def reading_is_not(test: Test, subject: str = "") -> Test:
+    """Compose "it is not above 30 degC"."""
+    return replace(test, quantity=subject, negated=not test.negated)
+
+
+@construction("tests: test=test", cost=0.0)
+def one_test(test: Test) -> AllTests:
+    """Compose "it is high"."""
+    return AllTests((test,))
+
+
+@construction("tests: first=tests AND second=test", cost=0.3)
+def all_tests(first: AllTests, second: Test) -> AllTests | None:
+    """Compose "it is above 20 degC and it is below 30 degC"."""
+    return None if first.any_of else AllTests((*first.tests, second))
+
+
+@construction("tests: first=tests OR second=test", cost=0.3)
+def any_test(first: AllTests, second: Test) -> AllTests | None:
+    """Compose "it is below 20 degC or it is above 30 degC"."""
+    if len(first.tests) > 1 and not first.any_of:
+        return None
+    return AllTests((*first.tests, second), any_of=True)
+
+
+@construction("tests: subject=subject IS first=predicate OR second=predicate", cost=0.2)
+def either(subject: str, first: Test, second: Test) -> AllTests:
+    """Compose "it is below 20 degC or above 30 degC"."""
+    return AllTests((replace(first, quantity=subject), replace(second, quantity=subject)), any_of=True)
+
+
+@construction("tests: subject=subject IS first=predicate AND second=predicate", cost=0.2)
+def both_hold(subject: str, first: Test, second: Test) -> AllTests:
+    """Compose "it is above 20 degC and below 30 degC"."""
+    return AllTests((replace(first, quantity=subject), replace(second, quantity=subject)))
+
+
+@construction("when: UNLESS tests=tests", cost=0.3)
+def unless(tests: AllTests, used: int) -> When | None:
+    """Compose "unless it is high"."""
+    if len(tests.tests) > 1:
+        return None
+    return When(AllTests((replace(tests.tests[0], negated=not tests.tests[0].negated),)), used)
+
+
+@construction(
+    "test: IT IS value=ATTRVAL",
+    "test: IT value=ATTRVAL",
+    "test: IT IS DET value=ATTRVAL",
+    "test: DET TREE IS value=ATTRVAL",
+    cost=0.3,
+)
+def tree_is(value: Lex) -> list[Test]:
+    """Compose "it is yellow"."""
+    return [Test("", "eq", text, attribute=name) for name, text in value.value]
+
+
+@construction("test: IT ISNOT value=ATTRVAL", "test: IT IS NOT value=ATTRVAL", cost=0.3)
+def tree_is_not(value: Lex) -> list[Test]:
+    """Compose "it is not yellow"."""
+    return [Test("", "eq", text, attribute=name, negated=True) for name, text in value.value]
+
+
+@construction("test: IT IS check=CMP value=amount", "test: IT check=CMP value=amount", cost=0.3)
+def tree_compared(check: Lex, value: Amount) -> Test | None:
+    """Compose "it is older than 8 years"."""
+    if not check.value[1] or value.unit not in ("years", "kg"):
+        return None
+    return Test("", check.value[0], value.number, attribute=check.value[1])
+
+
+@construction("when: IF tests=tests", "when: WHERE tests=tests", cost=0.3)
+def when(tests: AllTests, used: int) -> When:
+    """Compose "if it is high"."""
+    return When(tests, used)
+
+
+@construction(
+    "question: MEASURE QUESTION tests=tests",
+    "question: MEASURE WHETHER tests=tests",
+    "question: MEASURE IF tests=tests",
+    cost=0.2,
+)
+def question(tests: AllTests, used: int) -> Question | None:
+    """Compose "check whether the temperature is high"."""
+    return Question(tests, None, used) if len(tests.tests) == 1 and tests.tests[0].quantity else None
+
+
+@construction(
+    "question: MEASURE QUESTION one=measured",
+    "question: MEASURE WHETHER one=measured",
+    "question: MEASURE IF one=measured",
+    cost=0.2,
+)
+def question_at(one: tuple[Place, Test], used: int) -> Question:
+    """Compose "check whether the temperature at tree 4 is high"."""
+    return Question(AllTests((one[1],)), one[0], used)
+
+
+@construction("failing: TRY", cost=0.2)
+def failing(used: int) -> Failing:
+    """Compose "if that fails"."""
+    return Failing(used)
+
+
+@construction("when: IFSO", cost=0.2)
+def if_so(used: int) -> When:
+    """Compose "if so"."""
+    return When(AllTests(()), used)
+
+
+@construction(
+    "means: [DET] BATTERY", "means: [DET] MEANS", "means: [DET] TIMEWORD", "means: [DET] noun=TIMES", cost=0.0
+)
+def means(noun: Lex | None = None) -> str | None:
+    """Compose "the battery"."""
+    return "means" if noun is None or noun.text == "time" else None
+
+
+@construction(
+    "allow: FITS",
+    "allow: IF means [STILL] ALLOW [IT]",
+    "allow: means PERMITTING",
+    "allow: IF THEREIS [STILL] [ENOUGH] means [LEFT]",
+    "allow: FITS AT means",
+    "allow: IF THEREIS [STILL] [SOME] means LEFT",
+    "allow: IF means IS LEFT",
+    cost=0.2,
+)
+def if_it_fits(used: int) -> Allowed:
+    """Compose "if the battery allows it"."""
+    return Allowed(used)
+
+
+@construction("until: UNTIL tests=tests", cost=0.3)
+def until(tests: AllTests, used: int) -> Until:
+    """Compose "until it is high"."""
+    return Until(tests, used)
+
+
+@construction("otherwise: OTHERWISE", cost=0.2)
+def otherwise(used: int) -> Otherwise:
+    """Compose "otherwise"."""
+    return Otherwise(used)

@@ -1,0 +1,127 @@
+"""Constructions of commands to drive, to return and to stop, of leading places, and of the order of visits."""
+
+from __future__ import annotations
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.meaning import Again, Drive, Halt, Home, InAnOrder, Lead, Place
+from fieldhand.planning.grammar.words import Lex
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+
+@construction("drive: TAKE place=place", cost=1.5)
+def pick(place: Place, used: int) -> Drive | None:
+    """Compose "take three trees"."""
+    return Drive(place, used) if place.shape == "several" else None
+
+
+@construction("drive: verb=GO [towards] place=place", "drive: VISIT place=place", cost=0.3)
+def drive_to(place: Place, used: int, verb: Lex | None = None) -> Drive:
+    """Compose "go to tree 4"."""
+    return Drive(place, used, begins=verb is not None and verb.text.startswith(("start", "begin")))
+
+
+@construction("towards: AT", "towards: ALONG", cost=0.0)
+def towards() -> str:
+    """Compose "to"."""
+    return "to"
+
+
+@construction("drive: GO WITH place=place", cost=0.5)
+def begin_with(place: Place, used: int) -> Drive | None:
+    """Compose "start with tree 4"."""
+    return Drive(place, used, begins=True) if place.shape == "one" else None
+
+
+@construction("drive: RETURN AT place=place", cost=0.5)
+def come_back_to(place: Place, used: int) -> Drive | None:
+    """Compose "come back to tree 4"."""
+    return Drive(place, used, returns=True) if place.shape == "one" else None
+
+
+@construction("drive: GO ALONG where=region", "drive: GO AT where=region", "drive: GO where=region", cost=0.2)
+def drive_along(where: s.Selector, used: int) -> Drive:
+    """Compose "drive along row 3"."""
+    return Drive(Place(where, "area"), used)
+
+
+@construction("ordered: order=ORDERED", "ordered: AT order=ORDERED", cost=0.1)
+def compass_order(order: Lex) -> tuple[str, str, bool]:
+    """Compose "from west to east"."""
+    return (order.value[0], "", False)
+
+
+@construction("ordered: ORDEROF attribute=ATTR", "ordered: ORDEROF DET attribute=ATTR", cost=0.1)
+def order_of_attribute(attribute: Lex) -> list[tuple[str, str, bool]]:
+    """Compose "in order of age"."""
+    return [("attribute", name, False) for name in attribute.value]
+
+
+@construction("ordered: [DET] rank=ranking FIRSTONE", "ordered: STARTING [DET] rank=ranking [ONE]", cost=0.1)
+def best_first(rank: tuple[str, bool]) -> tuple[str, str, bool] | None:
+    """Compose "oldest first"."""
+    return ("attribute", rank[0], not rank[1]) if rank[0] else None
+
+
+@construction("order: order=ordered", cost=0.2)
+def in_an_order(order: tuple[str, str, bool], used: int) -> InAnOrder:
+    """Compose "visit them from west to east"."""
+    return InAnOrder(order[0], order[1], order[2], used)
+
+
+@construction("order: INORDER", cost=0.2)
+def in_that_order(used: int) -> InAnOrder:
+    """Compose "in that order"."""
+    return InAnOrder("", "", False, used)
+
+
+@construction("order: NOORDER", "order: DISTINCT", cost=0.2)
+def in_any_order(used: int) -> InAnOrder:
+    """Compose "in any order"."""
+    return InAnOrder("any", "", False, used)
+
+
+@construction("lead: place=place", cost=1.6)
+def bare_place(place: Place, used: int) -> Lead | None:
+    """Compose "tree 4, ..."."""
+    return Lead(place, used, relation="") if place.shape in ("one", "several") else None
+
+
+@construction("lead: word=relation place=place", cost=0.5)
+def lead(place: Place, used: int, word: str) -> Lead | None:
+    """Compose "at tree 4, ..."."""
+    return Lead(place, used, word) if place.shape in ("one", "several", "area") else None
+
+
+@construction("home: GOHOME", "home: RETURN", "home: RETURN AT DET PLOT", cost=0.3)
+def go_home(used: int) -> Home:
+    """Compose "go home"."""
+    return Home("return_to_end", used)
+
+
+@construction("home: RETURN AT marker=marker", "home: RETURN marker=marker", cost=0.2)
+def return_to(marker: s.Selector, used: int) -> Home | None:
+    """Compose "return to the start"."""
+    if not isinstance(marker, s.Marker) or marker.name == "charger":
+        return None
+    return Home("return_to_start" if marker.name == "start" else "return_to_end", used)
+
+
+@construction("halt: noun=FINISH", cost=0.6)
+def finish(noun: Lex, used: int) -> Halt | None:
+    """Compose "finish"."""
+    return Halt(used) if noun.text in ("finish", "end") else None
+
+
+@construction("halt: STOP", cost=0.2)
+def halt(used: int) -> Halt:
+    """Compose "stop"."""
+    return Halt(used)
+
+
+@construction("again: REPEAT", "again: REPEAT relation place=place", cost=0.2)
+def again(used: int, place: Place | None = None) -> Again:
+    """Compose "do the same at tree 9"."""
+    return Again(place, used)

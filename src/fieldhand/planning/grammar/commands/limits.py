@@ -1,0 +1,77 @@
+"""Constructions of limits on distance, time and battery."""
+
+from __future__ import annotations
+
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.meaning import Amount, Limit
+from fieldhand.planning.grammar.words import Lex
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+_LIMITED = ("metres", "seconds", "percent")
+
+
+@construction(
+    "limit: INSIDE most=amount [of_what]",
+    "limit: word=AT most=amount [of_what]",
+    "limit: USE [less] most=amount [of_what]",
+    "limit: GO less most=amount [of_what]",
+    "limit: INSIDE most=amount OF GO",
+    cost=0.4,
+)
+def at_most(most: Amount, used: int, word: Lex | None = None) -> Limit | None:
+    """Compose "within 500 m"."""
+    if most.unit not in _LIMITED or (word is not None and (word.text != "in" or most.unit != "seconds")):
+        return None
+    return Limit(most, False, used)
+
+
+@construction("limit: HAVE most=amount [of_what]", cost=0.3)
+def given_so_much(most: Amount, used: int) -> Limit | None:
+    """Compose "you have 20 minutes"."""
+    return Limit(most, False, used) if most.unit in _LIMITED else None
+
+
+@construction("less: word=UPTO", "less: word=CMP", cost=0.0)
+def less(word: Lex) -> str | None:
+    """Compose "less than"."""
+    return "less" if word.value in (None, "UPTO") or word.value[0] in ("lt", "le") else None
+
+
+@construction(
+    "of_what: OF BATTERY",
+    "of_what: BATTERY",
+    "of_what: LIMIT",
+    "of_what: OF DET BATTERY",
+    "of_what: AT LIMIT",
+    cost=0.1,
+)
+def of_what() -> str:
+    """Compose "of battery"."""
+    return "of"
+
+
+@construction(
+    "limit: KEEP least=amount [of_what] [LEFT]",
+    "limit: KEEP check=CMP least=amount [of_what] [LEFT]",
+    "limit: BEFORE BATTERY [IS] [at] least=amount [LEFT]",
+    cost=0.3,
+)
+def keep(least: Amount, used: int, check: Lex | None = None) -> Limit | None:
+    """Compose "keep at least 30 % battery"."""
+    if least.unit != "percent" or (check is not None and check.value[0] not in ("gt", "ge")):
+        return None
+    return Limit(least, True, used)
+
+
+@construction("limit: RETURN BEFORE BATTERY [IS] [at] least=amount [LEFT]", cost=0.2)
+def back_before(least: Amount, used: int) -> Limit | None:
+    """Compose "be back before the battery is at 30 %"."""
+    return Limit(least, True, used, back=True) if least.unit == "percent" else None
+
+
+@construction("at: AT", "at: CMP", cost=0.0)
+def at_word() -> str:
+    """Compose "at"."""
+    return "at"

@@ -1,0 +1,151 @@
+"""Constructions of requests: commands, and what joins them."""
+
+from __future__ import annotations
+
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.meaning import (
+    After,
+    Allowed,
+    Capture,
+    Clause,
+    Command,
+    Connective,
+    Drive,
+    Failing,
+    Halt,
+    Home,
+    InAnOrder,
+    Lead,
+    Limit,
+    Otherwise,
+    Said,
+    When,
+)
+from fieldhand.planning.grammar.words import Lex
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+
+@construction(
+    "command: one=capture",
+    "command: one=drive",
+    "command: one=lead",
+    "command: one=home",
+    "command: one=halt",
+    "command: one=when",
+    "command: one=otherwise",
+    "command: one=limit",
+    "command: one=allow",
+    "command: one=until",
+    "command: one=again",
+    "command: one=order",
+    "command: one=after",
+    "command: one=question",
+    "command: one=failing",
+    cost=0.0,
+)
+def command(one: Command) -> Command:
+    """Compose "take a picture"."""
+    return one
+
+
+@construction("joint: [COMMA] AND COMMA [then] [COMMA]", cost=0.3)
+def joint_with_comma(used: int, then: str = "") -> Connective:
+    """Compose ", and, then"."""
+    return Connective(False, bool(then), used, both=True)
+
+
+@construction(
+    "joint: [COMMA] [AND] FIRSTLY [COMMA]",
+    "joint: FULLSTOP [AND] FIRSTLY [COMMA]",
+    "joint: COMMA BUT FIRSTLY",
+    cost=0.2,
+)
+def but_first(used: int) -> Connective:
+    """Compose ", but first"."""
+    return Connective(False, True, used, first=True)
+
+
+@construction("joint: [COMMA] both=AND [then]", "joint: COMMA [then]", "joint: then", cost=0.2)
+def joint(used: int, then: str = "", both: Lex | None = None) -> Connective:
+    """Compose "and"."""
+    return Connective(False, bool(then), used, both=both is not None)
+
+
+@construction("joint: [COMMA] [AND] then [COMMA]", cost=0.1)
+def then_joint(used: int) -> Connective:
+    """Compose "and then"."""
+    return Connective(False, True, used)
+
+
+@construction("joint: FULLSTOP [AND]", cost=0.1)
+def full_stop(used: int) -> Connective:
+    """Compose "."."""
+    return Connective(True, False, used)
+
+
+@construction("joint: FULLSTOP [AND] then [COMMA]", cost=0.1)
+def full_stop_then(used: int) -> Connective:
+    """Compose ". Then"."""
+    return Connective(True, True, used)
+
+
+@construction("joint: word=BEFORE", cost=0.3)
+def before_doing(word: Lex, used: int) -> Connective | None:
+    """Compose "before"."""
+    return Connective(False, True, used) if word.text == "before" else None
+
+
+@construction("then: word=THEN", cost=0.0)
+def then(word: Lex) -> str | None:
+    """Compose "then"."""
+    return None if word.text == "after" else "then"
+
+
+@construction("after: word=THEN done=capture", "after: word=THEN done=drive", cost=0.2)
+def after_doing(word: Lex, done: Capture | Drive, used: int) -> After | None:
+    """Compose "after photographing tree 4"."""
+    return After(done, used) if word.text == "after" else None
+
+
+@construction("said: one=command", "said: then [COMMA] one=command", cost=0.0)
+def first_command(one: Command) -> Said:
+    """Compose "take a picture"."""
+    return Said((Clause(None, one),))
+
+
+@construction("said: before=said joint=joint one=command", cost=0.3)
+def next_command(before: Said, joint: Connective, one: Command) -> Said:
+    """Compose "take a picture and go to tree 4"."""
+    return Said((*before.clauses, Clause(joint, one)))
+
+
+@construction(
+    "said: before=said one=when",
+    "said: before=said one=limit",
+    "said: before=said one=capture",
+    "said: before=said one=allow",
+    "said: before=said one=until",
+    "said: before=said one=halt",
+    "said: before=said one=order",
+    "said: before=said one=after",
+    "said: before=said one=drive",
+    "said: before=said one=home",
+    cost=0.8,
+)
+def without_joint(before: Said, one: Command) -> Said | None:
+    """Compose "take a picture if it is high"."""
+    if (
+        isinstance(one, Capture | Halt | Drive | Home)
+        and not isinstance(before.clauses[-1].command, When | Otherwise | Lead | Limit | Allowed | InAnOrder | Failing)
+        and not (isinstance(one, Capture) and isinstance(before.clauses[-1].command, Drive))
+    ):
+        return None
+    return Said((*before.clauses, Clause(None, one)))
+
+
+@construction("request: said=said [FULLSTOP]", cost=0.0)
+def request(said: Said) -> Said:
+    """Compose "take a picture at tree 4."."""
+    return said

@@ -1,0 +1,99 @@
+"""Constructions of captures: their kinds and numbers, and the words that tie them to a place."""
+
+from __future__ import annotations
+
+from fieldhand.planning.english.naming import Naming
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.meaning import LAST_THING, Thing
+from fieldhand.planning.grammar.words import Lex
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+
+@construction("thing: [DET] noun=NOUN", cost=0.0)
+def thing(noun: Lex) -> Thing | None:
+    """Compose "a picture"."""
+    naming: Naming = noun.value
+    return Thing(naming.actions[0], plural=noun.plural) if naming.actions else None
+
+
+@construction("thing: word=DET noun=NOUN", "thing: word=ANOTHER noun=NOUN", cost=0.0)
+def one_thing(word: Lex, noun: Lex) -> Thing | None:
+    """Compose "another picture"."""
+    naming: Naming = noun.value
+    single = word.text in ("a", "an", "another", "one more") and not noun.plural
+    return Thing(naming.actions[0], count=1) if naming.actions and single else None
+
+
+@construction("thing: n=count [MORE] noun=NOUN", cost=0.0)
+def so_many_things(n: int, noun: Lex) -> Thing | None:
+    """Compose "three pictures"."""
+    naming: Naming = noun.value
+    return Thing(naming.actions[0], count=n, plural=True) if naming.actions else None
+
+
+@construction("thing: [DET] noun=NOUN READING", "thing: READING OF [DET] noun=NOUN", cost=0.1)
+def reading_of(noun: Lex) -> Thing | None:
+    """Compose "the temperature reading"."""
+    naming: Naming = noun.value
+    return Thing(naming.actions[0]) if naming.actions else None
+
+
+@construction("thing: n=count noun=NOUN READING", cost=0.1)
+def readings_of(n: int, noun: Lex) -> Thing | None:
+    """Compose "three temperature readings"."""
+    naming: Naming = noun.value
+    return Thing(naming.actions[0], count=n, plural=True) if naming.actions else None
+
+
+@construction("thing: n=count", "thing: n=count ONE", cost=1.5)
+def so_many_of_them(n: int) -> Thing:
+    """Compose "two more"."""
+    return Thing(LAST_THING, count=n, plural=n > 1)
+
+
+@construction("thing: ANOTHER", "thing: ANOTHER ONE", cost=1.5)
+def another_of_them() -> Thing:
+    """Compose "another one"."""
+    return Thing(LAST_THING, count=1)
+
+
+@construction("thing: IT AGAIN", "thing: DET SAME", cost=0.5)
+def it_again() -> Thing:
+    """Compose "the same"."""
+    return Thing(LAST_THING)
+
+
+@construction("things: one=thing", cost=0.0)
+def things(one: Thing) -> tuple[Thing, ...]:
+    """Compose "two pictures"."""
+    return (one,)
+
+
+@construction("things: first=things AND second=things", "things: first=things COMMA second=things", cost=0.3)
+def more_things(first: tuple[Thing, ...], second: tuple[Thing, ...]) -> tuple[Thing, ...] | None:
+    """Compose "a picture and the temperature"."""
+    names = [one.action for one in (*first, *second)]
+    return (*first, *second) if len(set(names)) == len(names) else None
+
+
+@construction("verb: TAKE", "verb: MEASURE", cost=0.0)
+def capture_verb() -> str:
+    """Compose "take"."""
+    return "take"
+
+
+@construction(
+    "relation: word=AT",
+    "relation: word=OF",
+    "relation: word=FOR",
+    "relation: word=FROM",
+    "relation: word=ALONG",
+    cost=0.0,
+)
+def relation(word: Lex) -> str | None:
+    """Compose "of"."""
+    if word.text == "of":
+        return "of"
+    return "at" if word.text not in ("to", "toward", "towards", "up to", "down to", "out to", "into", "onto") else None

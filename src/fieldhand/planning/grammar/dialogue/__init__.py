@@ -1,0 +1,22 @@
+"""What the clauses of a request mean together: pure functions from a state and a clause to the next state.
+
+The rules:
+
+* A command belongs to the condition of its own sentence; a new sentence without a condition goes back to the plan
+  itself.
+* A condition tests the last reading of its quantity, and stands behind the capture that takes it.
+* A condition with no command behind it in its sentence decides the command before it.
+* A command without a place is done where the command before it was; at several places, at each of them.
+
+``clauses`` reads clause by clause (:class:`Dialogue`) and leaves each kind of command to ``capturing``, ``driving``,
+``conditions`` or ``allowances``. ``state`` and ``plans`` have the state and what is done with the plan in it;
+``fitting`` decides how many visits and captures a place means, and ``tested`` which reading a test is about.
+"""
+
+from __future__ import annotations
+
+from fieldhand.planning.grammar.dialogue.clauses import Dialogue
+from fieldhand.planning.grammar.dialogue.plans import whole_plan
+from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed
+
+__all__ = ["Dialogue", "DialogueState", "NotComposed", "whole_plan"]

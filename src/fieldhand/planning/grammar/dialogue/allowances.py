@@ -1,0 +1,55 @@
+"""Work that is done only if the budget allows it, or if a command before it fails."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from fieldhand.planning.grammar.dialogue.plans import EMPTY
+from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, with_last_step, with_step
+from fieldhand.planning.grammar.meaning import Allowed, Clause, Connective, Failing
+from fieldhand.task import plan as p
+
+
+def allowed(
+    setting: Setting, state: DialogueState, command: Allowed, following: Sequence[Clause], joint: Connective | None
+) -> DialogueState:
+    """Return the state in which the commands that follow are optional, or the one before if none follows.
+
+    Args:
+        setting: What is known beside the clauses.
+        state: State before it.
+        command: The words that say so.
+        following: Further commands of the sentence.
+        joint: Connective before these words.
+
+    Raises:
+        NotComposed: What may be left out is unclear.
+    """
+    said, steps = setting.spans_of(command.used), state.block.steps
+    if state.awaits_command:
+        raise NotComposed("all these places together, or each of them?")
+    if state.commands_in_sentence and any(isinstance(step, p.ForEach) and step.optional for step in steps[-1:]):
+        raise NotComposed("it may be left out already")
+    after_and = joint is None or joint.both or joint.then or joint.full
+    if following and state.commands_in_sentence and not after_and:
+        raise NotComposed("what is left out if the budget is short?")
+    if following:
+        inside = (*state.next_step, "body")
+        state = with_step(state, p.OptionalStep(id="", body=EMPTY, said=said))
+        return replace(state, scope=inside, open=True, loop=None)
+    if not steps or state.commands_in_sentence != 1:
+        raise NotComposed("what is left out if the budget is short?")
+    body = p.InOrder(id="", steps=steps[-1:])
+    return replace(with_last_step(state, p.OptionalStep(id="", body=body, said=said)), loop=None, captured=None)
+
+
+def failing(setting: Setting, state: DialogueState, command: Failing) -> DialogueState:
+    """Return the state in which the next commands are done if the last one fails."""
+    steps = state.block.steps
+    if not steps:
+        raise NotComposed("what fails?")
+    inside = (*state.scope, len(steps) - 1, "otherwise")
+    body = p.InOrder(id="", steps=steps[-1:])
+    state = with_last_step(state, p.Try(id="", body=body, otherwise=EMPTY, said=setting.spans_of(command.used)))
+    return replace(state, scope=inside, open=True, loop=None, captured=None, choice=None)

@@ -1,0 +1,194 @@
+"""Commands to capture something: at one place, at each of several, or where the last command was."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.dialogue.driving import drive, may_be_left_out, ordered, require_known, visits
+from fieldhand.planning.grammar.dialogue.fitting import (
+    fitted,
+    in_area,
+    in_each_row,
+    is_rows,
+    is_spoken_of,
+    spaced,
+    within_area,
+)
+from fieldhand.planning.grammar.dialogue.plans import EMPTY, captures_at_last_place, is_inside
+from fieldhand.planning.grammar.dialogue.state import (
+    DialogueState,
+    NotComposed,
+    Path,
+    Setting,
+    Spans,
+    done_at,
+    with_capture,
+    with_step,
+)
+from fieldhand.planning.grammar.meaning import LAST_THING, Again, Capture, Drive, Place, Thing
+from fieldhand.task import plan as p
+
+
+def capture(setting: Setting, state: DialogueState, command: Capture) -> DialogueState:
+    """Return the state after a capture."""
+    things = meant_things(state, command.things)
+    place, state, before = _place_of(setting, state, command)
+    said = (*before, *setting.spans_of(command.used))
+    if command.spacing is not None:
+        if place is not None and place.shape == "several":
+            line, once = spaced(None, things, command.spacing, setting.site)
+            return _lines_at_each(state, replace(command, things=once), place, line, said)
+        place, things = spaced(place, things, command.spacing, setting.site)
+    require_known(state, place, setting.site)
+    if place is None or place.shape in ("here", "those"):
+        return _at_the_same_place(state, replace(command, things=things, place=place), said)
+    place, things = fitted(place, things, command.relation, setting.site)
+    if place.shape == "one":
+        return capture_once(state, replace(command, things=things), place, said)
+    return _capture_at_each(setting, replace(state, loop=None), replace(command, things=things), place, said)
+
+
+def capture_once(state: DialogueState, command: Capture, place: Place, said: Spans) -> DialogueState:
+    """Return the state after captures at one place."""
+    state = replace(state, loop=None)
+    for number, thing in enumerate(command.things):
+        act = _act(thing, command.times, said)
+        if number == 0:
+            act = replace(act, at=place.selector, at_said=said)
+        state = with_capture(state, act, state.scope)
+    return done_at(replace(state, things=command.things), place)
+
+
+def _capture_at_each(
+    setting: Setting, state: DialogueState, command: Capture, place: Place, said: Spans
+) -> DialogueState:
+    """Return the state after captures at each of several places."""
+    loop = replace(visits(place, said), order="given" if place.in_order else "best")
+    if state.order is not None:
+        loop = ordered(loop, state.order, setting.spans_of(state.order.used))
+        state = replace(state, order=None)
+    inside = (*state.next_step, "body")
+    state = with_step(state, loop)
+    state = _with_captures(state, command.things, command.times, said, inside)
+    return replace(done_at(state, place), things=command.things, loop=inside)
+
+
+def _with_captures(
+    state: DialogueState, things: tuple[Thing, ...], times: int, said: Spans, scope: Path
+) -> DialogueState:
+    """Return the state after captures in a block."""
+    for thing in things:
+        state = with_capture(state, _act(thing, times, said), scope)
+    return state
+
+
+def _act(thing: Thing, times: int, said: Spans) -> p.Act:
+    """Return the step of a capture."""
+    return p.Act(id="", action=thing.action, count=(thing.count or 1) * times, said=said)
+
+
+def meant_things(state: DialogueState, things: tuple[Thing, ...]) -> tuple[Thing, ...]:
+    """Return captures, those that refer to the last ones resolved.
+
+    Raises:
+        NotComposed: What they refer to is unclear.
+    """
+    if not any(thing.action == LAST_THING for thing in things):
+        return things
+    if len(things) != 1 or len(state.things) != 1:
+        raise NotComposed("another what?")
+    if may_be_left_out(state):
+        raise NotComposed("another of what may be left out?")
+    return (replace(things[0], action=state.things[0].action),)
+
+
+def _place_of(setting: Setting, state: DialogueState, command: Capture) -> tuple[Place | None, DialogueState, Spans]:
+    """Return the place of a command, with the area or lead before it, the state without these, and their spans."""
+    place, before = command.place, state.lead or state.area
+    if before is None:
+        return within_area(place, state.within), state, ()
+    state, said = replace(state, lead=None, area=None), setting.spans_of(before.used)
+    first = before.place
+    if first.shape == "area" and first.per is None:
+        return in_area(before, place), replace(state, within=first.selector), said
+    if first.per is not None and place is not None and place.per is None and place.shape in ("one", "several"):
+        if first.shape != "area":
+            raise NotComposed("two places for one command")
+        return in_each_row(first.per, place), state, said
+    if first.shape == "one" and (place is None or place.shape in ("here", "nearby", "step")):
+        moves = place is not None and place.shape != "here"
+        return place if moves else None, drive(setting, state, Drive(first, before.used)), ()
+    if first.shape == "several" and is_spoken_of(place):
+        return first, state, said
+    raise NotComposed("two places for one command")
+
+
+def _lines_at_each(state: DialogueState, command: Capture, place: Place, line: Place, said: Spans) -> DialogueState:
+    """Return the state after captures along a line at each of several places."""
+    inside = (*state.next_step, "body")
+    each = p.ForEach(id="", select=place.selector, body=EMPTY, said=said)
+    state = with_step(replace(state, loop=None), each)
+    spots = p.ForEach(id="", select=line.selector, body=EMPTY, said=said)
+    state = with_step(replace(state, scope=inside), spots)
+    state = _with_captures(state, command.things, command.times, said, (*inside, 0, "body"))
+    return replace(done_at(state, place), things=command.things, scope=inside[:-2], loop=inside)
+
+
+def _at_the_same_place(state: DialogueState, command: Capture, said: Spans) -> DialogueState:
+    """Return the state after captures where the last command was: at each of its places if it went to several."""
+    if command.place is None and not state.plan.steps:
+        raise NotComposed("at which tree?")
+    if command.place is not None and state.where is None:
+        raise NotComposed("which place is meant?")
+    scope = state.scope
+    if state.loop is not None and not is_inside(scope, state.loop):
+        scope = state.loop
+    elif command.place is not None and command.place.shape == "those" and state.loop is None:
+        raise NotComposed("which places are meant?")
+    state = _with_captures(state, command.things, command.times, said, scope)
+    return replace(state, things=command.things, commands_in_sentence=state.commands_in_sentence + 1)
+
+
+def capture_elided(setting: Setting, state: DialogueState) -> DialogueState:
+    """Return the state after what was done last at a place named at the end ("..., then at the southernmost tree")."""
+    lead = state.lead
+    if lead is None or not state.things or lead.place.shape not in ("one", "several", "area"):
+        return state
+    if lead.relation == "" and isinstance(lead.place.selector, s.Marker):
+        raise NotComposed("another place, or another place to measure from?")
+    things = state.things
+    if lead.place.shape != "area":
+        things = tuple(replace(thing, count=None) for thing in things)
+    elif lead.relation == "of" or (state.where is not None and state.where.shape != "area"):
+        raise NotComposed("every tree, or how many?")
+    return capture(setting, replace(state, lead=None), Capture(things, lead.place, lead.used))
+
+
+def capture_again(setting: Setting, state: DialogueState, command: Again) -> DialogueState:
+    """Return the state after what was done at the last place was done at another one."""
+    place, steps = command.place, state.plan.steps
+    if place is None or state.scope or not steps or place.per is not None:
+        raise NotComposed("what is repeated where?")
+    if isinstance(steps[-1], p.OptionalStep | p.If | p.Try):
+        raise NotComposed("what is repeated where?")
+    if place.shape == "area":
+        last = steps[-1]
+        if not isinstance(last, p.ForEach) or not is_rows(last.select) or not is_rows(place.selector):
+            raise NotComposed("what is repeated where?")
+        place = replace(place, shape="several")
+    if place.shape not in ("one", "several"):
+        raise NotComposed("what is repeated where?")
+    said = setting.spans_of(command.used)
+    captures = [replace(act, at=None, at_said=(), reading="", said=said) for act in captures_at_last_place(steps)]
+    if not captures:
+        raise NotComposed("what is repeated?")
+    if place.shape == "one":
+        state, inside = drive(setting, state, Drive(place, command.used)), state.scope
+    else:
+        loop = p.ForEach(id="", select=place.selector, body=EMPTY, said=said)
+        inside = (len(steps), "body")
+        state = replace(with_step(state, loop), loop=inside)
+    for act in captures:
+        state = with_capture(state, act, inside)
+    return done_at(state, place)

@@ -1,0 +1,212 @@
+"""Reading a request clause by clause."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.dialogue.allowances import allowed, failing
+from fieldhand.planning.grammar.dialogue.capturing import capture, capture_again, capture_elided, meant_things
+from fieldhand.planning.grammar.dialogue.conditions import otherwise, question, until, when
+from fieldhand.planning.grammar.dialogue.driving import drive, driven_home, go_home, put_in_order, without_home
+from fieldhand.planning.grammar.dialogue.fitting import is_spoken_of
+from fieldhand.planning.grammar.dialogue.plans import EMPTY, walk
+from fieldhand.planning.grammar.dialogue.state import (
+    DialogueState,
+    NotComposed,
+    Setting,
+    Spans,
+    with_joints,
+    with_step,
+)
+from fieldhand.planning.grammar.meaning import (
+    After,
+    Again,
+    Allowed,
+    Capture,
+    Clause,
+    Command,
+    Connective,
+    Drive,
+    Failing,
+    Halt,
+    Home,
+    InAnOrder,
+    Lead,
+    Limit,
+    Otherwise,
+    Place,
+    Question,
+    Said,
+    Until,
+    When,
+    chooses_from_trees,
+)
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
+from fieldhand.task import plan as p
+
+
+@dataclass(frozen=True)
+class Dialogue:
+    """Reads clauses for a robot.
+
+    Args:
+        robot: Robot profile.
+        site: Site, whose rows are named where something is said of each of them.
+        spans_of: Returns the character ranges of a bit mask of tokens.
+    """
+
+    robot: RobotProfile
+    site: Site
+    spans_of: Callable[[int], Spans]
+
+    def read(self, said: Said) -> DialogueState:
+        """Return the state after all clauses.
+
+        Raises:
+            NotComposed: The clauses do not fit together.
+        """
+        setting, state = Setting(self.robot, self.site, self.spans_of), DialogueState()
+        for k, clause in enumerate(said.clauses):
+            state = _read(setting, state, clause, said.clauses[k + 1 :])
+        return _ended(capture_elided(setting, state))
+
+
+def _ended(state: DialogueState) -> DialogueState:
+    """Return the state at the end of the request.
+
+    Raises:
+        NotComposed: Something is missing.
+    """
+    if all(isinstance(step, p.StopMission) for step in state.plan.steps):
+        raise NotComposed("nothing is done")
+    for _, node in walk(state.plan):
+        if isinstance(node, p.OptionalStep) and all(isinstance(one, p.GoTo | p.InOrder) for one in p.walk(node.body)):
+            raise NotComposed("what may be left out?")
+    if state.open or state.awaits_command or state.order is not None:
+        raise NotComposed("nothing is done there")
+    if state.nominal is None and state.in_case is not None:
+        return replace(state, nominal=state.in_case)
+    if state.nominal is None and state.returned and isinstance(state.plan.steps[-1], p.GoTo):
+        return replace(state, nominal="stay")
+    return state
+
+
+def _read(setting: Setting, state: DialogueState, clause: Clause, following: Sequence[Clause]) -> DialogueState:
+    """Return the state after a clause."""
+    joint, command = clause.before, clause.command
+    if joint is not None and joint.first:
+        return _do_before_last(setting, state, command, joint, following)
+    if state.plan.steps and isinstance(command, Capture | Drive | Lead | When | Again | Halt):
+        state = driven_home(setting, state)
+    if joint is not None and joint.full:
+        state = _new_sentence(setting, state, command)
+    if joint is not None and joint.then:
+        state = with_joints(state, setting.spans_of(joint.used))
+    match command:
+        case Capture():
+            if joint is None and state.lead is not None and not state.lead.relation:
+                raise NotComposed("an announcement, or a command?")  # "two trees get a picture"
+            return capture(setting, state, command)
+        case Drive():
+            return drive(setting, state, command)
+        case Lead():
+            return _lead(setting, state, command)
+        case Home():
+            return go_home(setting, state, command)
+        case Halt():
+            return with_step(state, p.StopMission(id="", said=setting.spans_of(command.used)))
+        case When():
+            return when(setting, state, command, _rest_of_sentence(following))
+        case Otherwise():
+            return otherwise(setting, state, setting.spans_of(command.used))
+        case Limit():
+            return _limit(setting, state, command)
+        case Allowed():
+            return allowed(setting, state, command, _rest_of_sentence(following), joint)
+        case Until():
+            return until(setting, state, command)
+        case Again():
+            return capture_again(setting, state, command)
+        case InAnOrder():
+            return put_in_order(setting, state, command)
+        case After():
+            return _after(setting, state, command)
+        case Question():
+            return question(setting, state, command)
+        case Failing():
+            return failing(setting, state, command)
+
+
+def _rest_of_sentence(following: Sequence[Clause]) -> list[Clause]:
+    """Return the clauses up to the end of the sentence that are neither limits nor the end of the mission."""
+    found: list[Clause] = []
+    for clause in following:
+        if clause.before is not None and clause.before.full:
+            break
+        if not isinstance(clause.command, Limit | Home):
+            found.append(clause)
+    return found
+
+
+def _new_sentence(setting: Setting, state: DialogueState, command: Command) -> DialogueState:
+    """Return the state at the beginning of a sentence whose first command is known."""
+    state = capture_elided(setting, state)
+    if state.open or state.lead is not None:
+        raise NotComposed("a sentence ends before it says what to do")
+    area = state.area
+    if area is not None:
+        place = command.place if isinstance(command, Capture) else None
+        if place is not None and chooses_from_trees(place.selector):
+            raise NotComposed("of that area, or of the whole site?")
+        one = Place(s.Take(count=1, of=area.place.selector), "one")
+        state = drive(setting, replace(state, area=None), Drive(one, area.used))
+    scope = state.scope if isinstance(command, Otherwise) else ()
+    return replace(state, scope=scope, commands_in_sentence=0, within=None)
+
+
+def _lead(setting: Setting, state: DialogueState, command: Lead) -> DialogueState:
+    """Return the state in which the next command is done at a place."""
+    state = capture_elided(setting, state)
+    if state.awaits_command:
+        raise NotComposed("two places for one command")
+    return replace(state, lead=command)
+
+
+def _limit(setting: Setting, state: DialogueState, command: Limit) -> DialogueState:
+    """Return the state after a limit."""
+    said = setting.spans_of(command.used)
+    state = replace(state, limits=(*state.limits, command), limits_said=(*state.limits_said, said))
+    return replace(state, nominal="return_to_start") if command.back and state.nominal is None else state
+
+
+def _do_before_last(
+    setting: Setting, state: DialogueState, command: Command, joint: Connective, following: Sequence[Clause]
+) -> DialogueState:
+    """Return the state after a capture that is done before the command that was read last ("..., but first ...")."""
+    steps = state.plan.steps
+    if state.scope or not steps or following or not isinstance(command, Capture):
+        raise NotComposed("before what?")
+    last = steps[-1]
+    if not isinstance(last, p.ForEach) and not (isinstance(last, p.Act) and last.at is not None):
+        raise NotComposed("before what?")
+    state = capture(setting, replace(state, plan=EMPTY, loop=None, captured=None, where=None), command)
+    plan = p.InOrder(id="", steps=(*steps[:-1], *state.plan.steps, last))
+    return replace(with_joints(state, setting.spans_of(joint.used)), plan=plan, captured=None, loop=None)
+
+
+def _after(setting: Setting, state: DialogueState, command: After) -> DialogueState:
+    """Return the state after a command that is done before the others of its sentence, unless it was done already."""
+    done, home = command.done, state.home
+    if isinstance(done, Capture) and is_spoken_of(done.place):
+        if {thing.action for thing in meant_things(state, done.things)} <= {thing.action for thing in state.things}:
+            return with_joints(state, setting.spans_of(command.used))
+        raise NotComposed("after what?")
+    if state.commands_in_sentence and home is None:
+        raise NotComposed("after what?")
+    state = without_home(state) if home is not None else state
+    state = capture(setting, state, done) if isinstance(done, Capture) else drive(setting, state, done)
+    # "Return to the start after photographing tree 9."
+    return go_home(setting, state, home) if home is not None else state

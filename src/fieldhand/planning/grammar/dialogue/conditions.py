@@ -1,0 +1,175 @@
+"""Conditions, the other case, questions, and what ends a repetition."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from fieldhand.planning.grammar.dialogue.capturing import capture, capture_once
+from fieldhand.planning.grammar.dialogue.plans import (
+    EMPTY,
+    Path,
+    block_at,
+    is_conditional,
+    is_inside,
+    node_at,
+    with_node,
+)
+from fieldhand.planning.grammar.dialogue.state import (
+    DialogueState,
+    NotComposed,
+    Setting,
+    Spans,
+    with_joints,
+    with_last_step,
+    with_step,
+)
+from fieldhand.planning.grammar.dialogue.tested import condition_of, reading_before
+from fieldhand.planning.grammar.meaning import AllTests, Capture, Clause, Otherwise, Place, Question, Thing, Until, When
+from fieldhand.robot.model import RobotProfile
+from fieldhand.task import conditions as c
+from fieldhand.task import plan as p
+
+
+def when(setting: Setting, state: DialogueState, command: When, following: Sequence[Clause]) -> DialogueState:
+    """Return the state after a condition.
+
+    Args:
+        setting: What is known beside the clauses.
+        state: State before it.
+        command: Condition.
+        following: Further commands of its sentence.
+
+    Raises:
+        NotComposed: What is tested, or what depends on it, is unclear.
+    """
+    decides_last = state.commands_in_sentence > 0 and (not following or isinstance(following[0].command, Otherwise))
+    if command.measured_at is not None:
+        if decides_last:
+            raise NotComposed("what is decided?")
+        state = _measured(setting, state, command.tests.tests[0].quantity, command.measured_at, command.used)
+    if not command.tests.tests:
+        if state.asked is None:
+            raise NotComposed("if what is so?")
+        command = replace(command, tests=state.asked)
+    said, robot = setting.spans_of(command.used), setting.robot
+    vague = [test for test in command.tests.tests if not test.quantity and not test.attribute]
+    if vague and len([thing for thing in state.things if robot.action[thing.action].measures]) > 1:
+        raise NotComposed("which reading is tested?")
+    if decides_last:
+        return _decide_last(state, command, said, robot)
+    if state.awaits_command:
+        raise NotComposed("a condition before what is done there")
+    if _is_opposite(state, command.tests):
+        return otherwise(setting, state, said)
+    inner = state.captured is not None and is_conditional(state.captured)
+    if inner and state.decided is not None and any(not test.unit for test in vague):
+        raise NotComposed("which reading is tested?")
+    return _choice(state, command.tests, said, robot)
+
+
+def _choice(state: DialogueState, tests: AllTests, said: Spans, robot: RobotProfile) -> DialogueState:
+    """Return the state in which the next commands depend on tests."""
+    condition, state = condition_of(state, tests, robot)
+    scope = _scope_of_test(state)
+    path = (*scope, len(block_at(state.plan, scope).steps))
+    state = with_step(replace(state, scope=scope), p.If(id="", condition=condition, then=EMPTY, said=said))
+    return replace(state, scope=(*path, "then"), choice=path, decided=tests, open=True)
+
+
+def _scope_of_test(state: DialogueState) -> Path:
+    """Return the block in which the tested capture stands: the condition comes behind it."""
+    if state.captured is not None:
+        return state.captured[:-1]
+    return state.loop if state.loop is not None else state.scope
+
+
+def _decide_last(state: DialogueState, command: When, said: Spans, robot: RobotProfile) -> DialogueState:
+    """Return the state in which a condition decides the last command."""
+    steps = state.block.steps
+    if not steps:
+        raise NotComposed("nothing depends on the condition")
+    inside = (*state.scope, len(steps) - 1)
+    state = replace(state, captured=reading_before(state.plan, inside, robot))
+    condition, state = condition_of(state, command.tests, robot)
+    if all(test.attribute for test in command.tests.tests):
+        return _decide_last_at_tree(state, condition, said)
+    if state.captured is None or is_inside(state.captured, inside):
+        raise NotComposed("which reading is tested?")
+    last = p.InOrder(id="", steps=state.block.steps[-1:])
+    state = with_last_step(state, p.If(id="", condition=condition, then=last, said=said))
+    return replace(state, choice=inside, decided=command.tests, loop=None)
+
+
+def _decide_last_at_tree(state: DialogueState, condition: c.Condition, said: Spans) -> DialogueState:
+    """Return the state in which a condition on the tree decides the last capture, at the tree or at each of several."""
+    *rest, last = state.block.steps
+    if isinstance(last, p.ForEach):
+        choice = p.If(id="", condition=condition, then=last.body, said=said)
+        steps: tuple[p.Node, ...] = (*rest, replace(last, body=p.InOrder(id="", steps=(choice,))))
+        path: Path = (*state.scope, len(rest), "body", 0)
+    elif isinstance(last, p.Act) and last.at is not None:
+        here = replace(last, at=None, at_said=())
+        choice = p.If(id="", condition=condition, then=p.InOrder(id="", steps=(here,)), said=said)
+        steps = (*rest, p.GoTo(id="", place=last.at, said=last.at_said), choice)
+        path = (*state.scope, len(rest) + 1)
+    else:
+        raise NotComposed("which tree is tested?")
+    plan = with_node(state.plan, state.scope, p.InOrder(id="", steps=steps))
+    return replace(state, plan=plan, choice=path, decided=None, loop=None, captured=None)
+
+
+def _is_opposite(state: DialogueState, tests: AllTests) -> bool:
+    """Return True if a test is the last one negated: its commands are the other case."""
+    last = state.decided
+    if last is None or state.choice is None or len(tests.tests) != 1 or len(last.tests) != 1:
+        return False
+    one, other = tests.tests[0], last.tests[0]
+    negated = replace(other, negated=not other.negated, quantity=one.quantity)
+    return one == negated and one.quantity in ("", other.quantity)
+
+
+def otherwise(setting: Setting, state: DialogueState, said: Spans) -> DialogueState:
+    """Return the state in which the next commands are done if the last condition is false."""
+    if state.choice is None and state.asked is not None:
+        test = state.asked.tests[0]
+        opposite = AllTests((replace(test, negated=not test.negated),))
+        return when(setting, with_joints(replace(state, asked=None), said), When(opposite, 0), ())
+    choice = None if state.choice is None else node_at(state.plan, state.choice)
+    if state.choice is None or not isinstance(choice, p.If) or choice.otherwise is not None:
+        raise NotComposed("otherwise than what?")
+    steps, number = block_at(state.plan, state.choice[:-1]).steps, state.choice[-1]
+    if isinstance(number, int) and number > 0 and isinstance(steps[number - 1], p.If):
+        raise NotComposed("otherwise than which of them?")
+    both = replace(choice, otherwise=EMPTY, said=(*choice.said, *said))
+    plan = with_node(state.plan, state.choice, both)
+    return replace(state, plan=plan, scope=(*state.choice, "otherwise"), open=True)
+
+
+def until(setting: Setting, state: DialogueState, command: Until) -> DialogueState:
+    """Return the state in which a reading taken in the last for-each ends it."""
+    if state.loop is None or state.captured is None or not is_inside(state.captured, state.loop):
+        raise NotComposed("what ends?")
+    path = state.loop[:-1]
+    condition, state = condition_of(state, command.tests, setting.robot)
+    loop = node_at(state.plan, path)
+    if not isinstance(loop, p.ForEach):
+        raise NotComposed("what ends?")
+    return replace(state, plan=with_node(state.plan, path, replace(loop, until=condition)))
+
+
+def question(setting: Setting, state: DialogueState, command: Question) -> DialogueState:
+    """Return the state after the reading that a question is about; "if so" tests it."""
+    action = setting.action_measuring(command.tests.tests[0].quantity)
+    if action is None:
+        raise NotComposed("what is measured?")
+    state = capture(setting, state, Capture((Thing(action),), command.place, command.used))
+    return replace(state, asked=command.tests)
+
+
+def _measured(setting: Setting, state: DialogueState, quantity: str, place: Place, used: int) -> DialogueState:
+    """Return the state after the reading that a condition asks for, at a place of its own."""
+    action = setting.action_measuring(quantity)
+    if action is None or place.shape != "one":
+        raise NotComposed("what is measured where?")
+    return capture_once(state, Capture((Thing(action),), place, used), place, setting.spans_of(used))

@@ -1,0 +1,155 @@
+"""Commands to drive, to return and to visit places in an order."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import cast
+
+from fieldhand.places import selectors as s
+from fieldhand.places.picks.ordered import Order
+from fieldhand.planning.grammar.dialogue.plans import EMPTY, is_conditional, is_inside, node_at, with_node
+from fieldhand.planning.grammar.dialogue.state import (
+    DialogueState,
+    NotComposed,
+    Setting,
+    Spans,
+    done_at,
+    with_joints,
+    with_step,
+)
+from fieldhand.planning.grammar.meaning import Drive, Home, InAnOrder, Place
+from fieldhand.site.model import Site
+from fieldhand.task import plan as p
+
+_COMPASS = frozenset({"north", "east", "south", "west"})
+
+
+def drive(setting: Setting, state: DialogueState, command: Drive) -> DialogueState:
+    """Return the state after a drive to one or several places, or into an area of which more is said."""
+    said, place = setting.spans_of(command.used), command.place
+    if command.begins and state.plan.steps:
+        raise NotComposed("where to begin is said too late")
+    require_known(state, place, setting.site)
+    if state.awaits_command:
+        raise NotComposed("two places for one command")
+    if place.shape in ("one", "step"):
+        state = with_step(replace(state, loop=None), p.GoTo(id="", place=place.selector, said=said))
+        return done_at(replace(state, returned=command.returns), place)
+    if place.shape == "area" and place.per is None:
+        return replace(state, area=command, where=place, where_scope=state.scope, loop=None)
+    if place.shape == "several" and place.per is None:
+        inside = (*state.next_step, "body")
+        state = with_step(state, visits(place, said))
+        return replace(done_at(state, place), loop=inside)
+    raise NotComposed("where to?")
+
+
+def visits(place: Place, said: Spans) -> p.ForEach:
+    """Return a for-each over places, with nothing to do at them yet."""
+    return p.ForEach(
+        id="", select=place.selector, body=EMPTY, optional=place.optional, at_most=place.at_most, said=said
+    )
+
+
+def require_known(state: DialogueState, place: Place | None, site: Site) -> None:
+    """Refuse places that refer to one which is not known, or which an optional step may leave out.
+
+    Raises:
+        NotComposed: The place is not known.
+    """
+    parts = [] if place is None or place.shape in ("here", "those") else list(place.selector.walk())
+    from_here = [
+        part for part in parts if isinstance(part, s.AlongRow | s.RowOf | s.Across) and part.origin == s.Here()
+    ]
+    if from_here:
+        if state.where is None or (state.where.shape != "one" and not is_inside(state.scope, state.loop or (-1,))):
+            raise NotComposed("from which tree?")
+        sides = {part.towards for part in from_here if isinstance(part, s.AlongRow)} & _COMPASS
+        if not all(_rows_run_to(side, site) for side in sides):
+            raise NotComposed("the rows have no end on that side")
+    refers = not parts or any(isinstance(part, s.Here) for part in parts)
+    if refers and state.where is not None and may_be_left_out(state):
+        raise NotComposed("where, if what comes before it is left out?")
+
+
+def may_be_left_out(state: DialogueState) -> bool:
+    """Return True if the last command stands in a block that does not contain the next one."""
+    return state.where_scope is not None and not is_inside(state.scope, state.where_scope)
+
+
+def _rows_run_to(side: str, site: Site) -> bool:
+    """Return True if the rows of the site run towards a side."""
+    east_west = {45 <= block.bearing_deg % 180 <= 135 for block in site.planting.blocks}
+    return east_west == {side in ("east", "west")}
+
+
+def go_home(setting: Setting, state: DialogueState, command: Home) -> DialogueState:
+    """Return the state after the end of the mission was said: a drive if it is the end in one case only."""
+    said = setting.spans_of(command.used)
+    if state.awaits_command:
+        raise NotComposed("two places for one command")
+    if state.home is not None:
+        raise NotComposed("two ends")
+    steps = state.block.steps
+    if steps and isinstance(steps[-1], p.StopMission):
+        return replace(state, nominal=command.then, nominal_said=said)
+    if not is_conditional(state.scope):
+        state = replace(state, scope=())  # the way home is never optional
+    if state.scope:
+        return replace(drive(setting, state, _way_home(command)), in_case=command.then)
+    return replace(state, nominal=command.then, nominal_said=said, home=command, open=False)
+
+
+def driven_home(setting: Setting, state: DialogueState) -> DialogueState:
+    """Return the state with the return as a drive, since something follows it."""
+    home = state.home
+    if home is None:
+        return state
+    return drive(setting, replace(without_home(state), scope=()), _way_home(home))
+
+
+def without_home(state: DialogueState) -> DialogueState:
+    """Return the state without the end of the mission."""
+    return replace(state, home=None, nominal=None, nominal_said=())
+
+
+def _way_home(home: Home) -> Drive:
+    """Return the drive to the place where the mission ends."""
+    marker = s.Marker(name="start" if home.then == "return_to_start" else "end")
+    return Drive(Place(marker, "one"), home.used)
+
+
+def put_in_order(setting: Setting, state: DialogueState, command: InAnOrder) -> DialogueState:
+    """Return the state with the last for-each in an order; an order that is said first waits for its places."""
+    said = setting.spans_of(command.used)
+    if state.loop is None:
+        if command.by in ("", "any") or state.order is not None or state.commands_in_sentence:
+            raise NotComposed("an order of what?")
+        return replace(state, order=command)
+    path = state.loop[:-1]
+    loop = node_at(state.plan, path)
+    if not isinstance(loop, p.ForEach):
+        raise NotComposed("an order of what?")
+    if command.by == "any":
+        if loop.order != "best":
+            raise NotComposed("two orders")
+        return with_joints(state, said)
+    return replace(state, plan=with_node(state.plan, path, ordered(loop, command, said)))
+
+
+def ordered(loop: p.ForEach, command: InAnOrder, said: Spans) -> p.ForEach:
+    """Return a for-each in an order.
+
+    Raises:
+        NotComposed: The places are not fixed, or what the order refers to is unclear.
+    """
+    if loop.order == "given" or loop.optional or loop.at_most is not None:
+        raise NotComposed("an order of a choice")
+    said = (*loop.said, *said)
+    if not command.by:
+        return replace(loop, order="given", said=said)
+    if any(isinstance(part, s.EveryNth) for part in loop.select.walk()) and command.by != "attribute":
+        raise NotComposed("counted or visited from there?")
+    by = cast(Order, command.by)
+    select = s.Ordered(by=by, attribute=command.attribute, descending=command.descending, of=loop.select)
+    return replace(loop, select=select, order="given", said=said)

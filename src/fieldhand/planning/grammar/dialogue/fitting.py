@@ -1,0 +1,180 @@
+"""Which places a capture means: how many visits, how many captures at each, and one row after the other."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any, cast
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.english.onebyone import MOST_ONE_BY_ONE, one_by_one
+from fieldhand.planning.grammar.dialogue.faults import NotComposed
+from fieldhand.planning.grammar.meaning import Drive, Lead, Place, Thing, chooses_from_trees, over
+from fieldhand.site.model import Site
+
+
+def is_rows(selector: s.Selector) -> bool:
+    """Return True for rows, and for lists of rows."""
+    if isinstance(selector, s.UnionOf):
+        return all(is_rows(part) for part in selector.parts)
+    return isinstance(selector, s.Rows | s.RowOf)
+
+
+def are_several_rows(selector: s.Selector) -> bool:
+    """Return True for several rows, whose trees are selected."""
+    if isinstance(selector, s.UnionOf):
+        return is_rows(selector)
+    return isinstance(selector, s.Rows) and (selector.first != selector.last or not selector.first)
+
+
+def is_spoken_of(place: Place | None) -> bool:
+    """Return True for places that were spoken of before, or that the command leaves out."""
+    return place is None or place.shape in ("here", "those")
+
+
+def within_area(place: Place | None, area: s.Selector | None) -> Place | None:
+    """Return a place restricted to the area of its sentence, where it can be."""
+    if area is None or place is None or place.shape not in ("one", "several") or place.per is not None:
+        return place
+    if not chooses_from_trees(place.selector) or any(is_rows(part) for part in place.selector.walk()):
+        return place
+    return replace(place, selector=over(place.selector, area))
+
+
+def in_area(before: Lead | Drive, place: Place | None) -> Place:
+    """Return the place of a command in an area that was named before it ("along row 3, ... at every other tree").
+
+    Raises:
+        NotComposed: The two are different places, or how many trees are meant is unclear.
+    """
+    area = before.place.selector
+    if place is None and isinstance(before, Drive) and are_several_rows(area):
+        raise NotComposed("at every tree, or at how many?")
+    if place is None or place.shape in ("here", "those"):
+        if place is None or not place.each:
+            return Place(area, "area")
+        if is_rows(area) and not isinstance(place.selector, s.Trees):
+            return Place(s.Trees(), "area", each=True, per=area)
+        return Place(area, "several", each=True)
+    if place.per is None and place.shape in ("one", "several") and chooses_from_trees(place.selector):
+        return replace(place, selector=over(place.selector, area))
+    raise NotComposed("two places for one command")
+
+
+def in_each_row(rows: s.Selector, place: Place) -> Place:
+    """Return the place of a command in each of the rows that were named before it ("in each row, ... at the ends").
+
+    Raises:
+        NotComposed: The place is none of a row.
+    """
+    if not chooses_from_trees(place.selector):
+        raise NotComposed("two places for one command")
+    counts_in_row = isinstance(over(place.selector, s.Rows()), s.InRow)
+    if counts_in_row or (place.shape == "several" and place.count is None):
+        return replace(place, selector=over(place.selector, rows), shape="several")
+    return replace(place, shape="several", per=rows)
+
+
+def spaced(
+    place: Place | None, things: tuple[Thing, ...], spacing: float, site: Site
+) -> tuple[Place, tuple[Thing, ...]]:
+    """Return the free points of captures at a spacing, and the captures at each.
+
+    Raises:
+        NotComposed: The line of the points, or their number, is unclear.
+    """
+    counts = {thing.count for thing in things}
+    if len(counts) > 1:
+        raise NotComposed("different numbers of captures")
+    count = counts.pop() or 0
+    once = _once(things)
+    if place is None or place.shape != "area":
+        if count < 2:
+            raise NotComposed("along which row?")
+        return Place(s.Spaced(apart_m=spacing, count=count), "several"), once
+    rows = one_by_one(place.selector, site) if is_rows(place.selector) else ()
+    if not rows:
+        raise NotComposed("along which row?")
+    if count and len(rows) > 1:
+        raise NotComposed("so many in each row, or in all?")
+    if len(rows) == 1:
+        return Place(s.Spaced(apart_m=spacing, count=count, of=place.selector), "several"), once
+    parts = tuple(s.Spaced(apart_m=spacing, count=count, of=row) for row in rows)
+    return Place(s.UnionOf(parts=parts), "several"), once
+
+
+def fitted(place: Place, things: tuple[Thing, ...], relation: str, site: Site) -> tuple[Place, tuple[Thing, ...]]:
+    """Return a place of one or several visits, and the captures at each.
+
+    Raises:
+        NotComposed: How many visits are meant is unclear.
+    """
+    counts = {thing.count for thing in things}
+    if len(counts) > 1 and place.shape not in ("one", "step"):
+        raise NotComposed("different numbers of captures")
+    count = next(iter(counts)) if len(counts) == 1 else None
+    if place.shape == "step":
+        if relation == "of":
+            raise NotComposed("the tree so far along, or so many trees?")
+        return replace(place, shape="one"), things
+    if place.shape == "nearby":
+        return _nearby(place, things, count), _once(things)
+    if place.per is not None:
+        return _of_rows(place, place.per, things, count, relation, site), _once(things)
+    if place.shape == "one":
+        if isinstance(place.selector, s.Take) and place.selector.count == 1 and are_several_rows(place.selector.of):
+            raise NotComposed("one in each of them, or one in all?")
+        return place, things
+    if place.shape == "area":
+        return _of_area(place, things, count, relation), _once(things)
+    if place.each or count is None:
+        return place, things
+    if count == 1 or count == place.count:
+        return place, _once(things)
+    raise NotComposed("so many at each place, or in all?")
+
+
+def _once(things: tuple[Thing, ...]) -> tuple[Thing, ...]:
+    """Return captures without their numbers."""
+    return tuple(replace(thing, count=None) for thing in things)
+
+
+def _are_plural(things: tuple[Thing, ...]) -> bool:
+    """Return True for captures in the plural."""
+    return all(thing.plural for thing in things)
+
+
+def _nearby(place: Place, things: tuple[Thing, ...], count: int | None) -> Place:
+    """Return trees around the robot, as many as there are captures."""
+    number = count or (2 if _are_plural(things) else 1)
+    if count is None and number > 1:
+        raise NotComposed("how many trees?")
+    selector: s.Selector = replace(cast(Any, place.selector), count=number)
+    return Place(selector, "one" if number == 1 else "several", count=number)
+
+
+def _of_rows(
+    place: Place, rows: s.Selector, things: tuple[Thing, ...], count: int | None, relation: str, site: Site
+) -> Place:
+    """Return what is said of each of several rows."""
+    if place.shape == "area" and count is None and not things[0].count and _are_plural(things):
+        return Place(rows, "several")
+    if place.shape == "area" and relation == "of":
+        raise NotComposed("every tree, or how many?")
+    single = one_by_one(rows, site)
+    if not single or len(single) > MOST_ONE_BY_ONE:
+        raise NotComposed("rows one by one")
+    selector = s.Take(count=count or 1, of=s.Trees()) if place.shape == "area" else place.selector
+    parts = tuple(over(selector, row) for row in single)
+    return Place(parts[0] if len(parts) == 1 else s.UnionOf(parts=parts), "several")
+
+
+def _of_area(place: Place, things: tuple[Thing, ...], count: int | None, relation: str) -> Place:
+    """Return the trees of an area: all of them, or as many as there are captures."""
+    if count is None and _are_plural(things):
+        return replace(place, shape="several")
+    if relation == "of" and count in (None, 1):
+        raise NotComposed("every tree, or how many?")
+    if count in (None, 1) and are_several_rows(place.selector):
+        raise NotComposed("one in each of them, or one in all?")
+    number = count or 1
+    return Place(s.Take(count=number, of=place.selector), "one" if number == 1 else "several", count=number)

@@ -1,0 +1,126 @@
+"""Plans while they are made: their parts by path, changed copies of them, and the finished plan."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import Any, cast
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.dialogue.faults import NotComposed
+from fieldhand.task import plan as p
+
+#: Steps from the plan's root to a node: indices of steps, and the names of the fields that hold the inner nodes.
+Path = tuple[int | str, ...]
+
+#: Block without steps.
+EMPTY = p.InOrder(id="", steps=())
+
+
+def node_at(plan: p.InOrder, path: Path) -> p.Node:
+    """Return the node at a path."""
+    node: Any = plan
+    for step in path:
+        node = node.steps[step] if isinstance(step, int) else getattr(node, step)
+    return cast(p.Node, node)
+
+
+def block_at(plan: p.InOrder, path: Path) -> p.InOrder:
+    """Return the block at a path.
+
+    Raises:
+        NotComposed: The node there is no block.
+    """
+    block = node_at(plan, path)
+    if not isinstance(block, p.InOrder):
+        raise NotComposed("no block of steps")
+    return block
+
+
+def with_node(plan: p.InOrder, path: Path, made: p.Node) -> p.InOrder:
+    """Return a plan with another node at a path."""
+    return cast(p.InOrder, _changed(plan, path, made))
+
+
+def _changed(node: Any, path: Path, made: p.Node) -> Any:
+    """Return a node with another one at a path inside it."""
+    if not path:
+        return made
+    step, *rest = path
+    if isinstance(step, int):
+        steps = list(node.steps)
+        steps[step] = _changed(steps[step], tuple(rest), made)
+        return replace(node, steps=tuple(steps))
+    return replace(node, **{step: _changed(getattr(node, step), tuple(rest), made)})
+
+
+def walk(node: p.Node, path: Path = ()) -> Iterator[tuple[Path, p.Node]]:
+    """Yield this node and all nodes inside it with their paths, outermost first."""
+    yield path, node
+    if isinstance(node, p.InOrder):
+        for k, step in enumerate(node.steps):
+            yield from walk(step, (*path, k))
+        return
+    for name in ("body", "then", "otherwise"):
+        inner = getattr(node, name, None)
+        if isinstance(inner, p.Node):
+            yield from walk(inner, (*path, name))
+
+
+def is_inside(path: Path, outer: Path) -> bool:
+    """Return True if a path leads to a node or to one inside it."""
+    return path[: len(outer)] == outer
+
+
+def is_conditional(path: Path) -> bool:
+    """Return True if a path leads into one of the cases of a condition."""
+    return "then" in path or "otherwise" in path
+
+
+def captures_at_last_place(steps: Sequence[p.Node]) -> list[p.Act]:
+    """Return the captures since the last place, if there was nothing but captures."""
+    found: list[p.Act] = []
+    for step in reversed(steps):
+        if isinstance(step, p.Act):
+            found.insert(0, step)
+            if step.at is not None:
+                return found
+        elif isinstance(step, p.GoTo):
+            return found
+        elif isinstance(step, p.ForEach) and not found and isinstance(step.body, p.InOrder):
+            acts = [one for one in step.body.steps if isinstance(one, p.Act)]
+            return acts if len(acts) == len(step.body.steps) else []
+        else:
+            return []
+    return found
+
+
+def whole_plan(plan: p.InOrder) -> p.Node:
+    """Return the plan of a request: without a stop at its end, and without blocks of one step."""
+    steps = plan.steps
+    while len(steps) > 1 and isinstance(steps[-1], p.StopMission):
+        steps = steps[:-1]
+    return finished(replace(plan, steps=steps))
+
+
+def finished(node: p.Node) -> p.Node:
+    """Return a plan without blocks of one step."""
+    match node:
+        case p.OptionalStep():
+            body = finished(node.body)
+            # Visits that are optional one by one need not be optional as a whole.
+            return body if isinstance(body, p.ForEach) and body.optional else replace(node, body=body)
+        case p.InOrder():
+            steps = tuple(finished(step) for step in node.steps)
+            return steps[0] if len(steps) == 1 else replace(node, steps=steps)
+        case p.ForEach():
+            is_empty = isinstance(node.body, p.InOrder) and not node.body.steps
+            visit = p.GoTo(id="", place=s.Here(), said=node.said) if is_empty else node.body
+            return replace(node, body=finished(visit))
+        case p.Try():
+            return replace(node, body=finished(node.body), otherwise=finished(node.otherwise))
+        case p.If():
+            otherwise = None if node.otherwise is None else finished(node.otherwise)
+            return replace(node, then=finished(node.then), otherwise=otherwise)
+        case _:
+            return node

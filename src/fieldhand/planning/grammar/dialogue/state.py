@@ -1,0 +1,146 @@
+"""The state of a dialogue: the plan so far and what later clauses can refer to, with the steps that change it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.dialogue.faults import NotComposed
+from fieldhand.planning.grammar.dialogue.plans import EMPTY, Path, block_at, with_node
+from fieldhand.planning.grammar.meaning import AllTests, Drive, Home, InAnOrder, Lead, Limit, Place, Thing
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
+from fieldhand.task import plan as p
+from fieldhand.task.frames import Then
+
+Spans = tuple[p.Span, ...]
+
+
+@dataclass(frozen=True)
+class Setting:
+    """What is known beside the clauses.
+
+    Attributes:
+        robot: Robot profile.
+        site: Site, whose rows are named where something is said of each of them.
+        spans_of: Returns the character ranges of a bit mask of tokens.
+    """
+
+    robot: RobotProfile
+    site: Site
+    spans_of: Callable[[int], Spans]
+
+    def action_measuring(self, quantity: str) -> str | None:
+        """Return the name of the first action that measures a quantity."""
+        return next((one.name for one in self.robot.actions if quantity in one.measures), None)
+
+
+@dataclass(frozen=True)
+class DialogueState:
+    """The plan of the clauses read so far, and what later ones can refer to.
+
+    Attributes:
+        plan: Block of the plan itself; every block is an InOrder while the plan is made.
+        scope: Path of the block that takes the next command.
+        loop: Path of the body of the last for-each.
+        choice: Path of the last condition.
+        captured: Path of the last capture.
+        lead: Place at which the next command is done.
+        things: What was captured last.
+        where: Place of the last command.
+        where_scope: Block in which that command stands.
+        readings: Number of readings that have a name.
+        limits: Limits of the request.
+        limits_said: Spans that say each limit.
+        nominal: How the mission ends, if the request says so.
+        nominal_said: Spans that say it.
+        open: True while a condition of the current sentence has no command yet.
+        decided: Tests of the last condition.
+        commands_in_sentence: Number of commands of the current sentence.
+        area: Rows or an area that the robot was sent along or into, until it says what is done there.
+        order: Order of the next places.
+        home: Return with which the mission ends, if nothing follows.
+        within: Rows or area in which the places of the sentence are.
+        asked: Test of the last question.
+        in_case: How the mission ends in one case.
+        returned: True if the last drive is a return ("come back to the charger").
+        joints: Spans of the connectives.
+    """
+
+    plan: p.InOrder = EMPTY
+    scope: Path = ()
+    loop: Path | None = None
+    choice: Path | None = None
+    captured: Path | None = None
+    lead: Lead | None = None
+    things: tuple[Thing, ...] = ()
+    where: Place | None = None
+    where_scope: Path | None = None
+    readings: int = 0
+    limits: tuple[Limit, ...] = ()
+    limits_said: tuple[Spans, ...] = ()
+    nominal: Then | None = None
+    nominal_said: Spans = ()
+    open: bool = False
+    decided: AllTests | None = None
+    commands_in_sentence: int = 0
+    area: Drive | None = None
+    order: InAnOrder | None = None
+    home: Home | None = None
+    within: s.Selector | None = None
+    asked: AllTests | None = None
+    in_case: Then | None = None
+    returned: bool = False
+    joints: Spans = ()
+
+    @property
+    def block(self) -> p.InOrder:
+        """The block that takes the next command."""
+        return block_at(self.plan, self.scope)
+
+    @property
+    def next_step(self) -> Path:
+        """The path of the next step of that block."""
+        return (*self.scope, len(self.block.steps))
+
+    @property
+    def awaits_command(self) -> bool:
+        """True if a place was named, and what is done there was not."""
+        return self.lead is not None or self.area is not None
+
+
+def with_step(state: DialogueState, node: p.Node) -> DialogueState:
+    """Return the state after a further step of the block that takes commands."""
+    block = state.block
+    plan = with_node(state.plan, state.scope, replace(block, steps=(*block.steps, node)))
+    return replace(state, plan=plan, open=False)
+
+
+def with_capture(state: DialogueState, act: p.Act, scope: Path) -> DialogueState:
+    """Return the state after a further capture in a block."""
+    block = block_at(state.plan, scope)
+    plan = with_node(state.plan, scope, replace(block, steps=(*block.steps, act)))
+    return replace(state, plan=plan, captured=(*scope, len(block.steps)), open=False)
+
+
+def with_last_step(state: DialogueState, node: p.Node) -> DialogueState:
+    """Return the state with another node for the last step of the block that takes commands."""
+    block = state.block
+    return replace(state, plan=with_node(state.plan, state.scope, replace(block, steps=(*block.steps[:-1], node))))
+
+
+def with_joints(state: DialogueState, said: Spans) -> DialogueState:
+    """Return the state after words that join commands and have no step of their own."""
+    return replace(state, joints=(*state.joints, *said))
+
+
+def done_at(state: DialogueState, place: Place) -> DialogueState:
+    """Return the state after a command was done at a place."""
+    return replace(state, where=place, where_scope=state.scope, commands_in_sentence=state.commands_in_sentence + 1)
+
+
+__all__ = [
+    "DialogueState", "NotComposed", "Path", "Setting", "Spans", "done_at", "with_capture", "with_joints",
+    "with_last_step", "with_step",
+]  # fmt: skip

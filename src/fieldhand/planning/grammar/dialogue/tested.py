@@ -1,0 +1,101 @@
+"""Tests of readings and of attributes, as conditions of the plan: which reading a test is about."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from fieldhand.planning.grammar.dialogue.plans import Path, is_conditional, is_inside, node_at, walk, with_node
+from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed
+from fieldhand.planning.grammar.meaning import AllTests, Check, Test
+from fieldhand.robot.model import RobotProfile
+from fieldhand.task import conditions as c
+from fieldhand.task import plan as p
+from fieldhand.terms import Test as Comparison
+
+_COMPARISON: Mapping[Check, Comparison] = {"eq": "eq", "lt": "lt", "le": "le", "gt": "gt", "ge": "ge"}
+
+
+def condition_of(state: DialogueState, tests: AllTests, robot: RobotProfile) -> tuple[c.Condition, DialogueState]:
+    """Return the condition of tests, and the state in which the tested readings have names.
+
+    Raises:
+        NotComposed: Which reading or tree is tested is unclear.
+    """
+    made: list[c.Condition] = []
+    for test in tests.tests:
+        if test.attribute:
+            made.append(_of_tree(state, test))
+        else:
+            one, state = _of_reading(state, test, robot)
+            made.append(one)
+    if len(made) == 1:
+        return made[0], state
+    return (c.AnyOf if tests.any_of else c.AllOf)(conditions=tuple(made)), state
+
+
+def _of_tree(state: DialogueState, test: Test) -> c.Condition:
+    """Return the condition on an attribute of the current tree."""
+    if state.where is None and state.loop is None:
+        raise NotComposed("which tree is tested?")
+    condition = c.TreeHas(attribute=test.attribute, test=_COMPARISON[test.check], value=test.value)
+    return c.Not(condition=condition) if test.negated else condition
+
+
+def _of_reading(state: DialogueState, test: Test, robot: RobotProfile) -> tuple[c.Condition, DialogueState]:
+    """Return the condition on a reading, and the state in which that reading has a name."""
+    path = _tested_capture(state, test, robot)
+    act = None if path is None else node_at(state.plan, path)
+    if path is None or not isinstance(act, p.Act):
+        raise NotComposed("which reading is tested?")
+    measures = robot.action[act.action].measures
+    quantity = test.quantity or (measures[0] if measures else "")
+    if quantity not in measures:
+        raise NotComposed("it measures no such quantity")
+    unit = robot.quantity[quantity].unit
+    if test.unit and test.unit != unit:
+        raise NotComposed("another unit")
+    if not act.reading:
+        act = replace(act, reading=f"r{state.readings + 1}")
+        state = replace(state, readings=state.readings + 1, plan=with_node(state.plan, path, act))
+    condition = _checked(test, act.reading, quantity, unit)
+    return (c.Not(condition=condition) if test.negated else condition), replace(state, captured=path)
+
+
+def _checked(test: Test, reading: str, quantity: str, unit: str) -> c.Condition:
+    """Return the condition of a test that is not negated."""
+    if test.check == "level":
+        return c.Level(reading=reading, quantity=quantity, level=test.value)
+    if test.check == "between":
+        low, high = test.value
+        return c.Between(reading=reading, quantity=quantity, low=low, high=high, unit=unit)
+    return c.Compare(reading=reading, quantity=quantity, test=test.check, value=test.value, unit=unit)
+
+
+def _tested_capture(state: DialogueState, test: Test, robot: RobotProfile) -> Path | None:
+    """Return the path of the capture whose reading is tested: the last one, if its quantity and unit fit."""
+    if state.captured is not None and _fits(node_at(state.plan, state.captured), test, robot):
+        return state.captured
+    fitting = [path for path, node in walk(state.plan) if _fits(node, test, robot)]
+    return fitting[-1] if fitting else None
+
+
+def _fits(node: p.Node, test: Test, robot: RobotProfile) -> bool:
+    """Return True if a capture measures what is tested."""
+    if not isinstance(node, p.Act):
+        return False
+    measures = robot.action[node.action].measures
+    if test.quantity:
+        return test.quantity in measures
+    return bool(measures) and (not test.unit or robot.quantity[measures[0]].unit == test.unit)
+
+
+def reading_before(plan: p.InOrder, before: Path, robot: RobotProfile) -> Path | None:
+    """Return the path of the last capture of a reading before a step and outside of conditions."""
+    found: Path | None = None
+    for path, node in walk(plan):
+        if is_inside(path, before):
+            break
+        if isinstance(node, p.Act) and robot.action[node.action].measures and not is_conditional(path):
+            found = path
+    return found

@@ -1,0 +1,363 @@
+"""Meanings that constructions compose: amounts, places, captures, conditions and commands."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any, Literal, cast
+
+from fieldhand.places import selectors as s
+
+#: What a place phrase means: one place, several places, an area whose trees are meant, places just spoken of (``here``,
+#: ``those``), trees around of which another phrase says how many (``nearby``), or a step along the row.
+Shape = Literal["one", "several", "area", "here", "those", "nearby", "step"]
+
+
+#: Tests of a reading or of an attribute.
+Check = Literal["lt", "le", "gt", "ge", "eq", "level", "between"]
+
+#: Action of a capture that refers to the last one ("another one").
+LAST_THING = "*"
+
+
+@dataclass(frozen=True, slots=True)
+class Amount:
+    """A number with a unit, converted to metres, seconds, degC, ppm, percent, years or kg."""
+
+    number: float
+    unit: str
+
+
+@dataclass(frozen=True, slots=True)
+class Nominal:
+    """A noun phrase without its determiner.
+
+    Attributes:
+        selector: Places that fit the description.
+        plural: True for a noun in the plural.
+        single: True if the description fits one place only ("northernmost tree").
+        complete: Number of places if the description lists them all ("corners": 4), 0 otherwise.
+        kind: Kind of its noun.
+        pronoun: True for "one", which stands for a noun before it.
+        tested: True if a clause behind the noun describes it ("that are older than 8 years").
+    """
+
+    selector: s.Selector
+    plural: bool = False
+    single: bool = False
+    complete: int = 0
+    kind: Literal["tree", "corner"] = "tree"
+    tested: bool = False
+    pronoun: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A place phrase.
+
+    Attributes:
+        selector: Places that are meant; ignored for ``here`` and ``those``.
+        shape: Whether they are one, several, an area, or those spoken of before.
+        count: Number of places, if the phrase gives one.
+        each: True if the phrase says "each" or "every".
+        optional: True for "as many as you can".
+        at_most: Maximum number of visits ("up to 6").
+        in_order: True if the places are visited in the order in which they are named.
+        per: Rows of each of which the selector says something by itself ("the oldest tree of each row").
+    """
+
+    selector: s.Selector
+    shape: Shape
+    count: int | None = None
+    each: bool = False
+    optional: bool = False
+    at_most: int | None = None
+    in_order: bool = False
+    per: s.Selector | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Thing:
+    """One kind of capture: its action, and how many if the phrase says so."""
+
+    action: str
+    count: int | None = None
+    plural: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Capture:
+    """A command to capture something, at a place or where the robot is.
+
+    Attributes:
+        things: Captures.
+        place: Place; None if the phrase names none.
+        used: Tokens of the phrase.
+        times: Number of repetitions ("twice").
+        relation: ``of`` or ``at``, which ties the captures to the place.
+        spacing: Distance between the captures along a line, in metres.
+    """
+
+    things: tuple[Thing, ...]
+    place: Place | None
+    used: int
+    times: int = 1
+    spacing: float | None = None
+    relation: str = "at"
+
+
+@dataclass(frozen=True, slots=True)
+class Drive:
+    """A command to drive somewhere; with ``begins`` to where the work begins, with ``returns`` to come back."""
+
+    place: Place
+    used: int
+    begins: bool = False
+    returns: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Lead:
+    """A place at which the next command is done ("at tree 4, ..."), or what was done last."""
+
+    place: Place
+    used: int
+    relation: str = "at"
+
+
+@dataclass(frozen=True, slots=True)
+class Home:
+    """The end of the mission at a marker, or where the robot then is."""
+
+    then: Literal["return_to_start", "return_to_end"]
+    used: int
+
+
+@dataclass(frozen=True, slots=True)
+class Halt:
+    """The end of the mission at this point."""
+
+    used: int
+
+
+@dataclass(frozen=True, slots=True)
+class Limit:
+    """A limit on distance, time or battery; with ``keep`` the amount that must be left, with ``back`` on the return."""
+
+    amount: Amount
+    keep: bool
+    used: int
+    back: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Test:
+    """A test of a reading or of an attribute; the dialogue finds the reading.
+
+    Attributes:
+        quantity: Quantity that the phrase names; empty if it names none ("it").
+        check: Kind of the test.
+        value: Threshold, (low, high), or the name of a level.
+        unit: Unit that the phrase names; empty if none.
+        negated: True for "is not".
+        attribute: Attribute of the tree that is tested instead of a reading; empty for a reading.
+    """
+
+    quantity: str
+    check: Check
+    value: Any
+    unit: str = ""
+    negated: bool = False
+    attribute: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class AllTests:
+    """Tests that are all required, or of which one is enough (``any_of``)."""
+
+    tests: tuple[Test, ...]
+    any_of: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class When:
+    """A condition on what follows it, or on the command before it.
+
+    Attributes:
+        tests: Tests; none for "if so".
+        measured_at: Place at which the tested reading is taken first, if the condition names one.
+    """
+
+    tests: AllTests
+    used: int
+    measured_at: Place | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Allowed:
+    """Work that is done only if the budget allows it: what follows it, or the command before it."""
+
+    used: int
+
+
+@dataclass(frozen=True, slots=True)
+class Until:
+    """A condition that ends the repetition before it."""
+
+    tests: AllTests
+    used: int
+
+
+@dataclass(frozen=True, slots=True)
+class Again:
+    """A command to do what was done at the last place again, at another place or there."""
+
+    place: Place | None
+    used: int
+
+
+@dataclass(frozen=True, slots=True)
+class After:
+    """A command that is done before the others of its sentence, or was done already ("after photographing it")."""
+
+    done: Capture | Drive
+    used: int
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """A reading to be taken, and a test of it that "if so" refers to."""
+
+    tests: AllTests
+    place: Place | None
+    used: int
+
+
+@dataclass(frozen=True, slots=True)
+class Failing:
+    """The case in which the command before it fails."""
+
+    used: int
+
+
+@dataclass(frozen=True, slots=True)
+class InAnOrder:
+    """The order of visits: that of their mention (``by`` empty), any order, by the compass, or by an attribute."""
+
+    by: str
+    attribute: str
+    descending: bool
+    used: int
+
+
+@dataclass(frozen=True, slots=True)
+class Otherwise:
+    """The case in which the last condition is false."""
+
+    used: int
+
+
+@dataclass(frozen=True, slots=True)
+class Connective:
+    """What stands between two commands.
+
+    Attributes:
+        full: True if it separates sentences.
+        then: True if it says that one follows the other.
+        both: True if it contains "and".
+        first: True if it says that what follows is to be done before ("but first").
+    """
+
+    full: bool
+    then: bool
+    used: int
+    first: bool = False
+    both: bool = False
+
+
+Command = (
+    Capture
+    | Drive
+    | Lead
+    | Home
+    | Halt
+    | Limit
+    | When
+    | Otherwise
+    | Allowed
+    | Until
+    | Again
+    | InAnOrder
+    | After
+    | Question
+    | Failing
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Clause:
+    """A command with the connective before it."""
+
+    before: Connective | None
+    command: Command
+
+
+@dataclass(frozen=True, slots=True)
+class Said:
+    """The clauses of a request, in order."""
+
+    clauses: tuple[Clause, ...]
+
+
+#: Areas by the order in which they are nested, the innermost first: a row of a half of a block.
+_NESTING: dict[type[s.Selector], int] = {
+    s.InBlock: 0, s.Half: 1, s.Quarter: 1, s.Edge: 2, s.Rows: 2, s.InZone: 3,
+}  # fmt: skip
+
+
+def over(selector: s.Selector, base: s.Selector) -> s.Selector:
+    """Return a selector that chooses from ``base`` instead of from every tree of the site.
+
+    Areas are nested in a fixed order, whatever the order of the words: "the northern half in row 4" is row 4 of the
+    northern half. "The first tree" of rows is the first tree of each.
+    """
+    if isinstance(selector, s.Trees):
+        return base
+    if isinstance(selector, s.UnionOf):
+        return s.UnionOf(parts=tuple(over(part, base) for part in selector.parts))
+    if isinstance(selector, s.First | s.Last) and isinstance(selector.of, s.Trees) and _all_rows(base):
+        number = 1 if isinstance(selector, s.First) else -1
+        return s.InRow(first=number, last=number, of=base)
+    rank, other = _NESTING.get(type(selector)), _rank(base)
+    if rank is not None and other is not None and rank < other:
+        return over(base, selector)
+    of = getattr(selector, "of", None)
+    if of is None:
+        return selector
+    changed: s.Selector = replace(cast(Any, selector), of=over(of, base))
+    return changed
+
+
+def _rank(selector: s.Selector) -> int | None:
+    """Return how far outside an area is nested; None for a selector that is no area."""
+    if isinstance(selector, s.UnionOf):
+        return max((rank for part in selector.parts if (rank := _rank(part)) is not None), default=None)
+    return _NESTING.get(type(selector))
+
+
+def _all_rows(selector: s.Selector) -> bool:
+    """Return True for rows by name or number, and for lists of these."""
+    if isinstance(selector, s.UnionOf):
+        return all(_all_rows(part) for part in selector.parts)
+    return isinstance(selector, s.Rows)
+
+
+def chooses_from_trees(selector: s.Selector) -> bool:
+    """Return True if a selector can be restricted: it chooses from every tree of the site at last."""
+    if isinstance(selector, s.Trees):
+        return True
+    if isinstance(selector, s.UnionOf):
+        return all(chooses_from_trees(part) for part in selector.parts)
+    if isinstance(selector, s.RowOf):
+        return False
+    of = getattr(selector, "of", None)
+    return of is not None and chooses_from_trees(of)

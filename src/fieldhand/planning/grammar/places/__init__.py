@@ -1,0 +1,10 @@
+"""Constructions of places: nouns with what describes them, areas, rows, and groups of these."""
+
+from __future__ import annotations
+
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.places import areas, groups, nouns, numbers, positions, rows, spots, steps
+
+GRAMMAR = Grammar()
+for _part in (numbers, nouns, areas, rows, positions, spots, groups, steps):
+    GRAMMAR.include(_part.GRAMMAR)

@@ -1,0 +1,198 @@
+"""Constructions of areas: halves, quarters, edges, zones and blocks, and what is inside or outside them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.meaning import Nominal, Place, chooses_from_trees, over
+from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
+from fieldhand.planning.grammar.places.numbers import name_of
+from fieldhand.planning.grammar.places.rows import are_rows
+from fieldhand.planning.grammar.words import Lex
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+#: Words after which a place is a part of what follows.
+_INSIDE = frozenset(
+    {
+        "in",
+        "at",
+        "on",
+        "inside",
+        "inside of",
+        "within",
+        "of",
+        "from",
+        "throughout",
+        "among",
+        "in among",
+        "amongst",
+        "standing in",
+        "growing in",
+        "located in",
+        "situated in",
+        "over in",
+        "on the",
+        "into",
+    }
+)
+
+
+@construction("region: [DET] side=DIR HALF", "region: [DET] side=DIR SIDE", cost=0.2)
+def half(side: Lex) -> s.Selector | None:
+    """Compose "the northern half" and "the north-east part"."""
+    if side.value in CORNERS:
+        return s.Quarter(quarter=side.value)
+    return s.Half(side=side.value)
+
+
+@construction("region: [DET] side=DIR QUARTER", cost=0.2)
+def quarter(side: Lex) -> s.Selector | None:
+    """Compose "the north-east quarter"."""
+    return s.Quarter(quarter=side.value) if side.value in CORNERS else None
+
+
+@construction("region: [DET] side=DIR EDGE", cost=0.2)
+def edge(side: Lex) -> s.Selector | None:
+    """Compose "the northern edge"."""
+    return s.Edge(side=side.value) if side.value in SIDES else None
+
+
+@construction("region: [DET] EDGE", cost=0.3)
+def edges() -> s.Selector:
+    """Compose "the edges"."""
+    return s.UnionOf(parts=tuple(s.Edge(side=side) for side in SIDES))
+
+
+@construction("region: [DET] zone=ZONE", cost=0.1)
+def zone(zone: Lex) -> s.Selector:
+    """Compose "the wet corner", the name of a zone."""
+    return s.InZone(zone=zone.value)
+
+
+@construction(
+    "block: [DET] name=BLOCKNAME noun=PLOT",
+    "block: [DET] noun=PLOT name=BLOCKNAME",
+    "block: [DET] noun=PLOT name=NUM",
+    cost=0.1,
+)
+def block(name: Lex, noun: Lex) -> s.Selector | None:
+    """Compose "block 2"."""
+    return s.InBlock(block=name_of(name)) if noun.text.startswith("block") else None
+
+
+@construction("region: name=BLOCKNAME", cost=0.7)
+def bare_block(name: Lex) -> s.Selector:
+    """Compose "Home", the name of a block, without the word "block"."""
+    return s.InBlock(block=name.value)
+
+
+@construction("region: block=block", cost=0.0)
+def block_as_region(block: s.Selector) -> s.Selector:
+    """Compose "block 2" as an area."""
+    return block
+
+
+@construction(
+    "region: part=region OF whole=region",
+    "region: part=region in_ whole=region",
+    "region: whole=block part=rows",
+    cost=0.2,
+)
+def part_of(part: s.Selector, whole: s.Selector) -> s.Selector | None:
+    """Compose "rows 3 to 5 of the northern half"."""
+    return over(part, whole) if chooses_from_trees(part) and _is_larger(whole, part) else None
+
+
+def _is_larger(whole: s.Selector, part: s.Selector) -> bool:
+    """Return True unless the whole is made of rows and the part is none of them."""
+    if isinstance(whole, s.Edge):
+        return False
+    return not (are_rows(whole) and not are_rows(part))
+
+
+@construction("in_: word=AT", "in_: word=INSIDE", "in_: word=OF", "in_: word=FROM", cost=0.0)
+def in_word(word: Lex) -> str | None:
+    """Compose "in" and "throughout"."""
+    return "in" if word.text in _INSIDE else None
+
+
+@construction("site: [DET] noun=PLOT", cost=0.0)
+def the_site(noun: Lex) -> str | None:
+    """Compose "the orchard"."""
+    return None if noun.text.startswith("block") else "site"
+
+
+@construction(
+    "region: first=region AND second=region",
+    "region: first=region COMMA second=region",
+    "region: first=region COMMA AND second=region",
+    cost=0.4,
+)
+def both_areas(first: s.Selector, second: s.Selector) -> s.Selector | None:
+    """Compose "the northern half and the eastern edge"."""
+    if isinstance(first, s.Rows) != isinstance(second, s.Rows) or first == second:
+        return None
+    parts = tuple(part for one in (first, second) for part in (one.parts if isinstance(one, s.UnionOf) else (one,)))
+    return s.UnionOf(parts=parts)
+
+
+@construction("region: part=region OF site", "region: part=region in_ site", cost=0.0)
+def of_the_site(part: s.Selector) -> s.Selector:
+    """Compose "the northern half of the orchard"."""
+    return part
+
+
+@construction("nominal: inner=nominal in_ site", cost=0.1)
+def of_the_whole_site(inner: Nominal) -> Nominal:
+    """Compose "trees in the orchard"."""
+    return inner
+
+
+@construction("nominal: inner=nominal in_ where=region", "nominal: inner=nominal way=along where=region", cost=0.3)
+def inside(inner: Nominal, where: s.Selector, way: str = "") -> Nominal | None:
+    """Compose "trees in the northern half" and "trees along the northern edge"."""
+    if not chooses_from_trees(inner.selector) or (way and isinstance(where, s.RowOf)):
+        return None  # "3 trees down the row": the tree that far along, or trees there?
+    return replace(inner, selector=over(inner.selector, where))
+
+
+@construction("along: ALONG", cost=0.0)
+def along_word() -> str:
+    """Compose "along"."""
+    return "along"
+
+
+@construction("nominal: inner=nominal OUTSIDE [OF] where=region", cost=0.4)
+def outside_area(inner: Nominal, where: s.Selector) -> Nominal | None:
+    """Compose "trees outside the northern half"."""
+    if inner.single or isinstance(where, s.InZone):
+        return None
+    return replace(inner, selector=s.Excluding(places=where, of=inner.selector))
+
+
+@construction(
+    "nominal: inner=nominal OUTSIDE [DET] where=ZONE",
+    "nominal: inner=nominal OUTSIDE [OF] [DET] where=ZONE",
+    cost=0.3,
+)
+def outside(inner: Nominal, where: Lex) -> Nominal | None:
+    """Compose "trees outside the wet corner"."""
+    if not chooses_from_trees(inner.selector):
+        return None
+    return replace(inner, selector=over(inner.selector, s.InZone(zone=where.value, outside=True)))
+
+
+@construction("place: where=region", cost=0.4)
+def area(where: s.Selector) -> Place:
+    """Compose "the northern half" as a place."""
+    return Place(where, "area")
+
+
+@construction("place: word=DET in_ where=region", cost=0.4)
+def those_in(word: Lex, where: s.Selector) -> Place | None:
+    """Compose "those in row 4"."""
+    return Place(where, "several") if word.text in ("those", "the ones", "all") else None

@@ -1,0 +1,101 @@
+"""Constructions of numbers: counts, amounts, and trees that are named by their number or code."""
+
+from __future__ import annotations
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.meaning import Amount, Place
+from fieldhand.planning.grammar.words import Lex
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+
+def whole(number: float) -> int | None:
+    """Return a count, or None for a number that is not one."""
+    return int(number) if number == int(number) and number >= 1 else None
+
+
+@construction("amount: number=NUM [DASH] unit=UNIT", cost=0.2)
+def amount(number: Lex, unit: Lex) -> Amount:
+    """Compose "20 m" and "8 years"."""
+    name, factor, offset = unit.value
+    return Amount(round(number.value * factor + offset, 6), name)
+
+
+@construction("count: number=NUM", cost=0.0)
+def count(number: Lex) -> int | None:
+    """Compose "5"."""
+    return whole(number.value)
+
+
+def name_of(number: Lex) -> str:
+    """Return the name that a number or a word in the text gives."""
+    return f"{number.value:g}" if isinstance(number.value, float) else str(number.value)
+
+
+@construction("tree_id: tree=TREEID", cost=0.0)
+def coded_tree(tree: Lex) -> tuple[str, ...]:
+    """Compose "A12", the id of a tree."""
+    return (tree.value,)
+
+
+@construction("tree_ids: TREE [HASH] number=NUM", "tree_ids: TREE [HASH] named=tree_id", cost=0.2)
+def tree_by_number(number: Lex | None = None, named: tuple[str, ...] = ()) -> tuple[str, ...] | None:
+    """Compose "tree 12"."""
+    if number is None:
+        return named
+    return None if whole(number.value) is None else (name_of(number),)
+
+
+@construction("tree_ids: first=tree_ids [COMMA] [AND] [HASH] number=NUM", cost=0.3)
+def and_tree_number(first: tuple[str, ...], number: Lex) -> tuple[str, ...] | None:
+    """Compose "trees 12, 15 and 20"."""
+    return None if whole(number.value) is None else (*first, name_of(number))
+
+
+@construction("tree_ids: first=tree_ids [COMMA] [AND] more=tree_id", cost=0.3)
+def and_tree_code(first: tuple[str, ...], more: tuple[str, ...]) -> tuple[str, ...]:
+    """Compose "trees A12 and B3"."""
+    return (*first, *more)
+
+
+@construction("tree_ids: first=tree_id", cost=0.4)
+def bare_code(first: tuple[str, ...]) -> tuple[str, ...]:
+    """Compose "A12" without the word "tree"."""
+    return first
+
+
+@construction("tree_ids: TREE number=NUM range_to last=NUM", cost=0.3)
+def tree_range(number: Lex, last: Lex) -> tuple[str, ...] | None:
+    """Compose "trees 12 to 20"."""
+    low, high = whole(number.value), whole(last.value)
+    if low is None or high is None or not low < high <= low + 500:
+        return None
+    return tuple(str(k) for k in range(low, high + 1))
+
+
+@construction("range_to: word=AT", "range_to: word=ALONG", "range_to: word=DASH", cost=0.0)
+def range_word(word: Lex) -> str | None:
+    """Compose "to" and "through"."""
+    return "to" if word.text.strip() in ("to", "through", "-", "\N{EN DASH}") else None
+
+
+@construction("place: [DET] trees=tree_ids", cost=0.1)
+def named_trees(trees: tuple[str, ...]) -> Place:
+    """Compose "the trees 12 and 15"."""
+    if len(trees) == 1:
+        return Place(s.TreeIs(tree=trees[0]), "one")
+    return Place(s.UnionOf(parts=tuple(s.TreeIs(tree=t) for t in trees)), "several", count=len(trees))
+
+
+@construction("numbers: first=NUM", cost=0.0)
+def one_number(first: Lex) -> tuple[str, ...] | None:
+    """Compose "12" without the word "tree"."""
+    return None if whole(first.value) is None else (name_of(first),)
+
+
+@construction("numbers: first=numbers [COMMA] AND number=NUM", "numbers: first=numbers COMMA number=NUM", cost=0.1)
+def more_numbers(first: tuple[str, ...], number: Lex) -> tuple[str, ...]:
+    """Compose "12, 15 and 20"."""
+    return (*first, name_of(number))

@@ -1,0 +1,290 @@
+"""Constructions of rows, and of what is said of each row."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.meaning import Nominal, Place, chooses_from_trees, over
+from fieldhand.planning.grammar.places.compass import SIDES
+from fieldhand.planning.grammar.places.numbers import name_of, whole
+from fieldhand.planning.grammar.words import Lex
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+
+def are_rows(selector: s.Selector) -> bool:
+    """Return True for rows, and for a list of rows."""
+    return isinstance(selector, s.Rows) or (
+        isinstance(selector, s.UnionOf) and all(isinstance(part, s.Rows) for part in selector.parts)
+    )
+
+
+def is_one_row(rows: s.Selector) -> bool:
+    """Return True for a selector of one row."""
+    return isinstance(rows, s.RowOf) or (isinstance(rows, s.Rows) and rows.first == rows.last != "")
+
+
+@construction(
+    "rows: first=position AND second=position ROW",
+    "rows: DET first=position AND second=position ROW",
+    cost=0.1,
+)
+def two_rows(first: tuple[int, int], second: tuple[int, int]) -> s.Selector:
+    """Compose "the first and third rows"."""
+    return s.UnionOf(parts=tuple(s.Rows(first=str(n), last=str(n)) for n in (first[0], second[0])))
+
+
+@construction("rows: [DET] [n=count] side=MOST noun=ROW", "rows: DET side=MOST n=count noun=ROW", cost=0.1)
+def outermost_rows(side: Lex, noun: Lex, n: int | None = None) -> s.Selector | None:
+    """Compose "the two northernmost rows"."""
+    if side.value not in SIDES or noun.plural != (n is not None):
+        return None
+    return s.Rows(first="1", last=str(n or 1), counted_from=side.value)
+
+
+@construction("rows: [DET] rank=ORD ROW FROM [DET] side=DIR", cost=0.1)
+def row_from_side(rank: Lex, side: Lex) -> s.Selector | None:
+    """Compose "the third row from the north"."""
+    if side.value not in SIDES:
+        return None
+    return s.Rows(first=str(rank.value), last=str(rank.value), counted_from=side.value)
+
+
+@construction("rows: word=DET noun=ROW", cost=0.6)
+def this_row(word: Lex, noun: Lex) -> s.Selector | None:
+    """Compose "this row"."""
+    return s.RowOf() if not noun.plural and word.text in ("the", "that", "this") else None
+
+
+@construction("rows: [DET] ROW [NUMBERED] [HASH] number=NUM", "rows: [DET] ROW number=ROWNAME", cost=0.1)
+def row_by_number(number: Lex) -> s.Selector:
+    """Compose "row 4"."""
+    name = name_of(number)
+    return s.Rows(first=name, last=name)
+
+
+@construction(
+    "rows: [DET] ROW first=NUM range_to [ROW] last=NUM",
+    "rows: [DET] ROW BETWEEN first=NUM AND last=NUM",
+    "rows: BETWEEN ROW first=NUM AND [ROW] last=NUM",
+    cost=0.2,
+)
+def rows_from_to(first: Lex, last: Lex) -> s.Selector:
+    """Compose "rows 3 to 5" and "rows between 3 and 5"."""
+    return s.Rows(first=name_of(first), last=name_of(last))
+
+
+@construction("row_list: noun=ROW first=NUM", cost=0.0)
+def row_list(noun: Lex, first: Lex) -> tuple[str, ...] | None:
+    """Compose "rows 3", the beginning of "rows 3, 5 and 7"."""
+    return (name_of(first),) if noun.plural else None
+
+
+@construction("row_list: rows=row_list [COMMA] [AND] [ROW] number=NUM", cost=0.1)
+def longer_row_list(rows: tuple[str, ...], number: Lex) -> tuple[str, ...]:
+    """Compose "rows 3, 5 and 7"."""
+    return (*rows, name_of(number))
+
+
+@construction("rows: rows=row_list", cost=0.1)
+def listed_rows(rows: tuple[str, ...]) -> s.Selector | None:
+    """Compose "rows 3 and 5" as rows."""
+    if len(rows) < 2:
+        return None
+    return s.UnionOf(parts=tuple(s.Rows(first=name, last=name) for name in rows))
+
+
+@construction("rows: EACH n=ORD ROW", cost=0.2)
+def every_nth_row(n: Lex) -> s.Selector | None:
+    """Compose "every third row"."""
+    return s.Rows(every=n.value) if n.value > 1 else None
+
+
+@construction("rows: EACH OTHER ROW", cost=0.2)
+def every_other_row() -> s.Selector:
+    """Compose "every other row"."""
+    return s.Rows(every=2)
+
+
+@construction(
+    "rows: [DET] rank=ORD AT LAST noun=ROW",
+    "rows: [DET] rank=ORD LAST noun=ROW",
+    "rows: DET PENULT noun=ROW",
+    cost=0.1,
+)
+def row_from_end(noun: Lex, rank: Lex | None = None) -> s.Selector | None:
+    """Compose "the second to last row" and "the penultimate row"."""
+    number = -2 if rank is None else -rank.value
+    return None if noun.plural else s.Rows(first=str(number), last=str(number))
+
+
+@construction("rows: DET SAME ROW", "rows: THATWORD ROW", cost=0.1)
+def same_row() -> s.Selector:
+    """Compose "the same row"."""
+    return s.RowOf()
+
+
+@construction("rows: DET ROW OF tree=place", cost=0.2)
+def row_of_tree(tree: Place) -> s.Selector | None:
+    """Compose "the row of tree 12"."""
+    return s.RowOf(origin=tree.selector) if isinstance(tree.selector, s.TreeIs | s.Here) else None
+
+
+@construction("rows: [DET] NEXTROW", cost=0.1)
+def next_row() -> s.Selector:
+    """Compose "the next row"."""
+    return s.RowOf(over=1)
+
+
+@construction("rows: [DET] PREVROW", cost=0.1)
+def previous_row() -> s.Selector:
+    """Compose "the previous row"."""
+    return s.RowOf(over=-1)
+
+
+@construction("rows: n=count ROWSOVER", cost=0.1)
+def rows_over(n: int) -> s.Selector:
+    """Compose "two rows over"."""
+    return s.RowOf(over=n)
+
+
+@construction("rows: [DET] ODD noun=ROW", "rows: each=EACH ODD noun=ROW", cost=0.1)
+def odd_rows(noun: Lex, each: Lex | None = None) -> s.Selector | None:
+    """Compose "the odd rows"."""
+    return s.Rows(first="1", every=2) if noun.plural or each is not None else None
+
+
+@construction(
+    "rows: [DET] ODD noun=ROW [FROM] first=NUM range_to last=NUM",
+    "rows: [DET] ODD noun=ROW BETWEEN first=NUM AND last=NUM",
+    cost=0.1,
+)
+def odd_rows_between(noun: Lex, first: Lex, last: Lex) -> s.Selector | None:
+    """Compose "the odd rows from 3 to 9"."""
+    return _parity(noun, first, last, 1)
+
+
+@construction("rows: [DET] EVEN noun=ROW", "rows: each=EACH EVEN noun=ROW", cost=0.1)
+def even_rows(noun: Lex, each: Lex | None = None) -> s.Selector | None:
+    """Compose "the even rows"."""
+    return s.Rows(first="2", every=2) if noun.plural or each is not None else None
+
+
+@construction(
+    "rows: [DET] EVEN noun=ROW [FROM] first=NUM range_to last=NUM",
+    "rows: [DET] EVEN noun=ROW BETWEEN first=NUM AND last=NUM",
+    cost=0.1,
+)
+def even_rows_between(noun: Lex, first: Lex, last: Lex) -> s.Selector | None:
+    """Compose "the even rows between 2 and 8"."""
+    return _parity(noun, first, last, 0)
+
+
+def _parity(noun: Lex, first: Lex, last: Lex, remainder: int) -> s.Selector | None:
+    """Return the odd or the even rows of a range."""
+    low, high = whole(first.value), whole(last.value)
+    if low is None or high is None or low >= high or not noun.plural:
+        return None
+    return s.Rows(first=str(low + (low % 2 != remainder)), last=str(high), every=2)
+
+
+@construction("rows: [DET] rank=ORD n=count noun=ROW", cost=0.1)
+def first_rows(rank: Lex, n: int, noun: Lex) -> s.Selector | None:
+    """Compose "the first three rows"."""
+    return s.Rows(first="1", last=str(n)) if noun.plural and rank.value == 1 and n > 1 else None
+
+
+@construction("rows: [DET] LAST n=count noun=ROW", cost=0.1)
+def last_rows(n: int, noun: Lex) -> s.Selector | None:
+    """Compose "the last two rows"."""
+    return s.Rows(first=str(-n), last="-1") if noun.plural and n > 1 else None
+
+
+@construction("rows: [DET] LAST noun=ROW", cost=0.2)
+def last_row(noun: Lex) -> s.Selector | None:
+    """Compose "the last row"."""
+    return None if noun.plural else s.Rows(first="-1", last="-1")
+
+
+@construction("rows: [DET] rank=ORD noun=ROW", cost=0.2)
+def ranked_row(rank: Lex, noun: Lex) -> s.Selector | None:
+    """Compose "the third row"."""
+    return None if noun.plural else s.Rows(first=str(rank.value), last=str(rank.value))
+
+
+@construction("region: rows=rows", cost=0.0)
+def rows_as_region(rows: s.Selector) -> s.Selector:
+    """Compose "row 4" as an area."""
+    return rows
+
+
+@construction("each_row: EACH noun=ROW", cost=0.2)
+def each_row(noun: Lex) -> s.Selector | None:
+    """Compose "each row"."""
+    return None if noun.plural else s.Rows()
+
+
+@construction("each_row: EACH AT rows=rows", "each_row: EACH OF rows=rows", "each_row: EACH rows=rows", cost=0.2)
+def each_of_rows(rows: s.Selector) -> s.Selector:
+    """Compose "each of rows 3 to 5"."""
+    return rows
+
+
+@construction("each_row: rows=each_row in_ block=block", cost=0.1)
+def each_row_of_block(rows: s.Selector, block: s.Selector) -> s.Selector:
+    """Compose "each row of block 2"."""
+    return over(rows, block)
+
+
+@construction("region: DET noun=ROW", "region: EACH noun=ROW", cost=0.5)
+def every_row(noun: Lex) -> s.Selector | None:
+    """Compose "all rows"."""
+    return s.Rows() if noun.plural else None
+
+
+@construction("each_row: EACH n=ORD noun=ROW", "each_row: EACH OTHER noun=ROW", cost=0.2)
+def every_so_many_row(noun: Lex, n: Lex | None = None) -> s.Selector | None:
+    """Compose "every third row", one by one."""
+    every = 2 if n is None else n.value
+    return s.Rows(every=every) if every > 1 and not noun.plural else None
+
+
+@construction(
+    "place: [DET] inner=nominal in_ rows=each_row",
+    "place: each=EACH inner=nominal in_ rows=each_row",
+    cost=0.3,
+)
+def trees_of_each_row(inner: Nominal, rows: s.Selector, each: Lex | None = None) -> Place | None:
+    """Compose "the northernmost tree of each row"."""
+    if not chooses_from_trees(inner.selector):
+        return None
+    if inner.single:
+        return Place(inner.selector, "several", each=True, per=rows) if each is None else None
+    return Place(over(inner.selector, rows), "several") if inner.plural or each is not None else None
+
+
+@construction("place: one=place in_ rows=each_row", "place: one=place FOR rows=each_row", cost=0.2)
+def in_each_row(one: Place, rows: s.Selector) -> Place | None:
+    """Compose "two trees in each row"."""
+    if one.per is not None or one.shape not in ("one", "several") or one.optional or one.at_most:
+        return None
+    if not chooses_from_trees(one.selector) or isinstance(one.selector, s.InRow):
+        return None
+    if one.shape == "several" and one.count is None:
+        return replace(one, selector=over(one.selector, rows))
+    return Place(one.selector, "several", each=True, per=rows)
+
+
+@construction("place: rows=each_row", cost=0.5)
+def at_each_row(rows: s.Selector) -> Place:
+    """Compose "each row" as a place."""
+    return Place(s.Trees(), "area", each=True, per=rows)
+
+
+@construction("rows_of_block: rows=rows in_ block=block", "rows_of_block: rows=each_row in_ block=block", cost=0.1)
+def rows_of_block(rows: s.Selector, block: s.Selector) -> s.Selector:
+    """Compose "rows 3 to 5 of block 2"."""
+    return over(rows, block)

@@ -1,0 +1,129 @@
+"""Constructions of single spots on the site: corners, middles, markers and gates."""
+
+from __future__ import annotations
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.meaning import Nominal, Place
+from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
+from fieldhand.planning.grammar.words import Lex
+from fieldhand.terms import Side
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+
+@construction("nominal: TREE in_ DET at=corner_at", "nominal: ONE in_ DET at=corner_at", cost=0.1)
+def tree_in_corner(at: Nominal) -> Nominal:
+    """Compose "tree in the north-east corner"."""
+    return at
+
+
+@construction("corner_at: side=DIR noun=CORNER", "corner_at: side=MOST noun=CORNER", cost=0.0)
+def corner_at(side: Lex, noun: Lex) -> Nominal | None:
+    """Compose "north-east corner" behind "tree in the"."""
+    return corner(side, noun)
+
+
+@construction(
+    "nominal: TREE in_ DET MIDDLE [in_] [site]",
+    "nominal: TREE NEAREST [AT] DET MIDDLE [in_] [site]",
+    cost=0.1,
+)
+def tree_in_middle() -> Nominal:
+    """Compose "tree in the middle of the orchard"."""
+    return Nominal(s.Middle(), single=True)
+
+
+@construction("nominal: TREE in_ DET MIDDLE OF where=region", cost=0.1)
+def tree_in_middle_of(where: s.Selector) -> Nominal | None:
+    """Compose "tree in the middle of row 4"."""
+    if isinstance(where, s.Edge):
+        return Nominal(s.EdgeMiddle(side=where.side, of=where.of), single=True)
+    return Nominal(s.Middle(of=where), single=True)
+
+
+@construction("nominal: side=DIR noun=CORNER [TREE]", "nominal: side=MOST noun=CORNER [TREE]", cost=0.1)
+def corner(side: Lex, noun: Lex) -> Nominal | None:
+    """Compose "north-east corner"."""
+    if side.value not in CORNERS or noun.plural:
+        return None
+    return Nominal(s.Corners(which=(side.value,)), single=True)
+
+
+@construction("nominal: [n=count] noun=CORNER [TREE]", "nominal: TREE AT DET [n=count] noun=CORNER", cost=0.2)
+def corners(noun: Lex, n: int | None = None) -> Nominal | None:
+    """Compose "four corners"."""
+    if n not in (None, 4):
+        return None
+    if not noun.plural:
+        return Nominal(s.Corners(), plural=False, kind="corner")
+    return Nominal(s.Corners(), plural=True, complete=4)
+
+
+@construction(
+    "place: [DET] MIDDLE in_ site",
+    "place: [DET] MIDDLE",
+    "place: [DET] MIDDLE TREE",
+    "place: [DET] MIDDLE ONE",
+    cost=0.2,
+)
+def middle() -> Place:
+    """Compose "the middle of the orchard"."""
+    return Place(s.Middle(), "one")
+
+
+@construction("place: [DET] MIDDLE in_ where=region", "place: [DET] MIDDLE TREE in_ where=region", cost=0.2)
+def middle_of(where: s.Selector) -> Place | None:
+    """Compose "the middle of row 4"."""
+    if isinstance(where, s.InZone):
+        return Place(s.PointsIn(zone=where.zone), "one") if not where.outside else None
+    if isinstance(where, s.Edge):
+        return Place(s.EdgeMiddle(side=where.side, of=where.of), "one")
+    return Place(s.Middle(of=where), "one")
+
+
+@construction("marker: START", "marker: DET START", cost=0.1)
+def start_marker() -> s.Selector:
+    """Compose "the start"."""
+    return s.Marker(name="start")
+
+
+@construction("marker: FINISH", "marker: DET FINISH", cost=0.1)
+def end_marker() -> s.Selector:
+    """Compose "the end"."""
+    return s.Marker(name="end")
+
+
+@construction("marker: [DET] CHARGER", cost=0.1)
+def charger() -> s.Selector:
+    """Compose "the charger"."""
+    return s.Marker(name="charger")
+
+
+@construction("place: marker=marker", cost=0.1)
+def marker(marker: s.Selector) -> Place:
+    """Compose "the charger" as a place."""
+    return Place(marker, "one")
+
+
+@construction("edge_side: side=DIR EDGE", "edge_side: side=DIR SIDE", "edge_side: side=DIR FINISH", cost=0.1)
+def edge_side(side: Lex) -> Side | None:
+    """Compose "northern edge" behind "the middle of the"."""
+    return side.value if side.value in SIDES else None
+
+
+@construction(
+    "place: [DET] MIDDLE OF [DET] side=edge_side [in_] [site]",
+    "place: [DET] TREE AT DET MIDDLE OF [DET] side=edge_side [in_] [site]",
+    cost=0.1,
+)
+def middle_of_edge(side: Side) -> Place:
+    """Compose "the middle of the northern edge"."""
+    return Place(s.EdgeMiddle(side=side), "one")
+
+
+@construction("place: [DET] gate=GATENAME", cost=0.1)
+def gate(gate: Lex) -> Place:
+    """Compose "north gate", the name of a gate."""
+    return Place(s.GateIs(gate=gate.value), "one")

@@ -1,0 +1,154 @@
+"""Read a request with the grammar: its words, the chart, the dialogue, and the plan that comes of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.english.faults import Unclear
+from fieldhand.planning.english.lexicon import lexicon_for
+from fieldhand.planning.english.limits import LimitPhrase
+from fieldhand.planning.english.planned import Meant, planned_as
+from fieldhand.planning.english.tokens import Word, words_of
+from fieldhand.planning.grammar.chart import Chart, Edge, Grammar, tokens_of
+from fieldhand.planning.grammar.dialogue import Dialogue, DialogueState, NotComposed, whole_plan
+from fieldhand.planning.grammar.words import edges_of, fillers_of
+from fieldhand.planning.planner import Planned
+from fieldhand.request_check import mismatches
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
+from fieldhand.task import plan as p
+from fieldhand.task.plan import Span
+from fieldhand.task.request_coverage import request_pieces
+
+#: Two readings whose costs differ by less are equally likely.
+_MARGIN = 0.5
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reading:
+    """One way to read a request: the state of the dialogue at its end, its cost, and the fillers that were skipped."""
+
+    state: DialogueState
+    cost: float
+    skipped: tuple[Span, ...]
+
+
+@cache
+def grammar() -> Grammar:
+    """Return all constructions."""
+    from fieldhand.planning.grammar import commands, places
+
+    made = Grammar()
+    made.include(places.GRAMMAR)
+    made.include(commands.GRAMMAR)
+    return made
+
+
+def readings(request: str, site: Site, robot: RobotProfile) -> list[Reading]:
+    """Return the ways to read a request as a whole, cheapest first; empty if the grammar does not cover it."""
+    words = words_of(request)
+    lexicon = lexicon_for(robot, site)
+    fillers = fillers_of(words, lexicon)
+    chart = Chart(grammar(), len(words), fillers)
+    chart.parse(edges_of(words, lexicon, robot))
+    dialogue = Dialogue(robot, site, lambda used: spans(words, used))
+    found: list[Reading] = []
+    for edge in chart.whole("request"):
+        try:
+            state = dialogue.read(edge.meaning)
+        except NotComposed:
+            continue
+        found.append(Reading(state=state, cost=edge.cost, skipped=_skipped(words, edge)))
+    return found
+
+
+def composed(request: str, site: Site, robot: RobotProfile) -> Planned | None:
+    """Return the plan of a request that the grammar covers as a whole and in one way; None otherwise.
+
+    A plan that says something else than the request, or leaves a word of it out, is none.
+    """
+    found = readings(request, site, robot)
+    if not found:
+        return None
+    best, *others = found
+    meant = _meant(best)
+    if any(other.cost < best.cost + _MARGIN and not _same(_meant(other), meant) for other in others):
+        return None
+    if _leaves_block_open(meant.plan, site):
+        return None
+    try:
+        outcome = planned_as(meant, request, site, robot)
+    except Unclear:
+        return None
+    if not isinstance(outcome, Planned) or _leaves_words(outcome) or mismatches(outcome.task, site, robot):
+        return None
+    return outcome
+
+
+def _leaves_words(outcome: Planned) -> bool:
+    """Return True if a word of the request has no counterpart in the plan."""
+    return any(piece.role == "nothing" for piece in request_pieces(outcome.task))
+
+
+def _meant(reading: Reading) -> Meant:
+    state = reading.state
+    plan, no_part = whole_plan(state.plan), list(reading.skipped)
+    if isinstance(plan, p.InOrder):
+        plan = replace(plan, said=state.joints)
+    else:
+        no_part += state.joints
+    limits = tuple(
+        LimitPhrase(amount=one.amount.number, unit=one.amount.unit, keep=one.keep, said=(said[0][0], said[-1][1]))
+        for one, said in zip(state.limits, state.limits_said, strict=True)
+    )
+    return Meant(
+        plan=plan, limits=limits, nominal=state.nominal, nominal_said=state.nominal_said, no_part=tuple(no_part)
+    )
+
+
+def _same(one: Meant, other: Meant) -> bool:
+    """Return True if two meanings differ only by the words that say them."""
+    return (
+        _unsaid(one.plan) == _unsaid(other.plan)
+        and one.nominal == other.nominal
+        and [(limit.amount, limit.unit, limit.keep) for limit in one.limits]
+        == [(limit.amount, limit.unit, limit.keep) for limit in other.limits]
+    )
+
+
+def _unsaid(node: p.Node) -> p.Node:
+    """Return a plan without the spans of the request."""
+    bare = replace(node, said=(), at_said=()) if isinstance(node, p.Act) else replace(node, said=())
+    return bare.with_children([_unsaid(child) for child in node.children])
+
+
+def _leaves_block_open(plan: p.Node, site: Site) -> bool:
+    """Return True if a row is named on a site of several blocks without its block."""
+    if len(site.planting.blocks) < 2:
+        return False
+    for node in p.walk(plan):
+        for part in () if node.selector is None else node.selector.walk():
+            if isinstance(part, s.Rows) and not any(isinstance(of, s.InBlock) for of in part.of.walk()):
+                return True
+    return False
+
+
+def spans(words: Sequence[Word], used: int) -> tuple[Span, ...]:
+    """Return the character ranges of the words in a bit mask, neighbours joined."""
+    found: list[Span] = []
+    last = -2
+    for k in tokens_of(used):
+        if k == last + 1:
+            found[-1] = (found[-1][0], words[k].end)
+        else:
+            found.append((words[k].start, words[k].end))
+        last = k
+    return tuple(found)
+
+
+def _skipped(words: Sequence[Word], edge: Edge) -> tuple[Span, ...]:
+    every = (1 << len(words)) - 1
+    return spans(words, every & ~edge.used)
