@@ -6,6 +6,16 @@
 # ruff: noqa: E501 - a request and its plan stand on one line each
 
 PLANNED = [
+    (
+        "husky",
+        "take a picture of three trees in row 3 next to each other",
+        "for Adjacent(Here, 3, of Rows(3, 3)): [picture]",
+    ),
+    (
+        "husky",
+        "read co2 at the tree of row 5 farthest from the charger",
+        "co2 @ Farthest(Marker(charger), of Rows(5, 5))",
+    ),
     ("husky", "take a picture of tree 3 from the south in row 3", "picture @ InRow(3, 3, south, of Rows(3, 3))"),
     (
         "husky",
@@ -1195,11 +1205,6 @@ REFUSED = [
     ),
     (
         "husky",
-        "take a picture of three trees in row 3 next to each other",
-        "'next to each other' could not be interpreted in 'row 3 next to each other'",
-    ),
-    (
-        "husky",
         "take a picture of every other corner",
         "'every other corner': every second, third, ... tree, and of which trees?",
     ),
@@ -1220,11 +1225,6 @@ REFUSED = [
         "husky",
         "take a picture of all trees in row 3 except the first two",
         "'two' does not fit at this point in 'take a picture of all trees in row 3 except the first two'",
-    ),
-    (
-        "husky",
-        "read co2 at the tree of row 5 farthest from the charger",
-        "'farthest' could not be interpreted in 'row 5 farthest'",
     ),
     (
         "husky",

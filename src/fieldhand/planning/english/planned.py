@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from fieldhand.errors import PlaceError, TaskError
 from fieldhand.language import Number, message, named
@@ -24,7 +24,7 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task import plan as p
 from fieldhand.task.build import make_task
-from fieldhand.task.frames import Budget, BudgetKind, Constraints, Resource
+from fieldhand.task.frames import Budget, BudgetKind, Constraints, Resource, Then
 
 NAME = "english"
 KINDS: dict[str, BudgetKind] = {"metres": "distance_m", "seconds": "duration_s", "percent": "energy_percent"}
@@ -49,33 +49,79 @@ def planned(
         )
         return Refused(reasons=(reason,), planner=NAME)
     check_averages(told.root, request, robot)
-    nominal = usual_exit(site) if told.nominal is None else told.nominal
     plan = node_of(told.root)
     if isinstance(plan, p.InOrder):
         plan = replace(plan, said=tuple(told.joints))
     else:
         told.no_part += told.joints  # there is nothing that they could put in order
+    return planned_as(
+        Meant(
+            plan=plan,
+            limits=tuple(told.limits),
+            nominal=told.nominal,
+            nominal_said=tuple(told.nominal_said),
+            no_part=tuple(told.no_part),
+            assumptions=tuple(told.assumptions),
+        ),
+        request,
+        site,
+        robot,
+        read_as=read_as,
+        warnings=warnings,
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Meant:
+    """What a request means.
+
+    Attributes:
+        plan: Plan.
+        limits: Budgets and reserves.
+        nominal: How the mission ends; None if the request does not say so.
+        nominal_said: Spans of the request that say it.
+        no_part: Spans of the request that ask for nothing.
+        assumptions: What was assumed, as sentences.
+    """
+
+    plan: p.Node
+    limits: tuple[LimitPhrase, ...] = ()
+    nominal: Then | None = None
+    nominal_said: tuple[p.Span, ...] = ()
+    no_part: tuple[p.Span, ...] = ()
+    assumptions: tuple[str, ...] = ()
+
+
+def planned_as(
+    meant: Meant, request: str, site: Site, robot: RobotProfile, *, read_as: str = "", warnings: tuple[str, ...] = ()
+) -> Outcome:
+    """Return the Task of what a request means, or a refusal that names the places which the site does not have.
+
+    Raises:
+        Unclear: A limit cannot be kept.
+    """
+    nominal = usual_exit(site) if meant.nominal is None else meant.nominal
     task = make_task(
         request=request,
-        plan=plan,
+        plan=meant.plan,
         measures=measures_of(robot),
         resources=(
             Resource(kind="robot", name=robot.name, sha256=robot.sha256),
             Resource(kind="site", name=site.name, sha256=site.sha256),
         ),
-        constraints=_constraints(told.limits),
+        constraints=_constraints(meant.limits),
         nominal=nominal,
-        nominal_said=tuple(told.nominal_said),
-        no_part=tuple((start, end) for start, end in told.no_part if re.search(r"\w", request[start:end])),
+        nominal_said=meant.nominal_said,
+        no_part=tuple((start, end) for start, end in meant.no_part if re.search(r"\w", request[start:end])),
         faulted=faulted_exits(nominal),
         read_as=read_as,
-        assumptions=tuple(dict.fromkeys(told.assumptions)),
+        assumptions=tuple(dict.fromkeys(meant.assumptions)),
         warnings=warnings,
     )
     problems = tuple(_impossible(task.composition.plan, site))
     if problems:
         return Refused(reasons=problems, planner=NAME)
-    if told.nominal is None:
+    if meant.nominal is None:
         task = with_assumed_exit(task, site, robot)
     return Planned(task=task, planner=NAME)
 

@@ -13,7 +13,7 @@ from fieldhand.planning.english.reading import reading_of, refused
 from fieldhand.planning.english.rewording import Worded
 from fieldhand.planning.english.tokens import Word, words_of
 from fieldhand.planning.english.unheld import unheld
-from fieldhand.planning.planner import Answer, Clarify, Outcome, Reason
+from fieldhand.planning.planner import Answer, Clarify, Outcome, Reason, Refused
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.codec_text import hidden_character
@@ -33,10 +33,20 @@ class EnglishPlanner:
     def plan(self, request: str, site: Site, robot: RobotProfile, answers: tuple[Answer, ...] = ()) -> Outcome:
         """Plan a request. Each answer is read in place of the words that its question was about.
 
+        A request that the rules do not understand is read by the grammar of constructions, which plans it only if it
+        covers every word in one way.
+
         Raises:
             RequestError: The request is empty, too long, or holds characters that no document can hold.
         """
+        outcome = self._by_rules(request, site, robot, answers)
+        if not isinstance(outcome, Refused) or answers or unheld(words_of(request)):
+            return outcome
+        from fieldhand.planning.grammar.reader import composed
 
+        return composed(request, site, robot) or outcome
+
+    def _by_rules(self, request: str, site: Site, robot: RobotProfile, answers: tuple[Answer, ...]) -> Outcome:
         def read(worded: Worded, taken: tuple[Answer, ...]) -> Outcome:
             said = words_of(worded.text)
             _check_length(said)

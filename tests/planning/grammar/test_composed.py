@@ -1,0 +1,121 @@
+"""Requests that the grammar of constructions plans: as the rules do where both plan, and some that the rules refuse."""
+
+# ruff: noqa: E501 - a request and its plan stand on one line each
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+
+from fieldhand.approval.account import unaccounted
+from fieldhand.planning.english.planner import EnglishPlanner
+from fieldhand.planning.grammar.reader import composed, readings
+from fieldhand.planning.planner import Planned, Refused
+from fieldhand.request_check import mismatches
+from fieldhand.robot.loader import load_robot
+from fieldhand.site.loader import open_site
+from fieldhand.site.model import Site
+from planning.english.outlines import outline
+from planning.english.vineyards import vineyard
+from support.requests import english, rows
+
+ROBOTS = {name: load_robot(name) for name in ("husky", "amiga")}
+KNOWN = [case[:3] for case in (*english.PLANNED, *rows.PLANNED)]
+#: Share of the requests that the rules plan, and the grammar as well.
+LEAST_SHARE = 0.58
+#: What the rules refuse for a word and the grammar plans.
+MORE = {
+    "demo": [
+        ("Everything within 15 metres of tree 88 needs a canopy temperature reading.", "for Within(15, TreeIs(88)): [picture]"),
+        ("Pick 12 trees at random across the whole orchard and measure the canopy temperature of each.", "for RandomSample(12): [picture]"),
+        ("read co2 at the tree of row 5 farthest from the charger", "co2 @ Farthest(Marker(charger), of Rows(5, 5))"),
+        ("take a picture of three trees in row 3 next to each other", "for Adjacent(Here, 3, of Rows(3, 3)): [picture]"),
+    ],
+    "vineyard": [
+        ("north block row 8, co2 + air temp", "for Rows(8, 8, of InBlock(North)): [co2; air] | return_to_start"),
+        ("The southwest quarter of the south block, canopy temps please.", "for Quarter(sw, of InBlock(South)): [picture] | return_to_start"),
+        ("Take pictures of the vines along the edge of the south block.", "for UnionOf(Edge(north, of InBlock(South))+Edge(east, of InBlock(South))+Edge(south, of InBlock(South))+Edge(west, of InBlock(South))): [picture] | return_to_start"),
+    ],
+}  # fmt: skip
+
+
+@cache
+def site_of(name: str) -> Site:
+    return open_site("demo") if name == "demo" else vineyard()
+
+
+@cache
+def read(robot: str, request: str) -> Planned | None:
+    return composed(request, site_of("demo"), ROBOTS[robot])
+
+
+def test_whatever_both_plan_is_the_same_plan() -> None:
+    different = []
+    for robot, request, plan in KNOWN:
+        found = read(robot, request)
+        if found is not None and outline(found.task) != plan:
+            different.append((request, plan, outline(found.task)))
+    assert different == []
+
+
+def test_most_requests_that_the_rules_plan_are_covered() -> None:
+    covered = sum(read(robot, request) is not None for robot, request, _ in KNOWN)
+    assert covered >= LEAST_SHARE * len(KNOWN)
+
+
+def test_nothing_is_planned_that_has_to_be_asked_or_refused() -> None:
+    cases = [*english.ASKED, *rows.ASKED, *english.REFUSED, *rows.REFUSED]
+    planned = [case[1] for case in cases if read(case[0], case[1]) is not None]
+    assert planned == []
+
+
+@pytest.mark.parametrize(
+    ("site", "request_", "plan"), [(site, *case) for site, cases in MORE.items() for case in cases]
+)
+def test_what_the_rules_do_not_know_is_planned_with_every_word(site: str, request_: str, plan: str) -> None:
+    outcome = EnglishPlanner().plan(request_, site_of(site), ROBOTS["husky"])
+    assert isinstance(outcome, Planned), outcome
+    assert outline(outcome.task) == plan
+    assert unaccounted(outcome.task) == ()
+    assert mismatches(outcome.task, site_of(site), ROBOTS["husky"]) == ()
+
+
+@pytest.mark.parametrize(
+    "request_",
+    [
+        "Take pictures of row 12.",  # of which block?
+        "Take a picture of row 3 of the north block.",  # of every vine, or of one?
+        "Take a picture of tree 4 and polish it.",
+        "Take pictures of the Merlot vines tomorrow, row by row.",
+        "Mow between rows 5 and 9 of the North block, and take canopy temps while you are at it.",
+        "Drive slowly along row 22 in South and read CO2 at each vine.",
+    ],
+)  # fmt: skip
+def test_what_is_open_or_not_possible_is_not_planned_by_either(request_: str) -> None:
+    assert composed(request_, site_of("vineyard"), ROBOTS["husky"]) is None
+    assert not isinstance(EnglishPlanner().plan(request_, site_of("vineyard"), ROBOTS["husky"]), Planned)
+
+
+@pytest.mark.parametrize("word", ["gently", "purple", "xyzzy", "backwards", "maybe"])
+def test_an_unknown_word_anywhere_ends_it(word: str) -> None:
+    for _, request, _ in KNOWN[::40]:
+        words = request.split()
+        for k in range(len(words)):
+            changed = " ".join([*words[:k], word, *words[k:]])
+            assert composed(changed, site_of("demo"), ROBOTS["husky"]) is None, changed
+
+
+def test_reading_twice_gives_the_same() -> None:
+    for robot, request, _ in KNOWN[::25]:
+        assert readings(request, site_of("demo"), ROBOTS[robot]) == readings(request, site_of("demo"), ROBOTS[robot])
+
+
+def test_an_empty_or_odd_text_is_not_covered() -> None:
+    for text in ("", " ", "...", "?!", "and then", "5", "," * 50, "take " * 60):
+        assert composed(text, site_of("demo"), ROBOTS["husky"]) is None
+
+
+def test_a_refusal_by_the_rules_stays_where_the_grammar_does_not_cover_it() -> None:
+    outcome = EnglishPlanner().plan("Count the grapes on 10 Syrah vines.", site_of("vineyard"), ROBOTS["husky"])
+    assert isinstance(outcome, Refused)
