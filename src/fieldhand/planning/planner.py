@@ -104,11 +104,13 @@ class Reason:
         what: Description of the problem.
         said: Character ranges of the request that caused it: start, and end (exclusive).
         advice: Suggested wording or remedy; empty if there is none.
+        unknown: True if the planner does not know these words; False if it knows them and cannot do what they say.
     """
 
     what: str
     said: tuple[Span, ...] = ()
     advice: str = ""
+    unknown: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -26,6 +26,8 @@ _NO_ORDER = frozenset(
 _MAY_NAME = frozenset({"UNKNOWN", "ATTRVAL", "ATTR", "START", "FINISH", "DIR", "ZONE", "IDS", "NAMED", "MIDDLE"})
 #: A shorter word is no word that another may be a misspelling of.
 _SPELLABLE = 6
+#: An id of letters and a number, which names a tree without the word for it.
+CODE = re.compile(r"([^\W\d_]+)(\d+)")
 
 
 @dataclass(frozen=True)
@@ -51,7 +53,7 @@ class Lexicon:
     def vocabulary(self) -> frozenset[str]:
         """Every word that stands in some phrase, names of rows, blocks and trees among them."""
         words = {word for phrase in (*self.own, *shared_vocabulary()) for word in phrase}
-        names = [*self.trees, *self._rows, *self._blocks]
+        names = [*self.trees, *self.row_names, *self.block_names]
         return frozenset({*words, *names, *(part for name in names for part in split(name))})
 
     @cached_property
@@ -104,20 +106,36 @@ class Lexicon:
         """The block whose name stands right before a term, and where the name begins; no article is a name."""
         for length in (3, 2, 1):
             words = terms[max(at - length, 0) : at]
-            name = self._blocks.get("".join(_spelt(t.text) for t in words)) if len(words) == length else None
+            name = self.block_names.get("".join(_spelt(t.text) for t in words)) if len(words) == length else None
             if name is not None and all(t.kind in _MAY_NAME for t in words):
                 return name, at - length
         return None
 
     @cached_property
-    def _rows(self) -> Mapping[str, str]:
+    def row_names(self) -> Mapping[str, str]:
         """Names of rows that are not plain numbers."""
         return {_spelt(row.name): row.name for row in self.site.planting.rows if not row.name.isdigit()}
 
     @cached_property
-    def _blocks(self) -> Mapping[str, str]:
+    def block_names(self) -> Mapping[str, str]:
         """Names of blocks that are not plain numbers."""
         return {_spelt(block.name): block.name for block in self.site.planting.blocks if not block.name.isdigit()}
+
+    @cached_property
+    def codes(self) -> frozenset[str]:
+        """Return the letters with which the tree ids begin, for ids of letters and a number."""
+        found = (CODE.fullmatch(tree) for tree in self.site.by_id)
+        return frozenset(code[1].lower() for code in found if code is not None)
+
+    @cached_property
+    def short_values(self) -> Mapping[str, tuple[str, str]]:
+        """Return attributes with their values by the first word of a value of several words, if it names just one."""
+        found: dict[str, set[tuple[str, str]]] = {}
+        for attribute, values in self.site.attributes.items():
+            for value in values:
+                if isinstance(value, str) and len(split(value)) > 1:
+                    found.setdefault(split(value)[0], set()).add((attribute, value))
+        return {word: next(iter(meant)) for word, meant in found.items() if len(meant) == 1}
 
     @cached_property
     def _coded(self) -> Mapping[str, str]:
@@ -137,9 +155,9 @@ class Lexicon:
         head = before[at]
         found: Mapping[str, str] = {}
         if head.kind == "ROW":
-            found = self._rows
+            found = self.row_names
         elif head.kind == "PLOT" and head.text.lower() in ("block", "blocks"):
-            found = self._blocks
+            found = self.block_names
         elif not listed and (head.kind == "TREE" or before[-1].kind == "NUMBERED"):
             return self.trees, "IDS"
         elif head.kind == "IDS" and before[-1].kind in ("COMMA", "AND"):  # "trees T89 and T158"

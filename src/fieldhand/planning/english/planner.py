@@ -44,7 +44,10 @@ class EnglishPlanner:
             return outcome
         from fieldhand.planning.grammar.reader import composed
 
-        return composed(request, site, robot) or outcome
+        found = composed(request, site, robot)
+        if isinstance(found, Refused) and not any(reason.unknown for reason in outcome.reasons):
+            return outcome  # the rules know the words, and say more of what is wrong
+        return found or outcome
 
     def _by_rules(self, request: str, site: Site, robot: RobotProfile, answers: tuple[Answer, ...]) -> Outcome:
         def read(worded: Worded, taken: tuple[Answer, ...]) -> Outcome:

@@ -46,6 +46,7 @@ def unknown_words(terms: Sequence[Term], lexicon: Lexicon) -> tuple[Reason, ...]
                 what=message("not understood: {words}", words=words),
                 said=tuple(t.span for t in strange),
                 advice=advice,
+                unknown=True,
             )
         )
     return tuple(reasons)

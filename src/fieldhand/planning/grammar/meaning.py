@@ -126,9 +126,9 @@ class Lead:
 
 @dataclass(frozen=True, slots=True)
 class Home:
-    """The end of the mission at a marker, or where the robot then is."""
+    """A return at the end of the mission: to a marker, or to the usual one of the site."""
 
-    then: Literal["return_to_start", "return_to_end"]
+    then: Literal["return_to_start", "return_to_end"] | None
     used: int
 
 
@@ -310,8 +310,15 @@ class Said:
 
 #: Areas by the order in which they are nested, the innermost first: a row of a half of a block.
 _NESTING: dict[type[s.Selector], int] = {
-    s.InBlock: 0, s.Half: 1, s.Quarter: 1, s.Edge: 2, s.Rows: 2, s.InZone: 3,
-}  # fmt: skip
+    s.InBlock: 0,
+    s.Half: 1,
+    s.Quarter: 1,
+    s.Edge: 2,
+    s.Rows: 2,
+    s.InZone: 3,
+}
+#: Selectors of areas.
+AREAS = tuple(_NESTING)
 
 
 def over(selector: s.Selector, base: s.Selector) -> s.Selector:

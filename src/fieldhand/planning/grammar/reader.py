@@ -15,7 +15,7 @@ from fieldhand.planning.english.tokens import Word, words_of
 from fieldhand.planning.grammar.chart import Chart, Edge, Grammar, tokens_of
 from fieldhand.planning.grammar.dialogue import Dialogue, DialogueState, NotComposed, whole_plan
 from fieldhand.planning.grammar.words import edges_of, fillers_of
-from fieldhand.planning.planner import Planned
+from fieldhand.planning.planner import Planned, Refused
 from fieldhand.request_check import mismatches
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -65,10 +65,11 @@ def readings(request: str, site: Site, robot: RobotProfile) -> list[Reading]:
     return found
 
 
-def composed(request: str, site: Site, robot: RobotProfile) -> Planned | None:
+def composed(request: str, site: Site, robot: RobotProfile) -> Planned | Refused | None:
     """Return the plan of a request that the grammar covers as a whole and in one way; None otherwise.
 
-    A plan that says something else than the request, or leaves a word of it out, is none.
+    A plan that says something else than the request, or leaves a word of it out, is none. A request that is understood
+    and names a place that the site does not have is refused.
     """
     found = readings(request, site, robot)
     if not found:
@@ -77,12 +78,14 @@ def composed(request: str, site: Site, robot: RobotProfile) -> Planned | None:
     meant = _meant(best)
     if any(other.cost < best.cost + _MARGIN and not _same(_meant(other), meant) for other in others):
         return None
-    if _leaves_block_open(meant.plan, site):
+    if _leaves_block_open(meant.plan, site) or _counts_unnumbered_rows(meant.plan, site):
         return None
     try:
         outcome = planned_as(meant, request, site, robot)
     except Unclear:
         return None
+    if isinstance(outcome, Refused):
+        return outcome
     if not isinstance(outcome, Planned) or _leaves_words(outcome) or mismatches(outcome.task, site, robot):
         return None
     return outcome
@@ -134,6 +137,14 @@ def _leaves_block_open(plan: p.Node, site: Site) -> bool:
             if isinstance(part, s.Rows) and not any(isinstance(of, s.InBlock) for of in part.of.walk()):
                 return True
     return False
+
+
+def _counts_unnumbered_rows(plan: p.Node, site: Site) -> bool:
+    """Return True if even or odd rows are named where the rows are not numbered one after the other."""
+    if all(row.name == str(row.number) for row in site.planting.rows):
+        return False
+    parts = [part for node in p.walk(plan) if node.selector is not None for part in node.selector.walk()]
+    return any(isinstance(part, s.Rows) and part.every > 1 and part.first != "" for part in parts)
 
 
 def spans(words: Sequence[Word], used: int) -> tuple[Span, ...]:

@@ -12,7 +12,7 @@ from importlib.resources import files
 from typing import Any
 
 from fieldhand.planning.english.inflection import forms_of, plural_of
-from fieldhand.planning.english.lexicon import Lexicon
+from fieldhand.planning.english.lexicon import CODE, Lexicon
 from fieldhand.planning.english.naming import NameEntry, Naming, Phrase, split
 from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.english.vocabulary import vocabulary
@@ -31,8 +31,6 @@ _SPELT_OUT = {"temp": "temperature", "temps": "temperature", "temperatures": "te
 _WITH_A_CAMERA = {"PICTURE": "NOUN", "CAMERA": "ACTV"}
 #: Words that always may be skipped.
 _SILENT = frozenset({"FILLER"})
-#: An id of letters and a number, which names a tree without the word for it.
-_CODE = re.compile(r"([^\W\d_]+)(\d+)")
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,6 +77,8 @@ def _entries(phrase: Phrase, lexicon: Lexicon, camera: Naming | None) -> Iterato
         if full is not None and full.kind == "NOUN":
             yield replace(full, plural=full.plural or phrase[-1].endswith("s"))
     kind = "" if known is None else known.kind
+    if known is None and len(phrase) == 1 and phrase[0] in lexicon.short_values:
+        yield NameEntry(kind="ATTRVAL", value=(lexicon.short_values[phrase[0]],))
     for other in more_words().get(phrase, ()):
         if other.kind in _WITH_A_CAMERA:
             meant = _WITH_A_CAMERA[other.kind]
@@ -143,18 +143,26 @@ def _names(words: Sequence[Word], start: int, lexicon: Lexicon) -> Iterator[Edge
         if word.kind not in ("word", "number", "dash", "rank"):
             return
         spelt += "".join(split(word.text)) if word.kind != "dash" else ""
-        tree = lexicon.trees.get(spelt)
-        if tree is not None:
-            yield _edge("TREEID", start, end, Lex(tree, False, spelt))
-        for kind, named in (("ROWNAME", site.planting.rows), ("BLOCKNAME", site.planting.blocks)):
-            for one in named:
-                if not one.name.isdigit() and "".join(split(one.name)) == spelt:
-                    yield _edge(kind, start, end, Lex(one.name, False, spelt))
-                    break
+        tree = lexicon.trees.get(spelt) or (_missing_tree(word, lexicon) if end == start + 1 else None)
+        for kind, name in (
+            ("TREEID", tree),
+            ("ROWNAME", lexicon.row_names.get(spelt)),
+            ("BLOCKNAME", lexicon.block_names.get(spelt)),
+        ):
+            if name is not None:
+                yield _edge(kind, start, end, Lex(name, False, spelt))
     for gate in site.gates:
         phrase = split(gate.place.id)
         if phrase and tuple(w.norm for w in words[start : start + len(phrase)]) == phrase:
             yield _edge("GATENAME", start, start + len(phrase), Lex(gate.place.id, False, gate.place.id))
+
+
+def _missing_tree(word: Word, lexicon: Lexicon) -> str | None:
+    """Return a word that has the form of this site's tree ids, such as "N9999"; the site then says that it has none."""
+    found = CODE.fullmatch(word.text)
+    if found is None or lexicon.entry((word.norm,)) is not None:
+        return None
+    return word.text if found[1].lower() in lexicon.codes else None
 
 
 def _values(entry: NameEntry, lexicon: Lexicon) -> Iterator[Any]:

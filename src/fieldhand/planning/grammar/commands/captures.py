@@ -39,7 +39,12 @@ def passive(things: tuple[Thing, ...], used: int, place: Place | None = None) ->
     return Capture(things, place, used)
 
 
-@construction("capture: place=place COMMA things=things", "capture: place=place things=things", cost=0.9)
+@construction(
+    "capture: place=place COMMA things=things",
+    "capture: place=place things=things",
+    "capture: place=place WITH things=things",
+    cost=0.9,
+)
 def topic(place: Place, things: tuple[Thing, ...], used: int) -> Capture | None:
     """Compose "tree 4: a picture"."""
     if place.shape not in ("one", "several", "area") or any(one.action == LAST_THING for one in things):
@@ -48,7 +53,7 @@ def topic(place: Place, things: tuple[Thing, ...], used: int) -> Capture | None:
     return Capture(several, place, used)
 
 
-@construction("capture: things=things COLON place=place", "capture: things=things COMMA place=place", cost=1.2)
+@construction("capture: things=things COMMA place=place", "capture: things=things place=place", cost=1.2)
 def comment(things: tuple[Thing, ...], place: Place, used: int) -> Capture | None:
     """Compose "a picture: tree 4"."""
     return topic(place, things, used)

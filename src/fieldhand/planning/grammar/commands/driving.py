@@ -38,6 +38,8 @@ def begin_with(place: Place, used: int) -> Drive | None:
 @construction("drive: RETURN AT place=place", cost=0.5)
 def come_back_to(place: Place, used: int) -> Drive | None:
     """Compose "come back to tree 4"."""
+    if isinstance(place.selector, s.Marker) and place.selector.name != "charger":
+        return None  # the end of the mission
     return Drive(place, used, returns=True) if place.shape == "one" else None
 
 
@@ -98,7 +100,7 @@ def lead(place: Place, used: int, word: str) -> Lead | None:
 @construction("home: GOHOME", "home: RETURN", "home: RETURN AT DET PLOT", cost=0.3)
 def go_home(used: int) -> Home:
     """Compose "go home"."""
-    return Home("return_to_end", used)
+    return Home(None, used)
 
 
 @construction("home: RETURN AT marker=marker", "home: RETURN marker=marker", cost=0.2)

@@ -53,6 +53,17 @@ def of_what() -> str:
 
 
 @construction(
+    "limit: WITHOUT GO check=CMP most=amount [of_what]",
+    "limit: WITHOUT USE check=CMP most=amount [of_what]",
+    "limit: WITHOUT check=CMP most=amount [of_what]",
+    cost=0.3,
+)
+def not_more_than(check: Lex, most: Amount, used: int) -> Limit | None:
+    """Compose "without driving more than 100 m"."""
+    return Limit(most, False, used) if check.value[0] in ("gt", "ge") and most.unit in _LIMITED else None
+
+
+@construction(
     "limit: KEEP least=amount [of_what] [LEFT]",
     "limit: KEEP check=CMP least=amount [of_what] [LEFT]",
     "limit: BEFORE BATTERY [IS] [at] least=amount [LEFT]",

@@ -145,7 +145,7 @@ def without_joint(before: Said, one: Command) -> Said | None:
     return Said((*before.clauses, Clause(None, one)))
 
 
-@construction("request: said=said [FULLSTOP]", cost=0.0)
+@construction("request: said=said [FULLSTOP] [FULLSTOP]", "request: FULLSTOP said=said [FULLSTOP] [FULLSTOP]", cost=0.0)
 def request(said: Said) -> Said:
     """Compose "take a picture at tree 4."."""
     return said

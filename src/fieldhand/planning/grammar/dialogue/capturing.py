@@ -40,6 +40,7 @@ def capture(setting: Setting, state: DialogueState, command: Capture) -> Dialogu
             line, once = spaced(None, things, command.spacing, setting.site)
             return _lines_at_each(state, replace(command, things=once), place, line, said)
         place, things = spaced(place, things, command.spacing, setting.site)
+    place = _those_again(state, place)
     require_known(state, place, setting.site)
     if place is None or place.shape in ("here", "those"):
         return _at_the_same_place(state, replace(command, things=things, place=place), said)
@@ -47,6 +48,16 @@ def capture(setting: Setting, state: DialogueState, command: Capture) -> Dialogu
     if place.shape == "one":
         return capture_once(state, replace(command, things=things), place, said)
     return _capture_at_each(setting, replace(state, loop=None), replace(command, things=things), place, said)
+
+
+def _those_again(state: DialogueState, place: Place | None) -> Place | None:
+    """Return the places of the last command for "those", where its for-each cannot be continued."""
+    last = state.where
+    if place is None or place.shape != "those" or state.loop is not None or last is None or last.shape != "several":
+        return place
+    if last.selector.relative or last.per is not None or last.optional or last.at_most is not None:
+        return place
+    return replace(last, each=place.each)
 
 
 def capture_once(state: DialogueState, command: Capture, place: Place, said: Spans) -> DialogueState:

@@ -18,6 +18,7 @@ from fieldhand.planning.grammar.dialogue.state import (
     with_step,
 )
 from fieldhand.planning.grammar.meaning import Drive, Home, InAnOrder, Place
+from fieldhand.planning.homeward import usual_exit
 from fieldhand.site.model import Site
 from fieldhand.task import plan as p
 
@@ -90,6 +91,11 @@ def go_home(setting: Setting, state: DialogueState, command: Home) -> DialogueSt
         raise NotComposed("two places for one command")
     if state.home is not None:
         raise NotComposed("two ends")
+    if command.then is None:
+        usual = usual_exit(setting.site)
+        if usual == "stay":
+            raise NotComposed("where is home?")
+        command = replace(command, then=usual)
     steps = state.block.steps
     if steps and isinstance(steps[-1], p.StopMission):
         return replace(state, nominal=command.then, nominal_said=said)

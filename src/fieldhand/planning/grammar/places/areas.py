@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Nominal, Place, chooses_from_trees, over
+from fieldhand.planning.grammar.meaning import AREAS, Nominal, Place, chooses_from_trees, over
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.places.numbers import name_of
 from fieldhand.planning.grammar.places.rows import are_rows
@@ -84,10 +84,22 @@ def block(name: Lex, noun: Lex) -> s.Selector | None:
     return s.InBlock(block=name_of(name)) if noun.text.startswith("block") else None
 
 
-@construction("region: name=BLOCKNAME", cost=0.7)
+@construction("bare_block: name=BLOCKNAME", cost=0.7)
 def bare_block(name: Lex) -> s.Selector:
     """Compose "Home", the name of a block, without the word "block"."""
     return s.InBlock(block=name.value)
+
+
+@construction("region: block=bare_block", cost=0.0)
+def bare_block_as_region(block: s.Selector) -> s.Selector:
+    """Compose "Home" as an area."""
+    return block
+
+
+@construction("region: whole=bare_block part=rows", cost=0.1)
+def rows_behind_block(whole: s.Selector, part: s.Selector) -> s.Selector | None:
+    """Compose "Home rows 3 and 8"."""
+    return over(part, whole) if chooses_from_trees(part) else None
 
 
 @construction("region: block=block", cost=0.0)
@@ -184,6 +196,16 @@ def outside(inner: Nominal, where: Lex) -> Nominal | None:
     if not chooses_from_trees(inner.selector):
         return None
     return replace(inner, selector=over(inner.selector, s.InZone(zone=where.value, outside=True)))
+
+
+@construction("place: where=region COMMA inner=place", cost=0.6)
+def places_of_area(where: s.Selector, inner: Place) -> Place | None:
+    """Compose "row 7, every third tree"."""
+    if inner.per is not None or inner.shape not in ("one", "several") or not chooses_from_trees(inner.selector):
+        return None
+    if any(isinstance(part, AREAS) for part in inner.selector.walk()):
+        return None  # two areas, one after the other
+    return replace(inner, selector=over(inner.selector, where))
 
 
 @construction("place: where=region", cost=0.4)

@@ -125,6 +125,7 @@ def across_the_site(word: Lex) -> str | None:
 
 @construction(
     "place: [DET] n=count RANDOM inner=nominal",
+    "place: [DET] SAMPLE OF n=count inner=nominal",
     "place: [DET] n=count inner=nominal RANDOM",
     "place: [DET] n=count inner=nominal RANDOM in_ where=region",
     cost=0.2,
@@ -264,6 +265,12 @@ def there(word: Lex) -> Place:
         "those" if several else "here",
         each="each" in word.text or "every" in word.text,
     )
+
+
+@construction("place: word=DET", cost=1.0)
+def those(word: Lex) -> Place | None:
+    """Compose "those"."""
+    return Place(s.Here(), "those") if word.text in ("those", "these") else None
 
 
 @construction("place: word=IT", cost=0.3)

@@ -59,7 +59,7 @@ def pronoun(noun: Lex) -> Nominal:
 @construction("nominal: value=ATTRVAL inner=nominal", cost=0.2)
 def described(value: Lex, inner: Nominal) -> list[Nominal] | None:
     """Compose "yellow trees"."""
-    if inner.single or inner.complete or inner.pronoun:
+    if inner.single or inner.complete or inner.pronoun or inner.tested:
         return None  # "the Carmel ones": of which trees?
     return [
         replace(inner, selector=s.Where(attribute=name, test="eq", value=text, of=inner.selector))

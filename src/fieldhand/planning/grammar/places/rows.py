@@ -284,7 +284,20 @@ def at_each_row(rows: s.Selector) -> Place:
     return Place(s.Trees(), "area", each=True, per=rows)
 
 
-@construction("rows_of_block: rows=rows in_ block=block", "rows_of_block: rows=each_row in_ block=block", cost=0.1)
-def rows_of_block(rows: s.Selector, block: s.Selector) -> s.Selector:
+@construction(
+    "rows_of_block: rows=rows in_ block=block",
+    "rows_of_block: rows=each_row in_ block=block",
+    "rows_of_block: rows=rows in_ block=bare_block",
+    cost=0.1,
+)
+def rows_of_block(rows: s.Selector, block: s.Selector) -> s.Selector | None:
     """Compose "rows 3 to 5 of block 2"."""
+    if any(isinstance(part, s.InBlock) for part in rows.walk()):
+        return None
     return over(rows, block)
+
+
+@construction("rows: rows=rows_of_block", cost=0.0)
+def rows_with_block(rows: s.Selector) -> s.Selector:
+    """Compose "row 10 of the north block" as rows."""
+    return rows

@@ -51,7 +51,13 @@ def corner(side: Lex, noun: Lex) -> Nominal | None:
     return Nominal(s.Corners(which=(side.value,)), single=True)
 
 
-@construction("nominal: [n=count] noun=CORNER [TREE]", "nominal: TREE AT DET [n=count] noun=CORNER", cost=0.2)
+@construction("nominal: [n=count] CORNER noun=TREE", cost=0.1)
+def corner_trees(noun: Lex, n: int | None = None) -> Nominal | None:
+    """Compose "four corner trees"."""
+    return corners(noun, n)
+
+
+@construction("nominal: [n=count] noun=CORNER", "nominal: TREE AT DET [n=count] noun=CORNER", cost=0.2)
 def corners(noun: Lex, n: int | None = None) -> Nominal | None:
     """Compose "four corners"."""
     if n not in (None, 4):
