@@ -181,7 +181,7 @@ def capture_again(setting: Setting, state: DialogueState, command: Again) -> Dia
     place, steps = command.place, state.plan.steps
     if place is None or state.scope or not steps or place.per is not None:
         raise NotComposed("what is repeated where?")
-    if isinstance(steps[-1], p.OptionalStep | p.If | p.Try):
+    if steps[-1].is_optional_step or steps[-1].is_choice or steps[-1].caught:
         raise NotComposed("what is repeated where?")
     if place.shape == "area":
         last = steps[-1]

@@ -80,16 +80,16 @@ def _ended(state: DialogueState) -> DialogueState:
     Raises:
         NotComposed: Something is missing.
     """
-    if all(isinstance(step, p.StopMission) for step in state.plan.steps):
+    if all(step.ends_plan for step in state.plan.steps):
         raise NotComposed("nothing is done")
     for _, node in walk(state.plan):
-        if isinstance(node, p.OptionalStep) and all(isinstance(one, p.GoTo | p.InOrder) for one in p.walk(node.body)):
+        if node.is_optional_step and not any(one.act for one in p.walk(node)):
             raise NotComposed("what may be left out?")
     if state.open or state.awaits_command or state.order is not None:
         raise NotComposed("nothing is done there")
     if state.nominal is None and state.in_case is not None:
         return replace(state, nominal=state.in_case)
-    if state.nominal is None and state.returned and isinstance(state.plan.steps[-1], p.GoTo):
+    if state.nominal is None and state.returned and state.plan.steps[-1].only_drives:
         return replace(state, nominal="stay")
     return state
 

@@ -97,7 +97,7 @@ def go_home(setting: Setting, state: DialogueState, command: Home) -> DialogueSt
             raise NotComposed("where is home?")
         command = replace(command, then=usual)
     steps = state.block.steps
-    if steps and isinstance(steps[-1], p.StopMission):
+    if steps and steps[-1].ends_plan:
         return replace(state, nominal=command.then, nominal_said=said)
     if not is_conditional(state.scope):
         state = replace(state, scope=())  # the way home is never optional

@@ -85,7 +85,7 @@ def captures_at_last_place(steps: Sequence[p.Node]) -> list[p.Act]:
             found.insert(0, step)
             if step.at is not None:
                 return found
-        elif isinstance(step, p.GoTo):
+        elif step.only_drives:
             return found
         elif isinstance(step, p.ForEach) and not found and isinstance(step.body, p.InOrder):
             acts = [one for one in step.body.steps if isinstance(one, p.Act)]
@@ -98,29 +98,18 @@ def captures_at_last_place(steps: Sequence[p.Node]) -> list[p.Act]:
 def whole_plan(plan: p.InOrder) -> p.Node:
     """Return the plan of a request: without a stop at its end, and without blocks of one step."""
     steps = plan.steps
-    while len(steps) > 1 and isinstance(steps[-1], p.StopMission):
+    while len(steps) > 1 and steps[-1].ends_plan:
         steps = steps[:-1]
     return finished(replace(plan, steps=steps))
 
 
 def finished(node: p.Node) -> p.Node:
-    """Return a plan without blocks of one step."""
-    match node:
-        case p.OptionalStep():
-            body = finished(node.body)
-            # Visits that are optional one by one need not be optional as a whole.
-            return body if isinstance(body, p.ForEach) and body.optional else replace(node, body=body)
-        case p.InOrder():
-            steps = tuple(finished(step) for step in node.steps)
-            return steps[0] if len(steps) == 1 else replace(node, steps=steps)
-        case p.ForEach():
-            is_empty = isinstance(node.body, p.InOrder) and not node.body.steps
-            visit = p.GoTo(id="", place=s.Here(), said=node.said) if is_empty else node.body
-            return replace(node, body=finished(visit))
-        case p.Try():
-            return replace(node, body=finished(node.body), otherwise=finished(node.otherwise))
-        case p.If():
-            otherwise = None if node.otherwise is None else finished(node.otherwise)
-            return replace(node, then=finished(node.then), otherwise=otherwise)
-        case _:
-            return node
+    """Return a plan without blocks of one step; a place that is only visited is driven to."""
+    inner = [finished(child) for child in node.children]
+    if isinstance(node, p.InOrder):
+        return inner[0] if len(inner) == 1 else node.with_children(inner)
+    if node.visits_each and node.children == (EMPTY,):
+        return node.with_children([p.GoTo(id="", place=s.Here(), said=node.said)])
+    if node.is_optional_step and inner[0].is_optional and inner[0].visits_each:
+        return inner[0]  # visits that are optional one by one need not be optional as a whole
+    return node.with_children(inner)
