@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import Any, Literal, cast
+from dataclasses import dataclass
+from typing import Any, Literal
 
 from fieldhand.places import selectors as s
 
@@ -306,65 +306,3 @@ class Said:
     """The clauses of a request, in order."""
 
     clauses: tuple[Clause, ...]
-
-
-#: Areas by the order in which they are nested, the innermost first: a row of a half of a block.
-_NESTING: dict[type[s.Selector], int] = {
-    s.InBlock: 0,
-    s.Half: 1,
-    s.Quarter: 1,
-    s.Edge: 2,
-    s.Rows: 2,
-    s.InZone: 3,
-}
-#: Selectors of areas.
-AREAS = tuple(_NESTING)
-
-
-def over(selector: s.Selector, base: s.Selector) -> s.Selector:
-    """Return a selector that chooses from ``base`` instead of from every tree of the site.
-
-    Areas are nested in a fixed order, whatever the order of the words: "the northern half in row 4" is row 4 of the
-    northern half. "The first tree" of rows is the first tree of each.
-    """
-    if isinstance(selector, s.Trees):
-        return base
-    if isinstance(selector, s.UnionOf):
-        return s.UnionOf(parts=tuple(over(part, base) for part in selector.parts))
-    if isinstance(selector, s.First | s.Last) and isinstance(selector.of, s.Trees) and _all_rows(base):
-        number = 1 if isinstance(selector, s.First) else -1
-        return s.InRow(first=number, last=number, of=base)
-    rank, other = _NESTING.get(type(selector)), _rank(base)
-    if rank is not None and other is not None and rank < other:
-        return over(base, selector)
-    of = getattr(selector, "of", None)
-    if of is None:
-        return selector
-    changed: s.Selector = replace(cast(Any, selector), of=over(of, base))
-    return changed
-
-
-def _rank(selector: s.Selector) -> int | None:
-    """Return how far outside an area is nested; None for a selector that is no area."""
-    if isinstance(selector, s.UnionOf):
-        return max((rank for part in selector.parts if (rank := _rank(part)) is not None), default=None)
-    return _NESTING.get(type(selector))
-
-
-def _all_rows(selector: s.Selector) -> bool:
-    """Return True for rows by name or number, and for lists of these."""
-    if isinstance(selector, s.UnionOf):
-        return all(_all_rows(part) for part in selector.parts)
-    return isinstance(selector, s.Rows)
-
-
-def chooses_from_trees(selector: s.Selector) -> bool:
-    """Return True if a selector can be restricted: it chooses from every tree of the site at last."""
-    if isinstance(selector, s.Trees):
-        return True
-    if isinstance(selector, s.UnionOf):
-        return all(chooses_from_trees(part) for part in selector.parts)
-    if isinstance(selector, s.RowOf):
-        return False
-    of = getattr(selector, "of", None)
-    return of is not None and chooses_from_trees(of)

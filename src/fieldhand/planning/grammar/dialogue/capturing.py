@@ -6,15 +6,7 @@ from dataclasses import replace
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.driving import drive, may_be_left_out, ordered, require_known, visits
-from fieldhand.planning.grammar.dialogue.fitting import (
-    fitted,
-    in_area,
-    in_each_row,
-    is_rows,
-    is_spoken_of,
-    spaced,
-    within_area,
-)
+from fieldhand.planning.grammar.dialogue.fitting import fitted, in_area, in_each_row, is_spoken_of, spaced, within_area
 from fieldhand.planning.grammar.dialogue.plans import EMPTY, captures_at_last_place, is_inside
 from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
@@ -27,6 +19,7 @@ from fieldhand.planning.grammar.dialogue.state import (
     with_step,
 )
 from fieldhand.planning.grammar.meaning import LAST_THING, Again, Capture, Drive, Place, Thing
+from fieldhand.planning.grammar.selections import are_rows
 from fieldhand.task import plan as p
 
 
@@ -185,7 +178,7 @@ def capture_again(setting: Setting, state: DialogueState, command: Again) -> Dia
         raise NotComposed("what is repeated where?")
     if place.shape == "area":
         last = steps[-1]
-        if not isinstance(last, p.ForEach) or not is_rows(last.select) or not is_rows(place.selector):
+        if not isinstance(last, p.ForEach) or not are_rows(last.select) or not are_rows(place.selector):
             raise NotComposed("what is repeated where?")
         place = replace(place, shape="several")
     if place.shape not in ("one", "several"):

@@ -41,8 +41,8 @@ from fieldhand.planning.grammar.meaning import (
     Said,
     Until,
     When,
-    chooses_from_trees,
 )
+from fieldhand.planning.grammar.selections import chooses_from_trees
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task import plan as p

@@ -8,22 +8,9 @@ from typing import Any, cast
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.onebyone import MOST_ONE_BY_ONE, one_by_one
 from fieldhand.planning.grammar.dialogue.faults import NotComposed
-from fieldhand.planning.grammar.meaning import Drive, Lead, Place, Thing, chooses_from_trees, over
+from fieldhand.planning.grammar.meaning import Drive, Lead, Place, Thing
+from fieldhand.planning.grammar.selections import are_rows, are_several_rows, chooses_from_trees, over
 from fieldhand.site.model import Site
-
-
-def is_rows(selector: s.Selector) -> bool:
-    """Return True for rows, and for lists of rows."""
-    if isinstance(selector, s.UnionOf):
-        return all(is_rows(part) for part in selector.parts)
-    return isinstance(selector, s.Rows | s.RowOf)
-
-
-def are_several_rows(selector: s.Selector) -> bool:
-    """Return True for several rows, whose trees are selected."""
-    if isinstance(selector, s.UnionOf):
-        return is_rows(selector)
-    return isinstance(selector, s.Rows) and (selector.first != selector.last or not selector.first)
 
 
 def is_spoken_of(place: Place | None) -> bool:
@@ -35,7 +22,7 @@ def within_area(place: Place | None, area: s.Selector | None) -> Place | None:
     """Return a place restricted to the area of its sentence, where it can be."""
     if area is None or place is None or place.shape not in ("one", "several") or place.per is not None:
         return place
-    if not chooses_from_trees(place.selector) or any(is_rows(part) for part in place.selector.walk()):
+    if not chooses_from_trees(place.selector) or any(are_rows(part) for part in place.selector.walk()):
         return place
     return replace(place, selector=over(place.selector, area))
 
@@ -52,7 +39,7 @@ def in_area(before: Lead | Drive, place: Place | None) -> Place:
     if place is None or place.shape in ("here", "those"):
         if place is None or not place.each:
             return Place(area, "area")
-        if is_rows(area) and not isinstance(place.selector, s.Trees):
+        if are_rows(area) and place.selector != s.Trees():
             return Place(s.Trees(), "area", each=True, per=area)
         return Place(area, "several", each=True)
     if place.per is None and place.shape in ("one", "several") and chooses_from_trees(place.selector):
@@ -91,7 +78,7 @@ def spaced(
         if count < 2:
             raise NotComposed("along which row?")
         return Place(s.Spaced(apart_m=spacing, count=count), "several"), once
-    rows = one_by_one(place.selector, site) if is_rows(place.selector) else ()
+    rows = one_by_one(place.selector, site) if are_rows(place.selector) else ()
     if not rows:
         raise NotComposed("along which row?")
     if count and len(rows) > 1:

@@ -6,10 +6,10 @@ from dataclasses import replace
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import AREAS, Nominal, Place, chooses_from_trees, over
+from fieldhand.planning.grammar.meaning import Nominal, Place
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.places.numbers import name_of
-from fieldhand.planning.grammar.places.rows import are_rows
+from fieldhand.planning.grammar.selections import AREAS, are_rows, chooses_from_trees, over
 from fieldhand.planning.grammar.words import Lex
 
 GRAMMAR = Grammar()
@@ -148,7 +148,7 @@ def both_areas(first: s.Selector, second: s.Selector) -> s.Selector | None:
     """Compose "the northern half and the eastern edge"."""
     if isinstance(first, s.Rows) != isinstance(second, s.Rows) or first == second:
         return None
-    parts = tuple(part for one in (first, second) for part in (one.parts if isinstance(one, s.UnionOf) else (one,)))
+    parts = tuple(part for one in (first, second) for part in one.members)
     return s.UnionOf(parts=parts)
 
 

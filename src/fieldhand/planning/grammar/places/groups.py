@@ -7,8 +7,8 @@ from dataclasses import replace
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.onebyone import swapped
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Nominal, Place, chooses_from_trees, over
-from fieldhand.planning.grammar.places.rows import are_rows
+from fieldhand.planning.grammar.meaning import Nominal, Place
+from fieldhand.planning.grammar.selections import are_rows, chooses_from_trees, over
 from fieldhand.planning.grammar.words import Lex
 
 GRAMMAR = Grammar()
@@ -54,7 +54,7 @@ def at_most_so_many(check: Lex, n: int, inner: Nominal) -> Place | None:
 @construction("place: [DET] rank=ORD n=count inner=nominal", cost=0.5)
 def first_trees(rank: Lex, n: int, inner: Nominal) -> Place | None:
     """Compose "the first three trees"."""
-    if rank.value != 1 or n < 2 or inner.single or not isinstance(inner.selector, s.Trees):
+    if rank.value != 1 or n < 2 or inner.single or inner.selector != s.Trees():
         return None
     return Place(s.Nearest(to=s.Marker(name="start"), count=n), "several", count=n)
 
@@ -185,7 +185,7 @@ def _unvisited(selector: s.Selector) -> s.Selector:
 )
 def except_numbers(inner: Nominal, trees: tuple[str, ...]) -> Place | None:
     """Compose "all trees except 12 and 15"."""
-    if not isinstance(inner.selector, s.Trees):
+    if inner.selector != s.Trees():
         return None
     parts = tuple(s.TreeIs(tree=t) for t in trees)
     return Place(s.Excluding(places=parts[0] if len(parts) == 1 else s.UnionOf(parts=parts)), "several")
@@ -200,7 +200,7 @@ def except_for(whole: Place, part: Place) -> Place | None:
         or part.shape not in ("one", "several", "area")
     ):
         return None
-    if any(isinstance(one, s.TreeIs) for one in part.selector.walk()) and not isinstance(whole.selector, s.Trees):
+    if any(isinstance(one, s.TreeIs) for one in part.selector.walk()) and whole.selector != s.Trees():
         return None
     if whole.per is not None:
         if whole.shape != "area" or not are_rows(part.selector):
@@ -240,11 +240,7 @@ def both(first: Place, second: Place, word: Lex | None = None) -> Place | None:
         return None
     if first.at_most or second.at_most:
         return None
-    parts = tuple(
-        part
-        for one in (first, second)
-        for part in (one.selector.parts if isinstance(one.selector, s.UnionOf) else (one.selector,))
-    )
+    parts = tuple(part for one in (first, second) for part in one.selector.members)
     counts = [1 if one.shape == "one" else one.count for one in (first, second)]
     count = None if None in counts else sum(c for c in counts if c is not None)
     return Place(s.UnionOf(parts=parts), "several", count=count)

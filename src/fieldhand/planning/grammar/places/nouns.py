@@ -7,8 +7,9 @@ from typing import Any, cast
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Amount, Nominal, Place, chooses_from_trees
+from fieldhand.planning.grammar.meaning import Amount, Nominal, Place
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
+from fieldhand.planning.grammar.selections import chooses_from_trees
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.terms import Test
 
@@ -171,7 +172,7 @@ def first_of_site(rank: Lex, inner: Nominal) -> Nominal | None:
         or rank.value != 1
         or inner.kind != "tree"
         or inner.pronoun
-        or not isinstance(inner.selector, s.Trees)
+        or inner.selector != s.Trees()
     ):
         return None
     return replace(inner, selector=s.First(), single=True)
@@ -180,7 +181,7 @@ def first_of_site(rank: Lex, inner: Nominal) -> Nominal | None:
 @construction("nominal: LAST inner=nominal", cost=0.2)
 def last_of_site(inner: Nominal) -> Nominal | None:
     """Compose "last tree"."""
-    if inner.single or inner.plural or inner.kind != "tree" or inner.pronoun or not isinstance(inner.selector, s.Trees):
+    if inner.single or inner.plural or inner.kind != "tree" or inner.pronoun or inner.selector != s.Trees():
         return None
     return replace(inner, selector=s.Last(), single=True)
 

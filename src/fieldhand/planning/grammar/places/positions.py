@@ -8,9 +8,9 @@ from dataclasses import replace
 from fieldhand.places import selectors as s
 from fieldhand.places.picks.ordered import Order
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Nominal, Place, Shape, chooses_from_trees, over
+from fieldhand.planning.grammar.meaning import Nominal, Place, Shape
 from fieldhand.planning.grammar.places.compass import SIDES
-from fieldhand.planning.grammar.places.rows import is_one_row
+from fieldhand.planning.grammar.selections import chooses_from_trees, is_one_row, over
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.terms import Side
 
@@ -156,7 +156,7 @@ def trees_of_row(where: tuple[int, int], inner: Nominal, rows: s.Selector) -> Pl
 )
 def tree_from_side(at: tuple[int, int], inner: Nominal, side: Lex, rows: s.Selector) -> Place | None:
     """Compose "the third tree from the north in row 4"."""
-    if inner.plural or inner.single or not isinstance(inner.selector, s.Trees) or side.value not in SIDES:
+    if inner.plural or inner.single or inner.selector != s.Trees() or side.value not in SIDES:
         return None
     one: Shape = "one" if is_one_row(rows) else "several"
     return Place(s.InRow(first=at[0], last=at[1], counted_from=side.value, of=rows), one)
@@ -169,7 +169,7 @@ def tree_from_side(at: tuple[int, int], inner: Nominal, side: Lex, rows: s.Selec
 )
 def tree_from_end(rank: Lex, inner: Nominal, rows: s.Selector, side: Lex | None = None) -> Place | None:
     """Compose "the third tree from the end of row 4"."""
-    if inner.plural or inner.single or not isinstance(inner.selector, s.Trees):
+    if inner.plural or inner.single or inner.selector != s.Trees():
         return None
     one: Shape = "one" if is_one_row(rows) else "several"
     if side is None:

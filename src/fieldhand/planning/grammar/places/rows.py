@@ -6,25 +6,14 @@ from dataclasses import replace
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Nominal, Place, chooses_from_trees, over
+from fieldhand.planning.grammar.meaning import Nominal, Place
 from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.places.numbers import name_of, whole
+from fieldhand.planning.grammar.selections import chooses_from_trees, over
 from fieldhand.planning.grammar.words import Lex
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
-
-
-def are_rows(selector: s.Selector) -> bool:
-    """Return True for rows, and for a list of rows."""
-    return isinstance(selector, s.Rows) or (
-        isinstance(selector, s.UnionOf) and all(isinstance(part, s.Rows) for part in selector.parts)
-    )
-
-
-def is_one_row(rows: s.Selector) -> bool:
-    """Return True for a selector of one row."""
-    return isinstance(rows, s.RowOf) or (isinstance(rows, s.Rows) and rows.first == rows.last != "")
 
 
 @construction(

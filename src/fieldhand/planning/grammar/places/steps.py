@@ -9,8 +9,9 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.english.places import beyond
 from fieldhand.planning.english.selections import is_spot
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Amount, Nominal, Place, chooses_from_trees, over
+from fieldhand.planning.grammar.meaning import Amount, Nominal, Place
 from fieldhand.planning.grammar.places.compass import SIDES
+from fieldhand.planning.grammar.selections import chooses_from_trees, over
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.terms import Towards
 
@@ -87,7 +88,7 @@ def next_to(inner: Nominal, to: Place, n: int | None = None) -> Place | None:
 @construction("place: [DET] [inner=nominal] OPPOSITE to=place", "place: [DET] inner=nominal OPPOSITE", cost=0.2)
 def opposite(to: Place | None = None, inner: Nominal | None = None) -> Place | None:
     """Compose "the tree opposite tree 12"."""
-    if inner is not None and (inner.plural or inner.single or not isinstance(inner.selector, s.Trees)):
+    if inner is not None and (inner.plural or inner.single or inner.selector != s.Trees()):
         return None
     if to is None:
         return Place(s.Across(origin=s.Here()), "one")
