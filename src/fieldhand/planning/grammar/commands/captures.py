@@ -53,6 +53,21 @@ def topic(place: Place, things: tuple[Thing, ...], used: int) -> Capture | None:
     return Capture(several, place, used)
 
 
+@construction("capture: things=things place=here", cost=1.2)
+def there_without_verb(things: tuple[Thing, ...], place: Place, used: int) -> Capture | None:
+    """Compose "canopy temperature and CO2 at each of them"."""
+    return Capture(things, place, used) if place.shape == "those" else None
+
+
+@construction("capture: things=things PER TREE", "capture: verb things=things PER TREE", cost=0.8)
+def per_tree(things: tuple[Thing, ...], used: int) -> Capture | None:
+    """Compose "one CO2 reading per tree"."""
+    if any(one.count not in (None, 1) for one in things):
+        return None
+    once = tuple(replace(one, count=None, plural=True) for one in things)
+    return Capture(once, Place(s.Trees(), "those", each=True), used)
+
+
 @construction("capture: things=things COMMA place=place", "capture: things=things place=place", cost=1.2)
 def comment(things: tuple[Thing, ...], place: Place, used: int) -> Capture | None:
     """Compose "a picture: tree 4"."""

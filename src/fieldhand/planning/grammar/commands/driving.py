@@ -88,7 +88,7 @@ def in_any_order(used: int) -> InAnOrder:
 @construction("lead: place=place", cost=1.6)
 def bare_place(place: Place, used: int) -> Lead | None:
     """Compose "tree 4, ..."."""
-    return Lead(place, used, relation="") if place.shape in ("one", "several") else None
+    return Lead(place, used, relation="") if place.shape in ("one", "several", "area") else None
 
 
 @construction("lead: word=relation place=place", cost=0.5)

@@ -37,6 +37,8 @@ def capture(setting: Setting, state: DialogueState, command: Capture) -> Dialogu
     require_known(state, place, setting.site)
     if place is None or place.shape in ("here", "those"):
         return _at_the_same_place(state, replace(command, things=things, place=place), said)
+    if place.selector == s.Trees() and place.shape == "several" and state.plan.steps and not place.optional:
+        raise NotComposed("each of those, or each tree of the site?")
     place, things = fitted(place, things, command.relation, setting.site)
     if place.shape == "one":
         return capture_once(state, replace(command, things=things), place, said)
@@ -150,6 +152,9 @@ def _at_the_same_place(state: DialogueState, command: Capture, said: Spans) -> D
         scope = state.loop
     elif command.place is not None and command.place.shape == "those" and state.loop is None:
         raise NotComposed("which places are meant?")
+    actions, done = {thing.action for thing in command.things}, {thing.action for thing in state.things}
+    if command.place is not None and command.place.shape == "those" and actions <= done:
+        raise NotComposed("once more, or the same said twice?")
     state = _with_captures(state, command.things, command.times, said, scope)
     return replace(state, things=command.things, commands_in_sentence=state.commands_in_sentence + 1)
 
@@ -164,7 +169,7 @@ def capture_elided(setting: Setting, state: DialogueState) -> DialogueState:
     things = state.things
     if lead.place.shape != "area":
         things = tuple(replace(thing, count=None) for thing in things)
-    elif lead.relation == "of" or (state.where is not None and state.where.shape != "area"):
+    elif lead.relation in ("of", "") or (state.where is not None and state.where.shape != "area"):
         raise NotComposed("every tree, or how many?")
     return capture(setting, replace(state, lead=None), Capture(things, lead.place, lead.used))
 

@@ -107,7 +107,7 @@ def _read(setting: Setting, state: DialogueState, clause: Clause, following: Seq
         state = with_joints(state, setting.spans_of(joint.used))
     match command:
         case Capture():
-            if joint is None and state.lead is not None and not state.lead.relation:
+            if state.lead is not None and not state.lead.relation and (joint is None or joint.both):
                 raise NotComposed("an announcement, or a command?")  # "two trees get a picture"
             return capture(setting, state, command)
         case Drive():

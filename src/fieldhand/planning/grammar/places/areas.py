@@ -146,7 +146,7 @@ def the_site(noun: Lex) -> str | None:
 )
 def both_areas(first: s.Selector, second: s.Selector) -> s.Selector | None:
     """Compose "the northern half and the eastern edge"."""
-    if isinstance(first, s.Rows) != isinstance(second, s.Rows) or first == second:
+    if are_rows(first) != are_rows(second) or first == second:
         return None
     parts = tuple(part for one in (first, second) for part in one.members)
     return s.UnionOf(parts=parts)
