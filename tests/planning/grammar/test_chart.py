@@ -91,3 +91,11 @@ def test_the_same_words_give_the_same_readings(text: str) -> None:
     first, second = chart(spaced), chart(spaced)
     assert first.whole("sum") == second.whole("sum")
     assert first.whole("pair") == second.whole("pair")
+
+
+def test_a_text_that_takes_too_many_combinations_has_no_reading() -> None:
+    words = edges(" - ".join(["9"] * 60))
+    made = Chart(SUMS, len(words), frozenset(), most=500)
+    made.parse(words)
+    assert made.whole("sum") == []
+    assert made.combinations < 2_000

@@ -130,6 +130,12 @@ def test_an_empty_or_odd_text_is_not_covered() -> None:
         assert composed(text, site_of("demo"), ROBOTS["husky"]) is None
 
 
+@pytest.mark.parametrize("part", ["tree 4 and ", "a picture of every tree in row 3 and ", "if it is low, "])
+def test_a_request_of_any_length_is_read_within_bounds(part: str) -> None:
+    request = f"Take a picture of {part * 300}tree 9."
+    assert composed(request, site_of("demo"), ROBOTS["husky"]) is None
+
+
 def test_a_refusal_by_the_rules_stays_where_the_grammar_does_not_cover_it() -> None:
     outcome = EnglishPlanner().plan("Count the grapes on 10 Syrah vines.", site_of("vineyard"), ROBOTS["husky"])
     assert isinstance(outcome, Refused)

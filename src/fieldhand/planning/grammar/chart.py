@@ -22,6 +22,8 @@ _BEAM = 8
 _FILLER_COST = 0.05
 #: Maximum number of successive fillers that are skipped.
 _LONGEST_GAP = 8
+#: Maximum number of combinations of phrases that are tried; requests of everyday length take 500 to 10,000.
+MOST_COMBINATIONS = 20_000
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -128,11 +130,18 @@ class Chart:
         grammar: Constructions.
         length: Number of tokens.
         fillers: Tokens that may be skipped.
+        most: Maximum number of combinations of phrases that are tried; a text that takes more has no reading, since
+            their number grows with the third power of its length.
+
+    Attributes:
+        combinations: Number of combinations that were tried.
     """
 
     grammar: Grammar
     length: int
     fillers: frozenset[int]
+    most: int = MOST_COMBINATIONS
+    combinations: int = 0
     _best: dict[tuple[str, int, int], dict[Any, Edge]] = field(default_factory=dict)
     _partial: list[dict[str, list[_Partial]]] = field(default_factory=list)
     _agenda: list[tuple[float, int, Edge]] = field(default_factory=list)
@@ -147,7 +156,7 @@ class Chart:
         for end in range(1, self.length + 1):
             for word in by_end[end]:
                 self._add(word)
-            while self._agenda:
+            while self._agenda and self.combinations <= self.most:
                 self._use(heapq.heappop(self._agenda)[2])
 
     def edges(self, category: str, start: int, end: int) -> list[Edge]:
@@ -158,6 +167,8 @@ class Chart:
     def whole(self, category: str) -> list[Edge]:
         """Return the edges of a category over all tokens but fillers at either end, cheapest first."""
         found: list[Edge] = []
+        if self.combinations > self.most:
+            return found
         for start in self._before(0):
             for end in self._after(self.length):
                 found += self.edges(category, start, end)
@@ -201,6 +212,7 @@ class Chart:
             position, skipped = position - 1, skipped + _FILLER_COST
 
     def _advance(self, partial: _Partial, edge: Edge, skipped: float) -> None:
+        self.combinations += 1
         construction = partial.construction
         meanings = (*partial.meanings, edge.meaning)
         cost = partial.cost + edge.cost + skipped
