@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fieldhand.planning.grammar.chart import Chart, Edge, Grammar, tokens_of
+from fieldhand.planning.grammar.chart import Chart, Grammar, PhraseEdge, tokens_of
 
 SUMS = Grammar()
 
@@ -31,11 +31,11 @@ def pair(first: int, second: int) -> list[tuple[int, int]]:
     return [(first, second), (second, first)]
 
 
-def edges(text: str) -> list[Edge]:
+def edges(text: str) -> list[PhraseEdge]:
     kinds = {"+": "plus", "-": "minus", ",": "comma", "um": "filler"}
     words = text.split()
     return [
-        Edge(kinds.get(word, "number"), k, k + 1, int(word) if word.isdigit() else word, 1.0, 1 << k)
+        PhraseEdge(kinds.get(word, "number"), k, k + 1, int(word) if word.isdigit() else word, 1.0, 1 << k)
         for k, word in enumerate(words)
     ]
 

@@ -73,7 +73,7 @@ def planned(
 
 @dataclass(frozen=True, kw_only=True)
 class Meant:
-    """What a request means.
+    """The meaning of a request, from which its Task is made.
 
     Attributes:
         plan: Plan.

@@ -31,7 +31,7 @@ _SYMBOL = re.compile(r"(\[)?(?:(\w+)=)?(\w+)(\])?")
 
 
 @dataclass(frozen=True, slots=True)
-class Edge:
+class PhraseEdge:
     """A phrase that was recognised.
 
     Attributes:
@@ -142,14 +142,14 @@ class Chart:
     fillers: frozenset[int]
     most: int = MOST_COMBINATIONS
     combinations: int = 0
-    _best: dict[tuple[str, int, int], dict[Any, Edge]] = field(default_factory=dict)
+    _best: dict[tuple[str, int, int], dict[Any, PhraseEdge]] = field(default_factory=dict)
     _partial: list[dict[str, list[_Partial]]] = field(default_factory=list)
-    _agenda: list[tuple[float, int, Edge]] = field(default_factory=list)
+    _agenda: list[tuple[float, int, PhraseEdge]] = field(default_factory=list)
     _added: int = 0
 
-    def parse(self, words: Iterable[Edge]) -> None:
+    def parse(self, words: Iterable[PhraseEdge]) -> None:
         """Fill the chart from the edges of words and fixed phrases."""
-        by_end: Mapping[int, list[Edge]] = defaultdict(list)
+        by_end: Mapping[int, list[PhraseEdge]] = defaultdict(list)
         for word in words:
             by_end[word.end].append(word)
         self._partial = [defaultdict(list) for _ in range(self.length + 1)]
@@ -159,14 +159,14 @@ class Chart:
             while self._agenda and self.combinations <= self.most:
                 self._use(heapq.heappop(self._agenda)[2])
 
-    def edges(self, category: str, start: int, end: int) -> list[Edge]:
+    def edges(self, category: str, start: int, end: int) -> list[PhraseEdge]:
         """Return the edges of a category over exactly these tokens, cheapest first."""
         found = self._best.get((category, start, end), {})
         return sorted(found.values(), key=lambda edge: edge.cost)
 
-    def whole(self, category: str) -> list[Edge]:
+    def whole(self, category: str) -> list[PhraseEdge]:
         """Return the edges of a category over all tokens but fillers at either end, cheapest first."""
-        found: list[Edge] = []
+        found: list[PhraseEdge] = []
         if self.combinations > self.most:
             return found
         for start in self._before(0):
@@ -187,7 +187,7 @@ class Chart:
             end -= 1
             yield end
 
-    def _add(self, edge: Edge) -> None:
+    def _add(self, edge: PhraseEdge) -> None:
         known = self._best.setdefault((edge.category, edge.start, edge.end), {})
         same = known.get(edge.meaning)
         if same is not None and same.cost <= edge.cost:
@@ -198,7 +198,7 @@ class Chart:
         self._added += 1
         heapq.heappush(self._agenda, (edge.cost, self._added, edge))
 
-    def _use(self, edge: Edge) -> None:
+    def _use(self, edge: PhraseEdge) -> None:
         """Begin constructions with an edge, and continue those that wait for it."""
         for construction in self.grammar.by_first.get(edge.category, ()):
             empty = _Partial(construction, edge.start, (), construction.cost, 0)
@@ -211,7 +211,7 @@ class Chart:
                 break
             position, skipped = position - 1, skipped + _FILLER_COST
 
-    def _advance(self, partial: _Partial, edge: Edge, skipped: float) -> None:
+    def _advance(self, partial: _Partial, edge: PhraseEdge, skipped: float) -> None:
         self.combinations += 1
         construction = partial.construction
         meanings = (*partial.meanings, edge.meaning)
@@ -226,7 +226,7 @@ class Chart:
             named["used"] = used
         composed = construction.compose(**named)
         for meaning in composed if isinstance(composed, list) else () if composed is None else (composed,):
-            self._add(Edge(construction.result, partial.start, edge.end, meaning, cost, used))
+            self._add(PhraseEdge(construction.result, partial.start, edge.end, meaning, cost, used))
 
 
 def tokens_of(used: int) -> Sequence[int]:

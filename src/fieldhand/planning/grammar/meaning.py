@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from fieldhand.places import selectors as s
+from fieldhand.planning.english.limits import Amount
 
 #: What a place phrase means: one place, several places, an area whose trees are meant, places just spoken of (``here``,
 #: ``those``), trees around of which another phrase says how many (``nearby``), or a step along the row.
@@ -17,14 +18,6 @@ Check = Literal["lt", "le", "gt", "ge", "eq", "level", "between"]
 
 #: Action of a capture that refers to the last one ("another one").
 LAST_THING = "*"
-
-
-@dataclass(frozen=True, slots=True)
-class Amount:
-    """A number with a unit, converted to metres, seconds, degC, ppm, percent, years or kg."""
-
-    number: float
-    unit: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +44,7 @@ class Nominal:
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class PlaceMeaning:
     """A place phrase.
 
     Attributes:
@@ -85,7 +78,7 @@ class Thing:
 
 
 @dataclass(frozen=True, slots=True)
-class Capture:
+class CaptureCommand:
     """A command to capture something, at a place or where the robot is.
 
     Attributes:
@@ -98,7 +91,7 @@ class Capture:
     """
 
     things: tuple[Thing, ...]
-    place: Place | None
+    place: PlaceMeaning | None
     used: int
     times: int = 1
     spacing: float | None = None
@@ -106,10 +99,10 @@ class Capture:
 
 
 @dataclass(frozen=True, slots=True)
-class Drive:
+class DriveCommand:
     """A command to drive somewhere; with ``begins`` to where the work begins, with ``returns`` to come back."""
 
-    place: Place
+    place: PlaceMeaning
     used: int
     begins: bool = False
     returns: bool = False
@@ -119,7 +112,7 @@ class Drive:
 class Lead:
     """A place at which the next command is done ("at tree 4, ..."), or what was done last."""
 
-    place: Place
+    place: PlaceMeaning
     used: int
     relation: str = "at"
 
@@ -133,14 +126,14 @@ class Home:
 
 
 @dataclass(frozen=True, slots=True)
-class Halt:
+class StopCommand:
     """The end of the mission at this point."""
 
     used: int
 
 
 @dataclass(frozen=True, slots=True)
-class Limit:
+class LimitClause:
     """A limit on distance, time or battery; with ``keep`` the amount that must be left, with ``back`` on the return."""
 
     amount: Amount
@@ -189,7 +182,7 @@ class When:
 
     tests: AllTests
     used: int
-    measured_at: Place | None = None
+    measured_at: PlaceMeaning | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -200,7 +193,7 @@ class Allowed:
 
 
 @dataclass(frozen=True, slots=True)
-class Until:
+class UntilCondition:
     """A condition that ends the repetition before it."""
 
     tests: AllTests
@@ -211,7 +204,7 @@ class Until:
 class Again:
     """A command to do what was done at the last place again, at another place or there."""
 
-    place: Place | None
+    place: PlaceMeaning | None
     used: int
 
 
@@ -219,16 +212,16 @@ class Again:
 class After:
     """A command that is done before the others of its sentence, or was done already ("after photographing it")."""
 
-    done: Capture | Drive
+    done: CaptureCommand | DriveCommand
     used: int
 
 
 @dataclass(frozen=True, slots=True)
-class Question:
+class ReadingQuestion:
     """A reading to be taken, and a test of it that "if so" refers to."""
 
     tests: AllTests
-    place: Place | None
+    place: PlaceMeaning | None
     used: int
 
 
@@ -258,7 +251,7 @@ class Otherwise:
 
 @dataclass(frozen=True, slots=True)
 class Connective:
-    """What stands between two commands.
+    """The connective between two commands.
 
     Attributes:
         full: True if it separates sentences.
@@ -275,26 +268,26 @@ class Connective:
 
 
 Command = (
-    Capture
-    | Drive
+    CaptureCommand
+    | DriveCommand
     | Lead
     | Home
-    | Halt
-    | Limit
+    | StopCommand
+    | LimitClause
     | When
     | Otherwise
     | Allowed
-    | Until
+    | UntilCondition
     | Again
     | InAnOrder
     | After
-    | Question
+    | ReadingQuestion
     | Failing
 )
 
 
 @dataclass(frozen=True, slots=True)
-class Clause:
+class LinkedCommand:
     """A command with the connective before it."""
 
     before: Connective | None
@@ -305,4 +298,4 @@ class Clause:
 class Said:
     """The clauses of a request, in order."""
 
-    clauses: tuple[Clause, ...]
+    clauses: tuple[LinkedCommand, ...]

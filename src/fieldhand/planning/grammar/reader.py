@@ -12,7 +12,7 @@ from fieldhand.planning.english.lexicon import lexicon_for
 from fieldhand.planning.english.limits import LimitPhrase
 from fieldhand.planning.english.planned import Meant, planned_as
 from fieldhand.planning.english.tokens import Word, words_of
-from fieldhand.planning.grammar.chart import Chart, Edge, Grammar, tokens_of
+from fieldhand.planning.grammar.chart import Chart, Grammar, PhraseEdge, tokens_of
 from fieldhand.planning.grammar.dialogue import Dialogue, DialogueState, NotComposed, whole_plan
 from fieldhand.planning.grammar.words import edges_of, fillers_of
 from fieldhand.planning.planner import Planned, Refused
@@ -28,7 +28,7 @@ _MARGIN = 0.5
 
 
 @dataclass(frozen=True, kw_only=True)
-class Reading:
+class RequestReading:
     """One way to read a request: the state of the dialogue at its end, its cost, and the fillers that were skipped."""
 
     state: DialogueState
@@ -47,7 +47,7 @@ def grammar() -> Grammar:
     return made
 
 
-def readings(request: str, site: Site, robot: RobotProfile) -> list[Reading]:
+def readings(request: str, site: Site, robot: RobotProfile) -> list[RequestReading]:
     """Return the ways to read a request as a whole, cheapest first; empty if the grammar does not cover it."""
     words = words_of(request)
     lexicon = lexicon_for(robot, site)
@@ -55,13 +55,13 @@ def readings(request: str, site: Site, robot: RobotProfile) -> list[Reading]:
     chart = Chart(grammar(), len(words), fillers)
     chart.parse(edges_of(words, lexicon, robot))
     dialogue = Dialogue(robot, site, lambda used: spans(words, used))
-    found: list[Reading] = []
+    found: list[RequestReading] = []
     for edge in chart.whole("request"):
         try:
             state = dialogue.read(edge.meaning)
         except NotComposed:
             continue
-        found.append(Reading(state=state, cost=edge.cost, skipped=_skipped(words, edge)))
+        found.append(RequestReading(state=state, cost=edge.cost, skipped=_skipped(words, edge)))
     return found
 
 
@@ -96,7 +96,7 @@ def _leaves_words(outcome: Planned) -> bool:
     return any(piece.role == "nothing" for piece in request_pieces(outcome.task))
 
 
-def _meant(reading: Reading) -> Meant:
+def _meant(reading: RequestReading) -> Meant:
     state = reading.state
     plan, no_part = whole_plan(state.plan), list(reading.skipped)
     if isinstance(plan, p.InOrder):
@@ -160,6 +160,6 @@ def spans(words: Sequence[Word], used: int) -> tuple[Span, ...]:
     return tuple(found)
 
 
-def _skipped(words: Sequence[Word], edge: Edge) -> tuple[Span, ...]:
+def _skipped(words: Sequence[Word], edge: PhraseEdge) -> tuple[Span, ...]:
     every = (1 << len(words)) - 1
     return spans(words, every & ~edge.used)

@@ -16,7 +16,7 @@ from fieldhand.planning.english.lexicon import CODE, Lexicon
 from fieldhand.planning.english.naming import NameEntry, Naming, Phrase, split
 from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.english.vocabulary import vocabulary
-from fieldhand.planning.grammar.chart import Edge
+from fieldhand.planning.grammar.chart import PhraseEdge
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 
@@ -42,7 +42,7 @@ class Lex:
     text: str
 
 
-def edges_of(words: Sequence[Word], lexicon: Lexicon, robot: RobotProfile) -> Iterator[Edge]:
+def edges_of(words: Sequence[Word], lexicon: Lexicon, robot: RobotProfile) -> Iterator[PhraseEdge]:
     """Yield an edge for each phrase of the lexicon and each name of the site that the words contain."""
     cameras = [action.name for action in robot.actions if _PICTURES & set(action.words)]
     camera = Naming(actions=(cameras[0],)) if len(cameras) == 1 else None
@@ -125,7 +125,7 @@ def fillers_of(words: Sequence[Word], lexicon: Lexicon) -> frozenset[int]:
     return frozenset(found | commas)
 
 
-def _single(word: Word, at: int) -> Iterator[Edge]:
+def _single(word: Word, at: int) -> Iterator[PhraseEdge]:
     if word.kind == "rank":
         yield _edge("ORD", at, at + 1, Lex(int(re.sub(r"\D", "", word.norm)), False, word.norm))
     elif word.kind == "number":
@@ -134,7 +134,7 @@ def _single(word: Word, at: int) -> Iterator[Edge]:
         yield _edge(_SIGNS[word.kind], at, at + 1, Lex(word.text, False, word.text))
 
 
-def _names(words: Sequence[Word], start: int, lexicon: Lexicon) -> Iterator[Edge]:
+def _names(words: Sequence[Word], start: int, lexicon: Lexicon) -> Iterator[PhraseEdge]:
     """Names of trees, rows and blocks that begin at a word."""
     site = lexicon.site
     spelt = ""
@@ -181,8 +181,8 @@ def hinted_attributes(hint: str, site: Site) -> list[str]:
     return [name for name in site.attributes if hint in name.lower().replace("-", "_").split("_")]
 
 
-def _edge(category: str, start: int, end: int, meaning: Lex) -> Edge:
-    return Edge(category, start, end, meaning, _WORD_COST, ((1 << end) - 1) ^ ((1 << start) - 1))
+def _edge(category: str, start: int, end: int, meaning: Lex) -> PhraseEdge:
+    return PhraseEdge(category, start, end, meaning, _WORD_COST, ((1 << end) - 1) ^ ((1 << start) - 1))
 
 
 def _hashable(value: Any) -> Any:

@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 from fieldhand.places import selectors as s
+from fieldhand.planning.english.limits import Amount
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import LAST_THING, Amount, Capture, Place, Thing
+from fieldhand.planning.grammar.meaning import LAST_THING, CaptureCommand, PlaceMeaning, Thing
 from fieldhand.planning.grammar.words import Lex
 
 GRAMMAR = Grammar()
@@ -17,15 +18,15 @@ construction = GRAMMAR.construction
 @construction(
     "capture: verb things=things word=relation place=place", "capture: verb things=things place=here", cost=0.3
 )
-def capture_at(things: tuple[Thing, ...], place: Place, used: int, word: str = "at") -> Capture:
+def capture_at(things: tuple[Thing, ...], place: PlaceMeaning, used: int, word: str = "at") -> CaptureCommand:
     """Compose "take a picture at tree 4"."""
-    return Capture(things, place, used, relation=word)
+    return CaptureCommand(things, place, used, relation=word)
 
 
 @construction("capture: verb things=things", cost=0.4)
-def capture_here(things: tuple[Thing, ...], used: int) -> Capture:
+def capture_here(things: tuple[Thing, ...], used: int) -> CaptureCommand:
     """Compose "take a picture"."""
-    return Capture(things, None, used)
+    return CaptureCommand(things, None, used)
 
 
 @construction(
@@ -34,9 +35,9 @@ def capture_here(things: tuple[Thing, ...], used: int) -> Capture:
     "capture: things=things SHOULD verb",
     cost=0.4,
 )
-def passive(things: tuple[Thing, ...], used: int, place: Place | None = None) -> Capture:
+def passive(things: tuple[Thing, ...], used: int, place: PlaceMeaning | None = None) -> CaptureCommand:
     """Compose "a picture should be taken at tree 4"."""
-    return Capture(things, place, used)
+    return CaptureCommand(things, place, used)
 
 
 @construction(
@@ -45,37 +46,37 @@ def passive(things: tuple[Thing, ...], used: int, place: Place | None = None) ->
     "capture: place=place WITH things=things",
     cost=0.9,
 )
-def topic(place: Place, things: tuple[Thing, ...], used: int) -> Capture | None:
+def topic(place: PlaceMeaning, things: tuple[Thing, ...], used: int) -> CaptureCommand | None:
     """Compose "tree 4: a picture"."""
     if place.shape not in ("one", "several", "area") or any(one.action == LAST_THING for one in things):
         return None
     several = tuple(replace(one, plural=True) for one in things) if place.shape == "area" else things
-    return Capture(several, place, used)
+    return CaptureCommand(several, place, used)
 
 
 @construction("capture: things=things place=here", cost=1.2)
-def there_without_verb(things: tuple[Thing, ...], place: Place, used: int) -> Capture | None:
+def there_without_verb(things: tuple[Thing, ...], place: PlaceMeaning, used: int) -> CaptureCommand | None:
     """Compose "canopy temperature and CO2 at each of them"."""
-    return Capture(things, place, used) if place.shape == "those" else None
+    return CaptureCommand(things, place, used) if place.shape == "those" else None
 
 
 @construction("capture: things=things PER TREE", "capture: verb things=things PER TREE", cost=0.8)
-def per_tree(things: tuple[Thing, ...], used: int) -> Capture | None:
+def per_tree(things: tuple[Thing, ...], used: int) -> CaptureCommand | None:
     """Compose "one CO2 reading per tree"."""
     if any(one.count not in (None, 1) for one in things):
         return None
     once = tuple(replace(one, count=None, plural=True) for one in things)
-    return Capture(once, Place(s.Trees(), "those", each=True), used)
+    return CaptureCommand(once, PlaceMeaning(s.Trees(), "those", each=True), used)
 
 
 @construction("capture: things=things COMMA place=place", "capture: things=things place=place", cost=1.2)
-def comment(things: tuple[Thing, ...], place: Place, used: int) -> Capture | None:
+def comment(things: tuple[Thing, ...], place: PlaceMeaning, used: int) -> CaptureCommand | None:
     """Compose "a picture: tree 4"."""
     return topic(place, things, used)
 
 
 @construction("capture: place=place SHOULD things=things", cost=0.5)
-def needs(place: Place, things: tuple[Thing, ...], used: int) -> Capture | None:
+def needs(place: PlaceMeaning, things: tuple[Thing, ...], used: int) -> CaptureCommand | None:
     """Compose "tree 4 needs a picture"."""
     return topic(place, things, used)
 
@@ -83,31 +84,37 @@ def needs(place: Place, things: tuple[Thing, ...], used: int) -> Capture | None:
 @construction(
     "capture: verb=ACTV place=place WITH things=things", "capture: GO ALONG place=place WITH things=things", cost=0.6
 )
-def with_camera(place: Place, things: tuple[Thing, ...], used: int, verb: Lex | None = None) -> Capture | None:
+def with_camera(
+    place: PlaceMeaning, things: tuple[Thing, ...], used: int, verb: Lex | None = None
+) -> CaptureCommand | None:
     """Compose "photograph tree 4 with two pictures"."""
     if verb is not None and verb.value.actions[0] != things[0].action:
         return None
-    return Capture(tuple(replace(one, count=None) for one in things), place, used)
+    return CaptureCommand(tuple(replace(one, count=None) for one in things), place, used)
 
 
 @construction("capture: place=place SHOULD verb=ACTV", cost=0.4)
-def place_passive(place: Place, verb: Lex, used: int) -> Capture:
+def place_passive(place: PlaceMeaning, verb: Lex, used: int) -> CaptureCommand:
     """Compose "tree 4 should be photographed"."""
     return act_on(verb, place, used)
 
 
 @construction("capture: verb things=things PER noun=ROW", "capture: things=things PER noun=ROW", cost=0.3)
-def per_row(things: tuple[Thing, ...], noun: Lex, used: int) -> Capture | None:
+def per_row(things: tuple[Thing, ...], noun: Lex, used: int) -> CaptureCommand | None:
     """Compose "take a picture per row"."""
-    return None if noun.plural else Capture(things, Place(s.Trees(), "area", each=True, per=s.Rows()), used)
+    return (
+        None if noun.plural else CaptureCommand(things, PlaceMeaning(s.Trees(), "area", each=True, per=s.Rows()), used)
+    )
 
 
 @construction(
     "capture: verb things=things PER noun=CORNER", "capture: things=things PER noun=CORNER [OF] [site]", cost=0.3
 )
-def per_corner(things: tuple[Thing, ...], noun: Lex, used: int) -> Capture | None:
+def per_corner(things: tuple[Thing, ...], noun: Lex, used: int) -> CaptureCommand | None:
     """Compose "take one picture per corner"."""
-    return None if noun.plural else Capture(things, Place(s.Corners(), "several", each=True, count=4), used)
+    return (
+        None if noun.plural else CaptureCommand(things, PlaceMeaning(s.Corners(), "several", each=True, count=4), used)
+    )
 
 
 @construction(
@@ -117,30 +124,30 @@ def per_corner(things: tuple[Thing, ...], noun: Lex, used: int) -> Capture | Non
     cost=0.3,
 )
 def at_points(
-    things: tuple[Thing, ...], n: int, dist: tuple[float, bool], used: int, place: Place | None = None
-) -> Capture | None:
+    things: tuple[Thing, ...], n: int, dist: tuple[float, bool], used: int, place: PlaceMeaning | None = None
+) -> CaptureCommand | None:
     """Compose "take pictures at 5 points every 10 m"."""
     if place is not None and place.shape != "area":
         return None
-    return Capture(tuple(replace(one, count=n) for one in things), place, used, spacing=dist[0])
+    return CaptureCommand(tuple(replace(one, count=n) for one in things), place, used, spacing=dist[0])
 
 
 @construction("capture: verb things=things SPREAD [DET] zone=ZONE", cost=0.3)
-def spread_over(things: tuple[Thing, ...], zone: Lex, used: int) -> Capture | None:
+def spread_over(things: tuple[Thing, ...], zone: Lex, used: int) -> CaptureCommand | None:
     """Compose "take 6 pictures spread over the pond zone"."""
     counts = {one.count for one in things}
     count = counts.pop()
     if counts or count is None or count < 2:
         return None
-    points = Place(s.PointsIn(zone=zone.value, count=count), "several", count=count)
-    return Capture(tuple(replace(one, count=None) for one in things), points, used)
+    points = PlaceMeaning(s.PointsIn(zone=zone.value, count=count), "several", count=count)
+    return CaptureCommand(tuple(replace(one, count=None) for one in things), points, used)
 
 
 @construction("here: word=THERE", cost=0.1)
-def here(word: Lex) -> Place:
+def here(word: Lex) -> PlaceMeaning:
     """Compose "there"."""
     several = any(part in word.text.split() for part in ("them", "each", "every", "both", "these", "those", "all"))
-    return Place(
+    return PlaceMeaning(
         s.Trees() if "tree" in word.text and several else s.Here(),
         "those" if several else "here",
         each="each" in word.text or "every" in word.text,
@@ -148,25 +155,25 @@ def here(word: Lex) -> Place:
 
 
 @construction("capture: verb=ACTV place=place", "capture: verb=ACTV relation place=place", cost=0.3)
-def act_on(verb: Lex, place: Place, used: int) -> Capture:
+def act_on(verb: Lex, place: PlaceMeaning, used: int) -> CaptureCommand:
     """Compose "photograph tree 4"."""
     naming: Naming = verb.value
-    return Capture((Thing(naming.actions[0]),), place, used, relation="of")
+    return CaptureCommand((Thing(naming.actions[0]),), place, used, relation="of")
 
 
 @construction("capture: verb=ACTV", cost=0.6)
-def act_here(verb: Lex, used: int) -> Capture:
+def act_here(verb: Lex, used: int) -> CaptureCommand:
     """Compose "photograph"."""
     naming: Naming = verb.value
-    return Capture((Thing(naming.actions[0]),), None, used)
+    return CaptureCommand((Thing(naming.actions[0]),), None, used)
 
 
 @construction(
     "capture: verb place=place FOR things=things", "capture: verb relation place=place FOR things=things", cost=0.4
 )
-def measure_for(place: Place, things: tuple[Thing, ...], used: int) -> Capture:
+def measure_for(place: PlaceMeaning, things: tuple[Thing, ...], used: int) -> CaptureCommand:
     """Compose "measure tree 4 for temperature"."""
-    return Capture(things, place, used)
+    return CaptureCommand(things, place, used)
 
 
 @construction(
@@ -176,27 +183,27 @@ def measure_for(place: Place, things: tuple[Thing, ...], used: int) -> Capture:
     "capture: verb ASMANY things=things relation place=place",
     cost=0.3,
 )
-def as_many_captures(things: tuple[Thing, ...], used: int, place: Place | None = None) -> Capture | None:
+def as_many_captures(things: tuple[Thing, ...], used: int, place: PlaceMeaning | None = None) -> CaptureCommand | None:
     """Compose "take as many pictures as you can in row 3"."""
     if not all(one.plural and one.count is None for one in things):
         return None
     if place is None:
-        place = Place(s.Trees(), "several")
+        place = PlaceMeaning(s.Trees(), "several")
     if place.shape not in ("several", "area") or place.count is not None:
         return None
-    return Capture(things, replace(place, shape="several", optional=True), used)
+    return CaptureCommand(things, replace(place, shape="several", optional=True), used)
 
 
 @construction("capture: things=things word=relation place=place", cost=1.2)
-def without_verb(things: tuple[Thing, ...], word: str, place: Place, used: int) -> Capture | None:
+def without_verb(things: tuple[Thing, ...], word: str, place: PlaceMeaning, used: int) -> CaptureCommand | None:
     """Compose "a picture of tree 4"."""
     if word == "of" and any(one.action == LAST_THING for one in things):
         return None
-    return Capture(things, place, used, relation=word)
+    return CaptureCommand(things, place, used, relation=word)
 
 
 @construction("capture: act=capture times=COUNT", cost=0.2)
-def so_often(act: Capture, times: Lex, used: int) -> Capture | None:
+def so_often(act: CaptureCommand, times: Lex, used: int) -> CaptureCommand | None:
     """Compose "take a picture twice"."""
     return replace(act, times=times.value, used=used) if act.times == 1 else None
 
@@ -246,9 +253,9 @@ def at_spacing(
     dist: tuple[float, bool],
     used: int,
     things: tuple[Thing, ...] = (),
-    place: Place | None = None,
+    place: PlaceMeaning | None = None,
     verb: Lex | None = None,
-) -> Capture | None:
+) -> CaptureCommand | None:
     """Compose "take a picture every 10 m along row 3"."""
     if verb is not None:
         naming: Naming = verb.value
@@ -259,12 +266,12 @@ def at_spacing(
         return None  # "three pictures every 10 m": three stops, or three at each stop?
     if not dist[1]:
         things = tuple(replace(one, count=None) for one in things)
-    return Capture(things, place, used, spacing=dist[0])
+    return CaptureCommand(things, place, used, spacing=dist[0])
 
 
 @construction("capture: VISIT place=place AND verb things=things", cost=0.6)
-def visit_and(place: Place, things: tuple[Thing, ...], used: int) -> Capture | None:
+def visit_and(place: PlaceMeaning, things: tuple[Thing, ...], used: int) -> CaptureCommand | None:
     """Compose "visit three trees and take a picture"."""
     if place.shape != "several" or any(one.count not in (None, 1) for one in things):
         return None
-    return Capture(things, place, used)
+    return CaptureCommand(things, place, used)

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from fieldhand.planning.english.limits import Amount
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import (
     Allowed,
     AllTests,
-    Amount,
     Failing,
     Otherwise,
-    Place,
-    Question,
+    PlaceMeaning,
+    ReadingQuestion,
     Test,
-    Until,
+    UntilCondition,
     When,
 )
 from fieldhand.planning.grammar.words import Lex
@@ -31,7 +31,7 @@ def anything() -> str:
 
 
 @construction("asked: [DET] noun=NOUN [READING] relation place=place", cost=0.0)
-def quantity_at(noun: Lex, place: Place) -> tuple[str, Place] | None:
+def quantity_at(noun: Lex, place: PlaceMeaning) -> tuple[str, PlaceMeaning] | None:
     """Compose "the temperature at tree 4"."""
     naming: Naming = noun.value
     if len(naming.quantities) != 1 or place.shape != "one":
@@ -40,19 +40,19 @@ def quantity_at(noun: Lex, place: Place) -> tuple[str, Place] | None:
 
 
 @construction("measured: asked=asked IS test=predicate", "measured: asked=asked test=predicate", cost=0.2)
-def measured(asked: tuple[str, Place], test: Test) -> tuple[Place, Test]:
+def measured(asked: tuple[str, PlaceMeaning], test: Test) -> tuple[PlaceMeaning, Test]:
     """Compose "the temperature at tree 4 is above 30 degC"."""
     return (asked[1], replace(test, quantity=asked[0]))
 
 
 @construction("measured: asked=asked ISNOT test=predicate", cost=0.2)
-def not_measured(asked: tuple[str, Place], test: Test) -> tuple[Place, Test]:
+def not_measured(asked: tuple[str, PlaceMeaning], test: Test) -> tuple[PlaceMeaning, Test]:
     """Compose "the temperature at tree 4 is not above 30 degC"."""
     return (asked[1], replace(test, quantity=asked[0], negated=not test.negated))
 
 
 @construction("when: IF one=measured", cost=0.3)
-def when_measured(one: tuple[Place, Test], used: int) -> When:
+def when_measured(one: tuple[PlaceMeaning, Test], used: int) -> When:
     """Compose "if the temperature at tree 4 is above 30 degC"."""
     return When(AllTests((one[1],)), used, measured_at=one[0])
 
@@ -220,9 +220,9 @@ def when(tests: AllTests, used: int) -> When:
     "question: MEASURE IF tests=tests",
     cost=0.2,
 )
-def question(tests: AllTests, used: int) -> Question | None:
+def question(tests: AllTests, used: int) -> ReadingQuestion | None:
     """Compose "check whether the temperature is high"."""
-    return Question(tests, None, used) if len(tests.tests) == 1 and tests.tests[0].quantity else None
+    return ReadingQuestion(tests, None, used) if len(tests.tests) == 1 and tests.tests[0].quantity else None
 
 
 @construction(
@@ -231,9 +231,9 @@ def question(tests: AllTests, used: int) -> Question | None:
     "question: MEASURE IF one=measured",
     cost=0.2,
 )
-def question_at(one: tuple[Place, Test], used: int) -> Question:
+def question_at(one: tuple[PlaceMeaning, Test], used: int) -> ReadingQuestion:
     """Compose "check whether the temperature at tree 4 is high"."""
-    return Question(AllTests((one[1],)), one[0], used)
+    return ReadingQuestion(AllTests((one[1],)), one[0], used)
 
 
 @construction("failing: TRY", cost=0.2)
@@ -272,9 +272,9 @@ def if_it_fits(used: int) -> Allowed:
 
 
 @construction("until: UNTIL tests=tests", cost=0.3)
-def until(tests: AllTests, used: int) -> Until:
+def until(tests: AllTests, used: int) -> UntilCondition:
     """Compose "until it is high"."""
-    return Until(tests, used)
+    return UntilCondition(tests, used)
 
 
 @construction("otherwise: OTHERWISE", cost=0.2)

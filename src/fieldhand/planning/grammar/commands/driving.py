@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Again, Drive, Halt, Home, InAnOrder, Lead, Place
+from fieldhand.planning.grammar.meaning import Again, DriveCommand, Home, InAnOrder, Lead, PlaceMeaning, StopCommand
 from fieldhand.planning.grammar.words import Lex
 
 GRAMMAR = Grammar()
@@ -12,15 +12,15 @@ construction = GRAMMAR.construction
 
 
 @construction("drive: TAKE place=place", cost=1.5)
-def pick(place: Place, used: int) -> Drive | None:
+def pick(place: PlaceMeaning, used: int) -> DriveCommand | None:
     """Compose "take three trees"."""
-    return Drive(place, used) if place.shape == "several" else None
+    return DriveCommand(place, used) if place.shape == "several" else None
 
 
 @construction("drive: verb=GO [towards] place=place", "drive: VISIT place=place", cost=0.3)
-def drive_to(place: Place, used: int, verb: Lex | None = None) -> Drive:
+def drive_to(place: PlaceMeaning, used: int, verb: Lex | None = None) -> DriveCommand:
     """Compose "go to tree 4"."""
-    return Drive(place, used, begins=verb is not None and verb.text.startswith(("start", "begin")))
+    return DriveCommand(place, used, begins=verb is not None and verb.text.startswith(("start", "begin")))
 
 
 @construction("towards: AT", "towards: ALONG", cost=0.0)
@@ -30,23 +30,23 @@ def towards() -> str:
 
 
 @construction("drive: GO WITH place=place", cost=0.5)
-def begin_with(place: Place, used: int) -> Drive | None:
+def begin_with(place: PlaceMeaning, used: int) -> DriveCommand | None:
     """Compose "start with tree 4"."""
-    return Drive(place, used, begins=True) if place.shape == "one" else None
+    return DriveCommand(place, used, begins=True) if place.shape == "one" else None
 
 
 @construction("drive: RETURN AT place=place", cost=0.5)
-def come_back_to(place: Place, used: int) -> Drive | None:
+def come_back_to(place: PlaceMeaning, used: int) -> DriveCommand | None:
     """Compose "come back to tree 4"."""
     if isinstance(place.selector, s.Marker) and place.selector.name != "charger":
         return None  # the end of the mission
-    return Drive(place, used, returns=True) if place.shape == "one" else None
+    return DriveCommand(place, used, returns=True) if place.shape == "one" else None
 
 
 @construction("drive: GO ALONG where=region", "drive: GO AT where=region", "drive: GO where=region", cost=0.2)
-def drive_along(where: s.Selector, used: int) -> Drive:
+def drive_along(where: s.Selector, used: int) -> DriveCommand:
     """Compose "drive along row 3"."""
-    return Drive(Place(where, "area"), used)
+    return DriveCommand(PlaceMeaning(where, "area"), used)
 
 
 @construction("ordered: order=ORDERED", "ordered: AT order=ORDERED", cost=0.1)
@@ -86,13 +86,13 @@ def in_any_order(used: int) -> InAnOrder:
 
 
 @construction("lead: place=place", cost=1.6)
-def bare_place(place: Place, used: int) -> Lead | None:
+def bare_place(place: PlaceMeaning, used: int) -> Lead | None:
     """Compose "tree 4, ..."."""
     return Lead(place, used, relation="") if place.shape in ("one", "several", "area") else None
 
 
 @construction("lead: word=relation place=place", cost=0.5)
-def lead(place: Place, used: int, word: str) -> Lead | None:
+def lead(place: PlaceMeaning, used: int, word: str) -> Lead | None:
     """Compose "at tree 4, ..."."""
     return Lead(place, used, word) if place.shape in ("one", "several", "area") else None
 
@@ -112,18 +112,18 @@ def return_to(marker: s.Selector, used: int) -> Home | None:
 
 
 @construction("halt: noun=FINISH", cost=0.6)
-def finish(noun: Lex, used: int) -> Halt | None:
+def finish(noun: Lex, used: int) -> StopCommand | None:
     """Compose "finish"."""
-    return Halt(used) if noun.text in ("finish", "end") else None
+    return StopCommand(used) if noun.text in ("finish", "end") else None
 
 
 @construction("halt: STOP", cost=0.2)
-def halt(used: int) -> Halt:
+def halt(used: int) -> StopCommand:
     """Compose "stop"."""
-    return Halt(used)
+    return StopCommand(used)
 
 
 @construction("again: REPEAT", "again: REPEAT relation place=place", cost=0.2)
-def again(used: int, place: Place | None = None) -> Again:
+def again(used: int, place: PlaceMeaning | None = None) -> Again:
     """Compose "do the same at tree 9"."""
     return Again(place, used)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from fieldhand.planning.english.limits import Amount
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Amount, Limit
+from fieldhand.planning.grammar.meaning import LimitClause
 from fieldhand.planning.grammar.words import Lex
 
 GRAMMAR = Grammar()
@@ -20,17 +21,17 @@ _LIMITED = ("metres", "seconds", "percent")
     "limit: INSIDE most=amount OF GO",
     cost=0.4,
 )
-def at_most(most: Amount, used: int, word: Lex | None = None) -> Limit | None:
+def at_most(most: Amount, used: int, word: Lex | None = None) -> LimitClause | None:
     """Compose "within 500 m"."""
     if most.unit not in _LIMITED or (word is not None and (word.text != "in" or most.unit != "seconds")):
         return None
-    return Limit(most, False, used)
+    return LimitClause(most, False, used)
 
 
 @construction("limit: HAVE most=amount [of_what]", cost=0.3)
-def given_so_much(most: Amount, used: int) -> Limit | None:
+def given_so_much(most: Amount, used: int) -> LimitClause | None:
     """Compose "you have 20 minutes"."""
-    return Limit(most, False, used) if most.unit in _LIMITED else None
+    return LimitClause(most, False, used) if most.unit in _LIMITED else None
 
 
 @construction("less: word=UPTO", "less: word=CMP", cost=0.0)
@@ -58,9 +59,9 @@ def of_what() -> str:
     "limit: WITHOUT check=CMP most=amount [of_what]",
     cost=0.3,
 )
-def not_more_than(check: Lex, most: Amount, used: int) -> Limit | None:
+def not_more_than(check: Lex, most: Amount, used: int) -> LimitClause | None:
     """Compose "without driving more than 100 m"."""
-    return Limit(most, False, used) if check.value[0] in ("gt", "ge") and most.unit in _LIMITED else None
+    return LimitClause(most, False, used) if check.value[0] in ("gt", "ge") and most.unit in _LIMITED else None
 
 
 @construction(
@@ -69,17 +70,17 @@ def not_more_than(check: Lex, most: Amount, used: int) -> Limit | None:
     "limit: BEFORE BATTERY [IS] [at] least=amount [LEFT]",
     cost=0.3,
 )
-def keep(least: Amount, used: int, check: Lex | None = None) -> Limit | None:
+def keep(least: Amount, used: int, check: Lex | None = None) -> LimitClause | None:
     """Compose "keep at least 30 % battery"."""
     if least.unit != "percent" or (check is not None and check.value[0] not in ("gt", "ge")):
         return None
-    return Limit(least, True, used)
+    return LimitClause(least, True, used)
 
 
 @construction("limit: RETURN BEFORE BATTERY [IS] [at] least=amount [LEFT]", cost=0.2)
-def back_before(least: Amount, used: int) -> Limit | None:
+def back_before(least: Amount, used: int) -> LimitClause | None:
     """Compose "be back before the battery is at 30 %"."""
-    return Limit(least, True, used, back=True) if least.unit == "percent" else None
+    return LimitClause(least, True, used, back=True) if least.unit == "percent" else None
 
 
 @construction("at: AT", "at: CMP", cost=0.0)

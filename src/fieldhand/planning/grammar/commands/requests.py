@@ -6,19 +6,19 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import (
     After,
     Allowed,
-    Capture,
-    Clause,
+    CaptureCommand,
     Command,
     Connective,
-    Drive,
+    DriveCommand,
     Failing,
-    Halt,
     Home,
     InAnOrder,
     Lead,
-    Limit,
+    LimitClause,
+    LinkedCommand,
     Otherwise,
     Said,
+    StopCommand,
     When,
 )
 from fieldhand.planning.grammar.words import Lex
@@ -104,7 +104,7 @@ def then(word: Lex) -> str | None:
 
 
 @construction("after: word=THEN done=capture", "after: word=THEN done=drive", cost=0.2)
-def after_doing(word: Lex, done: Capture | Drive, used: int) -> After | None:
+def after_doing(word: Lex, done: CaptureCommand | DriveCommand, used: int) -> After | None:
     """Compose "after photographing tree 4"."""
     return After(done, used) if word.text == "after" else None
 
@@ -112,13 +112,13 @@ def after_doing(word: Lex, done: Capture | Drive, used: int) -> After | None:
 @construction("said: one=command", "said: then [COMMA] one=command", cost=0.0)
 def first_command(one: Command) -> Said:
     """Compose "take a picture"."""
-    return Said((Clause(None, one),))
+    return Said((LinkedCommand(None, one),))
 
 
 @construction("said: before=said joint=joint one=command", cost=0.3)
 def next_command(before: Said, joint: Connective, one: Command) -> Said:
     """Compose "take a picture and go to tree 4"."""
-    return Said((*before.clauses, Clause(joint, one)))
+    return Said((*before.clauses, LinkedCommand(joint, one)))
 
 
 @construction(
@@ -137,12 +137,14 @@ def next_command(before: Said, joint: Connective, one: Command) -> Said:
 def without_joint(before: Said, one: Command) -> Said | None:
     """Compose "take a picture if it is high"."""
     if (
-        isinstance(one, Capture | Halt | Drive | Home)
-        and not isinstance(before.clauses[-1].command, When | Otherwise | Lead | Limit | Allowed | InAnOrder | Failing)
-        and not (isinstance(one, Capture) and isinstance(before.clauses[-1].command, Drive))
+        isinstance(one, CaptureCommand | StopCommand | DriveCommand | Home)
+        and not isinstance(
+            before.clauses[-1].command, When | Otherwise | Lead | LimitClause | Allowed | InAnOrder | Failing
+        )
+        and not (isinstance(one, CaptureCommand) and isinstance(before.clauses[-1].command, DriveCommand))
     ):
         return None
-    return Said((*before.clauses, Clause(None, one)))
+    return Said((*before.clauses, LinkedCommand(None, one)))
 
 
 @construction("request: said=said [FULLSTOP] [FULLSTOP]", "request: FULLSTOP said=said [FULLSTOP] [FULLSTOP]", cost=0.0)

@@ -7,17 +7,21 @@ from dataclasses import replace
 
 from fieldhand.planning.grammar.dialogue.plans import EMPTY
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, with_last_step, with_step
-from fieldhand.planning.grammar.meaning import Allowed, Clause, Connective, Failing
+from fieldhand.planning.grammar.meaning import Allowed, Connective, Failing, LinkedCommand
 from fieldhand.task import plan as p
 
 
 def allowed(
-    setting: Setting, state: DialogueState, command: Allowed, following: Sequence[Clause], joint: Connective | None
+    setting: Setting,
+    state: DialogueState,
+    command: Allowed,
+    following: Sequence[LinkedCommand],
+    joint: Connective | None,
 ) -> DialogueState:
     """Return the state in which the commands that follow are optional, or the one before if none follows.
 
     Args:
-        setting: What is known beside the clauses.
+        setting: Robot and site that the request is read for.
         state: State before it.
         command: The words that say so.
         following: Further commands of the sentence.

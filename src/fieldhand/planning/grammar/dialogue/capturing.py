@@ -18,12 +18,12 @@ from fieldhand.planning.grammar.dialogue.state import (
     with_capture,
     with_step,
 )
-from fieldhand.planning.grammar.meaning import LAST_THING, Again, Capture, Drive, Place, Thing
+from fieldhand.planning.grammar.meaning import LAST_THING, Again, CaptureCommand, DriveCommand, PlaceMeaning, Thing
 from fieldhand.planning.grammar.selections import are_rows
 from fieldhand.task import plan as p
 
 
-def capture(setting: Setting, state: DialogueState, command: Capture) -> DialogueState:
+def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> DialogueState:
     """Return the state after a capture."""
     things = meant_things(state, command.things)
     place, state, before = _place_of(setting, state, command)
@@ -45,7 +45,7 @@ def capture(setting: Setting, state: DialogueState, command: Capture) -> Dialogu
     return _capture_at_each(setting, replace(state, loop=None), replace(command, things=things), place, said)
 
 
-def _those_again(state: DialogueState, place: Place | None) -> Place | None:
+def _those_again(state: DialogueState, place: PlaceMeaning | None) -> PlaceMeaning | None:
     """Return the places of the last command for "those", where its for-each cannot be continued."""
     last = state.where
     if place is None or place.shape != "those" or state.loop is not None or last is None or last.shape != "several":
@@ -55,7 +55,7 @@ def _those_again(state: DialogueState, place: Place | None) -> Place | None:
     return replace(last, each=place.each)
 
 
-def capture_once(state: DialogueState, command: Capture, place: Place, said: Spans) -> DialogueState:
+def capture_once(state: DialogueState, command: CaptureCommand, place: PlaceMeaning, said: Spans) -> DialogueState:
     """Return the state after captures at one place."""
     state = replace(state, loop=None)
     for number, thing in enumerate(command.things):
@@ -67,7 +67,7 @@ def capture_once(state: DialogueState, command: Capture, place: Place, said: Spa
 
 
 def _capture_at_each(
-    setting: Setting, state: DialogueState, command: Capture, place: Place, said: Spans
+    setting: Setting, state: DialogueState, command: CaptureCommand, place: PlaceMeaning, said: Spans
 ) -> DialogueState:
     """Return the state after captures at each of several places."""
     loop = replace(visits(place, said), order="given" if place.in_order else "best")
@@ -109,7 +109,9 @@ def meant_things(state: DialogueState, things: tuple[Thing, ...]) -> tuple[Thing
     return (replace(things[0], action=state.things[0].action),)
 
 
-def _place_of(setting: Setting, state: DialogueState, command: Capture) -> tuple[Place | None, DialogueState, Spans]:
+def _place_of(
+    setting: Setting, state: DialogueState, command: CaptureCommand
+) -> tuple[PlaceMeaning | None, DialogueState, Spans]:
     """Return the place of a command, with the area or lead before it, the state without these, and their spans."""
     place, before = command.place, state.lead or state.area
     if before is None:
@@ -124,13 +126,15 @@ def _place_of(setting: Setting, state: DialogueState, command: Capture) -> tuple
         return in_each_row(first.per, place), state, said
     if first.shape == "one" and (place is None or place.shape in ("here", "nearby", "step")):
         moves = place is not None and place.shape != "here"
-        return place if moves else None, drive(setting, state, Drive(first, before.used)), ()
+        return place if moves else None, drive(setting, state, DriveCommand(first, before.used)), ()
     if first.shape == "several" and is_spoken_of(place):
         return first, state, said
     raise NotComposed("two places for one command")
 
 
-def _lines_at_each(state: DialogueState, command: Capture, place: Place, line: Place, said: Spans) -> DialogueState:
+def _lines_at_each(
+    state: DialogueState, command: CaptureCommand, place: PlaceMeaning, line: PlaceMeaning, said: Spans
+) -> DialogueState:
     """Return the state after captures along a line at each of several places."""
     inside = (*state.next_step, "body")
     each = p.ForEach(id="", select=place.selector, body=EMPTY, said=said)
@@ -141,7 +145,7 @@ def _lines_at_each(state: DialogueState, command: Capture, place: Place, line: P
     return replace(done_at(state, place), things=command.things, scope=inside[:-2], loop=inside)
 
 
-def _at_the_same_place(state: DialogueState, command: Capture, said: Spans) -> DialogueState:
+def _at_the_same_place(state: DialogueState, command: CaptureCommand, said: Spans) -> DialogueState:
     """Return the state after captures where the last command was: at each of its places if it went to several."""
     if command.place is None and not state.plan.steps:
         raise NotComposed("at which tree?")
@@ -171,7 +175,7 @@ def capture_elided(setting: Setting, state: DialogueState) -> DialogueState:
         things = tuple(replace(thing, count=None) for thing in things)
     elif lead.relation in ("of", "") or (state.where is not None and state.where.shape != "area"):
         raise NotComposed("every tree, or how many?")
-    return capture(setting, replace(state, lead=None), Capture(things, lead.place, lead.used))
+    return capture(setting, replace(state, lead=None), CaptureCommand(things, lead.place, lead.used))
 
 
 def capture_again(setting: Setting, state: DialogueState, command: Again) -> DialogueState:
@@ -193,7 +197,7 @@ def capture_again(setting: Setting, state: DialogueState, command: Again) -> Dia
     if not captures:
         raise NotComposed("what is repeated?")
     if place.shape == "one":
-        state, inside = drive(setting, state, Drive(place, command.used)), state.scope
+        state, inside = drive(setting, state, DriveCommand(place, command.used)), state.scope
     else:
         loop = p.ForEach(id="", select=place.selector, body=EMPTY, said=said)
         inside = (len(steps), "body")

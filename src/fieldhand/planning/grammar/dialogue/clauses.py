@@ -24,22 +24,22 @@ from fieldhand.planning.grammar.meaning import (
     After,
     Again,
     Allowed,
-    Capture,
-    Clause,
+    CaptureCommand,
     Command,
     Connective,
-    Drive,
+    DriveCommand,
     Failing,
-    Halt,
     Home,
     InAnOrder,
     Lead,
-    Limit,
+    LimitClause,
+    LinkedCommand,
     Otherwise,
-    Place,
-    Question,
+    PlaceMeaning,
+    ReadingQuestion,
     Said,
-    Until,
+    StopCommand,
+    UntilCondition,
     When,
 )
 from fieldhand.planning.grammar.selections import chooses_from_trees
@@ -94,39 +94,41 @@ def _ended(state: DialogueState) -> DialogueState:
     return state
 
 
-def _read(setting: Setting, state: DialogueState, clause: Clause, following: Sequence[Clause]) -> DialogueState:
+def _read(
+    setting: Setting, state: DialogueState, clause: LinkedCommand, following: Sequence[LinkedCommand]
+) -> DialogueState:
     """Return the state after a clause."""
     joint, command = clause.before, clause.command
     if joint is not None and joint.first:
         return _do_before_last(setting, state, command, joint, following)
-    if state.plan.steps and isinstance(command, Capture | Drive | Lead | When | Again | Halt):
+    if state.plan.steps and isinstance(command, CaptureCommand | DriveCommand | Lead | When | Again | StopCommand):
         state = driven_home(setting, state)
     if joint is not None and joint.full:
         state = _new_sentence(setting, state, command)
     if joint is not None and joint.then:
         state = with_joints(state, setting.spans_of(joint.used))
     match command:
-        case Capture():
+        case CaptureCommand():
             if state.lead is not None and not state.lead.relation and (joint is None or joint.both):
                 raise NotComposed("an announcement, or a command?")  # "two trees get a picture"
             return capture(setting, state, command)
-        case Drive():
+        case DriveCommand():
             return drive(setting, state, command)
         case Lead():
             return _lead(setting, state, command)
         case Home():
             return go_home(setting, state, command)
-        case Halt():
+        case StopCommand():
             return with_step(state, p.StopMission(id="", said=setting.spans_of(command.used)))
         case When():
             return when(setting, state, command, _rest_of_sentence(following))
         case Otherwise():
             return otherwise(setting, state, setting.spans_of(command.used))
-        case Limit():
+        case LimitClause():
             return _limit(setting, state, command)
         case Allowed():
             return allowed(setting, state, command, _rest_of_sentence(following), joint)
-        case Until():
+        case UntilCondition():
             return until(setting, state, command)
         case Again():
             return capture_again(setting, state, command)
@@ -134,19 +136,19 @@ def _read(setting: Setting, state: DialogueState, clause: Clause, following: Seq
             return put_in_order(setting, state, command)
         case After():
             return _after(setting, state, command)
-        case Question():
+        case ReadingQuestion():
             return question(setting, state, command)
         case Failing():
             return failing(setting, state, command)
 
 
-def _rest_of_sentence(following: Sequence[Clause]) -> list[Clause]:
+def _rest_of_sentence(following: Sequence[LinkedCommand]) -> list[LinkedCommand]:
     """Return the clauses up to the end of the sentence that are neither limits nor the end of the mission."""
-    found: list[Clause] = []
+    found: list[LinkedCommand] = []
     for clause in following:
         if clause.before is not None and clause.before.full:
             break
-        if not isinstance(clause.command, Limit | Home):
+        if not isinstance(clause.command, LimitClause | Home):
             found.append(clause)
     return found
 
@@ -158,11 +160,11 @@ def _new_sentence(setting: Setting, state: DialogueState, command: Command) -> D
         raise NotComposed("a sentence ends before it says what to do")
     area = state.area
     if area is not None:
-        place = command.place if isinstance(command, Capture) else None
+        place = command.place if isinstance(command, CaptureCommand) else None
         if place is not None and chooses_from_trees(place.selector):
             raise NotComposed("of that area, or of the whole site?")
-        one = Place(s.Take(count=1, of=area.place.selector), "one")
-        state = drive(setting, replace(state, area=None), Drive(one, area.used))
+        one = PlaceMeaning(s.Take(count=1, of=area.place.selector), "one")
+        state = drive(setting, replace(state, area=None), DriveCommand(one, area.used))
     scope = state.scope if isinstance(command, Otherwise) else ()
     return replace(state, scope=scope, commands_in_sentence=0, within=None)
 
@@ -175,7 +177,7 @@ def _lead(setting: Setting, state: DialogueState, command: Lead) -> DialogueStat
     return replace(state, lead=command)
 
 
-def _limit(setting: Setting, state: DialogueState, command: Limit) -> DialogueState:
+def _limit(setting: Setting, state: DialogueState, command: LimitClause) -> DialogueState:
     """Return the state after a limit."""
     said = setting.spans_of(command.used)
     state = replace(state, limits=(*state.limits, command), limits_said=(*state.limits_said, said))
@@ -183,11 +185,11 @@ def _limit(setting: Setting, state: DialogueState, command: Limit) -> DialogueSt
 
 
 def _do_before_last(
-    setting: Setting, state: DialogueState, command: Command, joint: Connective, following: Sequence[Clause]
+    setting: Setting, state: DialogueState, command: Command, joint: Connective, following: Sequence[LinkedCommand]
 ) -> DialogueState:
     """Return the state after a capture that is done before the command that was read last ("..., but first ...")."""
     steps = state.plan.steps
-    if state.scope or not steps or following or not isinstance(command, Capture):
+    if state.scope or not steps or following or not isinstance(command, CaptureCommand):
         raise NotComposed("before what?")
     last = steps[-1]
     if not isinstance(last, p.ForEach) and not (isinstance(last, p.Act) and last.at is not None):
@@ -200,13 +202,13 @@ def _do_before_last(
 def _after(setting: Setting, state: DialogueState, command: After) -> DialogueState:
     """Return the state after a command that is done before the others of its sentence, unless it was done already."""
     done, home = command.done, state.home
-    if isinstance(done, Capture) and is_spoken_of(done.place):
+    if isinstance(done, CaptureCommand) and is_spoken_of(done.place):
         if {thing.action for thing in meant_things(state, done.things)} <= {thing.action for thing in state.things}:
             return with_joints(state, setting.spans_of(command.used))
         raise NotComposed("after what?")
     if state.commands_in_sentence and home is None:
         raise NotComposed("after what?")
     state = without_home(state) if home is not None else state
-    state = capture(setting, state, done) if isinstance(done, Capture) else drive(setting, state, done)
+    state = capture(setting, state, done) if isinstance(done, CaptureCommand) else drive(setting, state, done)
     # "Return to the start after photographing tree 9."
     return go_home(setting, state, home) if home is not None else state

@@ -25,17 +25,27 @@ from fieldhand.planning.grammar.dialogue.state import (
     with_step,
 )
 from fieldhand.planning.grammar.dialogue.tested import condition_of, reading_before
-from fieldhand.planning.grammar.meaning import AllTests, Capture, Clause, Otherwise, Place, Question, Thing, Until, When
+from fieldhand.planning.grammar.meaning import (
+    AllTests,
+    CaptureCommand,
+    LinkedCommand,
+    Otherwise,
+    PlaceMeaning,
+    ReadingQuestion,
+    Thing,
+    UntilCondition,
+    When,
+)
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
 
 
-def when(setting: Setting, state: DialogueState, command: When, following: Sequence[Clause]) -> DialogueState:
+def when(setting: Setting, state: DialogueState, command: When, following: Sequence[LinkedCommand]) -> DialogueState:
     """Return the state after a condition.
 
     Args:
-        setting: What is known beside the clauses.
+        setting: Robot and site that the request is read for.
         state: State before it.
         command: Condition.
         following: Further commands of its sentence.
@@ -146,7 +156,7 @@ def otherwise(setting: Setting, state: DialogueState, said: Spans) -> DialogueSt
     return replace(state, plan=plan, scope=(*state.choice, "otherwise"), open=True)
 
 
-def until(setting: Setting, state: DialogueState, command: Until) -> DialogueState:
+def until(setting: Setting, state: DialogueState, command: UntilCondition) -> DialogueState:
     """Return the state in which a reading taken in the last for-each ends it."""
     if state.loop is None or state.captured is None or not is_inside(state.captured, state.loop):
         raise NotComposed("what ends?")
@@ -158,18 +168,18 @@ def until(setting: Setting, state: DialogueState, command: Until) -> DialogueSta
     return replace(state, plan=with_node(state.plan, path, replace(loop, until=condition)))
 
 
-def question(setting: Setting, state: DialogueState, command: Question) -> DialogueState:
+def question(setting: Setting, state: DialogueState, command: ReadingQuestion) -> DialogueState:
     """Return the state after the reading that a question is about; "if so" tests it."""
     action = setting.action_measuring(command.tests.tests[0].quantity)
     if action is None:
         raise NotComposed("what is measured?")
-    state = capture(setting, state, Capture((Thing(action),), command.place, command.used))
+    state = capture(setting, state, CaptureCommand((Thing(action),), command.place, command.used))
     return replace(state, asked=command.tests)
 
 
-def _measured(setting: Setting, state: DialogueState, quantity: str, place: Place, used: int) -> DialogueState:
+def _measured(setting: Setting, state: DialogueState, quantity: str, place: PlaceMeaning, used: int) -> DialogueState:
     """Return the state after the reading that a condition asks for, at a place of its own."""
     action = setting.action_measuring(quantity)
     if action is None or place.shape != "one":
         raise NotComposed("what is measured where?")
-    return capture_once(state, Capture((Thing(action),), place, used), place, setting.spans_of(used))
+    return capture_once(state, CaptureCommand((Thing(action),), place, used), place, setting.spans_of(used))

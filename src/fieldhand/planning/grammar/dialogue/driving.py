@@ -17,7 +17,7 @@ from fieldhand.planning.grammar.dialogue.state import (
     with_joints,
     with_step,
 )
-from fieldhand.planning.grammar.meaning import Drive, Home, InAnOrder, Place
+from fieldhand.planning.grammar.meaning import DriveCommand, Home, InAnOrder, PlaceMeaning
 from fieldhand.planning.homeward import usual_exit
 from fieldhand.site.model import Site
 from fieldhand.task import plan as p
@@ -25,7 +25,7 @@ from fieldhand.task import plan as p
 _COMPASS = frozenset({"north", "east", "south", "west"})
 
 
-def drive(setting: Setting, state: DialogueState, command: Drive) -> DialogueState:
+def drive(setting: Setting, state: DialogueState, command: DriveCommand) -> DialogueState:
     """Return the state after a drive to one or several places, or into an area of which more is said."""
     said, place = setting.spans_of(command.used), command.place
     if command.begins and state.plan.steps:
@@ -45,14 +45,14 @@ def drive(setting: Setting, state: DialogueState, command: Drive) -> DialogueSta
     raise NotComposed("where to?")
 
 
-def visits(place: Place, said: Spans) -> p.ForEach:
+def visits(place: PlaceMeaning, said: Spans) -> p.ForEach:
     """Return a for-each over places, with nothing to do at them yet."""
     return p.ForEach(
         id="", select=place.selector, body=EMPTY, optional=place.optional, at_most=place.at_most, said=said
     )
 
 
-def require_known(state: DialogueState, place: Place | None, site: Site) -> None:
+def require_known(state: DialogueState, place: PlaceMeaning | None, site: Site) -> None:
     """Refuse places that refer to one which is not known, or which an optional step may leave out.
 
     Raises:
@@ -119,10 +119,10 @@ def without_home(state: DialogueState) -> DialogueState:
     return replace(state, home=None, nominal=None, nominal_said=())
 
 
-def _way_home(home: Home) -> Drive:
+def _way_home(home: Home) -> DriveCommand:
     """Return the drive to the place where the mission ends."""
     marker = s.Marker(name="start" if home.then == "return_to_start" else "end")
-    return Drive(Place(marker, "one"), home.used)
+    return DriveCommand(PlaceMeaning(marker, "one"), home.used)
 
 
 def put_in_order(setting: Setting, state: DialogueState, command: InAnOrder) -> DialogueState:

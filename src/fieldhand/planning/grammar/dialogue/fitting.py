@@ -8,17 +8,17 @@ from typing import Any, cast
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.onebyone import MOST_ONE_BY_ONE, one_by_one
 from fieldhand.planning.grammar.dialogue.faults import NotComposed
-from fieldhand.planning.grammar.meaning import Drive, Lead, Place, Thing
+from fieldhand.planning.grammar.meaning import DriveCommand, Lead, PlaceMeaning, Thing
 from fieldhand.planning.grammar.selections import are_rows, are_several_rows, chooses_from_trees, over
 from fieldhand.site.model import Site
 
 
-def is_spoken_of(place: Place | None) -> bool:
+def is_spoken_of(place: PlaceMeaning | None) -> bool:
     """Return True for places that were spoken of before, or that the command leaves out."""
     return place is None or place.shape in ("here", "those")
 
 
-def within_area(place: Place | None, area: s.Selector | None) -> Place | None:
+def within_area(place: PlaceMeaning | None, area: s.Selector | None) -> PlaceMeaning | None:
     """Return a place restricted to the area of its sentence, where it can be."""
     if area is None or place is None or place.shape not in ("one", "several") or place.per is not None:
         return place
@@ -27,27 +27,27 @@ def within_area(place: Place | None, area: s.Selector | None) -> Place | None:
     return replace(place, selector=over(place.selector, area))
 
 
-def in_area(before: Lead | Drive, place: Place | None) -> Place:
+def in_area(before: Lead | DriveCommand, place: PlaceMeaning | None) -> PlaceMeaning:
     """Return the place of a command in an area that was named before it ("along row 3, ... at every other tree").
 
     Raises:
         NotComposed: The two are different places, or how many trees are meant is unclear.
     """
     area = before.place.selector
-    if place is None and isinstance(before, Drive) and are_several_rows(area):
+    if place is None and isinstance(before, DriveCommand) and are_several_rows(area):
         raise NotComposed("at every tree, or at how many?")
     if place is None or place.shape in ("here", "those"):
         if place is None or not place.each:
-            return Place(area, "area")
+            return PlaceMeaning(area, "area")
         if are_rows(area) and place.selector != s.Trees():
-            return Place(s.Trees(), "area", each=True, per=area)
-        return Place(area, "several", each=True)
+            return PlaceMeaning(s.Trees(), "area", each=True, per=area)
+        return PlaceMeaning(area, "several", each=True)
     if place.per is None and place.shape in ("one", "several") and chooses_from_trees(place.selector):
         return replace(place, selector=over(place.selector, area))
     raise NotComposed("two places for one command")
 
 
-def in_each_row(rows: s.Selector, place: Place) -> Place:
+def in_each_row(rows: s.Selector, place: PlaceMeaning) -> PlaceMeaning:
     """Return the place of a command in each of the rows that were named before it ("in each row, ... at the ends").
 
     Raises:
@@ -62,8 +62,8 @@ def in_each_row(rows: s.Selector, place: Place) -> Place:
 
 
 def spaced(
-    place: Place | None, things: tuple[Thing, ...], spacing: float, site: Site
-) -> tuple[Place, tuple[Thing, ...]]:
+    place: PlaceMeaning | None, things: tuple[Thing, ...], spacing: float, site: Site
+) -> tuple[PlaceMeaning, tuple[Thing, ...]]:
     """Return the free points of captures at a spacing, and the captures at each.
 
     Raises:
@@ -77,19 +77,21 @@ def spaced(
     if place is None or place.shape != "area":
         if count < 2:
             raise NotComposed("along which row?")
-        return Place(s.Spaced(apart_m=spacing, count=count), "several"), once
+        return PlaceMeaning(s.Spaced(apart_m=spacing, count=count), "several"), once
     rows = one_by_one(place.selector, site) if are_rows(place.selector) else ()
     if not rows:
         raise NotComposed("along which row?")
     if count and len(rows) > 1:
         raise NotComposed("so many in each row, or in all?")
     if len(rows) == 1:
-        return Place(s.Spaced(apart_m=spacing, count=count, of=place.selector), "several"), once
+        return PlaceMeaning(s.Spaced(apart_m=spacing, count=count, of=place.selector), "several"), once
     parts = tuple(s.Spaced(apart_m=spacing, count=count, of=row) for row in rows)
-    return Place(s.UnionOf(parts=parts), "several"), once
+    return PlaceMeaning(s.UnionOf(parts=parts), "several"), once
 
 
-def fitted(place: Place, things: tuple[Thing, ...], relation: str, site: Site) -> tuple[Place, tuple[Thing, ...]]:
+def fitted(
+    place: PlaceMeaning, things: tuple[Thing, ...], relation: str, site: Site
+) -> tuple[PlaceMeaning, tuple[Thing, ...]]:
     """Return a place of one or several visits, and the captures at each.
 
     Raises:
@@ -130,21 +132,21 @@ def _are_plural(things: tuple[Thing, ...]) -> bool:
     return all(thing.plural for thing in things)
 
 
-def _nearby(place: Place, things: tuple[Thing, ...], count: int | None) -> Place:
+def _nearby(place: PlaceMeaning, things: tuple[Thing, ...], count: int | None) -> PlaceMeaning:
     """Return trees around the robot, as many as there are captures."""
     number = count or (2 if _are_plural(things) else 1)
     if count is None and number > 1:
         raise NotComposed("how many trees?")
     selector: s.Selector = replace(cast(Any, place.selector), count=number)
-    return Place(selector, "one" if number == 1 else "several", count=number)
+    return PlaceMeaning(selector, "one" if number == 1 else "several", count=number)
 
 
 def _of_rows(
-    place: Place, rows: s.Selector, things: tuple[Thing, ...], count: int | None, relation: str, site: Site
-) -> Place:
+    place: PlaceMeaning, rows: s.Selector, things: tuple[Thing, ...], count: int | None, relation: str, site: Site
+) -> PlaceMeaning:
     """Return what is said of each of several rows."""
     if place.shape == "area" and count is None and not things[0].count and _are_plural(things):
-        return Place(rows, "several")
+        return PlaceMeaning(rows, "several")
     if place.shape == "area" and relation == "of":
         raise NotComposed("every tree, or how many?")
     single = one_by_one(rows, site)
@@ -152,10 +154,10 @@ def _of_rows(
         raise NotComposed("rows one by one")
     selector = s.Take(count=count or 1, of=s.Trees()) if place.shape == "area" else place.selector
     parts = tuple(over(selector, row) for row in single)
-    return Place(parts[0] if len(parts) == 1 else s.UnionOf(parts=parts), "several")
+    return PlaceMeaning(parts[0] if len(parts) == 1 else s.UnionOf(parts=parts), "several")
 
 
-def _of_area(place: Place, things: tuple[Thing, ...], count: int | None, relation: str) -> Place:
+def _of_area(place: PlaceMeaning, things: tuple[Thing, ...], count: int | None, relation: str) -> PlaceMeaning:
     """Return the trees of an area: all of them, or as many as there are captures."""
     if count is None and _are_plural(things):
         return replace(place, shape="several")
@@ -164,4 +166,4 @@ def _of_area(place: Place, things: tuple[Thing, ...], count: int | None, relatio
     if count in (None, 1) and are_several_rows(place.selector):
         raise NotComposed("one in each of them, or one in all?")
     number = count or 1
-    return Place(s.Take(count=number, of=place.selector), "one" if number == 1 else "several", count=number)
+    return PlaceMeaning(s.Take(count=number, of=place.selector), "one" if number == 1 else "several", count=number)

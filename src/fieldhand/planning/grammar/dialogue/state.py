@@ -8,7 +8,16 @@ from dataclasses import dataclass, replace
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.faults import NotComposed
 from fieldhand.planning.grammar.dialogue.plans import EMPTY, Path, block_at, with_node
-from fieldhand.planning.grammar.meaning import AllTests, Drive, Home, InAnOrder, Lead, Limit, Place, Thing
+from fieldhand.planning.grammar.meaning import (
+    AllTests,
+    DriveCommand,
+    Home,
+    InAnOrder,
+    Lead,
+    LimitClause,
+    PlaceMeaning,
+    Thing,
+)
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task import plan as p
@@ -19,7 +28,7 @@ Spans = tuple[p.Span, ...]
 
 @dataclass(frozen=True)
 class Setting:
-    """What is known beside the clauses.
+    """The robot and the site that the clauses are read for.
 
     Attributes:
         robot: Robot profile.
@@ -75,17 +84,17 @@ class DialogueState:
     captured: Path | None = None
     lead: Lead | None = None
     things: tuple[Thing, ...] = ()
-    where: Place | None = None
+    where: PlaceMeaning | None = None
     where_scope: Path | None = None
     readings: int = 0
-    limits: tuple[Limit, ...] = ()
+    limits: tuple[LimitClause, ...] = ()
     limits_said: tuple[Spans, ...] = ()
     nominal: Then | None = None
     nominal_said: Spans = ()
     open: bool = False
     decided: AllTests | None = None
     commands_in_sentence: int = 0
-    area: Drive | None = None
+    area: DriveCommand | None = None
     order: InAnOrder | None = None
     home: Home | None = None
     within: s.Selector | None = None
@@ -135,7 +144,7 @@ def with_joints(state: DialogueState, said: Spans) -> DialogueState:
     return replace(state, joints=(*state.joints, *said))
 
 
-def done_at(state: DialogueState, place: Place) -> DialogueState:
+def done_at(state: DialogueState, place: PlaceMeaning) -> DialogueState:
     """Return the state after a command was done at a place."""
     return replace(state, where=place, where_scope=state.scope, commands_in_sentence=state.commands_in_sentence + 1)
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Nominal, Place
+from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.places.numbers import name_of
 from fieldhand.planning.grammar.selections import AREAS, are_rows, chooses_from_trees, over
@@ -199,7 +199,7 @@ def outside(inner: Nominal, where: Lex) -> Nominal | None:
 
 
 @construction("place: where=region COMMA inner=place", cost=0.6)
-def places_of_area(where: s.Selector, inner: Place) -> Place | None:
+def places_of_area(where: s.Selector, inner: PlaceMeaning) -> PlaceMeaning | None:
     """Compose "row 7, every third tree"."""
     if inner.per is not None or inner.shape not in ("one", "several") or not chooses_from_trees(inner.selector):
         return None
@@ -209,12 +209,12 @@ def places_of_area(where: s.Selector, inner: Place) -> Place | None:
 
 
 @construction("place: where=region", cost=0.4)
-def area(where: s.Selector) -> Place:
+def area(where: s.Selector) -> PlaceMeaning:
     """Compose "the northern half" as a place."""
-    return Place(where, "area")
+    return PlaceMeaning(where, "area")
 
 
 @construction("place: word=DET in_ where=region", cost=0.4)
-def those_in(word: Lex, where: s.Selector) -> Place | None:
+def those_in(word: Lex, where: s.Selector) -> PlaceMeaning | None:
     """Compose "those in row 4"."""
-    return Place(where, "several") if word.text in ("those", "the ones", "all") else None
+    return PlaceMeaning(where, "several") if word.text in ("those", "the ones", "all") else None

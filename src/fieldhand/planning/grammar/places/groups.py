@@ -7,7 +7,7 @@ from dataclasses import replace
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.onebyone import swapped
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Nominal, Place
+from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.selections import are_rows, chooses_from_trees, over
 from fieldhand.planning.grammar.words import Lex
 
@@ -16,94 +16,94 @@ construction = GRAMMAR.construction
 
 
 @construction("place: [DET] inner=nominal", cost=0.3)
-def definite(inner: Nominal) -> Place | None:
+def definite(inner: Nominal) -> PlaceMeaning | None:
     """Compose "the yellow trees"."""
     if inner.single:
-        return Place(inner.selector, "one")
+        return PlaceMeaning(inner.selector, "one")
     if inner.complete:
-        return Place(inner.selector, "several", count=inner.complete)
-    return Place(inner.selector, "several") if inner.plural else None
+        return PlaceMeaning(inner.selector, "several", count=inner.complete)
+    return PlaceMeaning(inner.selector, "several") if inner.plural else None
 
 
 @construction("place: word=DET inner=nominal", cost=0.3)
-def any_one(word: Lex, inner: Nominal) -> Place | None:
+def any_one(word: Lex, inner: Nominal) -> PlaceMeaning | None:
     """Compose "a yellow tree"."""
     if inner.single or inner.plural or inner.complete or word.text not in ("a", "an", "some"):
         return None
-    return Place(s.Take(count=1, of=inner.selector), "one")
+    return PlaceMeaning(s.Take(count=1, of=inner.selector), "one")
 
 
 @construction("place: ANY inner=nominal", cost=0.3)
-def any_of_them(inner: Nominal) -> Place | None:
+def any_of_them(inner: Nominal) -> PlaceMeaning | None:
     """Compose "any yellow tree"."""
-    return None if inner.single else Place(s.Take(count=1, of=inner.selector), "one")
+    return None if inner.single else PlaceMeaning(s.Take(count=1, of=inner.selector), "one")
 
 
 @construction("place: ANY n=count inner=nominal", "place: ATLEAST n=count inner=nominal", cost=0.3)
-def any_so_many(n: int, inner: Nominal) -> Place | None:
+def any_so_many(n: int, inner: Nominal) -> PlaceMeaning | None:
     """Compose "any three trees" and "at least three trees"."""
     return None if inner.complete else so_many(n, inner)
 
 
 @construction("place: check=CMP n=count inner=nominal", cost=0.3)
-def at_most_so_many(check: Lex, n: int, inner: Nominal) -> Place | None:
+def at_most_so_many(check: Lex, n: int, inner: Nominal) -> PlaceMeaning | None:
     """Compose "at most three trees"."""
     return up_to(inner=inner, n=n) if check.value == ("le", "") else None
 
 
 @construction("place: [DET] rank=ORD n=count inner=nominal", cost=0.5)
-def first_trees(rank: Lex, n: int, inner: Nominal) -> Place | None:
+def first_trees(rank: Lex, n: int, inner: Nominal) -> PlaceMeaning | None:
     """Compose "the first three trees"."""
     if rank.value != 1 or n < 2 or inner.single or inner.selector != s.Trees():
         return None
-    return Place(s.Nearest(to=s.Marker(name="start"), count=n), "several", count=n)
+    return PlaceMeaning(s.Nearest(to=s.Marker(name="start"), count=n), "several", count=n)
 
 
 @construction("place: EACH [DET] [n=count] inner=nominal", cost=0.2)
-def each_one(inner: Nominal, n: int | None = None) -> Place | None:
+def each_one(inner: Nominal, n: int | None = None) -> PlaceMeaning | None:
     """Compose "every yellow tree"."""
     if inner.single or (n is not None and n != inner.complete):
         return None
-    return Place(inner.selector, "several", each=True, count=inner.complete or None)
+    return PlaceMeaning(inner.selector, "several", each=True, count=inner.complete or None)
 
 
 @construction("place: [word=DET] n=count inner=nominal", cost=0.2)
-def so_many(n: int, inner: Nominal, word: Lex | None = None) -> Place | None:
+def so_many(n: int, inner: Nominal, word: Lex | None = None) -> PlaceMeaning | None:
     """Compose "three trees"."""
     if word is not None and not inner.complete and word.text not in ("a", "an", "some"):
         return None  # "the three yellow trees": which are meant, if there are more?
     if inner.single or (inner.complete and n != inner.complete):
         return None
     if inner.complete:
-        return Place(inner.selector, "several", count=n)
+        return PlaceMeaning(inner.selector, "several", count=n)
     if n == 1:
-        return Place(s.Take(count=1, of=inner.selector), "one")
-    return Place(s.Take(count=n, of=inner.selector), "several", count=n)
+        return PlaceMeaning(s.Take(count=1, of=inner.selector), "one")
+    return PlaceMeaning(s.Take(count=n, of=inner.selector), "several", count=n)
 
 
 @construction("place: n=count OF group=place", "place: n=count FROM group=place", cost=0.3)
-def some_of(n: int, group: Place) -> Place | None:
+def some_of(n: int, group: PlaceMeaning) -> PlaceMeaning | None:
     """Compose "two of the yellow trees"."""
     if group.shape != "several" or group.per is not None or group.optional or group.each:
         return None
     if group.count is not None and n >= group.count:
         return None
-    return Place(s.Take(count=n, of=group.selector), "one" if n == 1 else "several", count=n)
+    return PlaceMeaning(s.Take(count=n, of=group.selector), "one" if n == 1 else "several", count=n)
 
 
 @construction("place: n=count POINT SPREAD [DET] zone=ZONE", cost=0.2)
-def points_over(n: int, zone: Lex) -> Place:
+def points_over(n: int, zone: Lex) -> PlaceMeaning:
     """Compose "five points spread across the wet corner"."""
-    return Place(s.PointsIn(zone=zone.value, count=n), "several", count=n)
+    return PlaceMeaning(s.PointsIn(zone=zone.value, count=n), "several", count=n)
 
 
 @construction("place: n=count inner=nominal SPREAD where=region", "place: n=count inner=nominal SPREAD site", cost=0.2)
-def trees_spread(n: int, inner: Nominal, where: s.Selector | None = None) -> Place | None:
+def trees_spread(n: int, inner: Nominal, where: s.Selector | None = None) -> PlaceMeaning | None:
     """Compose "five trees spread over the northern half"."""
     if inner.single or not chooses_from_trees(inner.selector):
         return None
     of = inner.selector if where is None else over(inner.selector, where)
-    return Place(s.Spread(count=n, of=of), "several", count=n)
+    return PlaceMeaning(s.Spread(count=n, of=of), "several", count=n)
 
 
 @construction(
@@ -112,7 +112,7 @@ def trees_spread(n: int, inner: Nominal, where: s.Selector | None = None) -> Pla
     "place: [DET] n=count inner=nominal RANDOM over_site",
     cost=0.1,
 )
-def at_random_anywhere(n: int, inner: Nominal) -> Place | None:
+def at_random_anywhere(n: int, inner: Nominal) -> PlaceMeaning | None:
     """Compose "five trees at random in the orchard"."""
     return at_random(n, inner)
 
@@ -130,26 +130,26 @@ def across_the_site(word: Lex) -> str | None:
     "place: [DET] n=count inner=nominal RANDOM in_ where=region",
     cost=0.2,
 )
-def at_random(n: int, inner: Nominal, where: s.Selector | None = None) -> Place | None:
+def at_random(n: int, inner: Nominal, where: s.Selector | None = None) -> PlaceMeaning | None:
     """Compose "five random trees"."""
     if inner.single or inner.complete:
         return None
     of = inner.selector if where is None else over(inner.selector, where)
-    return Place(s.RandomSample(count=n, of=of), "one" if n == 1 else "several", count=n)
+    return PlaceMeaning(s.RandomSample(count=n, of=of), "one" if n == 1 else "several", count=n)
 
 
 @construction("place: ASMANY [DET] inner=nominal ASCAN", "place: ASMANY [DET] inner=nominal ASFIT", cost=0.2)
-def as_many(inner: Nominal) -> Place | None:
+def as_many(inner: Nominal) -> PlaceMeaning | None:
     """Compose "as many trees as you can"."""
     if inner.single or not inner.plural:
         return None
-    return Place(inner.selector, "several", optional=True)
+    return PlaceMeaning(inner.selector, "several", optional=True)
 
 
 @construction("place: UPTO n=count inner=nominal", cost=0.2)
-def up_to(n: int, inner: Nominal) -> Place | None:
+def up_to(n: int, inner: Nominal) -> PlaceMeaning | None:
     """Compose "up to six trees"."""
-    return None if inner.single or inner.complete else Place(inner.selector, "several", at_most=n)
+    return None if inner.single or inner.complete else PlaceMeaning(inner.selector, "several", at_most=n)
 
 
 @construction("nominal: ANOTHER inner=nominal", "nominal: DET OTHER inner=nominal", cost=0.2)
@@ -166,11 +166,11 @@ def another(inner: Nominal) -> Nominal | None:
     "place: DET OTHER n=count inner=nominal",
     cost=0.2,
 )
-def others(n: int, inner: Nominal) -> Place | None:
+def others(n: int, inner: Nominal) -> PlaceMeaning | None:
     """Compose "three other trees"."""
     if inner.single:
         return None
-    return Place(s.Take(count=n, of=_unvisited(inner.selector)), "several" if n > 1 else "one", count=n)
+    return PlaceMeaning(s.Take(count=n, of=_unvisited(inner.selector)), "several" if n > 1 else "one", count=n)
 
 
 def _unvisited(selector: s.Selector) -> s.Selector:
@@ -183,16 +183,16 @@ def _unvisited(selector: s.Selector) -> s.Selector:
     "place: EACH inner=nominal EXCEPT DET trees=numbers",
     cost=0.3,
 )
-def except_numbers(inner: Nominal, trees: tuple[str, ...]) -> Place | None:
+def except_numbers(inner: Nominal, trees: tuple[str, ...]) -> PlaceMeaning | None:
     """Compose "all trees except 12 and 15"."""
     if inner.selector != s.Trees():
         return None
     parts = tuple(s.TreeIs(tree=t) for t in trees)
-    return Place(s.Excluding(places=parts[0] if len(parts) == 1 else s.UnionOf(parts=parts)), "several")
+    return PlaceMeaning(s.Excluding(places=parts[0] if len(parts) == 1 else s.UnionOf(parts=parts)), "several")
 
 
 @construction("place: whole=place [COMMA] EXCEPT [FOR] part=place", cost=0.3)
-def except_for(whole: Place, part: Place) -> Place | None:
+def except_for(whole: PlaceMeaning, part: PlaceMeaning) -> PlaceMeaning | None:
     """Compose "all trees except the yellow trees"."""
     if (
         whole.shape not in ("several", "area")
@@ -210,15 +210,15 @@ def except_for(whole: Place, part: Place) -> Place | None:
 
 
 @construction("place: ANY inner=nominal EXCEPT part=place", "place: ANY inner=nominal word=AND part=place", cost=0.2)
-def any_except(inner: Nominal, part: Place, word: Lex | None = None) -> Place | None:
+def any_except(inner: Nominal, part: PlaceMeaning, word: Lex | None = None) -> PlaceMeaning | None:
     """Compose "any tree except tree 12"."""
     if (word is not None and word.text != "but") or inner.single or part.shape not in ("one", "several"):
         return None
-    return Place(s.Take(count=1, of=s.Excluding(places=part.selector, of=inner.selector)), "one")
+    return PlaceMeaning(s.Take(count=1, of=s.Excluding(places=part.selector, of=inner.selector)), "one")
 
 
 @construction("place_list: first=place COMMA second=place", "place_list: first=place_list COMMA second=place", cost=0.4)
-def listed_places(first: Place, second: Place) -> Place | None:
+def listed_places(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | None:
     """Compose "tree 12, tree 15"."""
     return both(first, second)
 
@@ -228,7 +228,7 @@ def listed_places(first: Place, second: Place) -> Place | None:
     "place: first=place word=AND second=place",
     cost=0.4,
 )
-def both(first: Place, second: Place, word: Lex | None = None) -> Place | None:
+def both(first: PlaceMeaning, second: PlaceMeaning, word: Lex | None = None) -> PlaceMeaning | None:
     """Compose "tree 12 and the charger"."""
     if (word is not None and word.text == "but") or first.per is not None or second.per is not None:
         return None
@@ -243,20 +243,20 @@ def both(first: Place, second: Place, word: Lex | None = None) -> Place | None:
     parts = tuple(part for one in (first, second) for part in one.selector.members)
     counts = [1 if one.shape == "one" else one.count for one in (first, second)]
     count = None if None in counts else sum(c for c in counts if c is not None)
-    return Place(s.UnionOf(parts=parts), "several", count=count)
+    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=count)
 
 
 @construction("place: INEACH", cost=0.9)
-def each_of_those() -> Place:
+def each_of_those() -> PlaceMeaning:
     """Compose "in each of them"."""
-    return Place(s.Here(), "those", each=True)
+    return PlaceMeaning(s.Here(), "those", each=True)
 
 
 @construction("place: word=THERE", cost=0.2)
-def there(word: Lex) -> Place:
+def there(word: Lex) -> PlaceMeaning:
     """Compose "at that tree"."""
     several = any(part in word.text.split() for part in ("them", "each", "every", "both", "these", "those", "all"))
-    return Place(
+    return PlaceMeaning(
         s.Trees() if "tree" in word.text and several else s.Here(),
         "those" if several else "here",
         each="each" in word.text or "every" in word.text,
@@ -264,12 +264,12 @@ def there(word: Lex) -> Place:
 
 
 @construction("place: word=DET", cost=1.0)
-def those(word: Lex) -> Place | None:
+def those(word: Lex) -> PlaceMeaning | None:
     """Compose "those"."""
-    return Place(s.Here(), "those") if word.text in ("those", "these") else None
+    return PlaceMeaning(s.Here(), "those") if word.text in ("those", "these") else None
 
 
 @construction("place: word=IT", cost=0.3)
-def it(word: Lex) -> Place:
+def it(word: Lex) -> PlaceMeaning:
     """Compose "it"."""
-    return Place(s.Here(), "those" if word.text in ("they", "them") else "here")
+    return PlaceMeaning(s.Here(), "those" if word.text in ("they", "them") else "here")

@@ -6,8 +6,9 @@ from dataclasses import replace
 from typing import Any, cast
 
 from fieldhand.places import selectors as s
+from fieldhand.planning.english.limits import Amount
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Amount, Nominal, Place
+from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.selections import chooses_from_trees
 from fieldhand.planning.grammar.words import Lex
@@ -46,9 +47,9 @@ def extreme_one(side: Lex) -> Nominal | None:
 
 
 @construction("place: DET rank=ranking", cost=1.0)
-def best_one(rank: tuple[str, bool]) -> Place | None:
+def best_one(rank: tuple[str, bool]) -> PlaceMeaning | None:
     """Compose "the oldest"."""
-    return Place(s.Top(attribute=rank[0], count=1, lowest=rank[1]), "one") if rank[0] else None
+    return PlaceMeaning(s.Top(attribute=rank[0], count=1, lowest=rank[1]), "one") if rank[0] else None
 
 
 @construction("nominal: noun=ONE", cost=0.4)
@@ -87,7 +88,7 @@ def with_attribute(inner: Nominal, test: tuple[str, Test, Any]) -> Nominal | Non
 
 
 @construction("place: whole=place [WHICH] [IS] test=attribute_test", cost=0.3)
-def those_with_attribute(whole: Place, test: tuple[str, Test, Any]) -> Place | None:
+def those_with_attribute(whole: PlaceMeaning, test: tuple[str, Test, Any]) -> PlaceMeaning | None:
     """Compose "every third tree in row 4 that is yellow"."""
     if not isinstance(whole.selector, s.EveryNth) or whole.per is not None:
         return None
@@ -143,11 +144,11 @@ def extreme(side: Lex, inner: Nominal) -> Nominal | None:
 
 
 @construction("place: [DET] n=count side=MOST inner=nominal", cost=0.2)
-def so_many_extreme(n: int, side: Lex, inner: Nominal) -> Place | None:
+def so_many_extreme(n: int, side: Lex, inner: Nominal) -> PlaceMeaning | None:
     """Compose "the 3 northernmost trees"."""
     if inner.single or inner.complete or side.value in CORNERS or n < 2:
         return None
-    return Place(s.Extreme(side=side.value, count=n, of=inner.selector), "several", count=n)
+    return PlaceMeaning(s.Extreme(side=side.value, count=n, of=inner.selector), "several", count=n)
 
 
 @construction(
@@ -155,12 +156,12 @@ def so_many_extreme(n: int, side: Lex, inner: Nominal) -> Place | None:
     "place: [DET] first=MOST AND DET second=MOST inner=nominal",
     cost=0.2,
 )
-def two_extremes(first: Lex, second: Lex, inner: Nominal) -> Place | None:
+def two_extremes(first: Lex, second: Lex, inner: Nominal) -> PlaceMeaning | None:
     """Compose "the northernmost and southernmost trees"."""
     if inner.single or inner.complete or first.value in CORNERS or second.value in CORNERS:
         return None
     parts = tuple(s.Extreme(side=side.value, of=inner.selector) for side in (first, second))
-    return Place(s.UnionOf(parts=parts), "several", count=2)
+    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=2)
 
 
 @construction("nominal: rank=ORD inner=nominal", cost=0.2)
@@ -205,14 +206,14 @@ def ranking_of(rank: tuple[str, bool], attribute: Lex) -> list[tuple[str, bool]]
     "place: [DET] rank=ranking inner=nominal",
     "place: [DET] inner=nominal [WHICH] WITH DET rank=ranking",
 )
-def ranked(rank: tuple[str, bool], inner: Nominal, n: int | None = None) -> Place | None:
+def ranked(rank: tuple[str, bool], inner: Nominal, n: int | None = None) -> PlaceMeaning | None:
     """Compose "the five oldest trees" and "5 trees with the highest yield"."""
     name, lowest = rank
     number = n or (None if inner.plural else 1)
     if not name or number is None or inner.single or inner.complete:
         return None
     selector = s.Top(attribute=name, count=number, lowest=lowest, of=inner.selector)
-    return Place(selector, "one") if number == 1 else Place(selector, "several", count=number)
+    return PlaceMeaning(selector, "one") if number == 1 else PlaceMeaning(selector, "several", count=number)
 
 
 @construction("nominal: EVERYTHING", cost=0.2)

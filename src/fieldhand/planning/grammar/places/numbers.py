@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from fieldhand.places import selectors as s
+from fieldhand.planning.english.limits import Amount
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Amount, Place
+from fieldhand.planning.grammar.meaning import PlaceMeaning
 from fieldhand.planning.grammar.words import Lex
 
 GRAMMAR = Grammar()
@@ -20,7 +21,7 @@ def whole(number: float) -> int | None:
 def amount(number: Lex, unit: Lex) -> Amount:
     """Compose "20 m" and "8 years"."""
     name, factor, offset = unit.value
-    return Amount(round(number.value * factor + offset, 6), name)
+    return Amount(number=round(number.value * factor + offset, 6), unit=name)
 
 
 @construction("count: number=NUM", cost=0.0)
@@ -82,11 +83,11 @@ def range_word(word: Lex) -> str | None:
 
 
 @construction("place: [DET] trees=tree_ids", cost=0.1)
-def named_trees(trees: tuple[str, ...]) -> Place:
+def named_trees(trees: tuple[str, ...]) -> PlaceMeaning:
     """Compose "the trees 12 and 15"."""
     if len(trees) == 1:
-        return Place(s.TreeIs(tree=trees[0]), "one")
-    return Place(s.UnionOf(parts=tuple(s.TreeIs(tree=t) for t in trees)), "several", count=len(trees))
+        return PlaceMeaning(s.TreeIs(tree=trees[0]), "one")
+    return PlaceMeaning(s.UnionOf(parts=tuple(s.TreeIs(tree=t) for t in trees)), "several", count=len(trees))
 
 
 @construction("numbers: first=NUM", cost=0.0)

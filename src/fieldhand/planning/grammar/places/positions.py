@@ -8,7 +8,7 @@ from dataclasses import replace
 from fieldhand.places import selectors as s
 from fieldhand.places.picks.ordered import Order
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Nominal, Place, Shape
+from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning, Shape
 from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.selections import chooses_from_trees, is_one_row, over
 from fieldhand.planning.grammar.words import Lex
@@ -56,12 +56,12 @@ def last_position() -> tuple[int, int]:
     "place: [DET] where=position inner=nominal in_ rows=rows_of_block",
     cost=0.2,
 )
-def tree_of_row(where: tuple[int, int], inner: Nominal, rows: s.Selector) -> Place | None:
+def tree_of_row(where: tuple[int, int], inner: Nominal, rows: s.Selector) -> PlaceMeaning | None:
     """Compose "the third tree in row 4"."""
     if inner.plural or inner.single or not chooses_from_trees(inner.selector):
         return None
     selector = s.InRow(first=where[0], last=where[1], of=over(inner.selector, rows))
-    return Place(selector, "one" if is_one_row(rows) else "several", each=not is_one_row(rows))
+    return PlaceMeaning(selector, "one" if is_one_row(rows) else "several", each=not is_one_row(rows))
 
 
 @construction(
@@ -69,25 +69,27 @@ def tree_of_row(where: tuple[int, int], inner: Nominal, rows: s.Selector) -> Pla
     "place: [DET] first=position AND second=position inner=nominal in_ rows=rows_of_block",
     cost=0.2,
 )
-def two_trees_of_row(first: tuple[int, int], second: tuple[int, int], inner: Nominal, rows: s.Selector) -> Place | None:
+def two_trees_of_row(
+    first: tuple[int, int], second: tuple[int, int], inner: Nominal, rows: s.Selector
+) -> PlaceMeaning | None:
     """Compose "the first and last trees in row 4"."""
     if inner.single or not chooses_from_trees(inner.selector):
         return None
     of = over(inner.selector, rows)
     parts = tuple(s.InRow(first=at[0], last=at[1], of=of) for at in (first, second))
-    return Place(s.UnionOf(parts=parts), "several", count=2 if is_one_row(rows) else None)
+    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=2 if is_one_row(rows) else None)
 
 
 @construction("place: [DET] first=position one=nominal AND [DET] second=position other=nominal in_ rows=rows", cost=0.2)
 def two_positions_of_row(
     first: tuple[int, int], one: Nominal, second: tuple[int, int], other: Nominal, rows: s.Selector
-) -> Place | None:
+) -> PlaceMeaning | None:
     """Compose "the first tree and the last tree in row 4"."""
     if one.selector != other.selector or one.plural or not chooses_from_trees(one.selector):
         return None
     of = over(one.selector, rows)
     parts = tuple(s.InRow(first=at[0], last=at[1], of=of) for at in (first, second))
-    return Place(s.UnionOf(parts=parts), "several", count=2 if is_one_row(rows) else None)
+    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=2 if is_one_row(rows) else None)
 
 
 @construction("position_list: rank=ORD COMMA other=ORD", "position_list: rank=ORD AND other=ORD", cost=0.1)
@@ -111,12 +113,12 @@ def more_positions(first: tuple[int, ...], other: Lex) -> tuple[int, ...]:
     "place: [DET] at=position_list inner=nominal in_ rows=rows_of_block",
     cost=0.2,
 )
-def trees_at_positions(at: tuple[int, ...], inner: Nominal, rows: s.Selector) -> Place | None:
+def trees_at_positions(at: tuple[int, ...], inner: Nominal, rows: s.Selector) -> PlaceMeaning | None:
     """Compose "the first, third and fifth trees in row 4"."""
     if inner.single or not chooses_from_trees(inner.selector):
         return None
     of = over(inner.selector, rows)
-    return Place(
+    return PlaceMeaning(
         s.UnionOf(parts=tuple(s.InRow(first=n, last=n, of=of) for n in at)),
         "several",
         count=len(at) if is_one_row(rows) else None,
@@ -141,12 +143,12 @@ def last_so_many(n: int) -> tuple[int, int] | None:
     "place: [DET] where=positions inner=nominal in_ rows=rows_of_block",
     cost=0.2,
 )
-def trees_of_row(where: tuple[int, int], inner: Nominal, rows: s.Selector) -> Place | None:
+def trees_of_row(where: tuple[int, int], inner: Nominal, rows: s.Selector) -> PlaceMeaning | None:
     """Compose "the first three trees in row 4"."""
     if inner.single or not chooses_from_trees(inner.selector):
         return None
     count = where[1] - where[0] + 1 if is_one_row(rows) else None
-    return Place(s.InRow(first=where[0], last=where[1], of=over(inner.selector, rows)), "several", count=count)
+    return PlaceMeaning(s.InRow(first=where[0], last=where[1], of=over(inner.selector, rows)), "several", count=count)
 
 
 @construction(
@@ -154,12 +156,12 @@ def trees_of_row(where: tuple[int, int], inner: Nominal, rows: s.Selector) -> Pl
     "place: [DET] at=position inner=nominal FROM [DET] side=DIR in_ rows=each_row",
     cost=0.1,
 )
-def tree_from_side(at: tuple[int, int], inner: Nominal, side: Lex, rows: s.Selector) -> Place | None:
+def tree_from_side(at: tuple[int, int], inner: Nominal, side: Lex, rows: s.Selector) -> PlaceMeaning | None:
     """Compose "the third tree from the north in row 4"."""
     if inner.plural or inner.single or inner.selector != s.Trees() or side.value not in SIDES:
         return None
     one: Shape = "one" if is_one_row(rows) else "several"
-    return Place(s.InRow(first=at[0], last=at[1], counted_from=side.value, of=rows), one)
+    return PlaceMeaning(s.InRow(first=at[0], last=at[1], counted_from=side.value, of=rows), one)
 
 
 @construction(
@@ -167,23 +169,25 @@ def tree_from_side(at: tuple[int, int], inner: Nominal, side: Lex, rows: s.Selec
     "place: [DET] rank=ORD inner=nominal FROM DET side=DIR FINISH in_ rows=rows",
     cost=0.1,
 )
-def tree_from_end(rank: Lex, inner: Nominal, rows: s.Selector, side: Lex | None = None) -> Place | None:
+def tree_from_end(rank: Lex, inner: Nominal, rows: s.Selector, side: Lex | None = None) -> PlaceMeaning | None:
     """Compose "the third tree from the end of row 4"."""
     if inner.plural or inner.single or inner.selector != s.Trees():
         return None
     one: Shape = "one" if is_one_row(rows) else "several"
     if side is None:
-        return Place(s.InRow(first=-rank.value, last=-rank.value, of=rows), one)
-    return Place(s.InRow(first=rank.value, last=rank.value, counted_from=side.value, of=rows), one)
+        return PlaceMeaning(s.InRow(first=-rank.value, last=-rank.value, of=rows), one)
+    return PlaceMeaning(s.InRow(first=rank.value, last=rank.value, counted_from=side.value, of=rows), one)
 
 
 @construction("place: [DET] side=DIR FINISH in_ rows=rows", "place: [DET] side=DIR FINISH in_ rows=each_row", cost=0.1)
-def end_of_row(side: Lex, rows: s.Selector) -> Place | None:
+def end_of_row(side: Lex, rows: s.Selector) -> PlaceMeaning | None:
     """Compose "the northern end of row 4"."""
     if side.value not in SIDES:
         return None
     one = is_one_row(rows)
-    return Place(s.InRow(first=1, last=1, counted_from=side.value, of=rows), "one" if one else "several", each=not one)
+    return PlaceMeaning(
+        s.InRow(first=1, last=1, counted_from=side.value, of=rows), "one" if one else "several", each=not one
+    )
 
 
 @construction(
@@ -195,28 +199,28 @@ def end_of_row(side: Lex, rows: s.Selector) -> Place | None:
     "place: DET TREE AT EACH noun=FINISH in_ rows=rows",
     cost=0.1,
 )
-def both_ends(noun: Lex, rows: s.Selector) -> Place | None:
+def both_ends(noun: Lex, rows: s.Selector) -> PlaceMeaning | None:
     """Compose "both ends of row 4"."""
     if not noun.plural:
         return None
     parts = (s.InRow(first=1, last=1, of=rows), s.InRow(first=-1, last=-1, of=rows))
-    return Place(s.UnionOf(parts=parts), "several", count=2 if is_one_row(rows) else None)
+    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=2 if is_one_row(rows) else None)
 
 
 @construction("place: EACH n=ORD inner=nominal", cost=0.2)
-def every_nth(n: Lex, inner: Nominal) -> Place | None:
+def every_nth(n: Lex, inner: Nominal) -> PlaceMeaning | None:
     """Compose "every third tree"."""
     if inner.single or inner.complete or n.value < 2 or inner.plural or inner.tested or inner.kind != "tree":
         return None
-    return Place(s.EveryNth(nth=n.value, of=inner.selector), "several", each=True)
+    return PlaceMeaning(s.EveryNth(nth=n.value, of=inner.selector), "several", each=True)
 
 
 @construction("place: EACH OTHER inner=nominal", cost=0.2)
-def every_other(inner: Nominal) -> Place | None:
+def every_other(inner: Nominal) -> PlaceMeaning | None:
     """Compose "every other tree"."""
     if inner.single or inner.complete or inner.plural or inner.tested or inner.kind != "tree":
         return None
-    return Place(s.EveryNth(nth=2, of=inner.selector), "several", each=True)
+    return PlaceMeaning(s.EveryNth(nth=2, of=inner.selector), "several", each=True)
 
 
 @construction(
@@ -232,7 +236,7 @@ def from_side(side: Lex) -> Side | None:
 
 
 @construction("place: whole=place [COMMA] side=start", cost=0.3)
-def counted_from_side(whole: Place, side: Side) -> Place | None:
+def counted_from_side(whole: PlaceMeaning, side: Side) -> PlaceMeaning | None:
     """Compose "every third tree in row 4, starting from the north"."""
     if not isinstance(whole.selector, s.EveryNth) or whole.selector.counted_from != "usual":
         return None
@@ -246,7 +250,7 @@ def counted_from_side(whole: Place, side: Side) -> Place | None:
     "place: whole=place [COMMA] COUNTED [DET] side=DIR SIDE",
     cost=0.3,
 )
-def counted_from(whole: Place, side: Lex) -> Place | None:
+def counted_from(whole: PlaceMeaning, side: Lex) -> PlaceMeaning | None:
     """Compose "every other tree of row 6 counted from the south"."""
     if not isinstance(whole.selector, s.EveryNth) or whole.selector.counted_from != "usual" or side.value not in SIDES:
         return None
@@ -254,7 +258,7 @@ def counted_from(whole: Place, side: Lex) -> Place | None:
 
 
 @construction("place: whole=place [COMMA] STARTING [DET] rank=ORD [TREE]", cost=0.3)
-def starting_with(whole: Place, rank: Lex) -> Place | None:
+def starting_with(whole: PlaceMeaning, rank: Lex) -> PlaceMeaning | None:
     """Compose "every third tree in row 4, starting with the second tree"."""
     if not isinstance(whole.selector, s.EveryNth) or whole.selector.start != 1:
         return None
@@ -262,11 +266,11 @@ def starting_with(whole: Place, rank: Lex) -> Place | None:
 
 
 @construction("place: EACH n=ORD inner=nominal [COMMA] STARTING [DET] rank=ORD [TREE] [COMMA] in_ rows=rows", cost=0.2)
-def nth_starting_with(n: Lex, inner: Nominal, rank: Lex, rows: s.Selector) -> Place | None:
+def nth_starting_with(n: Lex, inner: Nominal, rank: Lex, rows: s.Selector) -> PlaceMeaning | None:
     """Compose "every third tree starting with the second in row 4"."""
     if inner.single or inner.plural or n.value < 2:
         return None
-    return Place(s.EveryNth(nth=n.value, start=rank.value, of=over(inner.selector, rows)), "several", each=True)
+    return PlaceMeaning(s.EveryNth(nth=n.value, start=rank.value, of=over(inner.selector, rows)), "several", each=True)
 
 
 @construction(
@@ -274,16 +278,16 @@ def nth_starting_with(n: Lex, inner: Nominal, rank: Lex, rows: s.Selector) -> Pl
     "place: word=DET noun=ROW OF n=count inner=nominal",
     cost=0.1,
 )
-def trees_in_a_row(n: int, inner: Nominal, word: Lex, noun: Lex) -> Place | None:
+def trees_in_a_row(n: int, inner: Nominal, word: Lex, noun: Lex) -> PlaceMeaning | None:
     """Compose "four trees in a row"."""
     if noun.plural or word.text != "a" or inner.single or inner.complete or n < 2:
         return None
-    return Place(s.Successive(count=n, of=inner.selector), "several", count=n)
+    return PlaceMeaning(s.Successive(count=n, of=inner.selector), "several", count=n)
 
 
 @construction("place: n=count CONSECUTIVE inner=nominal", cost=0.1)
-def consecutive(n: int, inner: Nominal) -> Place | None:
+def consecutive(n: int, inner: Nominal) -> PlaceMeaning | None:
     """Compose "four consecutive trees"."""
     if inner.single or inner.complete or n < 2:
         return None
-    return Place(s.Successive(count=n, of=inner.selector), "several", count=n)
+    return PlaceMeaning(s.Successive(count=n, of=inner.selector), "several", count=n)

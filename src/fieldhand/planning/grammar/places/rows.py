@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Nominal, Place
+from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.places.numbers import name_of, whole
 from fieldhand.planning.grammar.selections import chooses_from_trees, over
@@ -117,7 +117,7 @@ def same_row() -> s.Selector:
 
 
 @construction("rows: DET ROW OF tree=place", cost=0.2)
-def row_of_tree(tree: Place) -> s.Selector | None:
+def row_of_tree(tree: PlaceMeaning) -> s.Selector | None:
     """Compose "the row of tree 12"."""
     return s.RowOf(origin=tree.selector) if isinstance(tree.selector, s.TreeIs | s.Here) else None
 
@@ -246,17 +246,17 @@ def every_so_many_row(noun: Lex, n: Lex | None = None) -> s.Selector | None:
     "place: each=EACH inner=nominal in_ rows=each_row",
     cost=0.3,
 )
-def trees_of_each_row(inner: Nominal, rows: s.Selector, each: Lex | None = None) -> Place | None:
+def trees_of_each_row(inner: Nominal, rows: s.Selector, each: Lex | None = None) -> PlaceMeaning | None:
     """Compose "the northernmost tree of each row"."""
     if not chooses_from_trees(inner.selector):
         return None
     if inner.single:
-        return Place(inner.selector, "several", each=True, per=rows) if each is None else None
-    return Place(over(inner.selector, rows), "several") if inner.plural or each is not None else None
+        return PlaceMeaning(inner.selector, "several", each=True, per=rows) if each is None else None
+    return PlaceMeaning(over(inner.selector, rows), "several") if inner.plural or each is not None else None
 
 
 @construction("place: one=place in_ rows=each_row", "place: one=place FOR rows=each_row", cost=0.2)
-def in_each_row(one: Place, rows: s.Selector) -> Place | None:
+def in_each_row(one: PlaceMeaning, rows: s.Selector) -> PlaceMeaning | None:
     """Compose "two trees in each row"."""
     if one.per is not None or one.shape not in ("one", "several") or one.optional or one.at_most:
         return None
@@ -264,13 +264,13 @@ def in_each_row(one: Place, rows: s.Selector) -> Place | None:
         return None
     if one.shape == "several" and one.count is None:
         return replace(one, selector=over(one.selector, rows))
-    return Place(one.selector, "several", each=True, per=rows)
+    return PlaceMeaning(one.selector, "several", each=True, per=rows)
 
 
 @construction("place: rows=each_row", cost=0.5)
-def at_each_row(rows: s.Selector) -> Place:
+def at_each_row(rows: s.Selector) -> PlaceMeaning:
     """Compose "each row" as a place."""
-    return Place(s.Trees(), "area", each=True, per=rows)
+    return PlaceMeaning(s.Trees(), "area", each=True, per=rows)
 
 
 @construction(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Nominal, Place
+from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.terms import Side
@@ -74,19 +74,19 @@ def corners(noun: Lex, n: int | None = None) -> Nominal | None:
     "place: [DET] MIDDLE ONE",
     cost=0.2,
 )
-def middle() -> Place:
+def middle() -> PlaceMeaning:
     """Compose "the middle of the orchard"."""
-    return Place(s.Middle(), "one")
+    return PlaceMeaning(s.Middle(), "one")
 
 
 @construction("place: [DET] MIDDLE in_ where=region", "place: [DET] MIDDLE TREE in_ where=region", cost=0.2)
-def middle_of(where: s.Selector) -> Place | None:
+def middle_of(where: s.Selector) -> PlaceMeaning | None:
     """Compose "the middle of row 4"."""
     if isinstance(where, s.InZone):
-        return Place(s.PointsIn(zone=where.zone), "one") if not where.outside else None
+        return PlaceMeaning(s.PointsIn(zone=where.zone), "one") if not where.outside else None
     if isinstance(where, s.Edge):
-        return Place(s.EdgeMiddle(side=where.side, of=where.of), "one")
-    return Place(s.Middle(of=where), "one")
+        return PlaceMeaning(s.EdgeMiddle(side=where.side, of=where.of), "one")
+    return PlaceMeaning(s.Middle(of=where), "one")
 
 
 @construction("marker: START", "marker: DET START", cost=0.1)
@@ -108,9 +108,9 @@ def charger() -> s.Selector:
 
 
 @construction("place: marker=marker", cost=0.1)
-def marker(marker: s.Selector) -> Place:
+def marker(marker: s.Selector) -> PlaceMeaning:
     """Compose "the charger" as a place."""
-    return Place(marker, "one")
+    return PlaceMeaning(marker, "one")
 
 
 @construction("edge_side: side=DIR EDGE", "edge_side: side=DIR SIDE", "edge_side: side=DIR FINISH", cost=0.1)
@@ -124,12 +124,12 @@ def edge_side(side: Lex) -> Side | None:
     "place: [DET] TREE AT DET MIDDLE OF [DET] side=edge_side [in_] [site]",
     cost=0.1,
 )
-def middle_of_edge(side: Side) -> Place:
+def middle_of_edge(side: Side) -> PlaceMeaning:
     """Compose "the middle of the northern edge"."""
-    return Place(s.EdgeMiddle(side=side), "one")
+    return PlaceMeaning(s.EdgeMiddle(side=side), "one")
 
 
 @construction("place: [DET] gate=GATENAME", cost=0.1)
-def gate(gate: Lex) -> Place:
+def gate(gate: Lex) -> PlaceMeaning:
     """Compose "north gate", the name of a gate."""
-    return Place(s.GateIs(gate=gate.value), "one")
+    return PlaceMeaning(s.GateIs(gate=gate.value), "one")

@@ -6,10 +6,11 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from fieldhand.places import selectors as s
+from fieldhand.planning.english.limits import Amount
 from fieldhand.planning.english.places import beyond
 from fieldhand.planning.english.selections import is_spot
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Amount, Nominal, Place
+from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.selections import chooses_from_trees, over
 from fieldhand.planning.grammar.words import Lex
@@ -28,15 +29,15 @@ _WAYS: Mapping[str, Towards] = {"down": "down", "along": "down", "up": "up"}
     "place: [n=count] inner=nominal NEARBY",
     cost=0.2,
 )
-def nearby(inner: Nominal, n: int | None = None) -> Place | None:
+def nearby(inner: Nominal, n: int | None = None) -> PlaceMeaning | None:
     """Compose "a nearby tree" and "three nearby trees"."""
     if inner.single or inner.complete:
         return None
     number = n or (None if inner.plural else 1)
     if number is None:
-        return Place(s.Nearest(to=s.Here(), count=2, fresh=True, of=inner.selector), "nearby")
+        return PlaceMeaning(s.Nearest(to=s.Here(), count=2, fresh=True, of=inner.selector), "nearby")
     selector = s.Nearest(to=s.Here(), count=number, fresh=True, of=inner.selector)
-    return Place(selector, "one" if number == 1 else "several", count=number)
+    return PlaceMeaning(selector, "one" if number == 1 else "several", count=number)
 
 
 @construction(
@@ -54,20 +55,20 @@ def far_away(inner: Nominal) -> Nominal | None:
 
 
 @construction("place: n=count inner=nominal ADJACENT", "place: n=count ADJACENT inner=nominal", cost=0.2)
-def adjacent(n: int, inner: Nominal) -> Place | None:
+def adjacent(n: int, inner: Nominal) -> PlaceMeaning | None:
     """Compose "three trees next to each other"."""
     if inner.single or inner.complete or n < 2:
         return None
-    return Place(s.Adjacent(near=s.Here(), count=n, of=inner.selector), "several", count=n)
+    return PlaceMeaning(s.Adjacent(near=s.Here(), count=n, of=inner.selector), "several", count=n)
 
 
 @construction("place: n=count inner=nominal NEAREACH", "place: n=count NEAREACH inner=nominal", cost=0.2)
-def adjoining(n: int, inner: Nominal) -> Place | None:
+def adjoining(n: int, inner: Nominal) -> PlaceMeaning | None:
     """Compose "three adjoining trees"."""
     return (
         None
         if inner.single or n < 2
-        else Place(s.Adjacent(near=s.Here(), count=n, of=inner.selector), "several", count=n)
+        else PlaceMeaning(s.Adjacent(near=s.Here(), count=n, of=inner.selector), "several", count=n)
     )
 
 
@@ -76,23 +77,23 @@ def adjoining(n: int, inner: Nominal) -> Place | None:
     "place: [DET] [n=count] inner=nominal BESIDE to=place",
     cost=0.2,
 )
-def next_to(inner: Nominal, to: Place, n: int | None = None) -> Place | None:
+def next_to(inner: Nominal, to: PlaceMeaning, n: int | None = None) -> PlaceMeaning | None:
     """Compose "the two trees next to tree 12"."""
     number = n or (None if inner.plural else 1)
     if number is None or inner.single or inner.kind != "tree" or to.shape not in ("one", "here"):
         return None
     selector = s.Nearest(to=to.selector, count=number, adjacent=True, of=inner.selector)
-    return Place(selector, "one" if number == 1 else "several", count=number)
+    return PlaceMeaning(selector, "one" if number == 1 else "several", count=number)
 
 
 @construction("place: [DET] [inner=nominal] OPPOSITE to=place", "place: [DET] inner=nominal OPPOSITE", cost=0.2)
-def opposite(to: Place | None = None, inner: Nominal | None = None) -> Place | None:
+def opposite(to: PlaceMeaning | None = None, inner: Nominal | None = None) -> PlaceMeaning | None:
     """Compose "the tree opposite tree 12"."""
     if inner is not None and (inner.plural or inner.single or inner.selector != s.Trees()):
         return None
     if to is None:
-        return Place(s.Across(origin=s.Here()), "one")
-    return Place(s.Across(origin=to.selector), "one") if to.shape in ("one", "here") else None
+        return PlaceMeaning(s.Across(origin=s.Here()), "one")
+    return PlaceMeaning(s.Across(origin=to.selector), "one") if to.shape in ("one", "here") else None
 
 
 @construction("way: word=ALONG", "way: word=ALONG DET ROW", "way: word=ALONG THATROW", cost=0.1)
@@ -127,9 +128,9 @@ def stride(n: int, way: Towards) -> tuple[int, Towards]:
 
 
 @construction("place: step=stride", cost=0.3)
-def along_row(step: tuple[int, Towards]) -> Place:
+def along_row(step: tuple[int, Towards]) -> PlaceMeaning:
     """Compose "three trees down the row" as a place."""
-    return Place(s.AlongRow(trees=step[0], towards=step[1]), "step")
+    return PlaceMeaning(s.AlongRow(trees=step[0], towards=step[1]), "step")
 
 
 @construction(
@@ -138,23 +139,23 @@ def along_row(step: tuple[int, Towards]) -> Place:
     "place: DET ONE step=stride",
     cost=0.3,
 )
-def tree_along_row(step: tuple[int, Towards]) -> Place:
+def tree_along_row(step: tuple[int, Towards]) -> PlaceMeaning:
     """Compose "the tree two further along"."""
-    return Place(s.AlongRow(trees=step[0], towards=step[1]), "one")
+    return PlaceMeaning(s.AlongRow(trees=step[0], towards=step[1]), "one")
 
 
 @construction("place: [DET] TREE step=stride FROM to=place", "place: step=stride FROM to=place", cost=0.2)
-def along_row_from(step: tuple[int, Towards], to: Place) -> Place | None:
+def along_row_from(step: tuple[int, Towards], to: PlaceMeaning) -> PlaceMeaning | None:
     """Compose "two trees down the row from tree 12"."""
     if to.shape not in ("one", "here"):
         return None
-    return Place(s.AlongRow(trees=step[0], towards=step[1], origin=to.selector), "one")
+    return PlaceMeaning(s.AlongRow(trees=step[0], towards=step[1], origin=to.selector), "one")
 
 
 @construction("place: DET NEXTONE TREE", "place: DET NEXTONE TREE way=way", cost=0.2)
-def next_tree(way: Towards = "down") -> Place:
+def next_tree(way: Towards = "down") -> PlaceMeaning:
     """Compose "the next tree"."""
-    return Place(s.AlongRow(trees=1, towards=way), "one")
+    return PlaceMeaning(s.AlongRow(trees=1, towards=way), "one")
 
 
 @construction(
@@ -166,7 +167,7 @@ def next_tree(way: Towards = "down") -> Place:
     "place: [DET] [n=count] inner=nominal near=NEAR to=place",
     cost=0.3,
 )
-def nearest(inner: Nominal, to: Place, n: int | None = None, near: Lex | None = None) -> Place | None:
+def nearest(inner: Nominal, to: PlaceMeaning, n: int | None = None, near: Lex | None = None) -> PlaceMeaning | None:
     """Compose "the two trees nearest to the charger"."""
     if near is not None and near.text not in ("nearest to", "closest to"):
         return None
@@ -179,7 +180,7 @@ def nearest(inner: Nominal, to: Place, n: int | None = None, near: Lex | None = 
     selector: s.Selector = s.Nearest(to=origin, count=number, of=inner.selector)
     if is_spot(origin):
         selector = s.Adjacent(near=origin, count=number, of=inner.selector)
-    return Place(selector, "one" if number == 1 else "several", count=number)
+    return PlaceMeaning(selector, "one" if number == 1 else "several", count=number)
 
 
 @construction(
@@ -187,13 +188,13 @@ def nearest(inner: Nominal, to: Place, n: int | None = None, near: Lex | None = 
     "place: [DET] [n=count] inner=nominal FARTHEST FROM to=place",
     cost=0.3,
 )
-def farthest(inner: Nominal, to: Place, n: int | None = None) -> Place | None:
+def farthest(inner: Nominal, to: PlaceMeaning, n: int | None = None) -> PlaceMeaning | None:
     """Compose "the tree farthest from the charger"."""
     number = n or (None if inner.plural else 1)
     zone = to.shape == "area" and isinstance(to.selector, s.InZone)
     if number is None or inner.single or inner.complete or not (to.shape == "one" or zone):
         return None
-    return Place(
+    return PlaceMeaning(
         s.Farthest(origin=to.selector, count=number, of=inner.selector),
         "one" if number == 1 else "several",
         count=number,
@@ -205,7 +206,7 @@ def farthest(inner: Nominal, to: Place, n: int | None = None) -> Place | None:
     "place: [EACH] [DET] inner=nominal check=CMP far=amount FROM to=place",
     cost=0.3,
 )
-def within(inner: Nominal, far: Amount, to: Place, check: Lex | None = None) -> Place | None:
+def within(inner: Nominal, far: Amount, to: PlaceMeaning, check: Lex | None = None) -> PlaceMeaning | None:
     """Compose "all trees within 20 m of the charger"."""
     if far.unit != "metres" or inner.single or to.shape not in ("one", "area"):
         return None
@@ -214,12 +215,12 @@ def within(inner: Nominal, far: Amount, to: Place, check: Lex | None = None) -> 
     if to.shape == "area":
         if not isinstance(to.selector, s.InZone):
             return None
-        return Place(over(inner.selector, s.InZone(zone=to.selector.zone, margin_m=far.number)), "several")
-    return Place(s.Within(distance_m=far.number, to=to.selector, of=inner.selector), "several")
+        return PlaceMeaning(over(inner.selector, s.InZone(zone=to.selector.zone, margin_m=far.number)), "several")
+    return PlaceMeaning(s.Within(distance_m=far.number, to=to.selector, of=inner.selector), "several")
 
 
 @construction("place: [EACH] [DET] inner=nominal check=CMP far=amount FROM to=place", cost=0.3)
-def beyond_place(inner: Nominal, check: Lex, far: Amount, to: Place) -> Place | None:
+def beyond_place(inner: Nominal, check: Lex, far: Amount, to: PlaceMeaning) -> PlaceMeaning | None:
     """Compose "all trees more than 20 m from the charger"."""
     if (
         check.value[0] not in ("gt", "ge")
@@ -230,5 +231,5 @@ def beyond_place(inner: Nominal, check: Lex, far: Amount, to: Place) -> Place | 
         return None
     if isinstance(to.selector, s.InZone):
         away: s.Selector = s.InZone(zone=to.selector.zone, outside=True, margin_m=far.number)
-        return Place(over(inner.selector, away), "several") if chooses_from_trees(inner.selector) else None
-    return Place(s.Excluding(places=beyond(far.number, to.selector), of=inner.selector), "several")
+        return PlaceMeaning(over(inner.selector, away), "several") if chooses_from_trees(inner.selector) else None
+    return PlaceMeaning(s.Excluding(places=beyond(far.number, to.selector), of=inner.selector), "several")
