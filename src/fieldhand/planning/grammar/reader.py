@@ -13,7 +13,7 @@ from fieldhand.planning.english.limits import LimitPhrase
 from fieldhand.planning.english.planned import Meant, planned_as
 from fieldhand.planning.english.tokens import Word, words_of
 from fieldhand.planning.grammar.chart import Chart, Grammar, PhraseEdge, tokens_of
-from fieldhand.planning.grammar.dialogue import Dialogue, DialogueState, NotComposed, whole_plan
+from fieldhand.planning.grammar.dialogue import DialogueState, NotComposed, Setting, read_clauses, whole_plan
 from fieldhand.planning.grammar.words import edges_of, fillers_of
 from fieldhand.planning.planner import Planned, Refused
 from fieldhand.request_check import mismatches
@@ -54,11 +54,11 @@ def readings(request: str, site: Site, robot: RobotProfile) -> list[RequestReadi
     fillers = fillers_of(words, lexicon)
     chart = Chart(grammar(), len(words), fillers)
     chart.parse(edges_of(words, lexicon, robot))
-    dialogue = Dialogue(robot, site, lambda used: spans(words, used))
+    setting = Setting(robot, site, lambda used: spans(words, used))
     found: list[RequestReading] = []
     for edge in chart.whole("request"):
         try:
-            state = dialogue.read(edge.meaning)
+            state = read_clauses(setting, edge.meaning)
         except NotComposed:
             continue
         found.append(RequestReading(state=state, cost=edge.cost, skipped=_skipped(words, edge)))

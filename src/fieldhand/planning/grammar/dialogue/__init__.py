@@ -8,15 +8,15 @@ The rules:
 * A condition with no command behind it in its sentence decides the command before it.
 * A command without a place is done where the command before it was; at several places, at each of them.
 
-``clauses`` reads clause by clause (:class:`Dialogue`) and leaves each kind of command to ``capturing``, ``driving``,
+``clauses`` reads clause by clause (:func:`read_clauses`) and leaves each kind of command to ``capturing``, ``driving``,
 ``conditions`` or ``allowances``. ``state`` and ``plans`` have the state and what is done with the plan in it;
 ``fitting`` decides how many visits and captures a place means, and ``tested`` which reading a test is about.
 """
 
 from __future__ import annotations
 
-from fieldhand.planning.grammar.dialogue.clauses import Dialogue
+from fieldhand.planning.grammar.dialogue.clauses import read_clauses
 from fieldhand.planning.grammar.dialogue.plans import whole_plan
-from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed
+from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting
 
-__all__ = ["Dialogue", "DialogueState", "NotComposed", "whole_plan"]
+__all__ = ["DialogueState", "NotComposed", "Setting", "read_clauses", "whole_plan"]

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import replace
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.allowances import allowed, failing
@@ -16,7 +16,6 @@ from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
     NotComposed,
     Setting,
-    Spans,
     with_joints,
     with_step,
 )
@@ -43,35 +42,19 @@ from fieldhand.planning.grammar.meaning import (
     When,
 )
 from fieldhand.planning.grammar.selections import chooses_from_trees
-from fieldhand.robot.model import RobotProfile
-from fieldhand.site.model import Site
 from fieldhand.task import plan as p
 
 
-@dataclass(frozen=True)
-class Dialogue:
-    """Reads clauses for a robot.
+def read_clauses(setting: Setting, said: Said) -> DialogueState:
+    """Return the state after all clauses.
 
-    Args:
-        robot: Robot profile.
-        site: Site, whose rows are named where something is said of each of them.
-        spans_of: Returns the character ranges of a bit mask of tokens.
+    Raises:
+        NotComposed: The clauses do not fit together.
     """
-
-    robot: RobotProfile
-    site: Site
-    spans_of: Callable[[int], Spans]
-
-    def read(self, said: Said) -> DialogueState:
-        """Return the state after all clauses.
-
-        Raises:
-            NotComposed: The clauses do not fit together.
-        """
-        setting, state = Setting(self.robot, self.site, self.spans_of), DialogueState()
-        for k, clause in enumerate(said.clauses):
-            state = _read(setting, state, clause, said.clauses[k + 1 :])
-        return _ended(capture_elided(setting, state))
+    state = DialogueState()
+    for k, clause in enumerate(said.clauses):
+        state = _read(setting, state, clause, said.clauses[k + 1 :])
+    return _ended(capture_elided(setting, state))
 
 
 def _ended(state: DialogueState) -> DialogueState:
