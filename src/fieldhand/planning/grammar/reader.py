@@ -14,6 +14,7 @@ from fieldhand.planning.english.planned import Meant, planned_as
 from fieldhand.planning.english.tokens import Word, words_of
 from fieldhand.planning.grammar.chart import Chart, Grammar, PhraseEdge, tokens_of
 from fieldhand.planning.grammar.dialogue import DialogueState, NotComposed, Setting, read_clauses, whole_plan
+from fieldhand.planning.grammar.selections import rows_of
 from fieldhand.planning.grammar.words import edges_of, fillers_of
 from fieldhand.planning.planner import Planned, Refused
 from fieldhand.request_check import mismatches
@@ -99,7 +100,7 @@ def _leaves_words(outcome: Planned) -> bool:
 def _meant(reading: RequestReading) -> Meant:
     state = reading.state
     plan, no_part = whole_plan(state.plan), list(reading.skipped)
-    if isinstance(plan, p.InOrder):
+    if plan.is_series:
         plan = replace(plan, said=state.joints)
     else:
         no_part += state.joints
@@ -124,7 +125,7 @@ def _same(one: Meant, other: Meant) -> bool:
 
 def _unsaid(node: p.Node) -> p.Node:
     """Return a plan without the spans of the request."""
-    bare = replace(node, said=(), at_said=()) if isinstance(node, p.Act) else replace(node, said=())
+    bare = replace(node, said=()) if node.act is None else replace(node.act, said=(), at_said=())
     return bare.with_children([_unsaid(child) for child in node.children])
 
 
@@ -133,8 +134,8 @@ def _leaves_block_open(plan: p.Node, site: Site) -> bool:
     if len(site.planting.blocks) < 2:
         return False
     for node in p.walk(plan):
-        for part in () if node.selector is None else node.selector.walk():
-            if isinstance(part, s.Rows) and not any(isinstance(of, s.InBlock) for of in part.of.walk()):
+        for rows in () if node.selector is None else rows_of(node.selector):
+            if not any(isinstance(of, s.InBlock) for of in rows.of.walk()):
                 return True
     return False
 
@@ -143,8 +144,8 @@ def _counts_unnumbered_rows(plan: p.Node, site: Site) -> bool:
     """Return True if even or odd rows are named where the rows are not numbered one after the other."""
     if all(row.name == str(row.number) for row in site.planting.rows):
         return False
-    parts = [part for node in p.walk(plan) if node.selector is not None for part in node.selector.walk()]
-    return any(isinstance(part, s.Rows) and part.every > 1 and part.first != "" for part in parts)
+    named = [rows for node in p.walk(plan) if node.selector is not None for rows in rows_of(node.selector)]
+    return any(rows.every > 1 and rows.first != "" for rows in named)
 
 
 def spans(words: Sequence[Word], used: int) -> tuple[Span, ...]:

@@ -65,6 +65,16 @@ def are_several_rows(selector: s.Selector) -> bool:
     return are_rows(selector) and not is_one_row(selector)
 
 
+def counts_in_row(selector: s.Selector) -> bool:
+    """Return True for trees that are counted along their rows."""
+    return isinstance(selector, s.InRow)
+
+
+def rows_of(selector: s.Selector) -> tuple[s.Rows, ...]:
+    """Return the rows in a selector that are named by their labels, or are all rows."""
+    return tuple(part for part in selector.walk() if isinstance(part, s.Rows))
+
+
 def chooses_from_trees(selector: s.Selector) -> bool:
     """Return True if a selector can be restricted: it chooses from every tree of the site at last."""
     if selector == s.Trees():

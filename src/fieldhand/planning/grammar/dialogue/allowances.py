@@ -33,7 +33,7 @@ def allowed(
     said, steps = setting.spans_of(command.used), state.block.steps
     if state.awaits_command:
         raise NotComposed("all these places together, or each of them?")
-    if state.commands_in_sentence and any(isinstance(step, p.ForEach) and step.optional for step in steps[-1:]):
+    if state.commands_in_sentence and any(step.visits_each and step.is_optional for step in steps[-1:]):
         raise NotComposed("it may be left out already")
     after_and = joint is None or joint.both or joint.then or joint.full
     if following and state.commands_in_sentence and not after_and:

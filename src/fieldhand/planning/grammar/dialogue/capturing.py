@@ -7,7 +7,7 @@ from dataclasses import replace
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.driving import drive, may_be_left_out, ordered, require_known, visits
 from fieldhand.planning.grammar.dialogue.fitting import fitted, in_area, in_each_row, is_spoken_of, spaced, within_area
-from fieldhand.planning.grammar.dialogue.plans import EMPTY, captures_at_last_place, is_inside
+from fieldhand.planning.grammar.dialogue.plans import EMPTY, as_for_each, captures_at_last_place, is_inside
 from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
     NotComposed,
@@ -186,8 +186,8 @@ def capture_again(setting: Setting, state: DialogueState, command: Again) -> Dia
     if steps[-1].is_optional_step or steps[-1].is_choice or steps[-1].caught:
         raise NotComposed("what is repeated where?")
     if place.shape == "area":
-        last = steps[-1]
-        if not isinstance(last, p.ForEach) or not are_rows(last.select) or not are_rows(place.selector):
+        last = as_for_each(steps[-1])
+        if last is None or not are_rows(last.select) or not are_rows(place.selector):
             raise NotComposed("what is repeated where?")
         place = replace(place, shape="several")
     if place.shape not in ("one", "several"):

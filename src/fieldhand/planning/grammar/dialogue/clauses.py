@@ -175,7 +175,7 @@ def _do_before_last(
     if state.scope or not steps or following or not isinstance(command, CaptureCommand):
         raise NotComposed("before what?")
     last = steps[-1]
-    if not isinstance(last, p.ForEach) and not (isinstance(last, p.Act) and last.at is not None):
+    if not last.visits_each and (last.act is None or last.act.at is None):
         raise NotComposed("before what?")
     state = capture(setting, replace(state, plan=EMPTY, loop=None, captured=None, where=None), command)
     plan = p.InOrder(id="", steps=(*steps[:-1], *state.plan.steps, last))

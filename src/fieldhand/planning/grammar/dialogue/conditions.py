@@ -10,6 +10,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
     EMPTY,
     Path,
     block_at,
+    for_each_at,
     is_conditional,
     is_inside,
     node_at,
@@ -114,14 +115,14 @@ def _decide_last(state: DialogueState, command: When, said: Spans, robot: RobotP
 def _decide_last_at_tree(state: DialogueState, condition: c.Condition, said: Spans) -> DialogueState:
     """Return the state in which a condition on the tree decides the last capture, at the tree or at each of several."""
     *rest, last = state.block.steps
-    if isinstance(last, p.ForEach):
-        choice = p.If(id="", condition=condition, then=last.body, said=said)
-        steps: tuple[p.Node, ...] = (*rest, replace(last, body=p.InOrder(id="", steps=(choice,))))
+    if last.visits_each:
+        choice = p.If(id="", condition=condition, then=last.children[0], said=said)
+        steps: tuple[p.Node, ...] = (*rest, last.with_children([p.InOrder(id="", steps=(choice,))]))
         path: Path = (*state.scope, len(rest), "body", 0)
-    elif isinstance(last, p.Act) and last.at is not None:
-        here = replace(last, at=None, at_said=())
+    elif last.act is not None and last.act.at is not None:
+        here = replace(last.act, at=None, at_said=())
         choice = p.If(id="", condition=condition, then=p.InOrder(id="", steps=(here,)), said=said)
-        steps = (*rest, p.GoTo(id="", place=last.at, said=last.at_said), choice)
+        steps = (*rest, p.GoTo(id="", place=last.act.at, said=last.act.at_said), choice)
         path = (*state.scope, len(rest) + 1)
     else:
         raise NotComposed("which tree is tested?")
@@ -149,7 +150,7 @@ def otherwise(setting: Setting, state: DialogueState, said: Spans) -> DialogueSt
     if state.choice is None or not isinstance(choice, p.If) or choice.otherwise is not None:
         raise NotComposed("otherwise than what?")
     steps, number = block_at(state.plan, state.choice[:-1]).steps, state.choice[-1]
-    if isinstance(number, int) and number > 0 and isinstance(steps[number - 1], p.If):
+    if isinstance(number, int) and number > 0 and steps[number - 1].is_choice:
         raise NotComposed("otherwise than which of them?")
     both = replace(choice, otherwise=EMPTY, said=(*choice.said, *said))
     plan = with_node(state.plan, state.choice, both)
@@ -162,9 +163,7 @@ def until(setting: Setting, state: DialogueState, command: UntilCondition) -> Di
         raise NotComposed("what ends?")
     path = state.loop[:-1]
     condition, state = condition_of(state, command.tests, setting.robot)
-    loop = node_at(state.plan, path)
-    if not isinstance(loop, p.ForEach):
-        raise NotComposed("what ends?")
+    loop = for_each_at(state.plan, path)
     return replace(state, plan=with_node(state.plan, path, replace(loop, until=condition)))
 
 

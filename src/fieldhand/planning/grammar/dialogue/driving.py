@@ -7,7 +7,7 @@ from typing import cast
 
 from fieldhand.places import selectors as s
 from fieldhand.places.picks.ordered import Order
-from fieldhand.planning.grammar.dialogue.plans import EMPTY, is_conditional, is_inside, node_at, with_node
+from fieldhand.planning.grammar.dialogue.plans import EMPTY, for_each_at, is_conditional, is_inside, with_node
 from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
     NotComposed,
@@ -133,9 +133,7 @@ def put_in_order(setting: Setting, state: DialogueState, command: InAnOrder) -> 
             raise NotComposed("an order of what?")
         return replace(state, order=command)
     path = state.loop[:-1]
-    loop = node_at(state.plan, path)
-    if not isinstance(loop, p.ForEach):
-        raise NotComposed("an order of what?")
+    loop = for_each_at(state.plan, path)
     if command.by == "any":
         if loop.order != "best":
             raise NotComposed("two orders")

@@ -9,7 +9,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.english.onebyone import MOST_ONE_BY_ONE, one_by_one
 from fieldhand.planning.grammar.dialogue.faults import NotComposed
 from fieldhand.planning.grammar.meaning import DriveCommand, Lead, PlaceMeaning, Thing
-from fieldhand.planning.grammar.selections import are_rows, are_several_rows, chooses_from_trees, over
+from fieldhand.planning.grammar.selections import are_rows, are_several_rows, chooses_from_trees, counts_in_row, over
 from fieldhand.site.model import Site
 
 
@@ -55,8 +55,8 @@ def in_each_row(rows: s.Selector, place: PlaceMeaning) -> PlaceMeaning:
     """
     if not chooses_from_trees(place.selector):
         raise NotComposed("two places for one command")
-    counts_in_row = isinstance(over(place.selector, s.Rows()), s.InRow)
-    if counts_in_row or (place.shape == "several" and place.count is None):
+    by_number = counts_in_row(over(place.selector, s.Rows()))
+    if by_number or (place.shape == "several" and place.count is None):
         return replace(place, selector=over(place.selector, rows), shape="several")
     return replace(place, shape="several", per=rows)
 

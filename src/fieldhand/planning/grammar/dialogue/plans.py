@@ -37,6 +37,23 @@ def block_at(plan: p.InOrder, path: Path) -> p.InOrder:
     return block
 
 
+def for_each_at(plan: p.InOrder, path: Path) -> p.ForEach:
+    """Return the for-each at a path.
+
+    Raises:
+        NotComposed: The node there is no for-each.
+    """
+    loop = as_for_each(node_at(plan, path))
+    if loop is None:
+        raise NotComposed("no places that are visited one after the other")
+    return loop
+
+
+def as_for_each(node: p.Node) -> p.ForEach | None:
+    """Return the node if it is a for-each, None otherwise."""
+    return node if isinstance(node, p.ForEach) else None
+
+
 def with_node(plan: p.InOrder, path: Path, made: p.Node) -> p.InOrder:
     """Return a plan with another node at a path."""
     return cast(p.InOrder, _changed(plan, path, made))
@@ -81,18 +98,21 @@ def captures_at_last_place(steps: Sequence[p.Node]) -> list[p.Act]:
     """Return the captures since the last place, if there was nothing but captures."""
     found: list[p.Act] = []
     for step in reversed(steps):
-        if isinstance(step, p.Act):
-            found.insert(0, step)
-            if step.at is not None:
+        if step.act is None:
+            if step.only_drives:
                 return found
-        elif step.only_drives:
+            return _captures_of_visits(step) if step.visits_each and not found else []
+        found.insert(0, step.act)
+        if step.act.at is not None:
             return found
-        elif isinstance(step, p.ForEach) and not found and isinstance(step.body, p.InOrder):
-            acts = [one for one in step.body.steps if isinstance(one, p.Act)]
-            return acts if len(acts) == len(step.body.steps) else []
-        else:
-            return []
     return found
+
+
+def _captures_of_visits(loop: p.Node) -> list[p.Act]:
+    """Return the captures of a for-each that does nothing else at its places."""
+    steps = [step for block in loop.children for step in block.children]
+    acts = [step.act for step in steps if step.act is not None]
+    return acts if len(acts) == len(steps) else []
 
 
 def whole_plan(plan: p.InOrder) -> p.Node:

@@ -45,8 +45,8 @@ def _of_tree(state: DialogueState, test: Test) -> c.Condition:
 def _of_reading(state: DialogueState, test: Test, robot: RobotProfile) -> tuple[c.Condition, DialogueState]:
     """Return the condition on a reading, and the state in which that reading has a name."""
     path = _tested_capture(state, test, robot)
-    act = None if path is None else node_at(state.plan, path)
-    if path is None or not isinstance(act, p.Act):
+    act = None if path is None else node_at(state.plan, path).act
+    if path is None or act is None:
         raise NotComposed("which reading is tested?")
     measures = robot.action[act.action].measures
     quantity = test.quantity or (measures[0] if measures else "")
@@ -82,9 +82,9 @@ def _tested_capture(state: DialogueState, test: Test, robot: RobotProfile) -> Pa
 
 def _fits(node: p.Node, test: Test, robot: RobotProfile) -> bool:
     """Return True if a capture measures what is tested."""
-    if not isinstance(node, p.Act):
+    if node.act is None:
         return False
-    measures = robot.action[node.action].measures
+    measures = robot.action[node.act.action].measures
     if test.quantity:
         return test.quantity in measures
     return bool(measures) and (not test.unit or robot.quantity[measures[0]].unit == test.unit)
@@ -96,6 +96,6 @@ def reading_before(plan: p.InOrder, before: Path, robot: RobotProfile) -> Path |
     for path, node in walk(plan):
         if is_inside(path, before):
             break
-        if isinstance(node, p.Act) and robot.action[node.action].measures and not is_conditional(path):
+        if node.act is not None and robot.action[node.act.action].measures and not is_conditional(path):
             found = path
     return found

@@ -9,7 +9,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.places.numbers import name_of, whole
-from fieldhand.planning.grammar.selections import chooses_from_trees, over
+from fieldhand.planning.grammar.selections import chooses_from_trees, counts_in_row, over
 from fieldhand.planning.grammar.words import Lex
 
 GRAMMAR = Grammar()
@@ -260,7 +260,7 @@ def in_each_row(one: PlaceMeaning, rows: s.Selector) -> PlaceMeaning | None:
     """Compose "two trees in each row"."""
     if one.per is not None or one.shape not in ("one", "several") or one.optional or one.at_most:
         return None
-    if not chooses_from_trees(one.selector) or isinstance(one.selector, s.InRow):
+    if not chooses_from_trees(one.selector) or counts_in_row(one.selector):
         return None
     if one.shape == "several" and one.count is None:
         return replace(one, selector=over(one.selector, rows))
