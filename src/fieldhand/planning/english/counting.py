@@ -9,9 +9,9 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.english.asking import each_or_in_all, every_or_how_many
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.found import FoundPlace
-from fieldhand.planning.english.selections import are_several_rows, named_places
 from fieldhand.planning.english.sets import some_of
 from fieldhand.planning.english.syntax import ClausePart, Object
+from fieldhand.planning.selections import are_several_rows, as_nearest, named_places
 
 Wanted = tuple[tuple[str, int | None], ...]
 
@@ -62,7 +62,7 @@ def counted(found: FoundPlace, part: ClausePart, wanted: Wanted) -> FoundPlace:
     if found.region:
         return _in_area(found, part, count, plural)
     if not found.many or count is None or count == 1:
-        if found.many and found.counted is None and isinstance(found.selector, s.Nearest):
+        if found.many and found.counted is None and as_nearest(found.selector) is not None:
             raise Question(message("how many trees nearby?", context="question"), ("2", "3", "4"))
         return found
     if len(numbers) > 1 or (len(wanted) > 1 and any(n != count for _, n in wanted)):
@@ -73,8 +73,8 @@ def counted(found: FoundPlace, part: ClausePart, wanted: Wanted) -> FoundPlace:
     if found.counted is not None:
         return found if count == found.counted else _either(part, count, found.counted)
     selector = found.selector
-    if isinstance(selector, s.Nearest):
-        return replace(found, selector=replace(selector, count=count), counted=count)
+    if (nearest := as_nearest(selector)) is not None:
+        return replace(found, selector=replace(nearest, count=count), counted=count)
     if named := named_places(selector):
         return found if len(named) == count else _either(part, count, len(named))
     return FoundPlace(selector=some_of(selector, count), many=True, counted=count)

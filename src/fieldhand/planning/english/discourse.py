@@ -28,9 +28,9 @@ from fieldhand.planning.english.hand import ACTS as _ACTS
 from fieldhand.planning.english.hand import said_of_places
 from fieldhand.planning.english.lines import as_stops, points_over, stops_of
 from fieldhand.planning.english.places import find
-from fieldhand.planning.english.selections import says_how_many
 from fieldhand.planning.english.syntax import ClausePart
 from fieldhand.planning.english.tokens import Term
+from fieldhand.planning.selections import says_how_many
 from fieldhand.task.plan import Span
 
 COMMANDS = (

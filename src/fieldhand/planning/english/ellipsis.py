@@ -16,8 +16,8 @@ from fieldhand.planning.english.found import FoundPlace
 from fieldhand.planning.english.hand import ACTS
 from fieldhand.planning.english.leaving import Leaving
 from fieldhand.planning.english.places import find
-from fieldhand.planning.english.selections import may_be_listed
 from fieldhand.planning.english.syntax import ClausePart
+from fieldhand.planning.selections import may_be_listed
 
 
 class Elliptic(Leaving):

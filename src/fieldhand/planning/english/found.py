@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from fieldhand.places import selectors as s
+from fieldhand.planning.selections import as_edge
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,4 +46,4 @@ class FoundPlace:
     @property
     def line(self) -> bool:
         """Return True if one can go along it: rows, or an edge."""
-        return self.rows or isinstance(self.selector, s.Edge)
+        return self.rows or as_edge(self.selector) is not None

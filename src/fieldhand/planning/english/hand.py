@@ -15,11 +15,11 @@ from fieldhand.planning.english.found import FoundPlace
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.english.onebyone import counted_from
 from fieldhand.planning.english.places import are_several, beyond, find
-from fieldhand.planning.english.selections import all_but, is_spot, skips_rows, so_many_nearby, starts_here
 from fieldhand.planning.english.spacing import Ranking
 from fieldhand.planning.english.syntax import ClausePart, Object
 from fieldhand.planning.english.tokens import Term
 from fieldhand.planning.english.told import Told
+from fieldhand.planning.selections import all_but, as_every_nth, is_spot, skips_rows, so_many_nearby, starts_here
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.plan import Span
@@ -33,8 +33,8 @@ ACTS = ("act_on_objects", "act_on_places", "act_bare", "more_objects", "more_pla
 
 def _counts(selector: s.Selector, side: str) -> bool:
     """Whether it takes every so many of a row or of the rows: where the count begins matters."""
-    if isinstance(selector, s.EveryNth):
-        return selector.counted_from != side
+    if (every := as_every_nth(selector)) is not None:
+        return every.counted_from != side
     return skips_rows(selector)
 
 

@@ -6,13 +6,12 @@ from dataclasses import replace
 from typing import Any
 
 from fieldhand.language import message
-from fieldhand.places import selectors as s
 from fieldhand.planning.english.bag import bag_of
 from fieldhand.planning.english.faults import Question, text_of
 from fieldhand.planning.english.found import FoundPlace
-from fieldhand.planning.english.selections import starts_here
 from fieldhand.planning.english.syntax import Chain, PlacePhrase, Places
 from fieldhand.planning.english.tokens import Term
+from fieldhand.planning.selections import counts_in_row, starts_here
 
 _RANKS = ("MOST", "SUPER", "ORD", "LAST", "BACKORD")
 
@@ -20,7 +19,7 @@ _RANKS = ("MOST", "SUPER", "ORD", "LAST", "BACKORD")
 def check_of_row(places: Places, found: list[FoundPlace]) -> None:
     """ "The first tree and the last tree of row 6": is the first that of the row too?"""
     bare = [c for c in places.chains if len(c.phrases) == 1 and bag_of(c.phrases[0]).has("ORD", "LAST")]
-    if bare and any(isinstance(part, s.InRow) for f in found for part in f.selector.walk()):
+    if bare and any(counts_in_row(part) for f in found for part in f.selector.walk()):
         text = text_of(bare[0].terms)
         asked = message("'{said}': of the row, or of the whole site?", context="question", said=text)
         words = (f"{text} of the row", f"{text} of the site")

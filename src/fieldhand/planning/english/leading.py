@@ -14,7 +14,7 @@ from fieldhand.planning.planner import Answer, Outcome, Planned
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import Act, ForEach, Node, Span, walk
+from fieldhand.task.plan import Node, Span, walk
 
 #: Plans a request as it is worded, with the answers that were taken into it.
 Read = Callable[[Worded, tuple[Answer, ...]], Outcome]
@@ -64,7 +64,7 @@ def _places(task: Task, said: Span, site: Site, robot: RobotProfile) -> tuple[Pl
 
 
 def _words_of(node: Node) -> tuple[Span, ...]:
-    return (*node.said, *(node.at_said if isinstance(node, Act) else ()))
+    return (*node.said, *node.at_said)
 
 
 def _resolved(nodes: list[Node], site: Site) -> list[Place]:
@@ -77,7 +77,7 @@ def _resolved(nodes: list[Node], site: Site) -> list[Place]:
 
 def _reached(nodes: list[Node], task: Task, site: Site, robot: RobotProfile) -> Iterator[Place]:
     """The places to which a walk through the plan comes at some nodes, if every condition holds."""
-    if any(isinstance(n, ForEach) and n.optional for n in walk(task.composition.plan)):
+    if any(n.visits_each and n.is_optional for n in walk(task.composition.plan)):
         return  # to choose among visits takes longer than anyone waits for a question
     ids = {node.id for node in nodes}
     for step in walk_through(task, site, robot, holds=lambda _: True).steps:

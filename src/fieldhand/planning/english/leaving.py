@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from fieldhand.language import message
-from fieldhand.places import selectors as s
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.motion import Motion
 from fieldhand.planning.english.syntax import ClausePart
+from fieldhand.planning.selections import refers_to_here
 
 #: Words that do not say what must be enough.
 _BUDGET_UNSAID = frozenset({"if possible", "if at all possible", "where possible", "if feasible", "optionally"})
@@ -171,7 +171,7 @@ def _follow(block: d.DraftBlock, unsure: bool) -> bool:
     for step in block.steps:
         match step:
             case d.Go(place=place) | d.DraftCapture(at=place) | d.Loop(select=place):
-                if unsure and (place is None or any(isinstance(part, s.Here) for part in place.walk())):
+                if unsure and (place is None or refers_to_here(place)):
                     raise _Unsure(step)
                 unsure = False
                 if isinstance(step, d.Loop):

@@ -10,8 +10,8 @@ from fieldhand.planning.english.counting import Wanted
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.found import FoundPlace
 from fieldhand.planning.english.onebyone import one_by_one, spread_over
-from fieldhand.planning.english.selections import zone_of_points
 from fieldhand.planning.english.syntax import ClausePart
+from fieldhand.planning.selections import zone_of_points
 from fieldhand.site.model import Site
 
 #: Rows that are left to the planner.

@@ -14,8 +14,8 @@ from fieldhand.places.resolution import resolve
 from fieldhand.planning.english.bag import Bag
 from fieldhand.planning.english.faults import Question, text_of
 from fieldhand.planning.english.found import FoundPlace
-from fieldhand.planning.english.selections import names_several_rows
 from fieldhand.planning.english.sets import Group
+from fieldhand.planning.selections import as_every_nth, as_rows, is_in_block, names_several_rows
 from fieldhand.site.model import Site
 from fieldhand.terms import Side
 
@@ -39,14 +39,15 @@ def one_by_one(selector: s.Selector, site: Site) -> tuple[s.Selector, ...]:
     index = [site.by_id[place.id].index for place in places if place.id in site.by_id]
     numbers = sorted({int(k) for k in planting.row_of[index] if k >= 0})
     parts = selector.members
-    inner_most = {part.of for part in parts if isinstance(part, s.Rows)}
-    plain = len(inner_most) == 1 and all(isinstance(part, s.Rows) for part in parts)
+    named_rows = [named_by for part in parts if (named_by := as_rows(part)) is not None]
+    inner_most = {part.of for part in named_rows}
+    plain = len(inner_most) == 1 and len(named_rows) == len(parts)
     of = next(iter(inner_most)) if plain else selector
     made: list[s.Selector] = []
     for k in numbers:
         row = planting.rows[k]
         block = planting.blocks[row.block]
-        named = len(planting.blocks) > 1 and not any(isinstance(part, s.InBlock) for part in of.walk())
+        named = len(planting.blocks) > 1 and not is_in_block(of)
         inner = s.InBlock(block=block.name, of=of) if named else of
         made.append(s.Rows(first=row.name, last=row.name, of=inner))
     return tuple(made)
@@ -89,8 +90,8 @@ def spread_over(selector: s.Selector, area: s.Selector, ones: Iterable[s.Selecto
 def counted_from(selector: s.Selector, side: Side) -> s.Selector:
     """A selection whose every so many-th tree is counted from a side."""
     for part in selector.walk():
-        if isinstance(part, s.EveryNth):
-            return swapped(selector, part, replace(part, counted_from=side))
+        if (every := as_every_nth(part)) is not None:
+            return swapped(selector, every, replace(every, counted_from=side))
     return selector
 
 

@@ -32,10 +32,10 @@ from fieldhand.planning.english.joining import (
 from fieldhand.planning.english.onebyone import swapped
 from fieldhand.planning.english.pick import picked
 from fieldhand.planning.english.rows import rows_meant, some_block, speaks_of_rows, unnamed_block
-from fieldhand.planning.english.selections import are_meant_each, measures_from_here
 from fieldhand.planning.english.sets import Group
 from fieldhand.planning.english.syntax import Chain, PlacePhrase, Places
 from fieldhand.planning.english.tokens import Term
+from fieldhand.planning.selections import are_meant_each, as_zone, measures_from_here
 from fieldhand.site.model import Site
 from fieldhand.terms import AnySide
 
@@ -408,7 +408,7 @@ def _row_of(bag: Bag, group: Group, relation: Term, behind: FoundPlace, inner: _
 def _among(bag: Bag, group: Group, relation: Term, behind: FoundPlace, inner: _PlacePart) -> None:
     """ "... in the northern half", "... of row 3", "... along row 3", "... spread over the wet corner"."""
     kind, terms = relation.kind, [relation, *inner.phrase.terms]
-    if kind == "SPREAD" and bag.has("PLACE") and not isinstance(behind.selector, s.InZone):
+    if kind == "SPREAD" and bag.has("PLACE") and as_zone(behind.selector) is None:
         raise unclear(terms, message("free points are spread over a zone"), _SPREAD_ADVICE)
     if kind == "SPREAD" and not bag.has("PLACE"):
         bag.spread = (relation,)

@@ -50,7 +50,7 @@ def planned(
         return Refused(reasons=(reason,), planner=NAME)
     check_averages(told.root, request, robot)
     plan = node_of(told.root)
-    if isinstance(plan, p.InOrder):
+    if plan.is_series:
         plan = replace(plan, said=tuple(told.joints))
     else:
         told.no_part += told.joints  # there is nothing that they could put in order

@@ -10,8 +10,8 @@ from fieldhand.planning.english.asking import how_many
 from fieldhand.planning.english.bag import Bag
 from fieldhand.planning.english.faults import Question
 from fieldhand.planning.english.found import FoundPlace
-from fieldhand.planning.english.selections import zone_of_points
 from fieldhand.planning.english.sets import check_sides
+from fieldhand.planning.selections import as_edge, zone_of_points
 from fieldhand.terms import CornerName, Side
 
 _CORNERS: tuple[CornerName, ...] = ("nw", "ne", "se", "sw")
@@ -110,8 +110,8 @@ def middle(bag: Bag, of: s.Selector) -> FoundPlace:
         raise bag.fault(
             message("the middle of which side?"), message("say 'the middle of the northern edge', for example")
         )
-    if isinstance(of, s.Edge):
-        return FoundPlace(selector=s.EdgeMiddle(side=of.side, count=count, of=of.of), many=many, counted=counted)
+    if (whole := as_edge(of)) is not None:
+        return FoundPlace(selector=s.EdgeMiddle(side=whole.side, count=count, of=whole.of), many=many, counted=counted)
     return FoundPlace(selector=s.Middle(count=count, of=of), many=many, counted=counted)
 
 

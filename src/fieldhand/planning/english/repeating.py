@@ -11,8 +11,8 @@ from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.faults import unclear
 from fieldhand.planning.english.found import FoundPlace
 from fieldhand.planning.english.onebyone import swapped
-from fieldhand.planning.english.selections import names_here
 from fieldhand.planning.english.syntax import ClausePart
+from fieldhand.planning.selections import as_some, names_here
 
 
 def last_passage(steps: list[d.Step]) -> d.DraftBlock:
@@ -29,11 +29,13 @@ def as_many_as(steps: list[d.Step], found: FoundPlace) -> FoundPlace:
     before = None if last is None else selects(last)
     if before is not None and names_here(before):
         # "Photograph it and the one beside it": the place was come to before.
-        before = next((at for step in reversed(steps) if isinstance(at := selects(step), s.Take)), before)
-    if not isinstance(before, s.Take):
+        places = [at for step in reversed(steps) if (at := selects(step)) is not None]
+        before = next((at for at in places if as_some(at) is not None), before)
+    some = None if before is None else as_some(before)
+    if some is None:
         return found
     fresh = s.NotVisited(of=found.selector)
-    return replace(found, selector=replace(before, of=fresh), many=before.count > 1, counted=before.count)
+    return replace(found, selector=replace(some, of=fresh), many=some.count > 1, counted=some.count)
 
 
 def selects(step: d.Step) -> s.Selector | None:

@@ -17,6 +17,7 @@ from fieldhand.planning.english.rowwords import From, Over
 from fieldhand.planning.english.sets import Group
 from fieldhand.planning.english.tokens import Term
 from fieldhand.planning.english.ways import blocks_named, check_over, side_across
+from fieldhand.planning.selections import is_in_block
 from fieldhand.site.model import Site
 from fieldhand.terms import CountedFrom
 
@@ -199,7 +200,7 @@ def _numbered(bag: Bag, of: s.Selector, site: Site) -> FoundPlace:
             message("every second, third, ... row, and of which rows?"),
             message("say 'every third row starting with row 2', for example"),
         )
-    areas = of.members if all(isinstance(part, s.InBlock) for part in of.members) else (of,)
+    areas = of.members if all(is_in_block(part) for part in of.members) else (of,)
     parts = tuple(s.Rows(first=first, last=last, every=nth, of=area) for area in areas for first, last in ranges)
     selector = parts[0] if len(parts) == 1 else s.UnionOf(parts=parts)
     return _area(selector, bag, site, several=(named is not None and named.plural) or len(areas) > 1)
@@ -346,7 +347,7 @@ def _in_one_block(bag: Bag, called: str, name: str, of: s.Selector, site: Site) 
     Raises:
         Question: It does not say.
     """
-    if any(isinstance(part, s.InBlock) for part in of.walk()):
+    if is_in_block(of):
         return
     blocks = [
         block

@@ -12,8 +12,8 @@ from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.faults import PLAINLY, Question, Unclear
-from fieldhand.planning.english.selections import may_be_near, names_here
 from fieldhand.planning.planner import Reason
+from fieldhand.planning.selections import may_be_near, names_here
 from fieldhand.task.conditions import readings
 from fieldhand.task.plan import Span
 

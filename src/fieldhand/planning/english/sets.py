@@ -12,6 +12,7 @@ from fieldhand.places.selector import FromGroup
 from fieldhand.planning.english.faults import unclear
 from fieldhand.planning.english.found import FoundPlace
 from fieldhand.planning.english.syntax import PlacePhrase
+from fieldhand.planning.selections import as_edge, as_zone
 from fieldhand.terms import AnySide
 
 #: Selectors that keep a tree or not by itself, whatever the others are: their order does not matter.
@@ -113,7 +114,7 @@ class Group:
             if kind == "within":
                 selector = s.Within(distance_m=value[0], to=value[1], of=selector)
                 continue
-            zones = [p for p in value if isinstance(p, s.InZone) and p.of == s.Trees() and not p.outside]
+            zones = [z for p in value if (z := as_zone(p)) is not None and z.of == s.Trees() and not z.outside]
             others = tuple(p for p in value if p not in zones)
             for zone in zones:
                 selector = replace(zone, outside=True, of=selector)
@@ -180,10 +181,11 @@ def check_sides(selector: s.Selector, phrase: PlacePhrase) -> None:
     """
     outer = selector
     while (of := getattr(outer, "of", None)) is not None:
-        sides = _line_of(outer), _line_of(of) if isinstance(of, s.Edge | s.EdgeMiddle) else ""
-        if isinstance(outer, s.Half | s.Edge) and sides[0] == sides[1]:
+        sides = _line_of(outer), _line_of(of) if as_edge(of) is not None or isinstance(of, s.EdgeMiddle) else ""
+        halved = as_edge(outer) or (outer if isinstance(outer, s.Half) else None)
+        if halved is not None and sides[0] == sides[1]:
             advice = message("an edge has two halves along its length")
-            raise unclear(phrase.terms, message("that edge has no {side} part", side=SIDES[outer.side]), advice)
+            raise unclear(phrase.terms, message("that edge has no {side} part", side=SIDES[halved.side]), advice)
         outer = of
 
 

@@ -13,8 +13,8 @@ from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve
 from fieldhand.planning.english import draft as d
 from fieldhand.planning.english.faults import unclear
-from fieldhand.planning.english.selections import named_places
 from fieldhand.planning.english.tokens import Term
+from fieldhand.planning.selections import as_some, named_places
 from fieldhand.site.model import Site
 from fieldhand.task import conditions as c
 
@@ -147,9 +147,9 @@ def _places_of(loop: d.Loop, site: Site) -> list[s.Selector] | None:
     named = named_places(select)
     if named and named != (select,) and all(part.single for part in named):
         return list(named)
-    if isinstance(select, s.Take):
-        of, fresh = select.of, s.NotVisited(of=select.of)
-        return [s.Take(count=1, of=of if k == 0 and of.relative else fresh) for k in range(select.count)]
+    if (some := as_some(select)) is not None:
+        of, fresh = some.of, s.NotVisited(of=some.of)
+        return [s.Take(count=1, of=of if k == 0 and of.relative else fresh) for k in range(some.count)]
     if select.relative:
         return None
     try:

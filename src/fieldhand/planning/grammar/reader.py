@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 
-from fieldhand.places import selectors as s
 from fieldhand.planning.english.faults import Unclear
 from fieldhand.planning.english.lexicon import lexicon_for
 from fieldhand.planning.english.limits import LimitPhrase
@@ -14,9 +13,9 @@ from fieldhand.planning.english.planned import Meant, planned_as
 from fieldhand.planning.english.tokens import Word, words_of
 from fieldhand.planning.grammar.chart import Chart, Grammar, PhraseEdge, tokens_of
 from fieldhand.planning.grammar.dialogue import DialogueState, NotComposed, Setting, read_clauses, whole_plan
-from fieldhand.planning.grammar.selections import rows_of
 from fieldhand.planning.grammar.words import edges_of, fillers_of
 from fieldhand.planning.planner import Planned, Refused
+from fieldhand.planning.selections import is_in_block, rows_of
 from fieldhand.request_check import mismatches
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -135,7 +134,7 @@ def _leaves_block_open(plan: p.Node, site: Site) -> bool:
         return False
     for node in p.walk(plan):
         for rows in () if node.selector is None else rows_of(node.selector):
-            if not any(isinstance(of, s.InBlock) for of in rows.of.walk()):
+            if not is_in_block(rows.of):
                 return True
     return False
 

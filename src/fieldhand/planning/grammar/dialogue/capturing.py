@@ -19,7 +19,7 @@ from fieldhand.planning.grammar.dialogue.state import (
     with_step,
 )
 from fieldhand.planning.grammar.meaning import LAST_THING, Again, CaptureCommand, DriveCommand, PlaceMeaning, Thing
-from fieldhand.planning.grammar.selections import are_rows
+from fieldhand.planning.selections import are_rows
 from fieldhand.task import plan as p
 
 

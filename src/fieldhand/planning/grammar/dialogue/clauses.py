@@ -41,7 +41,7 @@ from fieldhand.planning.grammar.meaning import (
     UntilCondition,
     When,
 )
-from fieldhand.planning.grammar.selections import chooses_from_trees
+from fieldhand.planning.selections import chooses_from_trees
 from fieldhand.task import plan as p
 
 

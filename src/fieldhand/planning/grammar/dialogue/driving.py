@@ -19,6 +19,7 @@ from fieldhand.planning.grammar.dialogue.state import (
 )
 from fieldhand.planning.grammar.meaning import DriveCommand, Home, InAnOrder, PlaceMeaning
 from fieldhand.planning.homeward import usual_exit
+from fieldhand.planning.selections import as_every_nth, starts_here
 from fieldhand.site.model import Site
 from fieldhand.task import plan as p
 
@@ -59,16 +60,14 @@ def require_known(state: DialogueState, place: PlaceMeaning | None, site: Site) 
         NotComposed: The place is not known.
     """
     parts = [] if place is None or place.shape in ("here", "those") else list(place.selector.walk())
-    from_here = [
-        part for part in parts if isinstance(part, s.AlongRow | s.RowOf | s.Across) and part.origin == s.Here()
-    ]
+    from_here = [part for part in parts if starts_here(part)]
     if from_here:
         if state.where is None or (state.where.shape != "one" and not is_inside(state.scope, state.loop or (-1,))):
             raise NotComposed("from which tree?")
         sides = {part.towards for part in from_here if isinstance(part, s.AlongRow)} & _COMPASS
         if not all(_rows_run_to(side, site) for side in sides):
             raise NotComposed("the rows have no end on that side")
-    refers = not parts or any(isinstance(part, s.Here) for part in parts)
+    refers = not parts or s.Here() in parts
     if refers and state.where is not None and may_be_left_out(state):
         raise NotComposed("where, if what comes before it is left out?")
 
@@ -152,7 +151,7 @@ def ordered(loop: p.ForEach, command: InAnOrder, said: Spans) -> p.ForEach:
     said = (*loop.said, *said)
     if not command.by:
         return replace(loop, order="given", said=said)
-    if any(isinstance(part, s.EveryNth) for part in loop.select.walk()) and command.by != "attribute":
+    if any(as_every_nth(part) is not None for part in loop.select.walk()) and command.by != "attribute":
         raise NotComposed("counted or visited from there?")
     by = cast(Order, command.by)
     select = s.Ordered(by=by, attribute=command.attribute, descending=command.descending, of=loop.select)

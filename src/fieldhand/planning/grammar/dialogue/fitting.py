@@ -9,7 +9,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.english.onebyone import MOST_ONE_BY_ONE, one_by_one
 from fieldhand.planning.grammar.dialogue.faults import NotComposed
 from fieldhand.planning.grammar.meaning import DriveCommand, Lead, PlaceMeaning, Thing
-from fieldhand.planning.grammar.selections import are_rows, are_several_rows, chooses_from_trees, counts_in_row, over
+from fieldhand.planning.selections import are_rows, are_several_rows, as_some, chooses_from_trees, counts_in_row, over
 from fieldhand.site.model import Site
 
 
@@ -110,7 +110,8 @@ def fitted(
     if place.per is not None:
         return _of_rows(place, place.per, things, count, relation, site), _once(things)
     if place.shape == "one":
-        if isinstance(place.selector, s.Take) and place.selector.count == 1 and are_several_rows(place.selector.of):
+        some = as_some(place.selector)
+        if some is not None and some.count == 1 and are_several_rows(some.of):
             raise NotComposed("one in each of them, or one in all?")
         return place, things
     if place.shape == "area":

@@ -9,8 +9,8 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.places.numbers import name_of
-from fieldhand.planning.grammar.selections import AREAS, are_rows, chooses_from_trees, over
 from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.selections import AREAS, are_rows, as_edge, as_zone, chooses_from_trees, is_row_of_place, over
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -121,7 +121,7 @@ def part_of(part: s.Selector, whole: s.Selector) -> s.Selector | None:
 
 def _is_larger(whole: s.Selector, part: s.Selector) -> bool:
     """Return True unless the whole is made of rows and the part is none of them."""
-    if isinstance(whole, s.Edge):
+    if as_edge(whole) is not None:
         return False
     return not (are_rows(whole) and not are_rows(part))
 
@@ -167,7 +167,7 @@ def of_the_whole_site(inner: Nominal) -> Nominal:
 @construction("nominal: inner=nominal in_ where=region", "nominal: inner=nominal way=along where=region", cost=0.3)
 def inside(inner: Nominal, where: s.Selector, way: str = "") -> Nominal | None:
     """Compose "trees in the northern half" and "trees along the northern edge"."""
-    if not chooses_from_trees(inner.selector) or (way and isinstance(where, s.RowOf)):
+    if not chooses_from_trees(inner.selector) or (way and is_row_of_place(where)):
         return None  # "3 trees down the row": the tree that far along, or trees there?
     return replace(inner, selector=over(inner.selector, where))
 
@@ -181,7 +181,7 @@ def along_word() -> str:
 @construction("nominal: inner=nominal OUTSIDE [OF] where=region", cost=0.4)
 def outside_area(inner: Nominal, where: s.Selector) -> Nominal | None:
     """Compose "trees outside the northern half"."""
-    if inner.single or isinstance(where, s.InZone):
+    if inner.single or as_zone(where) is not None:
         return None
     return replace(inner, selector=s.Excluding(places=where, of=inner.selector))
 

@@ -8,8 +8,8 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.english.onebyone import swapped
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
-from fieldhand.planning.grammar.selections import are_rows, chooses_from_trees, over
 from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.selections import are_rows, chooses_from_trees, over
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction

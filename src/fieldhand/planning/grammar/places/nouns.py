@@ -10,8 +10,8 @@ from fieldhand.planning.english.limits import Amount
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
-from fieldhand.planning.grammar.selections import chooses_from_trees
 from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.selections import as_every_nth, chooses_from_trees
 from fieldhand.terms import Test
 
 GRAMMAR = Grammar()
@@ -90,7 +90,7 @@ def with_attribute(inner: Nominal, test: tuple[str, Test, Any]) -> Nominal | Non
 @construction("place: whole=place [WHICH] [IS] test=attribute_test", cost=0.3)
 def those_with_attribute(whole: PlaceMeaning, test: tuple[str, Test, Any]) -> PlaceMeaning | None:
     """Compose "every third tree in row 4 that is yellow"."""
-    if not isinstance(whole.selector, s.EveryNth) or whole.per is not None:
+    if as_every_nth(whole.selector) is None or whole.per is not None:
         return None
     name, check, value = test
     return replace(whole, selector=s.Where(attribute=name, test=check, value=value, of=whole.selector))

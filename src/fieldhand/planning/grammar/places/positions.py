@@ -10,8 +10,8 @@ from fieldhand.places.picks.ordered import Order
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning, Shape
 from fieldhand.planning.grammar.places.compass import SIDES
-from fieldhand.planning.grammar.selections import chooses_from_trees, is_one_row, over
 from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.selections import as_every_nth, chooses_from_trees, is_one_row, over
 from fieldhand.terms import Side
 
 GRAMMAR = Grammar()
@@ -238,9 +238,10 @@ def from_side(side: Lex) -> Side | None:
 @construction("place: whole=place [COMMA] side=start", cost=0.3)
 def counted_from_side(whole: PlaceMeaning, side: Side) -> PlaceMeaning | None:
     """Compose "every third tree in row 4, starting from the north"."""
-    if not isinstance(whole.selector, s.EveryNth) or whole.selector.counted_from != "usual":
+    every = as_every_nth(whole.selector)
+    if every is None or every.counted_from != "usual":
         return None
-    counted = replace(whole.selector, counted_from=side)
+    counted = replace(every, counted_from=side)
     return replace(whole, selector=s.Ordered(by=_AWAY_FROM[side], of=counted), in_order=True)
 
 
@@ -252,17 +253,19 @@ def counted_from_side(whole: PlaceMeaning, side: Side) -> PlaceMeaning | None:
 )
 def counted_from(whole: PlaceMeaning, side: Lex) -> PlaceMeaning | None:
     """Compose "every other tree of row 6 counted from the south"."""
-    if not isinstance(whole.selector, s.EveryNth) or whole.selector.counted_from != "usual" or side.value not in SIDES:
+    every = as_every_nth(whole.selector)
+    if every is None or every.counted_from != "usual" or side.value not in SIDES:
         return None
-    return replace(whole, selector=replace(whole.selector, counted_from=side.value))
+    return replace(whole, selector=replace(every, counted_from=side.value))
 
 
 @construction("place: whole=place [COMMA] STARTING [DET] rank=ORD [TREE]", cost=0.3)
 def starting_with(whole: PlaceMeaning, rank: Lex) -> PlaceMeaning | None:
     """Compose "every third tree in row 4, starting with the second tree"."""
-    if not isinstance(whole.selector, s.EveryNth) or whole.selector.start != 1:
+    every = as_every_nth(whole.selector)
+    if every is None or every.start != 1:
         return None
-    return replace(whole, selector=replace(whole.selector, start=rank.value))
+    return replace(whole, selector=replace(every, start=rank.value))
 
 
 @construction("place: EACH n=ORD inner=nominal [COMMA] STARTING [DET] rank=ORD [TREE] [COMMA] in_ rows=rows", cost=0.2)

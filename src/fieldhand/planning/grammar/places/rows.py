@@ -9,8 +9,8 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.places.numbers import name_of, whole
-from fieldhand.planning.grammar.selections import chooses_from_trees, counts_in_row, over
 from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.selections import chooses_from_trees, counts_in_row, over
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -119,7 +119,7 @@ def same_row() -> s.Selector:
 @construction("rows: DET ROW OF tree=place", cost=0.2)
 def row_of_tree(tree: PlaceMeaning) -> s.Selector | None:
     """Compose "the row of tree 12"."""
-    return s.RowOf(origin=tree.selector) if isinstance(tree.selector, s.TreeIs | s.Here) else None
+    return s.RowOf(origin=tree.selector) if tree.selector == s.Here() or isinstance(tree.selector, s.TreeIs) else None
 
 
 @construction("rows: [DET] NEXTROW", cost=0.1)

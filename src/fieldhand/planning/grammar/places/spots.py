@@ -7,6 +7,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.selections import as_edge, as_zone
 from fieldhand.terms import Side
 
 GRAMMAR = Grammar()
@@ -38,8 +39,8 @@ def tree_in_middle() -> Nominal:
 @construction("nominal: TREE in_ DET MIDDLE OF where=region", cost=0.1)
 def tree_in_middle_of(where: s.Selector) -> Nominal | None:
     """Compose "tree in the middle of row 4"."""
-    if isinstance(where, s.Edge):
-        return Nominal(s.EdgeMiddle(side=where.side, of=where.of), single=True)
+    if (edge := as_edge(where)) is not None:
+        return Nominal(s.EdgeMiddle(side=edge.side, of=edge.of), single=True)
     return Nominal(s.Middle(of=where), single=True)
 
 
@@ -82,10 +83,10 @@ def middle() -> PlaceMeaning:
 @construction("place: [DET] MIDDLE in_ where=region", "place: [DET] MIDDLE TREE in_ where=region", cost=0.2)
 def middle_of(where: s.Selector) -> PlaceMeaning | None:
     """Compose "the middle of row 4"."""
-    if isinstance(where, s.InZone):
-        return PlaceMeaning(s.PointsIn(zone=where.zone), "one") if not where.outside else None
-    if isinstance(where, s.Edge):
-        return PlaceMeaning(s.EdgeMiddle(side=where.side, of=where.of), "one")
+    if (zone := as_zone(where)) is not None:
+        return PlaceMeaning(s.PointsIn(zone=zone.zone), "one") if not zone.outside else None
+    if (edge := as_edge(where)) is not None:
+        return PlaceMeaning(s.EdgeMiddle(side=edge.side, of=edge.of), "one")
     return PlaceMeaning(s.Middle(of=where), "one")
 
 

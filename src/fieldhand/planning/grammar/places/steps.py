@@ -8,12 +8,11 @@ from dataclasses import replace
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.limits import Amount
 from fieldhand.planning.english.places import beyond
-from fieldhand.planning.english.selections import is_spot
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import SIDES
-from fieldhand.planning.grammar.selections import chooses_from_trees, over
 from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.selections import as_zone, chooses_from_trees, is_spot, over
 from fieldhand.terms import Towards
 
 GRAMMAR = Grammar()
@@ -175,7 +174,7 @@ def nearest(inner: Nominal, to: PlaceMeaning, n: int | None = None, near: Lex | 
     if number is None or inner.single or inner.complete or inner.kind != "tree" or to.shape not in ("one", "area"):
         return None
     origin = to.selector
-    if to.shape == "area" and not isinstance(origin, s.InZone):
+    if to.shape == "area" and as_zone(origin) is None:
         return None
     selector: s.Selector = s.Nearest(to=origin, count=number, of=inner.selector)
     if is_spot(origin):
@@ -191,7 +190,7 @@ def nearest(inner: Nominal, to: PlaceMeaning, n: int | None = None, near: Lex | 
 def farthest(inner: Nominal, to: PlaceMeaning, n: int | None = None) -> PlaceMeaning | None:
     """Compose "the tree farthest from the charger"."""
     number = n or (None if inner.plural else 1)
-    zone = to.shape == "area" and isinstance(to.selector, s.InZone)
+    zone = to.shape == "area" and as_zone(to.selector) is not None
     if number is None or inner.single or inner.complete or not (to.shape == "one" or zone):
         return None
     return PlaceMeaning(
@@ -213,23 +212,21 @@ def within(inner: Nominal, far: Amount, to: PlaceMeaning, check: Lex | None = No
     if check is not None and check.value[0] not in ("lt", "le"):
         return None
     if to.shape == "area":
-        if not isinstance(to.selector, s.InZone):
+        if (zone := as_zone(to.selector)) is None:
             return None
-        return PlaceMeaning(over(inner.selector, s.InZone(zone=to.selector.zone, margin_m=far.number)), "several")
+        return PlaceMeaning(over(inner.selector, s.InZone(zone=zone.zone, margin_m=far.number)), "several")
     return PlaceMeaning(s.Within(distance_m=far.number, to=to.selector, of=inner.selector), "several")
 
 
 @construction("place: [EACH] [DET] inner=nominal check=CMP far=amount FROM to=place", cost=0.3)
 def beyond_place(inner: Nominal, check: Lex, far: Amount, to: PlaceMeaning) -> PlaceMeaning | None:
     """Compose "all trees more than 20 m from the charger"."""
-    if (
-        check.value[0] not in ("gt", "ge")
-        or far.unit != "metres"
-        or inner.single
-        or not (to.shape == "one" or (to.shape == "area" and isinstance(to.selector, s.InZone)))
-    ):
+    zone = as_zone(to.selector)
+    if check.value[0] not in ("gt", "ge") or far.unit != "metres" or inner.single:
         return None
-    if isinstance(to.selector, s.InZone):
-        away: s.Selector = s.InZone(zone=to.selector.zone, outside=True, margin_m=far.number)
+    if not (to.shape == "one" or (to.shape == "area" and zone is not None)):
+        return None
+    if zone is not None:
+        away: s.Selector = s.InZone(zone=zone.zone, outside=True, margin_m=far.number)
         return PlaceMeaning(over(inner.selector, away), "several") if chooses_from_trees(inner.selector) else None
     return PlaceMeaning(s.Excluding(places=beyond(far.number, to.selector), of=inner.selector), "several")

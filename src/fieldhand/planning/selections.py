@@ -1,0 +1,217 @@
+"""What a request may mean by a selector, and what may be said of it next.
+
+What is true of a selector whatever is said of it is a property of :class:`~fieldhand.places.selector.Selector`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any, cast
+
+from fieldhand.places import selectors as s
+
+#: Areas by the order in which they are nested, the innermost first: a row of a half of a block.
+_NESTING: dict[type[s.Selector], int] = {
+    s.InBlock: 0,
+    s.Half: 1,
+    s.Quarter: 1,
+    s.Edge: 2,
+    s.Rows: 2,
+    s.InZone: 3,
+}
+#: Selectors of areas.
+AREAS = tuple(_NESTING)
+
+
+def over(selector: s.Selector, base: s.Selector) -> s.Selector:
+    """Return a selector that chooses from ``base`` instead of from every tree of the site.
+
+    Areas are nested in a fixed order, whatever the order of the words: "the northern half in row 4" is row 4 of the
+    northern half. "The first tree" of rows is the first tree of each.
+    """
+    if selector == s.Trees():
+        return base
+    if isinstance(selector, s.UnionOf):
+        return s.UnionOf(parts=tuple(over(part, base) for part in selector.parts))
+    if isinstance(selector, s.First | s.Last) and selector.of == s.Trees() and are_rows(base):
+        number = 1 if isinstance(selector, s.First) else -1
+        return s.InRow(first=number, last=number, of=base)
+    rank, other = _NESTING.get(type(selector)), _rank(base)
+    if rank is not None and other is not None and rank < other:
+        return over(base, selector)
+    of = getattr(selector, "of", None)
+    if of is None:
+        return selector
+    changed: s.Selector = replace(cast(Any, selector), of=over(of, base))
+    return changed
+
+
+def _rank(selector: s.Selector) -> int | None:
+    """Return how far outside an area is nested; None for a selector that is no area."""
+    if isinstance(selector, s.UnionOf):
+        return max((rank for part in selector.parts if (rank := _rank(part)) is not None), default=None)
+    return _NESTING.get(type(selector))
+
+
+def are_rows(selector: s.Selector) -> bool:
+    """Return True for rows, and for lists of rows."""
+    return all(isinstance(part, s.Rows | s.RowOf) for part in selector.members)
+
+
+def is_one_row(rows: s.Selector) -> bool:
+    """Return True for a single row."""
+    return isinstance(rows, s.RowOf) or (isinstance(rows, s.Rows) and rows.first == rows.last != "")
+
+
+def are_several_rows(selector: s.Selector) -> bool:
+    """Return True for several rows, whose trees are selected."""
+    return are_rows(selector) and not is_one_row(selector)
+
+
+def counts_in_row(selector: s.Selector) -> bool:
+    """Return True for trees that are counted along their rows."""
+    return isinstance(selector, s.InRow)
+
+
+def rows_of(selector: s.Selector) -> tuple[s.Rows, ...]:
+    """Return the rows in a selector that are named by their labels, or are all rows."""
+    return tuple(part for part in selector.walk() if isinstance(part, s.Rows))
+
+
+def chooses_from_trees(selector: s.Selector) -> bool:
+    """Return True if a selector can be restricted: it chooses from every tree of the site at last."""
+    if selector == s.Trees():
+        return True
+    if isinstance(selector, s.UnionOf):
+        return all(chooses_from_trees(part) for part in selector.parts)
+    if isinstance(selector, s.RowOf):
+        return False
+    of = getattr(selector, "of", None)
+    return of is not None and chooses_from_trees(of)
+
+
+def says_how_many(selector: s.Selector) -> bool:
+    """Return True if the words of a selection say how many trees are meant ("the 4 oldest", "the corners")."""
+    return isinstance(selector, s.Take | s.Top | s.Extreme | s.Nearest | s.Adjacent | s.Corners | s.UnionOf)
+
+
+def may_be_listed(selector: s.Selector) -> bool:
+    """Return True if a list of its places may follow ("at the corners: first the south-west one, then ...")."""
+    return isinstance(selector, s.Corners) or selector.any_of is not None
+
+
+def are_meant_each(selector: s.Selector) -> bool:
+    """Return True if "the tree at" several such places means one at each of them ("the tree at the corners")."""
+    return isinstance(selector, s.Corners)
+
+
+def named_places(selector: s.Selector) -> tuple[s.Selector, ...]:
+    """Return the places that were named one by one, parts of a list or corners; none if they were not."""
+    if isinstance(selector, s.Corners):
+        return tuple(replace(selector, which=(corner,)) for corner in selector.which)
+    return selector.members if isinstance(selector, s.UnionOf) else ()
+
+
+def names_here(selector: s.Selector) -> bool:
+    """Return True if the place in hand is named along with others ("it and the one beside it")."""
+    return selector != s.Here() and s.Here() in selector.members
+
+
+def starts_here(selector: s.Selector) -> bool:
+    """Return True if it is a way along or across rows from the place in hand."""
+    return isinstance(selector, s.RowOf | s.AlongRow | s.Across) and selector.origin == s.Here()
+
+
+def measures_from_here(selector: s.Selector) -> bool:
+    """Return True if the nearest or the farthest of some trees from the place in hand is part of it."""
+    return any(isinstance(part, s.Nearest | s.Farthest) and s.Here() in part.inner for part in selector.walk())
+
+
+def may_be_near(selector: s.Selector) -> bool:
+    """Return True if the robot may be there, or close by, when it is named: it depends on where the robot is."""
+    return any(isinstance(part, s.Here | s.Take | s.NotVisited | s.RowOf | s.Nearest) for part in selector.walk())
+
+
+def so_many_nearby(selector: s.Selector | None, count: int) -> s.Selector | None:
+    """Return that many trees nearby where no number was said of them yet ("nearby trees"); None of other places."""
+    return replace(selector, count=count) if isinstance(selector, s.Nearest) and selector.count == 1 else None
+
+
+def is_spot(place: s.Selector) -> bool:
+    """Return True if a place is a spot of the ground: the tree nearest to a corner or a middle is the one there."""
+    return place.single and (place.central or isinstance(place, s.Corners))
+
+
+def zone_of_points(selector: s.Selector) -> str:
+    """Return the zone that free points may be spread over where all trees in it, or near it, are meant; else nothing.
+
+    Points of the zone itself are near it, too.
+    """
+    if isinstance(selector, s.InZone) and selector == s.InZone(zone=selector.zone, margin_m=selector.margin_m):
+        return selector.zone
+    return ""
+
+
+def all_but(place: s.Selector) -> s.Selector:
+    """Return the trees outside of a zone, or all trees but those of other places."""
+    return replace(place, outside=True) if isinstance(place, s.InZone) else s.Excluding(places=place)
+
+
+def is_about_rows(selector: s.Selector) -> bool:
+    """Return True if a row that is named, or counted from a place, is part of it."""
+    return any(part.row_of is not None or isinstance(part, s.Rows) for part in selector.walk())
+
+
+def skips_rows(selector: s.Selector) -> bool:
+    """Return True if it takes every so many rows ("every third row")."""
+    return isinstance(selector, s.Rows) and selector.every > 1
+
+
+def names_several_rows(rows: s.Selector) -> bool:
+    """Return True if several rows or blocks are named one by one or as a range ("rows 2 and 4", "rows 2 to 5")."""
+    return isinstance(rows, s.UnionOf) or (isinstance(rows, s.Rows) and rows.first != rows.last)
+
+
+def as_zone(selector: s.Selector) -> s.InZone | None:
+    """Return the selector if it selects by a zone, None otherwise."""
+    return selector if isinstance(selector, s.InZone) else None
+
+
+def as_edge(selector: s.Selector) -> s.Edge | None:
+    """Return the selector if it is an edge, None otherwise."""
+    return selector if isinstance(selector, s.Edge) else None
+
+
+def as_rows(selector: s.Selector) -> s.Rows | None:
+    """Return the selector if it is rows by their labels or all rows, None otherwise."""
+    return selector if isinstance(selector, s.Rows) else None
+
+
+def as_every_nth(selector: s.Selector) -> s.EveryNth | None:
+    """Return the selector if it takes every so many trees, None otherwise."""
+    return selector if isinstance(selector, s.EveryNth) else None
+
+
+def as_some(selector: s.Selector) -> s.Take | None:
+    """Return the selector if it takes some trees, whichever, None otherwise."""
+    return selector if isinstance(selector, s.Take) else None
+
+
+def as_nearest(selector: s.Selector) -> s.Nearest | None:
+    """Return the selector if it takes the nearest trees, None otherwise."""
+    return selector if isinstance(selector, s.Nearest) else None
+
+
+def is_in_block(selector: s.Selector) -> bool:
+    """Return True if a block is part of it."""
+    return any(isinstance(part, s.InBlock) for part in selector.walk())
+
+
+def refers_to_here(selector: s.Selector) -> bool:
+    """Return True if the current place is part of it."""
+    return any(isinstance(part, s.Here) for part in selector.walk())
+
+
+def is_row_of_place(selector: s.Selector) -> bool:
+    """Return True for the row of a place, or one counted from it."""
+    return isinstance(selector, s.RowOf)
