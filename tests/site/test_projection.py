@@ -28,3 +28,11 @@ def test_distance_between_two_places_is_geodesic(lat, x0, y0, x1, y1):
     (lat0, lon0), (lat1, lon1) = Projection(lat, 10.0).degrees([[x0, y0], [x1, y1]])
     *_, metres = GEOD.inv(lon0, lat0, lon1, lat1)
     assert ((x1 - x0) ** 2 + (y1 - y0) ** 2) ** 0.5 == pytest.approx(metres, abs=1e-2)
+
+
+@given(lat=st.floats(-89, 89), lon=st.floats(-180, 180), north=st.floats(-0.05, 0.05), east=st.floats(-0.05, 0.05))
+def test_it_is_what_proj_finds_for_the_registered_system(lat, lon, north, east):
+    local = pyproj.CRS.from_proj4(f"+proj=aeqd +lat_0={lat!r} +lon_0={lon!r} +datum=WGS84 +units=m")
+    registered = pyproj.Transformer.from_crs("EPSG:4326", local, always_xy=True)
+    found = tuple(Projection(lat, lon).metres(lat + north, lon + east)[0])
+    assert found == registered.transform(lon + east, lat + north)
