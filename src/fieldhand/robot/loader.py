@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import hashlib
 from collections.abc import Mapping, Sequence
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -108,6 +109,12 @@ def parse_profile(data: bytes, *, source: str = "profile") -> RobotProfile:
     Raises:
         ProfileError: The profile is unusable.
     """
+    return _parsed(bytes(data), source)
+
+
+@lru_cache(maxsize=32)
+def _parsed(data: bytes, source: str) -> RobotProfile:
+    """Return the profile in these bytes; most programs load the same few profiles again and again."""
     content = _content(data, source)
     try:
         document = ProfileDocument.model_validate(content)

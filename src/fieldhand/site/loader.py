@@ -10,6 +10,7 @@ import gc
 import hashlib
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import lru_cache
 from importlib import resources
 from pathlib import Path
 
@@ -27,8 +28,9 @@ def demo_path() -> Path:
     return Path(str(resources.files("fieldhand.site") / "data" / "demo.geojson"))
 
 
+@lru_cache(maxsize=1)
 def load_demo() -> Site:
-    """Load the built-in orchard."""
+    """Load the built-in orchard; later calls return the same site, with what has been computed from it."""
     return load_site(demo_path())
 
 
@@ -42,6 +44,8 @@ def open_site(name_or_path: str, *, lenient: bool = False) -> Site:
     Raises:
         SiteError: The file cannot be read or used; see :func:`load_site`.
     """
+    if name_or_path == "demo" and not lenient:
+        return load_demo()
     return site_of(site_files(name_or_path), lenient=lenient)
 
 
