@@ -13,6 +13,7 @@ import ast
 import json
 import sys
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 SOURCE = Path(__file__).parents[1] / "src" / "fieldhand"
@@ -45,11 +46,15 @@ SYSTEM_REASONS = (
 COLOURS = ("yellow", "green", "brown", "red", "healthy", "sick", "dead", "young", "old")
 
 
+@cache
 def source_entries() -> dict[tuple[str, str], Entry]:
     """Return every message of the source, by context and English text, without translations."""
     found: dict[tuple[str, str], Entry] = {}
     for file in sorted(SOURCE.rglob("*.py")):
-        for entry in _of_file(ast.parse(file.read_text(encoding="utf-8"))):
+        text = file.read_text(encoding="utf-8")
+        if not any(called in text for called in _CALLED):
+            continue
+        for entry in _of_file(ast.parse(text)):
             found.setdefault(entry.key, entry)
     for entry in _of_data():
         found.setdefault(entry.key, entry)
@@ -72,6 +77,8 @@ def _of_file(tree: ast.Module) -> Iterator[Entry]:
             yield Entry(template=texts[0], many=texts[1], context=str(context), said=())
 
 
+#: Functions whose calls give messages.
+_CALLED = ("message", "counted")
 #: Contexts of ordinals (`fieldhand.places.row_words`).
 _ORDINALS = ("tree", "row", "one")
 

@@ -28,8 +28,14 @@ def _script() -> ModuleType:
 
 
 SCRIPT = _script()
-SOURCE = SCRIPT.source_entries()
 FILES = list(SCRIPT.catalogues())
+
+
+@pytest.fixture(scope="module")
+def source() -> dict[tuple[str, str], Entry]:
+    """Every message of the source, by context and English text."""
+    found: dict[tuple[str, str], Entry] = SCRIPT.source_entries()
+    return found
 
 
 def placeholders(text: str) -> set[str]:
@@ -40,7 +46,7 @@ def test_there_is_spanish() -> None:
     assert "es" in {file.parts[-3] for file in FILES}
 
 
-def test_the_source_is_read_for_its_messages() -> None:
+def test_the_source_is_read_for_its_messages(source: dict[tuple[str, str], Entry]) -> None:
     """The finder finds: plain, counted and contextual messages, and the words of built-in robots."""
     for key in (
         ("", "Return to {place}."),
@@ -50,13 +56,15 @@ def test_the_source_is_read_for_its_messages() -> None:
         ("action", "take a thermal picture"),
         ("assumption", "'{said}' means back to the start."),
     ):
-        assert key in SOURCE
+        assert key in source
 
 
 @pytest.mark.parametrize("file", FILES, ids=lambda f: f.parts[-3])
-def test_every_message_has_a_translation_with_its_placeholders(file: Path) -> None:
+def test_every_message_has_a_translation_with_its_placeholders(
+    file: Path, source: dict[tuple[str, str], Entry]
+) -> None:
     found = {entry.key: entry for entry in read_entries(file.read_text(encoding="utf-8"))}
-    for key, entry in SOURCE.items():
+    for key, entry in source.items():
         assert key in found, f"{file.name} lacks {key}: run scripts/catalogue.py"
         said = found[key].said
         assert all(said), f"not translated: {key}"
@@ -67,7 +75,7 @@ def test_every_message_has_a_translation_with_its_placeholders(file: Path) -> No
             missing = both - placeholders(form)
             assert placeholders(form) <= both, key
             assert not missing or (entry.many and missing <= {"count", "times"}), key
-    assert set(found) - set(SOURCE) == {("", "")}, "the source does not say these any more: run scripts/catalogue.py"
+    assert set(found) - set(source) == {("", "")}, "the source does not say these any more: run scripts/catalogue.py"
 
 
 @pytest.mark.parametrize("file", FILES, ids=lambda f: f.parts[-3])
@@ -76,10 +84,10 @@ def test_a_catalogue_stands_as_the_script_writes_it(file: Path) -> None:
     assert SCRIPT.updated(text) == (text, [])
 
 
-def test_what_is_new_is_added_and_named_and_what_is_gone_goes() -> None:
+def test_what_is_new_is_added_and_named_and_what_is_gone_goes(source: dict[tuple[str, str], Entry]) -> None:
     text, missing = SCRIPT.updated('msgid ""\nmsgstr "Language: xx\\n"\n\nmsgid "gone"\nmsgstr "x"\n')
     assert 'msgid "gone"' not in text
-    assert {entry.key for entry in missing} == set(SOURCE)
+    assert {entry.key for entry in missing} == set(source)
 
 
 def test_entries_are_read_with_contexts_plurals_and_long_lines() -> None:
