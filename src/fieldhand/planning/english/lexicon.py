@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import deque
 from collections.abc import Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -236,8 +237,25 @@ class Lexicon:
         return tuple(w for w in get_close_matches(spelt, known, n=2, cutoff=0.8) if w != spelt)
 
 
+#: Lexicons made last, each for its robot and site: the requests of a session are about few of them, and making one
+#: takes 40 ms for 4,500 trees.
+_made: deque[tuple[RobotProfile, Site, Lexicon]] = deque(maxlen=4)
+
+
 def lexicon_for(robot: RobotProfile, site: Site) -> Lexicon:
-    """The lexicon of a robot on a site. The robot's words come before the site's; none replaces function words."""
+    """Return the lexicon of a robot on a site, which is kept for the next request.
+
+    The robot's words come before the site's; none replaces function words.
+    """
+    for known_robot, known_site, lexicon in tuple(_made):
+        if known_robot is robot and known_site is site:
+            return lexicon
+    lexicon = _lexicon_of(robot, site)
+    _made.append((robot, site, lexicon))
+    return lexicon
+
+
+def _lexicon_of(robot: RobotProfile, site: Site) -> Lexicon:
     own: dict[Phrase, NameEntry] = {}
     for phrase, entry in site_entries(site):
         if phrase not in shared_vocabulary():
