@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cache
 
 from fieldhand.planning.english.faults import Unclear
-from fieldhand.planning.english.lexicon import lexicon_for
 from fieldhand.planning.english.limits import LimitPhrase
 from fieldhand.planning.english.planned import Meant, planned_as
-from fieldhand.planning.english.tokens import Word, words_of
-from fieldhand.planning.grammar.chart import Chart, Grammar, PhraseEdge, tokens_of
+from fieldhand.planning.english.tokens import Word
+from fieldhand.planning.grammar.chart import Chart, PhraseEdge, tokens_of
 from fieldhand.planning.grammar.dialogue import DialogueState, NotComposed, Setting, read_clauses, whole_plan
+from fieldhand.planning.grammar.english import ENGLISH
+from fieldhand.planning.grammar.language import GrammarLanguage
 from fieldhand.planning.grammar.words import edges_of, fillers_of
 from fieldhand.planning.planner import Planned, Refused
 from fieldhand.planning.selections import is_in_block, rows_of
@@ -36,24 +36,14 @@ class RequestReading:
     skipped: tuple[Span, ...]
 
 
-@cache
-def grammar() -> Grammar:
-    """Return all constructions."""
-    from fieldhand.planning.grammar import commands, places
-
-    made = Grammar()
-    made.include(places.GRAMMAR)
-    made.include(commands.GRAMMAR)
-    return made
-
-
-def readings(request: str, site: Site, robot: RobotProfile) -> list[RequestReading]:
+def readings(
+    request: str, site: Site, robot: RobotProfile, language: GrammarLanguage = ENGLISH
+) -> list[RequestReading]:
     """Return the ways to read a request as a whole, cheapest first; empty if the grammar does not cover it."""
-    words = words_of(request)
-    lexicon = lexicon_for(robot, site)
-    fillers = fillers_of(words, lexicon)
-    chart = Chart(grammar(), len(words), fillers)
-    chart.parse(edges_of(words, lexicon, robot))
+    words = language.words_of(request)
+    phrases = language.phrases(robot, site)
+    chart = Chart(language.grammar(), len(words), fillers_of(words, phrases))
+    chart.parse(edges_of(words, phrases))
     setting = Setting(robot, site, lambda used: spans(words, used))
     found: list[RequestReading] = []
     for edge in chart.whole("request"):
@@ -65,13 +55,15 @@ def readings(request: str, site: Site, robot: RobotProfile) -> list[RequestReadi
     return found
 
 
-def composed(request: str, site: Site, robot: RobotProfile) -> Planned | Refused | None:
+def composed(
+    request: str, site: Site, robot: RobotProfile, language: GrammarLanguage = ENGLISH
+) -> Planned | Refused | None:
     """Return the plan of a request that the grammar covers as a whole and in one way; None otherwise.
 
     A plan that says something else than the request, or leaves a word of it out, is none. A request that is understood
     and names a place that the site does not have is refused.
     """
-    found = readings(request, site, robot)
+    found = readings(request, site, robot, language)
     if not found:
         return None
     best, *others = found

@@ -1,56 +1,106 @@
-"""Words of a request as edges of the chart: phrases of the lexicon, numbers, and names of this site."""
+"""Words of a request as edges of the chart: phrases of a language, numbers, and names of this site."""
 
 from __future__ import annotations
 
 import re
-import tomllib
-from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
-from functools import cache
-from importlib.resources import files
-from typing import Any
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol, TypeVar
 
-from fieldhand.planning.english.inflection import forms_of, plural_of
 from fieldhand.planning.english.lexicon import CODE, Lexicon
-from fieldhand.planning.english.naming import NameEntry, Naming, Phrase, split
+from fieldhand.planning.english.naming import NameEntry, Phrase, split
 from fieldhand.planning.english.tokens import Word
-from fieldhand.planning.english.vocabulary import vocabulary
 from fieldhand.planning.grammar.chart import PhraseEdge
-from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 
 #: Price of a word by itself; a phrase of several words costs no more, so that longer phrases are preferred.
 _WORD_COST = 1.0
 _SIGNS = {"comma": "COMMA", "dash": "DASH", "sign": "AND", "hash": "HASH", "stop": "FULLSTOP"}
-#: Words of an action that takes pictures.
-_PICTURES = frozenset({"picture", "photo", "image", "thermal picture"})
-#: Short forms.
-_SPELT_OUT = {"temp": "temperature", "temps": "temperature", "temperatures": "temperature", "pic": "picture"}
-#: Words for pictures and for taking them, by what they are to the grammar.
-_WITH_A_CAMERA = {"PICTURE": "NOUN", "CAMERA": "ACTV"}
-#: Words that always may be skipped.
-_SILENT = frozenset({"FILLER"})
+#: Category of words that always may be skipped.
+_SILENT = "FILLER"
+#: Maximum number of words of a filler.
+_LONGEST_FILLER = 7
+
+Key = TypeVar("Key")
 
 
 @dataclass(frozen=True, slots=True)
 class Lex:
-    """A word or fixed phrase: its value in the lexicon, its number, and its text."""
+    """A word or fixed phrase.
+
+    Attributes:
+        value: Its value in the lexicon.
+        plural: True for a noun in the plural.
+        text: Its words.
+        features: What it is besides its category, such as ``indefinite``; constructions ask for these, never for words.
+    """
 
     value: Any
     plural: bool
     text: str
+    features: frozenset[str] = frozenset()
 
 
-def edges_of(words: Sequence[Word], lexicon: Lexicon, robot: RobotProfile) -> Iterator[PhraseEdge]:
-    """Yield an edge for each phrase of the lexicon and each name of the site that the words contain."""
-    cameras = [action.name for action in robot.actions if _PICTURES & set(action.words)]
-    camera = Naming(actions=(cameras[0],)) if len(cameras) == 1 else None
+class Phrases(Protocol):
+    """The words of a language together with those of a robot and of a site."""
+
+    @property
+    def lexicon(self) -> Lexicon:
+        """The names of the site's trees, rows and blocks."""
+
+    @property
+    def longest(self) -> int:
+        """The number of words of the longest phrase."""
+
+    def entries(self, phrase: Phrase) -> Iterable[NameEntry]:
+        """Return everything that a phrase can be."""
+
+    def features(self, phrase: Phrase) -> frozenset[str]:
+        """Return the features of a phrase."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class FeatureTable:
+    """The features of a language's words.
+
+    Attributes:
+        of_phrases: Features by whole phrase.
+        of_words: Features that a word gives to each phrase which contains it.
+    """
+
+    of_phrases: Mapping[Phrase, frozenset[str]]
+    of_words: Mapping[str, frozenset[str]]
+
+    @classmethod
+    def read(cls, table: Mapping[str, Any]) -> FeatureTable:
+        """Return the features of the tables ``features`` and ``features_of_words`` of a lexicon."""
+        return cls(
+            of_phrases=_by_word(table["features"], lambda phrase: split(phrase) or (phrase,)),
+            of_words=_by_word(table["features_of_words"], str),
+        )
+
+    def of(self, phrase: Phrase) -> frozenset[str]:
+        """Return the features of a phrase."""
+        found = self.of_phrases.get(phrase, frozenset())
+        return found.union(*(self.of_words[word] for word in phrase if word in self.of_words))
+
+
+def _by_word(table: Mapping[str, Sequence[str]], key: Callable[[str], Key]) -> Mapping[Key, frozenset[str]]:
+    """Return the names of a table's lists by their items."""
+    found: dict[Key, set[str]] = {}
+    for feature, phrases in table.items():
+        for phrase in phrases:
+            found.setdefault(key(phrase), set()).add(feature)
+    return {word: frozenset(features) for word, features in found.items()}
+
+
+def edges_of(words: Sequence[Word], phrases: Phrases) -> Iterator[PhraseEdge]:
+    """Yield an edge for each phrase of the language and each name of the site that the words contain."""
     for start, word in enumerate(words):
-        yield from _single(word, start)
-        yield from _names(words, start, lexicon)
+        yield from _single(word, start, phrases)
+        yield from _names(words, start, phrases)
         phrase: list[str] = []
-        for end in range(start + 1, min(start + 1 + lexicon.longest, len(words) + 1)):
+        for end in range(start + 1, min(start + 1 + phrases.longest, len(words) + 1)):
             last = words[end - 1]
             if last.kind == "dash" and end - 1 > start:
                 continue
@@ -58,92 +108,44 @@ def edges_of(words: Sequence[Word], lexicon: Lexicon, robot: RobotProfile) -> It
                 break
             phrase.append(last.norm)
             text = " ".join(word.norm for word in words[start:end])
-            for entry in _entries(tuple(phrase), lexicon, camera):
-                for value in _values(entry, lexicon):
-                    yield _edge(entry.kind, start, end, Lex(value, entry.plural, text))
+            for entry in phrases.entries(tuple(phrase)):
+                features = phrases.features(tuple(phrase))
+                for value in _values(entry, phrases.lexicon):
+                    yield _edge(entry.kind, start, end, Lex(value, entry.plural, text, features))
 
 
-def _entries(phrase: Phrase, lexicon: Lexicon, camera: Naming | None) -> Iterator[NameEntry]:
-    """Yield what a phrase can be: in the lexicon, spelt out, and in english.toml.
-
-    Args:
-        camera: Action that takes pictures, if the robot has just one.
-    """
-    known = lexicon.entry(phrase)
-    if known is not None:
-        yield known
-    else:
-        full = lexicon.entry(tuple(_SPELT_OUT.get(word, word) for word in phrase))
-        if full is not None and full.kind == "NOUN":
-            yield replace(full, plural=full.plural or phrase[-1].endswith("s"))
-    kind = "" if known is None else known.kind
-    if known is None and len(phrase) == 1 and phrase[0] in lexicon.short_values:
-        yield NameEntry(kind="ATTRVAL", value=(lexicon.short_values[phrase[0]],))
-    for other in more_words().get(phrase, ()):
-        if other.kind in _WITH_A_CAMERA:
-            meant = _WITH_A_CAMERA[other.kind]
-            if camera is not None and meant != kind:
-                yield NameEntry(kind=meant, value=camera, plural=other.plural)
-        elif other.kind != kind:
-            yield other
-
-
-@cache
-def more_words() -> Mapping[Phrase, tuple[NameEntry, ...]]:
-    """Return the nouns that are verbs as well, and the words of english.toml, by phrase."""
-    found: dict[Phrase, list[NameEntry]] = defaultdict(list)
-    for kind, phrases in vocabulary()["nouns"].items():
-        for phrase in phrases:
-            found[split(phrase)].append(NameEntry(kind=kind))
-            found[split(plural_of(phrase))].append(NameEntry(kind=kind, plural=True))
-    own = tomllib.loads((files("fieldhand.planning.grammar") / "english.toml").read_text(encoding="utf-8"))
-    for kind, phrases in own["words"].items():
-        for phrase in phrases:
-            found[split(phrase)].append(NameEntry(kind=kind))
-    for phrase in own["words"]["PICTURE"]:
-        found[split(plural_of(phrase))].append(NameEntry(kind="PICTURE", plural=True))
-    for phrase, value in own["derived"].items():
-        found[split(phrase)].append(NameEntry(kind="SUPER", value=tuple(value)))
-    for kind, phrases in own["verbs"].items():
-        for phrase in phrases:
-            for form in forms_of(phrase):
-                found[split(form)].append(NameEntry(kind=kind))
-    return {phrase: tuple(entries) for phrase, entries in found.items()}
-
-
-def fillers_of(words: Sequence[Word], lexicon: Lexicon) -> frozenset[int]:
+def fillers_of(words: Sequence[Word], phrases: Phrases) -> frozenset[int]:
     """Return the numbers of the words that say nothing by themselves."""
     found: set[int] = set()
     for start in range(len(words)):
-        for end in range(start + 1, min(start + 8, len(words) + 1)):
+        for end in range(start + 1, min(start + 1 + _LONGEST_FILLER, len(words) + 1)):
             phrase = tuple(word.norm for word in words[start:end])
-            entry = lexicon.entry(phrase)
-            kinds = {other.kind for other in more_words().get(phrase, ())} | ({entry.kind} if entry else set())
-            if kinds & _SILENT:
+            if any(entry.kind == _SILENT for entry in phrases.entries(phrase)):
                 found.update(range(start, end))
     commas = {k for k, word in enumerate(words) if word.kind == "comma" and {k - 1, k + 1} & found}
     return frozenset(found | commas)
 
 
-def _single(word: Word, at: int) -> Iterator[PhraseEdge]:
+def _single(word: Word, at: int, phrases: Phrases) -> Iterator[PhraseEdge]:
     if word.kind == "rank":
         yield _edge("ORD", at, at + 1, Lex(int(re.sub(r"\D", "", word.norm)), False, word.norm))
     elif word.kind == "number":
         yield _edge("NUM", at, at + 1, Lex(float(word.norm.replace(",", "")), False, word.norm))
     elif word.kind in _SIGNS:
-        yield _edge(_SIGNS[word.kind], at, at + 1, Lex(word.text, False, word.text))
+        features = phrases.features((word.text.strip(),))
+        yield _edge(_SIGNS[word.kind], at, at + 1, Lex(word.text, False, word.text, features))
 
 
-def _names(words: Sequence[Word], start: int, lexicon: Lexicon) -> Iterator[PhraseEdge]:
+def _names(words: Sequence[Word], start: int, phrases: Phrases) -> Iterator[PhraseEdge]:
     """Names of trees, rows and blocks that begin at a word."""
-    site = lexicon.site
+    lexicon = phrases.lexicon
     spelt = ""
     for end in range(start + 1, min(start + 5, len(words) + 1)):
         word = words[end - 1]
         if word.kind not in ("word", "number", "dash", "rank"):
             return
         spelt += "".join(split(word.text)) if word.kind != "dash" else ""
-        tree = lexicon.trees.get(spelt) or (_missing_tree(word, lexicon) if end == start + 1 else None)
+        tree = lexicon.trees.get(spelt) or (_missing_tree(word, phrases) if end == start + 1 else None)
         for kind, name in (
             ("TREEID", tree),
             ("ROWNAME", lexicon.row_names.get(spelt)),
@@ -151,18 +153,18 @@ def _names(words: Sequence[Word], start: int, lexicon: Lexicon) -> Iterator[Phra
         ):
             if name is not None:
                 yield _edge(kind, start, end, Lex(name, False, spelt))
-    for gate in site.gates:
+    for gate in lexicon.site.gates:
         phrase = split(gate.place.id)
         if phrase and tuple(w.norm for w in words[start : start + len(phrase)]) == phrase:
             yield _edge("GATENAME", start, start + len(phrase), Lex(gate.place.id, False, gate.place.id))
 
 
-def _missing_tree(word: Word, lexicon: Lexicon) -> str | None:
+def _missing_tree(word: Word, phrases: Phrases) -> str | None:
     """Return a word that has the form of this site's tree ids, such as "N9999"; the site then says that it has none."""
     found = CODE.fullmatch(word.text)
-    if found is None or lexicon.entry((word.norm,)) is not None:
+    if found is None or any(True for _ in phrases.entries((word.norm,))):
         return None
-    return word.text if found[1].lower() in lexicon.codes else None
+    return word.text if found[1].lower() in phrases.lexicon.codes else None
 
 
 def _values(entry: NameEntry, lexicon: Lexicon) -> Iterator[Any]:

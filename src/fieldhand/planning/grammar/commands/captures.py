@@ -146,11 +146,11 @@ def spread_over(things: tuple[Thing, ...], zone: Lex, used: int) -> CaptureComma
 @construction("here: word=THERE", cost=0.1)
 def here(word: Lex) -> PlaceMeaning:
     """Compose "there"."""
-    several = any(part in word.text.split() for part in ("them", "each", "every", "both", "these", "those", "all"))
+    several = "of_several" in word.features
     return PlaceMeaning(
-        s.Trees() if "tree" in word.text and several else s.Here(),
+        s.Trees() if several and "of_trees" in word.features else s.Here(),
         "those" if several else "here",
-        each="each" in word.text or "every" in word.text,
+        each="of_each" in word.features,
     )
 
 

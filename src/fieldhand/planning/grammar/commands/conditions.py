@@ -253,7 +253,7 @@ def if_so(used: int) -> When:
 )
 def means(noun: Lex | None = None) -> str | None:
     """Compose "the battery"."""
-    return "means" if noun is None or noun.text == "time" else None
+    return "means" if noun is None or "time" in noun.features else None
 
 
 @construction(

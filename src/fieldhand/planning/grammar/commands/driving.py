@@ -20,7 +20,7 @@ def pick(place: PlaceMeaning, used: int) -> DriveCommand | None:
 @construction("drive: verb=GO [towards] place=place", "drive: VISIT place=place", cost=0.3)
 def drive_to(place: PlaceMeaning, used: int, verb: Lex | None = None) -> DriveCommand:
     """Compose "go to tree 4"."""
-    return DriveCommand(place, used, begins=verb is not None and verb.text.startswith(("start", "begin")))
+    return DriveCommand(place, used, begins=verb is not None and "begins" in verb.features)
 
 
 @construction("towards: AT", "towards: ALONG", cost=0.0)
@@ -114,7 +114,7 @@ def return_to(marker: s.Selector, used: int) -> Home | None:
 @construction("halt: noun=FINISH", cost=0.6)
 def finish(noun: Lex, used: int) -> StopCommand | None:
     """Compose "finish"."""
-    return StopCommand(used) if noun.text in ("finish", "end") else None
+    return StopCommand(used) if "ends" in noun.features else None
 
 
 @construction("halt: STOP", cost=0.2)

@@ -23,7 +23,7 @@ _LIMITED = ("metres", "seconds", "percent")
 )
 def at_most(most: Amount, used: int, word: Lex | None = None) -> LimitClause | None:
     """Compose "within 500 m"."""
-    if most.unit not in _LIMITED or (word is not None and (word.text != "in" or most.unit != "seconds")):
+    if most.unit not in _LIMITED or (word is not None and ("in_time" not in word.features or most.unit != "seconds")):
         return None
     return LimitClause(most, False, used)
 

@@ -94,19 +94,19 @@ def full_stop_then(used: int) -> Connective:
 @construction("joint: word=BEFORE", cost=0.3)
 def before_doing(word: Lex, used: int) -> Connective | None:
     """Compose "before"."""
-    return Connective(False, True, used) if word.text == "before" else None
+    return Connective(False, True, used) if "before_doing" in word.features else None
 
 
 @construction("then: word=THEN", cost=0.0)
 def then(word: Lex) -> str | None:
     """Compose "then"."""
-    return None if word.text == "after" else "then"
+    return None if "after_doing" in word.features else "then"
 
 
 @construction("after: word=THEN done=capture", "after: word=THEN done=drive", cost=0.2)
 def after_doing(word: Lex, done: CaptureCommand | DriveCommand, used: int) -> After | None:
     """Compose "after photographing tree 4"."""
-    return After(done, used) if word.text == "after" else None
+    return After(done, used) if "after_doing" in word.features else None
 
 
 @construction("said: one=command", "said: then [COMMA] one=command", cost=0.0)

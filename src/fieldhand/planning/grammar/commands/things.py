@@ -22,7 +22,7 @@ def thing(noun: Lex) -> Thing | None:
 def one_thing(word: Lex, noun: Lex) -> Thing | None:
     """Compose "another picture"."""
     naming: Naming = noun.value
-    single = word.text in ("a", "an", "another", "one more") and not noun.plural
+    single = "one" in word.features and not noun.plural
     return Thing(naming.actions[0], count=1) if naming.actions and single else None
 
 
@@ -94,6 +94,6 @@ def capture_verb() -> str:
 )
 def relation(word: Lex) -> str | None:
     """Compose "of"."""
-    if word.text == "of":
+    if "possessive" in word.features:
         return "of"
-    return "at" if word.text not in ("to", "toward", "towards", "up to", "down to", "out to", "into", "onto") else None
+    return None if "motion" in word.features else "at"

@@ -15,31 +15,6 @@ from fieldhand.planning.selections import AREAS, are_rows, as_edge, as_zone, cho
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
-#: Words after which a place is a part of what follows.
-_INSIDE = frozenset(
-    {
-        "in",
-        "at",
-        "on",
-        "inside",
-        "inside of",
-        "within",
-        "of",
-        "from",
-        "throughout",
-        "among",
-        "in among",
-        "amongst",
-        "standing in",
-        "growing in",
-        "located in",
-        "situated in",
-        "over in",
-        "on the",
-        "into",
-    }
-)
-
 
 @construction("region: [DET] side=DIR HALF", "region: [DET] side=DIR SIDE", cost=0.2)
 def half(side: Lex) -> s.Selector | None:
@@ -81,7 +56,7 @@ def zone(zone: Lex) -> s.Selector:
 )
 def block(name: Lex, noun: Lex) -> s.Selector | None:
     """Compose "block 2"."""
-    return s.InBlock(block=name_of(name)) if noun.text.startswith("block") else None
+    return s.InBlock(block=name_of(name)) if "block" in noun.features else None
 
 
 @construction("bare_block: name=BLOCKNAME", cost=0.7)
@@ -129,13 +104,13 @@ def _is_larger(whole: s.Selector, part: s.Selector) -> bool:
 @construction("in_: word=AT", "in_: word=INSIDE", "in_: word=OF", "in_: word=FROM", cost=0.0)
 def in_word(word: Lex) -> str | None:
     """Compose "in" and "throughout"."""
-    return "in" if word.text in _INSIDE else None
+    return "in" if "within" in word.features else None
 
 
 @construction("site: [DET] noun=PLOT", cost=0.0)
 def the_site(noun: Lex) -> str | None:
     """Compose "the orchard"."""
-    return None if noun.text.startswith("block") else "site"
+    return None if "block" in noun.features else "site"
 
 
 @construction(
@@ -217,4 +192,4 @@ def area(where: s.Selector) -> PlaceMeaning:
 @construction("place: word=DET in_ where=region", cost=0.4)
 def those_in(word: Lex, where: s.Selector) -> PlaceMeaning | None:
     """Compose "those in row 4"."""
-    return PlaceMeaning(where, "several") if word.text in ("those", "the ones", "all") else None
+    return PlaceMeaning(where, "several") if "those" in word.features else None

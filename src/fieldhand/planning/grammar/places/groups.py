@@ -28,7 +28,7 @@ def definite(inner: Nominal) -> PlaceMeaning | None:
 @construction("place: word=DET inner=nominal", cost=0.3)
 def any_one(word: Lex, inner: Nominal) -> PlaceMeaning | None:
     """Compose "a yellow tree"."""
-    if inner.single or inner.plural or inner.complete or word.text not in ("a", "an", "some"):
+    if inner.single or inner.plural or inner.complete or "indefinite" not in word.features:
         return None
     return PlaceMeaning(s.Take(count=1, of=inner.selector), "one")
 
@@ -70,7 +70,7 @@ def each_one(inner: Nominal, n: int | None = None) -> PlaceMeaning | None:
 @construction("place: [word=DET] n=count inner=nominal", cost=0.2)
 def so_many(n: int, inner: Nominal, word: Lex | None = None) -> PlaceMeaning | None:
     """Compose "three trees"."""
-    if word is not None and not inner.complete and word.text not in ("a", "an", "some"):
+    if word is not None and not inner.complete and "indefinite" not in word.features:
         return None  # "the three yellow trees": which are meant, if there are more?
     if inner.single or (inner.complete and n != inner.complete):
         return None
@@ -120,7 +120,7 @@ def at_random_anywhere(n: int, inner: Nominal) -> PlaceMeaning | None:
 @construction("over_site: word=OPPOSITE site", cost=0.2)
 def across_the_site(word: Lex) -> str | None:
     """Compose "across the orchard"."""
-    return "site" if word.text == "across" else None
+    return "site" if "across" in word.features else None
 
 
 @construction(
@@ -212,7 +212,7 @@ def except_for(whole: PlaceMeaning, part: PlaceMeaning) -> PlaceMeaning | None:
 @construction("place: ANY inner=nominal EXCEPT part=place", "place: ANY inner=nominal word=AND part=place", cost=0.2)
 def any_except(inner: Nominal, part: PlaceMeaning, word: Lex | None = None) -> PlaceMeaning | None:
     """Compose "any tree except tree 12"."""
-    if (word is not None and word.text != "but") or inner.single or part.shape not in ("one", "several"):
+    if (word is not None and "contrast" not in word.features) or inner.single or part.shape not in ("one", "several"):
         return None
     return PlaceMeaning(s.Take(count=1, of=s.Excluding(places=part.selector, of=inner.selector)), "one")
 
@@ -230,7 +230,7 @@ def listed_places(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | N
 )
 def both(first: PlaceMeaning, second: PlaceMeaning, word: Lex | None = None) -> PlaceMeaning | None:
     """Compose "tree 12 and the charger"."""
-    if (word is not None and word.text == "but") or first.per is not None or second.per is not None:
+    if (word is not None and "contrast" in word.features) or first.per is not None or second.per is not None:
         return None
     if isinstance(second.selector, s.Marker) and isinstance(first.selector, s.Within | s.Nearest | s.Farthest):
         return None  # "within 20 m of the start and the charger"
@@ -255,21 +255,21 @@ def each_of_those() -> PlaceMeaning:
 @construction("place: word=THERE", cost=0.2)
 def there(word: Lex) -> PlaceMeaning:
     """Compose "at that tree"."""
-    several = any(part in word.text.split() for part in ("them", "each", "every", "both", "these", "those", "all"))
+    several = "of_several" in word.features
     return PlaceMeaning(
-        s.Trees() if "tree" in word.text and several else s.Here(),
+        s.Trees() if several and "of_trees" in word.features else s.Here(),
         "those" if several else "here",
-        each="each" in word.text or "every" in word.text,
+        each="of_each" in word.features,
     )
 
 
 @construction("place: word=DET", cost=1.0)
 def those(word: Lex) -> PlaceMeaning | None:
     """Compose "those"."""
-    return PlaceMeaning(s.Here(), "those") if word.text in ("those", "these") else None
+    return PlaceMeaning(s.Here(), "those") if "those" in word.features else None
 
 
 @construction("place: word=IT", cost=0.3)
 def it(word: Lex) -> PlaceMeaning:
     """Compose "it"."""
-    return PlaceMeaning(s.Here(), "those" if word.text in ("they", "them") else "here")
+    return PlaceMeaning(s.Here(), "those" if "of_several" in word.features else "here")

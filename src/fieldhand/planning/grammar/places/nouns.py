@@ -55,7 +55,7 @@ def best_one(rank: tuple[str, bool]) -> PlaceMeaning | None:
 @construction("nominal: noun=ONE", cost=0.4)
 def pronoun(noun: Lex) -> Nominal:
     """Compose "ones"."""
-    return Nominal(s.Trees(), plural=noun.text == "ones", pronoun=True)
+    return Nominal(s.Trees(), plural="plural" in noun.features, pronoun=True)
 
 
 @construction("nominal: value=ATTRVAL inner=nominal", cost=0.2)

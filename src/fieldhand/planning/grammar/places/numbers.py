@@ -79,7 +79,7 @@ def tree_range(number: Lex, last: Lex) -> tuple[str, ...] | None:
 @construction("range_to: word=AT", "range_to: word=ALONG", "range_to: word=DASH", cost=0.0)
 def range_word(word: Lex) -> str | None:
     """Compose "to" and "through"."""
-    return "to" if word.text.strip() in ("to", "through", "-", "\N{EN DASH}") else None
+    return "to" if "range" in word.features else None
 
 
 @construction("place: [DET] trees=tree_ids", cost=0.1)

@@ -283,7 +283,7 @@ def nth_starting_with(n: Lex, inner: Nominal, rank: Lex, rows: s.Selector) -> Pl
 )
 def trees_in_a_row(n: int, inner: Nominal, word: Lex, noun: Lex) -> PlaceMeaning | None:
     """Compose "four trees in a row"."""
-    if noun.plural or word.text != "a" or inner.single or inner.complete or n < 2:
+    if noun.plural or "one" not in word.features or inner.single or inner.complete or n < 2:
         return None
     return PlaceMeaning(s.Successive(count=n, of=inner.selector), "several", count=n)
 

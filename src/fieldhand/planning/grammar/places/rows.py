@@ -45,7 +45,7 @@ def row_from_side(rank: Lex, side: Lex) -> s.Selector | None:
 @construction("rows: word=DET noun=ROW", cost=0.6)
 def this_row(word: Lex, noun: Lex) -> s.Selector | None:
     """Compose "this row"."""
-    return s.RowOf() if not noun.plural and word.text in ("the", "that", "this") else None
+    return s.RowOf() if not noun.plural and "definite" in word.features else None
 
 
 @construction("rows: [DET] ROW [NUMBERED] [HASH] number=NUM", "rows: [DET] ROW number=ROWNAME", cost=0.1)

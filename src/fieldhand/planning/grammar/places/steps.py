@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
 
 from fieldhand.places import selectors as s
@@ -17,9 +16,6 @@ from fieldhand.terms import Towards
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
-
-#: Directions along a row, by the word for them.
-_WAYS: Mapping[str, Towards] = {"down": "down", "along": "down", "up": "up"}
 
 
 @construction(
@@ -98,7 +94,7 @@ def opposite(to: PlaceMeaning | None = None, inner: Nominal | None = None) -> Pl
 @construction("way: word=ALONG", "way: word=ALONG DET ROW", "way: word=ALONG THATROW", cost=0.1)
 def way_along(word: Lex) -> Towards | None:
     """Compose "down the row"."""
-    return _WAYS.get(word.text)
+    return "down" if "downwards" in word.features else "up" if "upwards" in word.features else None
 
 
 @construction("way: WAY", "way: WAY ALONG DET ROW", "way: MORE ALONG DET ROW", cost=0.1)
@@ -168,7 +164,7 @@ def next_tree(way: Towards = "down") -> PlaceMeaning:
 )
 def nearest(inner: Nominal, to: PlaceMeaning, n: int | None = None, near: Lex | None = None) -> PlaceMeaning | None:
     """Compose "the two trees nearest to the charger"."""
-    if near is not None and near.text not in ("nearest to", "closest to"):
+    if near is not None and "nearest" not in near.features:
         return None
     number = n or (None if inner.plural else 1)
     if number is None or inner.single or inner.complete or inner.kind != "tree" or to.shape not in ("one", "area"):

@@ -1,0 +1,129 @@
+"""English as a language of the grammar: its words are the shared vocabulary and those of english.toml."""
+
+from __future__ import annotations
+
+import tomllib
+from collections import defaultdict
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+from fieldhand.planning.english.inflection import forms_of, plural_of
+from fieldhand.planning.english.lexicon import Lexicon, lexicon_for
+from fieldhand.planning.english.naming import NameEntry, Naming, Phrase, split
+from fieldhand.planning.english.tokens import words_of
+from fieldhand.planning.english.vocabulary import vocabulary
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.language import GrammarLanguage
+from fieldhand.planning.grammar.words import FeatureTable
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
+
+#: Words of an action that takes pictures.
+_PICTURES = frozenset({"picture", "photo", "image", "thermal picture"})
+#: Short forms.
+_SPELT_OUT = {"temp": "temperature", "temps": "temperature", "temperatures": "temperature", "pic": "picture"}
+#: Words for pictures and for taking them, by what they are to the grammar.
+_WITH_A_CAMERA = {"PICTURE": "NOUN", "CAMERA": "ACTV"}
+
+
+@dataclass(frozen=True)
+class EnglishPhrases:
+    """The words of English together with those of a robot and of a site.
+
+    Attributes:
+        lexicon: Shared vocabulary, and the words of the robot and of the site.
+        camera: Action that takes pictures, if the robot has just one.
+    """
+
+    lexicon: Lexicon
+    camera: Naming | None
+
+    @property
+    def longest(self) -> int:
+        """The number of words of the longest phrase."""
+        return self.lexicon.longest
+
+    def features(self, phrase: Phrase) -> frozenset[str]:
+        """Return the features of a phrase."""
+        return _features().of(phrase)
+
+    def entries(self, phrase: Phrase) -> Iterator[NameEntry]:
+        """Yield what a phrase can be: in the lexicon, spelt out, and in english.toml."""
+        known = self.lexicon.entry(phrase)
+        if known is not None:
+            yield known
+        else:
+            full = self.lexicon.entry(tuple(_SPELT_OUT.get(word, word) for word in phrase))
+            if full is not None and full.kind == "NOUN":
+                yield replace(full, plural=full.plural or phrase[-1].endswith("s"))
+        kind = "" if known is None else known.kind
+        if known is None and len(phrase) == 1 and phrase[0] in self.lexicon.short_values:
+            yield NameEntry(kind="ATTRVAL", value=(self.lexicon.short_values[phrase[0]],))
+        for other in more_words().get(phrase, ()):
+            if other.kind in _WITH_A_CAMERA:
+                meant = _WITH_A_CAMERA[other.kind]
+                if self.camera is not None and meant != kind:
+                    yield NameEntry(kind=meant, value=self.camera, plural=other.plural)
+            elif other.kind != kind:
+                yield other
+
+
+@cache
+def _own() -> Mapping[str, Any]:
+    """Return the tables of english.toml."""
+    return tomllib.loads((files("fieldhand.planning.grammar") / "english.toml").read_text(encoding="utf-8"))
+
+
+@cache
+def _features() -> FeatureTable:
+    return FeatureTable.read(_own())
+
+
+@cache
+def more_words() -> Mapping[Phrase, tuple[NameEntry, ...]]:
+    """Return the nouns that are verbs as well, and the words of english.toml, by phrase."""
+    found: dict[Phrase, list[NameEntry]] = defaultdict(list)
+    for kind, phrases in vocabulary()["nouns"].items():
+        for phrase in phrases:
+            found[split(phrase)].append(NameEntry(kind=kind))
+            found[split(plural_of(phrase))].append(NameEntry(kind=kind, plural=True))
+    own = _own()
+    for kind, phrases in own["words"].items():
+        for phrase in phrases:
+            found[split(phrase)].append(NameEntry(kind=kind))
+    for phrase in own["words"]["PICTURE"]:
+        found[split(plural_of(phrase))].append(NameEntry(kind="PICTURE", plural=True))
+    for phrase, value in own["derived"].items():
+        found[split(phrase)].append(NameEntry(kind="SUPER", value=tuple(value)))
+    for kind, phrases in own["verbs"].items():
+        for phrase in phrases:
+            for form in forms_of(phrase):
+                found[split(form)].append(NameEntry(kind=kind))
+    return {phrase: tuple(entries) for phrase, entries in found.items()}
+
+
+def phrases_for(robot: RobotProfile, site: Site) -> EnglishPhrases:
+    """Return the words of English for a robot on a site."""
+    return EnglishPhrases(lexicon_for(robot, site), camera_of(robot))
+
+
+def camera_of(robot: RobotProfile) -> Naming | None:
+    """Return the action that takes pictures, if the robot has just one."""
+    cameras = [action.name for action in robot.actions if _PICTURES & set(action.words)]
+    return Naming(actions=(cameras[0],)) if len(cameras) == 1 else None
+
+
+@cache
+def _grammar() -> Grammar:
+    from fieldhand.planning.grammar import commands, places
+
+    made = Grammar()
+    made.include(places.GRAMMAR)
+    made.include(commands.GRAMMAR)
+    return made
+
+
+ENGLISH = GrammarLanguage(code="en", words_of=words_of, phrases=phrases_for, grammar=_grammar)

@@ -1,0 +1,29 @@
+"""A language of the grammar: what differs between languages."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from fieldhand.planning.english.tokens import Word
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.words import Phrases
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
+
+
+@dataclass(frozen=True, kw_only=True)
+class GrammarLanguage:
+    """A language that requests can be in.
+
+    Attributes:
+        code: Code of the language, such as ``en``.
+        words_of: Returns the words of a request in order.
+        phrases: Returns the words of the language for a robot on a site.
+        grammar: Returns the constructions of the language; most are shared by all languages.
+    """
+
+    code: str
+    words_of: Callable[[str], list[Word]]
+    phrases: Callable[[RobotProfile, Site], Phrases]
+    grammar: Callable[[], Grammar]
