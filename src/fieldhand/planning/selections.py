@@ -73,6 +73,11 @@ def counts_in_row(selector: s.Selector) -> bool:
     return isinstance(selector, s.InRow)
 
 
+def as_in_row(selector: s.Selector) -> s.InRow | None:
+    """Return the selector if it counts trees along their rows, None otherwise."""
+    return selector if isinstance(selector, s.InRow) else None
+
+
 def rows_of(selector: s.Selector) -> tuple[s.Rows, ...]:
     """Return the rows in a selector that are named by their labels, or are all rows."""
     return tuple(part for part in selector.walk() if isinstance(part, s.Rows))
@@ -172,6 +177,11 @@ def names_several_rows(rows: s.Selector) -> bool:
     return isinstance(rows, s.UnionOf) or (isinstance(rows, s.Rows) and rows.first != rows.last)
 
 
+def is_end_of_site(selector: s.Selector) -> bool:
+    """Return True for the first or the last tree of the site."""
+    return isinstance(selector, s.First | s.Last)
+
+
 def as_zone(selector: s.Selector) -> s.InZone | None:
     """Return the selector if it selects by a zone, None otherwise."""
     return selector if isinstance(selector, s.InZone) else None
@@ -215,3 +225,10 @@ def refers_to_here(selector: s.Selector) -> bool:
 def is_row_of_place(selector: s.Selector) -> bool:
     """Return True for the row of a place, or one counted from it."""
     return isinstance(selector, s.RowOf)
+
+
+def some_of(of: s.Selector, count: int) -> s.Selector:
+    """Return any few of a group: of a run of trees along a row evenly, else those that make a short drive."""
+    if isinstance(of, s.Successive) and 1 < count < of.count:
+        return s.Evenly(count=count, of=of)
+    return s.Take(count=count, of=of)

@@ -7,9 +7,10 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.english.bag import Bag
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.found import FoundPlace
-from fieldhand.planning.english.sets import Group, nested, some_of
+from fieldhand.planning.english.sets import Group, nested
 from fieldhand.planning.english.syntax import PlacePhrase
 from fieldhand.planning.english.tokens import Term
+from fieldhand.planning.selections import some_of
 
 
 def named_trees(bag: Bag) -> FoundPlace:

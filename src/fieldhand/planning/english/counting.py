@@ -9,9 +9,8 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.english.asking import each_or_in_all, every_or_how_many
 from fieldhand.planning.english.faults import Question, text_of, unclear
 from fieldhand.planning.english.found import FoundPlace
-from fieldhand.planning.english.sets import some_of
 from fieldhand.planning.english.syntax import ClausePart, Object
-from fieldhand.planning.selections import are_several_rows, as_nearest, named_places
+from fieldhand.planning.selections import are_several_rows, as_nearest, named_places, some_of
 
 Wanted = tuple[tuple[str, int | None], ...]
 

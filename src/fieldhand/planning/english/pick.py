@@ -18,9 +18,9 @@ from fieldhand.planning.english.found import FoundPlace
 from fieldhand.planning.english.inrow import ends_of_rows, every_nth, next_in_row, opposite, ranked_in_rows, stepped
 from fieldhand.planning.english.onebyone import distributed
 from fieldhand.planning.english.regions import corners, extremes, middle, region
-from fieldhand.planning.english.sets import Group, some_of
+from fieldhand.planning.english.sets import Group
 from fieldhand.planning.english.tokens import Term
-from fieldhand.planning.selections import is_about_rows, is_spot, zone_of_points
+from fieldhand.planning.selections import is_about_rows, is_spot, some_of, zone_of_points
 from fieldhand.site.model import Site
 from fieldhand.terms import CornerName, MarkerName
 

@@ -138,13 +138,6 @@ def inside(outer: s.Selector, inner: s.Selector) -> s.Selector:
     return outer.around(inside(outer.of, inner)) if isinstance(outer, FromGroup) else outer
 
 
-def some_of(of: s.Selector, count: int) -> s.Selector:
-    """Return any few of a group: of a run of trees along a row evenly, else those that make a short drive."""
-    if isinstance(of, s.Successive) and 1 < count < of.count:
-        return s.Evenly(count=count, of=of)
-    return s.Take(count=count, of=of)
-
-
 def both(first: s.Selector, second: s.Selector, phrase: PlacePhrase) -> s.Selector:
     """Trees of both. Which of two areas is taken of the other matters to their middles; a filter's order does not."""
     if first == s.Trees() or second == s.Trees():

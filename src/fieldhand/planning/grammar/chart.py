@@ -60,6 +60,7 @@ class Construction:
         names: Name under which each part's meaning is passed to ``compose``; empty if it is not passed.
         compose: Returns the meaning of the phrase, a list of possible meanings, or None if the parts do not fit.
         takes_range: True if ``compose`` takes the tokens of the phrase as ``used``.
+        given: Names of what ``compose`` takes beside its parts, from what the chart was given.
         cost: Cost of the construction.
     """
 
@@ -68,6 +69,7 @@ class Construction:
     names: tuple[str, ...]
     compose: Callable[..., Any]
     takes_range: bool
+    given: tuple[str, ...]
     cost: float
 
 
@@ -77,10 +79,15 @@ class Grammar:
     def __init__(self) -> None:
         self.by_first: dict[str, list[Construction]] = defaultdict(list)
 
-    def construction(self, *patterns: str, cost: float = 1.0) -> Callable[[F], F]:
+    def construction(self, *patterns: str, cost: float = 1.0, given: tuple[str, ...] = ()) -> Callable[[F], F]:
         """Register a function that composes the meanings of the parts of each pattern.
 
         A pattern reads ``result: part name=part [optional] [name=optional]``. Named parts are passed by name.
+
+        Args:
+            patterns: Patterns that the function composes.
+            cost: Cost of the construction.
+            given: Names of what the function takes from what the chart is given, beside the parts.
         """
 
         def register(compose: F) -> F:
@@ -98,6 +105,7 @@ class Grammar:
                         names=tuple(name or "" for _, name, _, _ in kept),
                         compose=compose,
                         takes_range=takes_range,
+                        given=given,
                         cost=cost,
                     )
                     self.by_first[made.symbols[0]].append(made)
@@ -132,6 +140,7 @@ class Chart:
         fillers: Tokens that may be skipped.
         most: Maximum number of combinations of phrases that are tried; a text that takes more has no reading, since
             their number grows with the third power of its length.
+        given: What constructions may take beside their parts, by name.
 
     Attributes:
         combinations: Number of combinations that were tried.
@@ -141,6 +150,7 @@ class Chart:
     length: int
     fillers: frozenset[int]
     most: int = MOST_COMBINATIONS
+    given: Mapping[str, Any] = field(default_factory=dict)
     combinations: int = 0
     _best: dict[tuple[str, int, int], dict[Any, PhraseEdge]] = field(default_factory=dict)
     _partial: list[dict[str, list[_Partial]]] = field(default_factory=list)
@@ -224,6 +234,7 @@ class Chart:
         named = {name: meaning for name, meaning in zip(construction.names, meanings, strict=True) if name}
         if construction.takes_range:
             named["used"] = used
+        named |= {name: self.given[name] for name in construction.given}
         composed = construction.compose(**named)
         for meaning in composed if isinstance(composed, list) else () if composed is None else (composed,):
             self._add(PhraseEdge(construction.result, partial.start, edge.end, meaning, cost, used))

@@ -16,6 +16,9 @@ Shape = Literal["one", "several", "area", "here", "those", "nearby", "step"]
 #: Tests of a reading or of an attribute.
 Check = Literal["lt", "le", "gt", "ge", "eq", "level", "between"]
 
+#: How many of several readings pass a test.
+OfLast = Literal["", "all", "any", "none"] | int
+
 #: Action of a capture that refers to the last one ("another one").
 LAST_THING = "*"
 
@@ -55,6 +58,7 @@ class PlaceMeaning:
         optional: True for "as many as you can".
         at_most: Maximum number of visits ("up to 6").
         in_order: True if the places are visited in the order in which they are named.
+        there: True if the phrase says that they are in the area spoken of ("every tree there").
         per: Rows of each of which the selector says something by itself ("the oldest tree of each row").
     """
 
@@ -65,6 +69,7 @@ class PlaceMeaning:
     optional: bool = False
     at_most: int | None = None
     in_order: bool = False
+    there: bool = False
     per: s.Selector | None = None
 
 
@@ -165,10 +170,18 @@ class Test:
 
 @dataclass(frozen=True, slots=True)
 class AllTests:
-    """Tests that are all required, or of which one is enough (``any_of``)."""
+    """Tests that are all required, or of which one is enough (``any_of``).
+
+    Attributes:
+        tests: Tests.
+        any_of: True if one of them is enough.
+        of_last: What is said of the last several readings together: ``all`` or ``any`` of them pass, or so many; empty
+            for a test of one reading.
+    """
 
     tests: tuple[Test, ...]
     any_of: bool = False
+    of_last: OfLast = ""
 
 
 @dataclass(frozen=True, slots=True)

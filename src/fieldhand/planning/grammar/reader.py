@@ -42,7 +42,7 @@ def readings(
     """Return the ways to read a request as a whole, cheapest first; empty if the grammar does not cover it."""
     words = language.words_of(request)
     phrases = language.phrases(robot, site)
-    chart = Chart(language.grammar(), len(words), fillers_of(words, phrases))
+    chart = Chart(language.grammar(), len(words), fillers_of(words, phrases), given={"site": site})
     chart.parse(edges_of(words, phrases))
     setting = Setting(robot, site, lambda used: spans(words, used))
     found: list[RequestReading] = []

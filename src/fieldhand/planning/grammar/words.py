@@ -15,6 +15,8 @@ from fieldhand.site.model import Site
 
 #: Price of a word by itself; a phrase of several words costs no more, so that longer phrases are preferred.
 _WORD_COST = 1.0
+#: Comparisons that are written as signs.
+_COMPARISONS = {">": "gt", "<": "lt", "\N{GREATER-THAN OR EQUAL TO}": "ge", "\N{LESS-THAN OR EQUAL TO}": "le"}
 _SIGNS = {"comma": "COMMA", "dash": "DASH", "sign": "AND", "hash": "HASH", "stop": "FULLSTOP"}
 #: Category of words that always may be skipped.
 _SILENT = "FILLER"
@@ -131,6 +133,8 @@ def _single(word: Word, at: int, phrases: Phrases) -> Iterator[PhraseEdge]:
         yield _edge("ORD", at, at + 1, Lex(int(re.sub(r"\D", "", word.norm)), False, word.norm))
     elif word.kind == "number":
         yield _edge("NUM", at, at + 1, Lex(float(word.norm.replace(",", "")), False, word.norm))
+    elif word.text in _COMPARISONS:
+        yield _edge("CMP", at, at + 1, Lex((_COMPARISONS[word.text], ""), False, word.text))
     elif word.kind in _SIGNS:
         features = phrases.features((word.text.strip(),))
         yield _edge(_SIGNS[word.kind], at, at + 1, Lex(word.text, False, word.text, features))

@@ -33,11 +33,19 @@ def capture_here(things: tuple[Thing, ...], used: int) -> CaptureCommand:
     "capture: things=things SHOULD verb relation place=place",
     "capture: things=things SHOULD verb place=here",
     "capture: things=things SHOULD verb",
+    "capture: things=things IS verb relation place=place",
+    "capture: things=things verb relation place=place",
     cost=0.4,
 )
 def passive(things: tuple[Thing, ...], used: int, place: PlaceMeaning | None = None) -> CaptureCommand:
     """Compose "a picture should be taken at tree 4"."""
     return CaptureCommand(things, place, used)
+
+
+@construction("capture: relation place=place things=things", cost=1.0)
+def topic_at(place: PlaceMeaning, things: tuple[Thing, ...], used: int) -> CaptureCommand | None:
+    """Compose "at tree 5 a CO2 reading"."""
+    return topic(place, things, used)
 
 
 @construction(
@@ -93,7 +101,7 @@ def with_camera(
     return CaptureCommand(tuple(replace(one, count=None) for one in things), place, used)
 
 
-@construction("capture: place=place SHOULD verb=ACTV", cost=0.4)
+@construction("capture: place=place SHOULD verb=ACTV", "capture: place=place IS verb=ACTV", cost=0.4)
 def place_passive(place: PlaceMeaning, verb: Lex, used: int) -> CaptureCommand:
     """Compose "tree 4 should be photographed"."""
     return act_on(verb, place, used)
@@ -221,6 +229,10 @@ def every_so_far(far: Amount) -> float | None:
     "apart: SPACEDBY far=amount",
     "apart: AT far=amount INTERVAL",
     "apart: AT INTERVAL OF far=amount",
+    "apart: far=amount INTERVAL",
+    "apart: EACH far=amount APART",
+    "apart: EACH ONE far=amount APART",
+    "apart: WITH far=amount APART",
     cost=0.1,
 )
 def apart(far: Amount | None = None, every: float | None = None) -> float | None:
@@ -244,8 +256,13 @@ def spacing_of_many(dist: float) -> tuple[float, bool]:
 
 @construction(
     "capture: verb things=things [COMMA] dist=spaced",
-    "capture: verb things=things dist=spaced relation place=place",
+    "capture: things=things dist=spaced",
+    "capture: verb things=things [COMMA] dist=spaced [COMMA] relation place=place",
+    "capture: things=things dist=spaced relation place=place",
     "capture: verb things=things relation place=place [COMMA] dist=spaced",
+    "capture: dist=spaced relation place=place [COMMA] verb things=things",
+    "capture: AT dist=spaced relation place=place [COMMA] verb things=things",
+    "capture: relation place=place [COMMA] dist=spaced [COMMA] verb things=things",
     "capture: verb=ACTV dist=spaced relation place=place",
     cost=0.3,
 )
@@ -275,3 +292,17 @@ def visit_and(place: PlaceMeaning, things: tuple[Thing, ...], used: int) -> Capt
     if place.shape != "several" or any(one.count not in (None, 1) for one in things):
         return None
     return CaptureCommand(things, place, used)
+
+
+@construction(
+    "capture: verb things=things times=COUNT [COMMA] dist=apart",
+    "capture: verb things=things times=COUNT [COMMA] dist=apart relation place=place",
+    cost=0.3,
+)
+def repeated_at_spacing(
+    things: tuple[Thing, ...], times: Lex, dist: float, used: int, place: PlaceMeaning | None = None
+) -> CaptureCommand | None:
+    """Compose "measure CO2 three times, 15 m apart"."""
+    if any(one.count is not None for one in things):
+        return None
+    return at_spacing((dist, True), used, tuple(replace(one, count=times.value, plural=True) for one in things), place)

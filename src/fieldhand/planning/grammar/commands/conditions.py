@@ -11,6 +11,7 @@ from fieldhand.planning.grammar.meaning import (
     Allowed,
     AllTests,
     Failing,
+    OfLast,
     Otherwise,
     PlaceMeaning,
     ReadingQuestion,
@@ -281,3 +282,67 @@ def until(tests: AllTests, used: int) -> UntilCondition:
 def otherwise(used: int) -> Otherwise:
     """Compose "otherwise"."""
     return Otherwise(used)
+
+
+@construction(
+    "tests: GROUPALL [IS] test=predicate", "tests: GROUPALL noun=NOUN [READING] [IS] test=predicate", cost=0.2
+)
+def all_of_them(test: Test, noun: Lex | None = None) -> AllTests | None:
+    """Compose "both are low"."""
+    return _of_group(test, noun, "all")
+
+
+@construction(
+    "tests: GROUPANY [IS] test=predicate", "tests: GROUPANY noun=NOUN [READING] [IS] test=predicate", cost=0.2
+)
+def any_of_them(test: Test, noun: Lex | None = None) -> AllTests | None:
+    """Compose "either one is low"."""
+    return _of_group(test, noun, "any")
+
+
+@construction("tests: GROUPNONE [IS] test=predicate", cost=0.2)
+def none_of_them(test: Test) -> AllTests | None:
+    """Compose "neither is low"."""
+    return _of_group(test, None, "none")
+
+
+@construction(
+    "tests: ATLEAST n=count OFTHEM [IS] test=predicate", "tests: n=count OFTHEM [IS] test=predicate", cost=0.2
+)
+def so_many_of_them(n: int, test: Test) -> AllTests:
+    """Compose "at least two of them are low"."""
+    return AllTests((test,), of_last=n)
+
+
+def _of_group(test: Test, noun: Lex | None, of_last: OfLast) -> AllTests | None:
+    """Return a test of the last several readings."""
+    if noun is None:
+        return AllTests((test,), of_last=of_last)
+    naming: Naming = noun.value
+    if len(naming.quantities) != 1:
+        return None
+    return AllTests((replace(test, quantity=naming.quantities[0]),), of_last=of_last)
+
+
+@construction("otherwise: IF GROUPNONE IS", "otherwise: IF GROUPNONE", cost=0.3)
+def if_none_is(used: int) -> Otherwise:
+    """Compose "if neither is"."""
+    return Otherwise(used)
+
+
+@construction("tests: level=LEVEL", cost=1.5)
+def bare_level(level: Lex) -> AllTests:
+    """Compose "low" of "low?"."""
+    return AllTests((Test("", "level", level.value),))
+
+
+@construction("when: AT DET level=LEVEL READING", "when: INCASE DET level=LEVEL READING", cost=0.2)
+def on_a_level(level: Lex, used: int) -> When:
+    """Compose "on a low reading"."""
+    return When(AllTests((Test("", "level", level.value),)), used)
+
+
+@construction("when: DET READING test=predicate MEANING", cost=0.3)
+def such_a_reading_means(test: Test, used: int) -> When:
+    """Compose "a reading under 400 ppm means"."""
+    return When(AllTests((test,)), used)

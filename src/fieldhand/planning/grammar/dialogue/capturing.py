@@ -16,10 +16,11 @@ from fieldhand.planning.grammar.dialogue.state import (
     Spans,
     done_at,
     with_capture,
+    with_last_step,
     with_step,
 )
 from fieldhand.planning.grammar.meaning import LAST_THING, Again, CaptureCommand, DriveCommand, PlaceMeaning, Thing
-from fieldhand.planning.selections import are_rows
+from fieldhand.planning.selections import are_rows, counts_in_row, is_end_of_site, some_of
 from fieldhand.task import plan as p
 
 
@@ -34,6 +35,8 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
             return _lines_at_each(state, replace(command, things=once), place, line, said)
         place, things = spaced(place, things, command.spacing, setting.site)
     place = _those_again(state, place)
+    if place is not None and place.shape == "those" and place.count is not None:
+        return _at_some_of_those(state, replace(command, things=things), place.count, said)
     require_known(state, place, setting.site)
     if place is None or place.shape in ("here", "those"):
         return _at_the_same_place(state, replace(command, things=things, place=place), said)
@@ -114,6 +117,11 @@ def _place_of(
 ) -> tuple[PlaceMeaning | None, DialogueState, Spans]:
     """Return the place of a command, with the area or lead before it, the state without these, and their spans."""
     place, before = command.place, state.lead or state.area
+    if place is not None and place.there:
+        area = state.within if before is None and state.within is not None else None
+        if area is None and (before is None or before.place.shape != "area"):
+            raise NotComposed("where is that?")
+        place = replace(place, there=False)
     if before is None:
         return within_area(place, state.within), state, ()
     state, said = replace(state, lead=None, area=None), setting.spans_of(before.used)
@@ -145,6 +153,17 @@ def _lines_at_each(
     return replace(done_at(state, place), things=command.things, scope=inside[:-2], loop=inside)
 
 
+def _at_some_of_those(state: DialogueState, command: CaptureCommand, count: int, said: Spans) -> DialogueState:
+    """Return the state after captures at some of the places that the robot was sent to ("at 3 of them")."""
+    steps = state.block.steps
+    loop = as_for_each(steps[-1]) if steps else None
+    if loop is None or loop.body != EMPTY or loop.optional or loop.at_most is not None:
+        raise NotComposed("which of them?")
+    state = with_last_step(state, replace(loop, select=some_of(loop.select, count)))
+    state = _with_captures(state, command.things, command.times, said, (*state.scope, len(steps) - 1, "body"))
+    return replace(state, things=command.things, commands_in_sentence=state.commands_in_sentence + 1)
+
+
 def _at_the_same_place(state: DialogueState, command: CaptureCommand, said: Spans) -> DialogueState:
     """Return the state after captures where the last command was: at each of its places if it went to several."""
     if command.place is None and not state.plan.steps:
@@ -170,6 +189,8 @@ def capture_elided(setting: Setting, state: DialogueState) -> DialogueState:
         return state
     if lead.relation == "" and isinstance(lead.place.selector, s.Marker):
         raise NotComposed("another place, or another place to measure from?")
+    if state.where is not None and is_end_of_site(state.where.selector) and counts_in_row(lead.place.selector):
+        raise NotComposed("the first of the row, or of the site?")
     things = state.things
     if lead.place.shape != "area":
         things = tuple(replace(thing, count=None) for thing in things)

@@ -63,6 +63,7 @@ def when(setting: Setting, state: DialogueState, command: When, following: Seque
         if state.asked is None:
             raise NotComposed("if what is so?")
         command = replace(command, tests=state.asked)
+    command = replace(command, tests=_for_each_place(state, command.tests, following))
     said, robot = setting.spans_of(command.used), setting.robot
     vague = [test for test in command.tests.tests if not test.quantity and not test.attribute]
     if vague and len([thing for thing in state.things if robot.action[thing.action].measures]) > 1:
@@ -77,6 +78,15 @@ def when(setting: Setting, state: DialogueState, command: When, following: Seque
     if inner and state.decided is not None and any(not test.unit for test in vague):
         raise NotComposed("which reading is tested?")
     return _choice(state, command.tests, said, robot)
+
+
+def _for_each_place(state: DialogueState, tests: AllTests, following: Sequence[LinkedCommand]) -> AllTests:
+    """Return tests of any of several readings as tests of each, where what depends on them is done at that place."""
+    command = following[0].command if following else None
+    there = isinstance(command, CaptureCommand) and command.place is not None and command.place.shape == "here"
+    if tests.of_last == "any" and state.loop is not None and there:
+        return replace(tests, of_last="")
+    return tests
 
 
 def _choice(state: DialogueState, tests: AllTests, said: Spans, robot: RobotProfile) -> DialogueState:

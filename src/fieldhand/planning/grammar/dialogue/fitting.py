@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any, cast
 
 from fieldhand.places import selectors as s
-from fieldhand.planning.english.onebyone import MOST_ONE_BY_ONE, one_by_one
+from fieldhand.planning.english.onebyone import MOST_ONE_BY_ONE, one_by_one, swapped
 from fieldhand.planning.grammar.dialogue.faults import NotComposed
 from fieldhand.planning.grammar.meaning import DriveCommand, Lead, PlaceMeaning, Thing
 from fieldhand.planning.selections import are_rows, are_several_rows, as_some, chooses_from_trees, counts_in_row, over
@@ -44,6 +44,9 @@ def in_area(before: Lead | DriveCommand, place: PlaceMeaning | None) -> PlaceMea
         return PlaceMeaning(area, "several", each=True)
     if place.per is None and place.shape in ("one", "several") and chooses_from_trees(place.selector):
         return replace(place, selector=over(place.selector, area))
+    of_the_row = swapped(place.selector, s.RowOf(), s.Trees())
+    if are_rows(area) and of_the_row != place.selector and chooses_from_trees(of_the_row):
+        return in_each_row(area, replace(place, selector=of_the_row))
     raise NotComposed("two places for one command")
 
 
@@ -55,7 +58,7 @@ def in_each_row(rows: s.Selector, place: PlaceMeaning) -> PlaceMeaning:
     """
     if not chooses_from_trees(place.selector):
         raise NotComposed("two places for one command")
-    by_number = counts_in_row(over(place.selector, s.Rows()))
+    by_number = all(counts_in_row(part) for part in over(place.selector, s.Rows()).members)
     if by_number or (place.shape == "several" and place.count is None):
         return replace(place, selector=over(place.selector, rows), shape="several")
     return replace(place, shape="several", per=rows)

@@ -4,10 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from itertools import combinations
 
-from fieldhand.planning.grammar.dialogue.plans import Path, is_conditional, is_inside, node_at, walk, with_node
+from fieldhand.planning.grammar.dialogue.plans import (
+    Path,
+    as_for_each,
+    captures_at_last_place,
+    is_conditional,
+    is_inside,
+    node_at,
+    walk,
+    with_node,
+)
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed
 from fieldhand.planning.grammar.meaning import AllTests, Check, Test
+from fieldhand.planning.selections import named_places
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
@@ -22,6 +33,8 @@ def condition_of(state: DialogueState, tests: AllTests, robot: RobotProfile) -> 
     Raises:
         NotComposed: Which reading or tree is tested is unclear.
     """
+    if tests.of_last:
+        return of_several(state, tests, robot)
     made: list[c.Condition] = []
     for test in tests.tests:
         if test.attribute:
@@ -32,6 +45,50 @@ def condition_of(state: DialogueState, tests: AllTests, robot: RobotProfile) -> 
     if len(made) == 1:
         return made[0], state
     return (c.AnyOf if tests.any_of else c.AllOf)(conditions=tuple(made)), state
+
+
+def of_several(state: DialogueState, tests: AllTests, robot: RobotProfile) -> tuple[c.Condition, DialogueState]:
+    """Return the condition on the last several readings together ("both are low"), and the state that names them.
+
+    Raises:
+        NotComposed: Which readings are meant is unclear.
+    """
+    state, paths = _last_readings(state, tests.tests[0], robot)
+    if len(paths) < 2 or (tests.of_last == 1 or tests.of_last in range(len(paths) + 1, 100)):
+        raise NotComposed("which readings are tested?")
+    made: list[c.Condition] = []
+    for path in paths:
+        one, state = _of_reading(replace(state, captured=path), tests.tests[0], robot)
+        made.append(c.Not(condition=one) if tests.of_last == "none" else one)
+    if isinstance(tests.of_last, int):
+        groups = [c.AllOf(conditions=group) for group in combinations(made, tests.of_last)]
+        return (groups[0] if len(groups) == 1 else c.AnyOf(conditions=tuple(groups))), state
+    return (c.AnyOf if tests.of_last == "any" else c.AllOf)(conditions=tuple(made)), state
+
+
+def _last_readings(state: DialogueState, test: Test, robot: RobotProfile) -> tuple[DialogueState, list[Path]]:
+    """Return the paths of the last captures of what is tested; a for-each over named places becomes one each."""
+    steps = state.block.steps
+    loop = as_for_each(steps[-1]) if steps else None
+    if loop is not None:
+        acts, places = captures_at_last_place(steps), named_places(loop.select)
+        if loop.optional or loop.at_most is not None or not acts or not all(place.single for place in places):
+            raise NotComposed("which readings are tested?")
+        each = [
+            replace(act, at=place, at_said=loop.said) if number == 0 else act
+            for place in places
+            for number, act in enumerate(acts)
+        ]
+        block = replace(state.block, steps=(*steps[:-1], *each))
+        state = replace(state, plan=with_node(state.plan, state.scope, block), loop=None)
+        steps = block.steps
+    found: list[Path] = []
+    for number, step in enumerate(steps):
+        if step.act is None:
+            found = []
+        elif _fits(step, test, robot):
+            found.append((*state.scope, number))
+    return state, found
 
 
 def _of_tree(state: DialogueState, test: Test) -> c.Condition:

@@ -8,8 +8,10 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.english.onebyone import swapped
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
+from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import are_rows, chooses_from_trees, over
+from fieldhand.planning.selections import are_rows, chooses_from_trees, counts_in_row, is_end_of_site, over
+from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -191,8 +193,8 @@ def except_numbers(inner: Nominal, trees: tuple[str, ...]) -> PlaceMeaning | Non
     return PlaceMeaning(s.Excluding(places=parts[0] if len(parts) == 1 else s.UnionOf(parts=parts)), "several")
 
 
-@construction("place: whole=place [COMMA] EXCEPT [FOR] part=place", cost=0.3)
-def except_for(whole: PlaceMeaning, part: PlaceMeaning) -> PlaceMeaning | None:
+@construction("place: whole=place [COMMA] EXCEPT [FOR] part=place", cost=0.3, given=("site",))
+def except_for(whole: PlaceMeaning, part: PlaceMeaning, site: Site) -> PlaceMeaning | None:
     """Compose "all trees except the yellow trees"."""
     if (
         whole.shape not in ("several", "area")
@@ -200,7 +202,8 @@ def except_for(whole: PlaceMeaning, part: PlaceMeaning) -> PlaceMeaning | None:
         or part.shape not in ("one", "several", "area")
     ):
         return None
-    if any(isinstance(one, s.TreeIs) for one in part.selector.walk()) and whole.selector != s.Trees():
+    trees = {one.tree for one in part.selector.walk() if isinstance(one, s.TreeIs)}
+    if trees and whole.selector != s.Trees() and not trees <= (ids_of(whole.selector, site) or set()):
         return None
     if whole.per is not None:
         if whole.shape != "area" or not are_rows(part.selector):
@@ -241,6 +244,8 @@ def both(first: PlaceMeaning, second: PlaceMeaning, word: Lex | None = None) -> 
     if first.at_most or second.at_most:
         return None
     parts = tuple(part for one in (first, second) for part in one.selector.members)
+    if any(is_end_of_site(part) for part in parts) and any(counts_in_row(part) for part in parts):
+        return None  # "the first tree and the last tree of row 4": is the first that of the row, too?
     counts = [1 if one.shape == "one" else one.count for one in (first, second)]
     count = None if None in counts else sum(c for c in counts if c is not None)
     return PlaceMeaning(s.UnionOf(parts=parts), "several", count=count)
@@ -273,3 +278,64 @@ def those(word: Lex) -> PlaceMeaning | None:
 def it(word: Lex) -> PlaceMeaning:
     """Compose "it"."""
     return PlaceMeaning(s.Here(), "those" if "of_several" in word.features else "here")
+
+
+@construction("place: EACH BUT part=place", "place: EACH EXCEPT part=place", cost=0.4)
+def all_but(part: PlaceMeaning) -> PlaceMeaning | None:
+    """Compose "all but the yellow trees"."""
+    if part.shape not in ("one", "several") or part.count or part.per is not None:
+        return None
+    return PlaceMeaning(s.Excluding(places=part.selector), "several")
+
+
+@construction("place: word=EACH n=count inner=nominal", cost=0.2, given=("site",))
+def all_so_many(word: Lex, n: int, inner: Nominal, site: Site) -> PlaceMeaning | None:
+    """Compose "all 12 yellow trees", where the site has so many."""
+    if not word.text.startswith("all") or inner.single or inner.complete or not inner.plural:
+        return None
+    return PlaceMeaning(inner.selector, "several") if len(ids_of(inner.selector, site) or ()) == n else None
+
+
+@construction("place: word=EACH OF place=place", "place: word=EACH place=place", cost=0.4)
+def each_of_group(word: Lex, place: PlaceMeaning) -> PlaceMeaning | None:
+    """Compose "each of the 5 oldest trees"."""
+    if (
+        word.text.startswith("all")
+        or place.shape != "several"
+        or place.each
+        or place.optional
+        or place.at_most is not None
+        or place.per is not None
+    ):
+        return None
+    return replace(place, each=True)
+
+
+@construction("place: ANY n=count OF group=place", cost=0.2)
+def any_of_group(group: PlaceMeaning, n: int) -> PlaceMeaning | None:
+    """Compose "any 3 of trees 5, 6, 7 and 8"."""
+    if group.shape != "several" or group.count is None or n >= group.count or group.each or group.per is not None:
+        return None
+    return PlaceMeaning(s.Take(count=n, of=group.selector), "one" if n == 1 else "several", count=n)
+
+
+@construction("place: word=DET TREE [ITSELF]", cost=0.7)
+def that_tree(word: Lex) -> PlaceMeaning | None:
+    """Compose "that tree"."""
+    return PlaceMeaning(s.Here(), "here") if word.text in ("that", "this", "the") else None
+
+
+@construction("place: n=count OFTHEM", "place: n=count OF word=DET", "place: n=count THERE", cost=0.5)
+def so_many_of_those(n: int, word: Lex | None = None) -> PlaceMeaning | None:
+    """Compose "3 of them"."""
+    if word is not None and word.text not in ("those", "these"):
+        return None
+    return PlaceMeaning(s.Here(), "those", count=n)
+
+
+@construction("place: whole=place word=THERE", cost=0.4)
+def of_them_there(whole: PlaceMeaning, word: Lex) -> PlaceMeaning | None:
+    """Compose "every tree there"."""
+    if word.text not in ("there", "in there", "here") or whole.shape != "several" or whole.per is not None:
+        return None
+    return replace(whole, there=True) if chooses_from_trees(whole.selector) else None

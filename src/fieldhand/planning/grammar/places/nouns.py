@@ -10,8 +10,9 @@ from fieldhand.planning.english.limits import Amount
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
-from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.grammar.words import Lex, hinted_attributes
 from fieldhand.planning.selections import as_every_nth, chooses_from_trees
+from fieldhand.site.model import Site
 from fieldhand.terms import Test
 
 GRAMMAR = Grammar()
@@ -220,3 +221,97 @@ def ranked(rank: tuple[str, bool], inner: Nominal, n: int | None = None) -> Plac
 def everything() -> Nominal:
     """Compose "everything"."""
     return Nominal(s.Trees(), plural=True)
+
+
+@construction("nominal: rank=ORD side=MOST inner=nominal", cost=0.1)
+def nth_extreme(rank: Lex, side: Lex, inner: Nominal) -> Nominal | None:
+    """Compose "second northernmost tree"."""
+    if inner.single or inner.complete or inner.plural or side.value in CORNERS or rank.value < 2:
+        return None
+    further = s.Extreme(side=side.value, count=rank.value - 1, of=inner.selector)
+    of = s.Excluding(places=further, of=inner.selector)
+    return replace(inner, selector=s.Extreme(side=side.value, of=of), single=True)
+
+
+@construction("nominal: rank=ORD best=ranking inner=nominal", cost=0.1)
+def nth_ranked(rank: Lex, best: tuple[str, bool], inner: Nominal) -> Nominal | None:
+    """Compose "second oldest tree"."""
+    if inner.single or inner.complete or inner.plural or not best[0] or rank.value < 2:
+        return None
+    better = s.Top(attribute=best[0], count=rank.value - 1, lowest=best[1], of=inner.selector)
+    of = s.Excluding(places=better, of=inner.selector)
+    return replace(inner, selector=s.Top(attribute=best[0], count=1, lowest=best[1], of=of), single=True)
+
+
+@construction("nominal: side=DIR inner=nominal", cost=0.3)
+def of_a_side(side: Lex, inner: Nominal) -> Nominal | None:
+    """Compose "northern trees"."""
+    if inner.single or inner.complete or inner.kind != "tree" or not side.text.endswith("ern"):
+        return None
+    part = s.Quarter(quarter=side.value) if side.value in CORNERS else s.Half(side=side.value)
+    return replace(inner, selector=replace(part, of=inner.selector))
+
+
+@construction("nominal: inner=nominal [WHICH] [IS] FARTHEST [AT] [DET] side=DIR", cost=0.2)
+def farthest_to_side(inner: Nominal, side: Lex) -> Nominal | None:
+    """Compose "tree that lies farthest to the south"."""
+    return None if inner.plural else extreme(side, inner)
+
+
+@construction(
+    "nominal: inner=nominal WHICH [IS] NOT in_ where=region",
+    "nominal: inner=nominal WHICH ISNOT in_ where=region",
+    cost=0.3,
+)
+def not_in_area(inner: Nominal, where: s.Selector) -> Nominal | None:
+    """Compose "trees that are not on the edge of the orchard"."""
+    if inner.single or inner.complete:
+        return None
+    return replace(inner, selector=s.Excluding(places=where, of=inner.selector), tested=True)
+
+
+@construction(
+    "nominal: inner=nominal [WHICH] WITH [DET] attribute=ATTR OF check=CMP value=NUM",
+    "nominal: inner=nominal [WHICH] WITH [DET] attribute=ATTR OF check=CMP value=amount",
+    "nominal: inner=nominal WHICH [DET] attribute=ATTR OF check=CMP value=amount",
+    "nominal: inner=nominal WHICH [DET] attribute=ATTR OF check=CMP value=NUM",
+    cost=0.2,
+)
+def with_attribute_of(inner: Nominal, attribute: Lex, check: Lex, value: Any) -> list[Nominal] | None:
+    """Compose "trees with a yield of more than 3 kg"."""
+    if inner.single or inner.complete or not chooses_from_trees(inner.selector):
+        return None
+    tests = attribute_compared(attribute, check, value)
+    return [
+        replace(inner, selector=s.Where(attribute=name, test=test, value=number, of=inner.selector), tested=True)
+        for name, test, number in tests
+    ]
+
+
+@construction("nominal: old=amount [DASH] OLD inner=nominal", cost=0.2, given=("site",))
+def of_age(old: Amount, inner: Nominal, site: Site) -> list[Nominal] | None:
+    """Compose "four year old trees"."""
+    if old.unit != "years" or inner.single or inner.complete:
+        return None
+    ages = hinted_attributes("age", site)
+    return [
+        replace(inner, selector=s.Where(attribute=name, test="eq", value=old.number, of=inner.selector))
+        for name in ages
+    ]
+
+
+@construction(
+    "place: [DET] best=ranking n=count inner=nominal BY attribute=ATTR",
+    "place: [DET] n=count inner=nominal WITH DET best=ranking attribute=ATTR",
+    cost=0.1,
+)
+def ranked_by(best: tuple[str, bool], n: int, inner: Nominal, attribute: Lex) -> list[PlaceMeaning] | None:
+    """Compose "the bottom 4 trees by yield"."""
+    if best[0] or inner.single or inner.complete:
+        return None
+    return [
+        PlaceMeaning(
+            s.Top(attribute=name, count=n, lowest=best[1], of=inner.selector), "one" if n == 1 else "several", count=n
+        )
+        for name in attribute.value
+    ]

@@ -41,7 +41,11 @@ def coded_tree(tree: Lex) -> tuple[str, ...]:
     return (tree.value,)
 
 
-@construction("tree_ids: TREE [HASH] number=NUM", "tree_ids: TREE [HASH] named=tree_id", cost=0.2)
+@construction(
+    "tree_ids: TREE [HASH] number=NUM",
+    "tree_ids: TREE [NUMBERED] [HASH] named=tree_id",
+    cost=0.2,
+)
 def tree_by_number(number: Lex | None = None, named: tuple[str, ...] = ()) -> tuple[str, ...] | None:
     """Compose "tree 12"."""
     if number is None:
@@ -49,7 +53,25 @@ def tree_by_number(number: Lex | None = None, named: tuple[str, ...] = ()) -> tu
     return None if whole(number.value) is None else (name_of(number),)
 
 
-@construction("tree_ids: first=tree_ids [COMMA] [AND] [HASH] number=NUM", cost=0.3)
+@construction("tree_ids: TREE word=NUMBERED [HASH] number=NUM", cost=0.2)
+def tree_with_number(word: Lex, number: Lex) -> tuple[str, ...] | None:
+    """Compose "tree number 7"."""
+    return None if "id" in word.text.split() else tree_by_number(number)
+
+
+@construction("place: [DET] TREE word=NUMBERED [HASH] number=NUM", cost=0.3)
+def tree_with_id(word: Lex, number: Lex) -> PlaceMeaning | None:
+    """Compose "the tree with id 7"."""
+    if "id" not in word.text.split() or whole(number.value) is None:
+        return None
+    return PlaceMeaning(s.TreeIs(tree=name_of(number)), "one")
+
+
+@construction(
+    "tree_ids: first=tree_ids [COMMA] [AND] [HASH] number=NUM",
+    "tree_ids: first=tree_ids [COMMA] [AND] TREE [HASH] number=NUM",
+    cost=0.3,
+)
 def and_tree_number(first: tuple[str, ...], number: Lex) -> tuple[str, ...] | None:
     """Compose "trees 12, 15 and 20"."""
     return None if whole(number.value) is None else (*first, name_of(number))

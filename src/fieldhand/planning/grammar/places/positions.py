@@ -294,3 +294,110 @@ def consecutive(n: int, inner: Nominal) -> PlaceMeaning | None:
     if inner.single or inner.complete or n < 2:
         return None
     return PlaceMeaning(s.Successive(count=n, of=inner.selector), "several", count=n)
+
+
+@construction(
+    "place: [DET] TREE AT DET noun=FINISH in_ rows=rows",
+    "place: DET noun=FINISH OF rows=rows",
+    cost=0.2,
+)
+def end_tree(noun: Lex, rows: s.Selector) -> PlaceMeaning | None:
+    """Compose "the tree at the end of row 3"."""
+    if noun.plural or not is_one_row(rows):
+        return None
+    return PlaceMeaning(s.InRow(first=-1, last=-1, of=rows), "one")
+
+
+@construction(
+    "place: [DET] TREE AT DET side=DIR FINISH in_ rows=rows",
+    "place: [DET] TREE AT DET side=DIR FINISH in_ rows=each_row",
+    cost=0.1,
+)
+def tree_at_end(side: Lex, rows: s.Selector) -> PlaceMeaning | None:
+    """Compose "the tree at the south end of row 8"."""
+    return end_of_row(side, rows)
+
+
+@construction(
+    "place: EACH noun=FINISH OF rows=rows",
+    "place: EACH noun=FINISH OF rows=each_row",
+    "place: [DET] TREE AT [DET] ends=FINISH in_ rows=rows",
+    "place: [DET] TREE AT [DET] ends=FINISH in_ rows=each_row",
+    cost=0.2,
+)
+def each_end(rows: s.Selector, noun: Lex | None = None, ends: Lex | None = None) -> PlaceMeaning | None:
+    """Compose "each end of rows 2 to 4"."""
+    if (noun is not None and noun.plural) or (ends is not None and not ends.plural):
+        return None
+    parts = (s.InRow(first=1, last=1, of=rows), s.InRow(first=-1, last=-1, of=rows))
+    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=2 if is_one_row(rows) else None)
+
+
+@construction("place: DET noun=FINISH OF rows=rows NEAREST [AT] to=place", cost=0.1)
+def nearer_end(noun: Lex, rows: s.Selector, to: PlaceMeaning) -> PlaceMeaning | None:
+    """Compose "the end of row 3 nearest to the charger"."""
+    if noun.plural or not is_one_row(rows) or to.shape != "one":
+        return None
+    ends = s.UnionOf(parts=(s.InRow(first=1, last=1, of=rows), s.InRow(first=-1, last=-1, of=rows)))
+    return PlaceMeaning(s.Nearest(to=to.selector, of=ends), "one")
+
+
+@construction("place: word=EACH n=count inner=nominal", cost=0.3)
+def every_so_many(word: Lex, n: int, inner: Nominal) -> PlaceMeaning | None:
+    """Compose "every 5 trees"."""
+    if (
+        word.text != "every"
+        or inner.single
+        or inner.complete
+        or not inner.plural
+        or n < 2
+        or inner.tested
+        or inner.kind != "tree"
+    ):
+        return None
+    return PlaceMeaning(s.EveryNth(nth=n, of=inner.selector), "several", each=True)
+
+
+@construction(
+    "place: one=count inner=nominal OUTOF EACH n=count [TREE]",
+    "place: one=count OUTOF EACH n=count inner=nominal",
+    cost=0.1,
+)
+def one_out_of(one: int, inner: Nominal, n: int) -> PlaceMeaning | None:
+    """Compose "one tree out of every three"."""
+    if one != 1 or inner.single or inner.complete or n < 2 or inner.kind != "tree":
+        return None
+    return PlaceMeaning(s.EveryNth(nth=n, of=inner.selector), "several", each=True)
+
+
+@construction(
+    "place: EACH n=ORD inner=nominal FROM [DET] side=DIR in_ rows=rows",
+    "place: EACH n=ORD inner=nominal FROM [DET] side=DIR in_ rows=each_row",
+    cost=0.1,
+)
+def every_nth_from(n: Lex, inner: Nominal, side: Lex, rows: s.Selector) -> PlaceMeaning | None:
+    """Compose "every fifth tree from the north in row 3"."""
+    if inner.single or inner.plural or n.value < 2 or side.value not in SIDES:
+        return None
+    every = s.EveryNth(nth=n.value, counted_from=side.value, of=over(inner.selector, rows))
+    return PlaceMeaning(every, "several", each=True)
+
+
+@construction("place: [BOTH] [DET] first=position [one=nominal] AND [DET] second=position inner=nominal", cost=0.2)
+def first_and_last(
+    first: tuple[int, int], second: tuple[int, int], inner: Nominal, one: Nominal | None = None
+) -> PlaceMeaning | None:
+    """Compose "both the first and the last tree"."""
+    if (first, second) != ((1, 1), (-1, -1)) or inner.plural or inner.single or inner.selector != s.Trees():
+        return None
+    if one is not None and one != inner:
+        return None
+    return PlaceMeaning(s.UnionOf(parts=(s.First(), s.Last())), "several", count=2)
+
+
+@construction("place: [DET] n=count OF EACH m=count inner=nominal", cost=0.2)
+def some_of_every(n: int, m: int, inner: Nominal) -> PlaceMeaning | None:
+    """Compose "3 of every 5 trees"."""
+    if n >= m or inner.single or inner.complete or not inner.plural or inner.kind != "tree":
+        return None
+    return PlaceMeaning(s.Evenly(count=n, out_of=m, of=inner.selector), "several")

@@ -66,7 +66,7 @@ def rows_from_to(first: Lex, last: Lex) -> s.Selector:
     return s.Rows(first=name_of(first), last=name_of(last))
 
 
-@construction("row_list: noun=ROW first=NUM", cost=0.0)
+@construction("row_list: [DET] noun=ROW first=NUM", cost=0.0)
 def row_list(noun: Lex, first: Lex) -> tuple[str, ...] | None:
     """Compose "rows 3", the beginning of "rows 3, 5 and 7"."""
     return (name_of(first),) if noun.plural else None
@@ -290,3 +290,36 @@ def rows_of_block(rows: s.Selector, block: s.Selector) -> s.Selector | None:
 def rows_with_block(rows: s.Selector) -> s.Selector:
     """Compose "row 10 of the north block" as rows."""
     return rows
+
+
+@construction("rows: DET SAME ROW AS tree=place", cost=0.1)
+def row_like(tree: PlaceMeaning) -> s.Selector | None:
+    """Compose "the same row as tree 40"."""
+    return row_of_tree(tree)
+
+
+@construction(
+    "rows: EACH n=ORD ROW [OF] [TREE] [COMMA] STARTING ROW number=NUM",
+    "rows: EACH n=ORD ROW [OF] [TREE] [COMMA] STARTING DET rank=ORD ROW",
+    "rows: EACH OTHER ROW [COMMA] STARTING ROW number=NUM",
+    "rows: EACH OTHER ROW [COMMA] STARTING DET rank=ORD ROW",
+    cost=0.1,
+)
+def rows_starting_with(n: Lex | None = None, number: Lex | None = None, rank: Lex | None = None) -> s.Selector | None:
+    """Compose "every third row starting with row 2"."""
+    every = 2 if n is None else n.value
+    first = name_of(number) if number is not None else "" if rank is None else str(rank.value)
+    return s.Rows(first=first, every=every) if every > 1 else None
+
+
+@construction("rows: rows=rows OF TREE", cost=0.2)
+def rows_of_trees(rows: s.Selector) -> s.Selector:
+    """Compose "every third row of trees"."""
+    return rows
+
+
+@construction("rows: [DET] ROW first=NUM range_to last=NUM [COMMA] AND [ROW] number=NUM", cost=0.1)
+def rows_from_to_and(first: Lex, last: Lex, number: Lex) -> s.Selector:
+    """Compose "rows 1 to 3 and 7"."""
+    name = name_of(number)
+    return s.UnionOf(parts=(s.Rows(first=name_of(first), last=name_of(last)), s.Rows(first=name, last=name)))

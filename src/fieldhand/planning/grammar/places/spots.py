@@ -8,10 +8,13 @@ from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_edge, as_zone
-from fieldhand.terms import Side
+from fieldhand.terms import CornerName, Side
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
+
+#: Corners in the order in which they are visited.
+_CORNERS_IN_TURN: tuple[CornerName, ...] = ("nw", "ne", "se", "sw")
 
 
 @construction("nominal: TREE in_ DET at=corner_at", "nominal: ONE in_ DET at=corner_at", cost=0.1)
@@ -134,3 +137,40 @@ def middle_of_edge(side: Side) -> PlaceMeaning:
 def gate(gate: Lex) -> PlaceMeaning:
     """Compose "north gate", the name of a gate."""
     return PlaceMeaning(s.GateIs(gate=gate.value), "one")
+
+
+@construction("nominal: [n=count] side=DIR noun=CORNER", cost=0.1)
+def corners_of_side(side: Lex, noun: Lex, n: int | None = None) -> Nominal | None:
+    """Compose "two northern corners"."""
+    if side.value not in SIDES or not noun.plural or n not in (None, 2):
+        return None
+    which = tuple(corner for corner in _CORNERS_IN_TURN if side.value[0] in corner)
+    return Nominal(s.Corners(which=which), plural=True, complete=2)
+
+
+@construction(
+    "place: whole=place [COMMA] EXCEPT [DET] side=DIR ONE",
+    "place: whole=place [COMMA] BUT NOT [DET] side=DIR ONE",
+    "place: whole=place [COMMA] BUT [DET] side=DIR ONE",
+    cost=0.2,
+)
+def corners_except(whole: PlaceMeaning, side: Lex) -> PlaceMeaning | None:
+    """Compose "each corner except the north-west one"."""
+    if whole.selector != s.Corners() or side.value not in CORNERS:
+        return None
+    return PlaceMeaning(s.Excluding(places=s.Corners(which=(side.value,)), of=whole.selector), "several")
+
+
+@construction("place: EACH noun=QUARTER", "place: EACH noun=QUARTER OF site", cost=0.2)
+def each_quarter(noun: Lex) -> PlaceMeaning | None:
+    """Compose "each quarter" as a place."""
+    if noun.plural:
+        return None
+    parts = tuple(s.Take(count=1, of=s.Quarter(quarter=corner)) for corner in _CORNERS_IN_TURN)
+    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=4, each=True)
+
+
+@construction("place: n=count POINT in_ [DET] zone=ZONE", cost=0.2)
+def points_in_zone(n: int, zone: Lex) -> PlaceMeaning:
+    """Compose "3 points in the wet corner"."""
+    return PlaceMeaning(s.PointsIn(zone=zone.value, count=n), "one" if n == 1 else "several", count=n)

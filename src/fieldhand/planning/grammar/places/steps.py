@@ -11,7 +11,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import as_zone, chooses_from_trees, is_spot, over
+from fieldhand.planning.selections import as_nearest, as_zone, chooses_from_trees, is_spot, over
 from fieldhand.terms import Towards
 
 GRAMMAR = Grammar()
@@ -147,9 +147,17 @@ def along_row_from(step: tuple[int, Towards], to: PlaceMeaning) -> PlaceMeaning 
     return PlaceMeaning(s.AlongRow(trees=step[0], towards=step[1], origin=to.selector), "one")
 
 
-@construction("place: DET NEXTONE TREE", "place: DET NEXTONE TREE way=way", cost=0.2)
-def next_tree(way: Towards = "down") -> PlaceMeaning:
+@construction(
+    "place: DET NEXTONE TREE",
+    "place: DET NEXTONE TREE way=way",
+    "place: DET NEXTONE TREE in_ rows=rows",
+    "place: DET NEXTONE TREE ALONG rows=rows",
+    cost=0.2,
+)
+def next_tree(way: Towards = "down", rows: s.Selector | None = None) -> PlaceMeaning | None:
     """Compose "the next tree"."""
+    if rows is not None and rows != s.RowOf():
+        return None
     return PlaceMeaning(s.AlongRow(trees=1, towards=way), "one")
 
 
@@ -226,3 +234,77 @@ def beyond_place(inner: Nominal, check: Lex, far: Amount, to: PlaceMeaning) -> P
         away: s.Selector = s.InZone(zone=zone.zone, outside=True, margin_m=far.number)
         return PlaceMeaning(over(inner.selector, away), "several") if chooses_from_trees(inner.selector) else None
     return PlaceMeaning(s.Excluding(places=beyond(far.number, to.selector), of=inner.selector), "several")
+
+
+@construction("place: DET n=count NEAREST inner=nominal", "place: DET NEAREST inner=nominal", cost=0.4)
+def nearest_here(inner: Nominal, n: int | None = None) -> PlaceMeaning | None:
+    """Compose "the three nearest trees"."""
+    number = n or (None if inner.plural else 1)
+    if number is None or inner.single or inner.complete or inner.kind != "tree":
+        return None
+    selector = s.Nearest(to=s.Here(), count=number, of=inner.selector)
+    return PlaceMeaning(selector, "one" if number == 1 else "several", count=number)
+
+
+@construction(
+    "place: [DET] rank=ORD inner=nominal [WHICH] [IS] NEAREST AT to=place",
+    "place: [DET] rank=ORD NEAREST inner=nominal AT to=place",
+    cost=0.1,
+)
+def nth_nearest(rank: Lex, inner: Nominal, to: PlaceMeaning) -> PlaceMeaning | None:
+    """Compose "the 5th tree in row 3 nearest to the charger"."""
+    if rank.value < 2 or inner.single or inner.plural or inner.complete or to.shape != "one":
+        return None
+    nearer = s.Nearest(to=to.selector, count=rank.value - 1, of=inner.selector)
+    return PlaceMeaning(s.Nearest(to=to.selector, of=s.Excluding(places=nearer, of=inner.selector)), "one")
+
+
+@construction("place: near=place in_ where=region", cost=0.4)
+def nearest_in(near: PlaceMeaning, where: s.Selector) -> PlaceMeaning | None:
+    """Compose "the 3 trees nearest to the charger in the northern half"."""
+    nearest = as_nearest(near.selector)
+    if nearest is None or nearest.of != s.Trees() or nearest.to.relative:
+        return None
+    return replace(near, selector=replace(nearest, of=where))
+
+
+@construction(
+    "place: n=count inner=nominal [COMMA] [EACH] dist=apart",
+    cost=0.2,
+)
+def trees_apart(n: int, inner: Nominal, dist: float) -> PlaceMeaning | None:
+    """Compose "four trees of row 3, each 12 m from the next"."""
+    if inner.single or inner.complete or n < 2:
+        return None
+    return PlaceMeaning(s.Apart(apart_m=dist, count=n, of=inner.selector), "several", count=n)
+
+
+@construction("place: whole=place [COMMA] [WHICH] [IS] INSIDE far=amount OF to=place", cost=0.4)
+def those_within(whole: PlaceMeaning, far: Amount, to: PlaceMeaning) -> PlaceMeaning | None:
+    """Compose "every yellow tree that is within 50 m of the charger"."""
+    if far.unit != "metres" or to.shape != "one" or to.selector.relative or whole.shape != "several":
+        return None
+    if whole.count is not None or whole.per is not None or not chooses_from_trees(whole.selector):
+        return None
+    return replace(whole, selector=s.Within(distance_m=far.number, to=to.selector, of=whole.selector))
+
+
+@construction(
+    "place: DET rank=ORD TREE way=way OF [to=place]", "place: DET rank=ORD TREE way=way [FROM] [THERE]", cost=0.2
+)
+def nth_along_row(rank: Lex, way: Towards, to: PlaceMeaning | None = None) -> PlaceMeaning | None:
+    """Compose "the 4th tree to the north of it"."""
+    if to is not None and to.shape not in ("one", "here"):
+        return None
+    origin = s.Here() if to is None or to.shape == "here" else to.selector
+    return PlaceMeaning(s.AlongRow(trees=rank.value, towards=way, origin=origin), "one")
+
+
+@construction("place: DET NEXTONE n=count inner=nominal", "place: DET NEXTONE n=count inner=nominal way=way", cost=0.2)
+def next_trees(n: int, inner: Nominal, way: Towards = "down") -> PlaceMeaning | None:
+    """Compose "the next three trees"."""
+    if inner.single or inner.selector != s.Trees() or n < 2:
+        return None
+    return PlaceMeaning(
+        s.UnionOf(parts=tuple(s.AlongRow(trees=k, towards=way) for k in range(1, n + 1))), "several", count=n
+    )

@@ -1,0 +1,113 @@
+"""Constructions of trees by their numbers in rows: "tree 5 of row 3", "trees 2 to 4 of every row"."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from fieldhand.errors import PlaceError, TaskError
+from fieldhand.places import selectors as s
+from fieldhand.places.context import Context
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.meaning import PlaceMeaning, Shape
+from fieldhand.planning.grammar.places.compass import SIDES
+from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.selections import as_in_row, is_one_row, over
+from fieldhand.site.model import Site
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+
+@construction(
+    "place: [DET] trees=tree_ids in_ rows=rows",
+    "place: [DET] trees=tree_ids in_ rows=rows_of_block",
+    "place: rows=rows trees=tree_ids",
+    cost=0.1,
+    given=("site",),
+)
+def trees_of_rows(trees: tuple[str, ...], rows: s.Selector, site: Site) -> list[PlaceMeaning]:
+    """Compose "tree 5 of row 3"."""
+    count = len(trees) if is_one_row(rows) else None
+    shape: Shape = "one" if count == 1 else "several"
+    return [PlaceMeaning(one, shape, count=count) for one in numbered(trees, rows, site)]
+
+
+@construction("place: whole=place [COMMA] EXCEPT [DET] trees=tree_ids", cost=0.2, given=("site",))
+def except_trees_of_rows(whole: PlaceMeaning, trees: tuple[str, ...], site: Site) -> list[PlaceMeaning] | None:
+    """Compose "the trees of row 3 except tree 5"."""
+    if whole.shape not in ("several", "area") or whole.count is not None or whole.per is not None:
+        return None
+    if whole.selector == s.Trees() or (whole.selector.relative and all(name.isdigit() for name in trees)):
+        return None
+    return [
+        replace(whole, selector=s.Excluding(places=one, of=whole.selector))
+        for one in numbered(trees, whole.selector, site)
+    ]
+
+
+def numbered(trees: Sequence[str], rows: s.Selector, site: Site) -> list[s.Selector]:
+    """Return what trees with numbers in rows can be: counted in the row, or known by these ids and standing there.
+
+    Several meanings that are the same trees are one. If the site has none of them, the trees are counted, and the site
+    says what it lacks.
+    """
+    by_id = _all_of([s.TreeIs(tree=name) for name in trees])
+    if not all(name.isdigit() for name in trees):
+        return [by_id]
+    counted = over(_all_of([s.InRow(first=first, last=last) for first, last in _runs(trees)]), rows)
+    at_places, in_rows = ids_of(counted, site), ids_of(rows, site)
+    fits = in_rows is not None and set(trees) <= in_rows
+    if fits and (at_places is None or at_places == set(trees)):
+        return [by_id]
+    return [counted, by_id] if fits else [counted]
+
+
+def _runs(trees: Sequence[str]) -> Iterator[tuple[int, int]]:
+    """Yield the ranges of numbers of which a list is made; two numbers that follow each other are no range."""
+    numbers = [int(name) for name in trees]
+    if len(numbers) > 2 and numbers == list(range(numbers[0], numbers[-1] + 1)):
+        yield numbers[0], numbers[-1]
+        return
+    yield from ((number, number) for number in numbers)
+
+
+def _all_of(parts: Sequence[s.Selector]) -> s.Selector:
+    """Return the one selector, or all of them."""
+    return parts[0] if len(parts) == 1 else s.UnionOf(parts=tuple(parts))
+
+
+def ids_of(selector: s.Selector, site: Site) -> set[str] | None:
+    """Return the ids of the trees of a selector; None if the site has no such trees, or it depends on the robot."""
+    from fieldhand.places.resolution import resolve
+
+    if selector.relative:
+        return None
+    try:
+        return {place.id for place in resolve(selector, site, Context(here=site.start))}
+    except (PlaceError, TaskError):
+        return None
+
+
+@construction(
+    "place: whole=place [COMMA] COUNTED [DET] side=DIR",
+    "place: whole=place [COMMA] COUNTED [DET] side=DIR FINISH",
+    "place: whole=place [COMMA] COUNTED [DET] side=DIR SIDE",
+    cost=0.3,
+)
+def numbered_from(whole: PlaceMeaning, side: Lex) -> PlaceMeaning | None:
+    """Compose "trees 4 to 8 of row 3 counted from the south"."""
+    counted = as_in_row(whole.selector)
+    if counted is None or counted.counted_from != "usual" or side.value not in SIDES:
+        return None
+    return replace(whole, selector=replace(counted, counted_from=side.value))
+
+
+@construction("place: [DET] trees=tree_ids in_ rows=each_row", cost=0.1)
+def trees_of_each_row(trees: tuple[str, ...], rows: s.Selector) -> PlaceMeaning | None:
+    """Compose "trees 2 to 4 of every row"."""
+    if not all(name.isdigit() for name in trees):
+        return None
+    return PlaceMeaning(
+        over(_all_of([s.InRow(first=first, last=last) for first, last in _runs(trees)]), rows), "several"
+    )
