@@ -22,8 +22,12 @@ from support.requests import english, rows
 
 ROBOTS = {name: load_robot(name) for name in ("husky", "amiga")}
 KNOWN = [case[:3] for case in (*english.PLANNED, *rows.PLANNED)]
+#: Plans that are the same in another order of conditions on a tree.
+SAME = {
+    "take a picture of every yellow tree older than 8 years that is within 50 m of the charger": "for Within(50, Marker(charger), of Where(age_years, gt, 8, of Where(leaf_color, eq, yellow))): [picture]",
+}
 #: Share of the requests that the rules plan, and the grammar as well.
-LEAST_SHARE = 0.6
+LEAST_SHARE = 0.7
 #: What the rules refuse for a word and the grammar plans.
 MORE = {
     "demo": [
@@ -62,7 +66,7 @@ def test_whatever_both_plan_is_the_same_plan() -> None:
     different = []
     for robot, request, plan in KNOWN:
         found = read(robot, request)
-        if found is not None and outline(found.task) != plan:
+        if found is not None and outline(found.task) != SAME.get(request, plan):
             different.append((request, plan, outline(found.task)))
     assert different == []
 

@@ -91,7 +91,7 @@ class CaptureCommand:
         place: Place; None if the phrase names none.
         used: Tokens of the phrase.
         times: Number of repetitions ("twice").
-        relation: ``of`` or ``at``, which ties the captures to the place.
+        relation: ``of`` or ``at``, which ties the captures to the place; ``lead`` if the place was named first.
         spacing: Distance between the captures along a line, in metres.
     """
 

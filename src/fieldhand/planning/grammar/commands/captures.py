@@ -45,7 +45,8 @@ def passive(things: tuple[Thing, ...], used: int, place: PlaceMeaning | None = N
 @construction("capture: relation place=place things=things", cost=1.0)
 def topic_at(place: PlaceMeaning, things: tuple[Thing, ...], used: int) -> CaptureCommand | None:
     """Compose "at tree 5 a CO2 reading"."""
-    return topic(place, things, used)
+    said = topic(place, things, used)
+    return None if said is None else replace(said, relation="lead")
 
 
 @construction(

@@ -26,6 +26,9 @@ from fieldhand.task import plan as p
 
 def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> DialogueState:
     """Return the state after a capture."""
+    if command.relation == "lead" and command.place is not None and command.place.shape == "one":
+        state = drive(setting, state, DriveCommand(command.place, command.used))
+        command = replace(command, place=None)
     things = meant_things(state, command.things)
     place, state, before = _place_of(setting, state, command)
     said = (*before, *setting.spans_of(command.used))

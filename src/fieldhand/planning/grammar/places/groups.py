@@ -291,7 +291,7 @@ def all_but(part: PlaceMeaning) -> PlaceMeaning | None:
 @construction("place: word=EACH n=count inner=nominal", cost=0.2, given=("site",))
 def all_so_many(word: Lex, n: int, inner: Nominal, site: Site) -> PlaceMeaning | None:
     """Compose "all 12 yellow trees", where the site has so many."""
-    if not word.text.startswith("all") or inner.single or inner.complete or not inner.plural:
+    if "all_of" not in word.features or inner.single or inner.complete or not inner.plural:
         return None
     return PlaceMeaning(inner.selector, "several") if len(ids_of(inner.selector, site) or ()) == n else None
 
@@ -299,14 +299,9 @@ def all_so_many(word: Lex, n: int, inner: Nominal, site: Site) -> PlaceMeaning |
 @construction("place: word=EACH OF place=place", "place: word=EACH place=place", cost=0.4)
 def each_of_group(word: Lex, place: PlaceMeaning) -> PlaceMeaning | None:
     """Compose "each of the 5 oldest trees"."""
-    if (
-        word.text.startswith("all")
-        or place.shape != "several"
-        or place.each
-        or place.optional
-        or place.at_most is not None
-        or place.per is not None
-    ):
+    if "all_of" in word.features or place.shape != "several" or place.each:
+        return None
+    if place.optional or place.at_most is not None or place.per is not None:
         return None
     return replace(place, each=True)
 
@@ -322,13 +317,13 @@ def any_of_group(group: PlaceMeaning, n: int) -> PlaceMeaning | None:
 @construction("place: word=DET TREE [ITSELF]", cost=0.7)
 def that_tree(word: Lex) -> PlaceMeaning | None:
     """Compose "that tree"."""
-    return PlaceMeaning(s.Here(), "here") if word.text in ("that", "this", "the") else None
+    return PlaceMeaning(s.Here(), "here") if "definite" in word.features else None
 
 
 @construction("place: n=count OFTHEM", "place: n=count OF word=DET", "place: n=count THERE", cost=0.5)
 def so_many_of_those(n: int, word: Lex | None = None) -> PlaceMeaning | None:
     """Compose "3 of them"."""
-    if word is not None and word.text not in ("those", "these"):
+    if word is not None and "those" not in word.features:
         return None
     return PlaceMeaning(s.Here(), "those", count=n)
 
@@ -336,6 +331,6 @@ def so_many_of_those(n: int, word: Lex | None = None) -> PlaceMeaning | None:
 @construction("place: whole=place word=THERE", cost=0.4)
 def of_them_there(whole: PlaceMeaning, word: Lex) -> PlaceMeaning | None:
     """Compose "every tree there"."""
-    if word.text not in ("there", "in there", "here") or whole.shape != "several" or whole.per is not None:
+    if "in_area" not in word.features or whole.shape != "several" or whole.per is not None:
         return None
     return replace(whole, there=True) if chooses_from_trees(whole.selector) else None

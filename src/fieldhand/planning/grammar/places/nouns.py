@@ -246,7 +246,7 @@ def nth_ranked(rank: Lex, best: tuple[str, bool], inner: Nominal) -> Nominal | N
 @construction("nominal: side=DIR inner=nominal", cost=0.3)
 def of_a_side(side: Lex, inner: Nominal) -> Nominal | None:
     """Compose "northern trees"."""
-    if inner.single or inner.complete or inner.kind != "tree" or not side.text.endswith("ern"):
+    if inner.single or inner.complete or inner.kind != "tree" or "adjective" not in side.features:
         return None
     part = s.Quarter(quarter=side.value) if side.value in CORNERS else s.Half(side=side.value)
     return replace(inner, selector=replace(part, of=inner.selector))

@@ -56,13 +56,13 @@ def tree_by_number(number: Lex | None = None, named: tuple[str, ...] = ()) -> tu
 @construction("tree_ids: TREE word=NUMBERED [HASH] number=NUM", cost=0.2)
 def tree_with_number(word: Lex, number: Lex) -> tuple[str, ...] | None:
     """Compose "tree number 7"."""
-    return None if "id" in word.text.split() else tree_by_number(number)
+    return None if "by_id" in word.features else tree_by_number(number)
 
 
 @construction("place: [DET] TREE word=NUMBERED [HASH] number=NUM", cost=0.3)
 def tree_with_id(word: Lex, number: Lex) -> PlaceMeaning | None:
     """Compose "the tree with id 7"."""
-    if "id" not in word.text.split() or whole(number.value) is None:
+    if "by_id" not in word.features or whole(number.value) is None:
         return None
     return PlaceMeaning(s.TreeIs(tree=name_of(number)), "one")
 

@@ -345,15 +345,9 @@ def nearer_end(noun: Lex, rows: s.Selector, to: PlaceMeaning) -> PlaceMeaning | 
 @construction("place: word=EACH n=count inner=nominal", cost=0.3)
 def every_so_many(word: Lex, n: int, inner: Nominal) -> PlaceMeaning | None:
     """Compose "every 5 trees"."""
-    if (
-        word.text != "every"
-        or inner.single
-        or inner.complete
-        or not inner.plural
-        or n < 2
-        or inner.tested
-        or inner.kind != "tree"
-    ):
+    if "every" not in word.features or inner.single or inner.complete or not inner.plural:
+        return None
+    if n < 2 or inner.tested or inner.kind != "tree":
         return None
     return PlaceMeaning(s.EveryNth(nth=n, of=inner.selector), "several", each=True)
 
