@@ -91,7 +91,8 @@ class CaptureCommand:
         place: Place; None if the phrase names none.
         used: Tokens of the phrase.
         times: Number of repetitions ("twice").
-        relation: ``of`` or ``at``, which ties the captures to the place; ``lead`` if the place was named first.
+        relation: ``of`` or ``at``, which ties the captures to the place; ``lead`` if the place was
+            named first; ``bare`` for captures without a verb, which only a condition can have.
         spacing: Distance between the captures along a line, in metres.
     """
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from fieldhand.language import message
 from fieldhand.planning.english.faults import Unclear
 from fieldhand.planning.english.limits import LimitPhrase
 from fieldhand.planning.english.planned import Meant, planned_as
@@ -13,6 +14,7 @@ from fieldhand.planning.grammar.chart import Chart, PhraseEdge, tokens_of
 from fieldhand.planning.grammar.dialogue import DialogueState, NotComposed, Setting, read_clauses, whole_plan
 from fieldhand.planning.grammar.english import ENGLISH
 from fieldhand.planning.grammar.language import GrammarLanguage
+from fieldhand.planning.grammar.remarks import without_remarks
 from fieldhand.planning.grammar.words import edges_of, fillers_of
 from fieldhand.planning.planner import Planned, Refused
 from fieldhand.planning.selections import is_in_block, rows_of
@@ -29,11 +31,19 @@ _MARGIN = 0.5
 
 @dataclass(frozen=True, kw_only=True)
 class RequestReading:
-    """One way to read a request: the state of the dialogue at its end, its cost, and the fillers that were skipped."""
+    """One way to read a request.
+
+    Attributes:
+        state: State of the dialogue at its end.
+        cost: Cost of its parse.
+        skipped: Fillers that were skipped.
+        remarks: What asks for nothing.
+    """
 
     state: DialogueState
     cost: float
     skipped: tuple[Span, ...]
+    remarks: tuple[Span, ...] = ()
 
 
 def readings(
@@ -42,6 +52,8 @@ def readings(
     """Return the ways to read a request as a whole, cheapest first; empty if the grammar does not cover it."""
     words = language.words_of(request)
     phrases = language.phrases(robot, site)
+    remarks = without_remarks(words, edges_of(words, phrases))
+    words = list(remarks.words)
     chart = Chart(language.grammar(), len(words), fillers_of(words, phrases), given={"site": site})
     chart.parse(edges_of(words, phrases))
     setting = Setting(robot, site, lambda used: spans(words, used))
@@ -51,7 +63,7 @@ def readings(
             state = read_clauses(setting, edge.meaning)
         except NotComposed:
             continue
-        found.append(RequestReading(state=state, cost=edge.cost, skipped=_skipped(words, edge)))
+        found.append(RequestReading(state=state, cost=edge.cost, skipped=_skipped(words, edge), remarks=remarks.spans))
     return found
 
 
@@ -67,8 +79,8 @@ def composed(
     if not found:
         return None
     best, *others = found
-    meant = _meant(best)
-    if any(other.cost < best.cost + _MARGIN and not _same(_meant(other), meant) for other in others):
+    meant = _meant(best, request)
+    if any(other.cost < best.cost + _MARGIN and not _same(_meant(other, request), meant) for other in others):
         return None
     if _leaves_block_open(meant.plan, site) or _counts_unnumbered_rows(meant.plan, site):
         return None
@@ -88,9 +100,9 @@ def _leaves_words(outcome: Planned) -> bool:
     return any(piece.role == "nothing" for piece in request_pieces(outcome.task))
 
 
-def _meant(reading: RequestReading) -> Meant:
+def _meant(reading: RequestReading, request: str) -> Meant:
     state = reading.state
-    plan, no_part = whole_plan(state.plan), list(reading.skipped)
+    plan, no_part = whole_plan(state.plan), [*reading.skipped, *reading.remarks]
     if plan.is_series:
         plan = replace(plan, said=state.joints)
     else:
@@ -99,8 +111,21 @@ def _meant(reading: RequestReading) -> Meant:
         LimitPhrase(amount=one.amount.number, unit=one.amount.unit, keep=one.keep, said=(said[0][0], said[-1][1]))
         for one, said in zip(state.limits, state.limits_said, strict=True)
     )
+    remarked = tuple(
+        message(
+            "'{said}' is taken as a remark: the robot does nothing about it.",
+            context="assumption",
+            said=request[start:end],
+        )
+        for start, end in reading.remarks
+    )
     return Meant(
-        plan=plan, limits=limits, nominal=state.nominal, nominal_said=state.nominal_said, no_part=tuple(no_part)
+        plan=plan,
+        limits=limits,
+        nominal=state.nominal,
+        nominal_said=state.nominal_said,
+        no_part=tuple(no_part),
+        assumptions=remarked,
     )
 
 

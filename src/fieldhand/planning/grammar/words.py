@@ -110,10 +110,22 @@ def edges_of(words: Sequence[Word], phrases: Phrases) -> Iterator[PhraseEdge]:
                 break
             phrase.append(last.norm)
             text = " ".join(word.norm for word in words[start:end])
+            yield from _possessive(phrase, start, end, phrases)
             for entry in phrases.entries(tuple(phrase)):
                 features = phrases.features(tuple(phrase))
                 for value in _values(entry, phrases.lexicon):
                     yield _edge(entry.kind, start, end, Lex(value, entry.plural, text, features))
+
+
+def _possessive(phrase: Sequence[str], start: int, end: int, phrases: Phrases) -> Iterator[PhraseEdge]:
+    """Yield what a phrase is the possessive of: "orchard's"."""
+    *before, last = phrase
+    base = last.removesuffix("'s")
+    if base == last:
+        return
+    for entry in phrases.entries((*before, base)):
+        for value in _values(entry, phrases.lexicon):
+            yield _edge(f"{entry.kind}POSS", start, end, Lex(value, False, base))
 
 
 def fillers_of(words: Sequence[Word], phrases: Phrases) -> frozenset[int]:

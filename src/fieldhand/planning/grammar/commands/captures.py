@@ -8,7 +8,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.english.limits import Amount
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import LAST_THING, CaptureCommand, PlaceMeaning, Thing
+from fieldhand.planning.grammar.meaning import LAST_THING, CaptureCommand, Nominal, PlaceMeaning, Thing
 from fieldhand.planning.grammar.words import Lex
 
 GRAMMAR = Grammar()
@@ -75,7 +75,7 @@ def per_tree(things: tuple[Thing, ...], used: int) -> CaptureCommand | None:
     if any(one.count not in (None, 1) for one in things):
         return None
     once = tuple(replace(one, count=None, plural=True) for one in things)
-    return CaptureCommand(once, PlaceMeaning(s.Trees(), "those", each=True), used)
+    return CaptureCommand(once, PlaceMeaning(s.Trees(), "those", each=True), used, relation="each")
 
 
 @construction("capture: things=things COMMA place=place", "capture: things=things place=place", cost=1.2)
@@ -91,7 +91,10 @@ def needs(place: PlaceMeaning, things: tuple[Thing, ...], used: int) -> CaptureC
 
 
 @construction(
-    "capture: verb=ACTV place=place WITH things=things", "capture: GO ALONG place=place WITH things=things", cost=0.6
+    "capture: verb=ACTV place=place WITH things=things",
+    "capture: LOOKAT place=place WITH things=things",
+    "capture: GO ALONG place=place WITH things=things",
+    cost=0.6,
 )
 def with_camera(
     place: PlaceMeaning, things: tuple[Thing, ...], used: int, verb: Lex | None = None
@@ -307,3 +310,38 @@ def repeated_at_spacing(
     if any(one.count is not None for one in things):
         return None
     return at_spacing((dist, True), used, tuple(replace(one, count=times.value, plural=True) for one in things), place)
+
+
+@construction("capture: MAXIMISE NUMBEROF inner=nominal verb=ACTV", cost=0.2)
+def maximise(inner: Nominal, verb: Lex, used: int) -> CaptureCommand | None:
+    """Compose "maximise the number of trees photographed"."""
+    if inner.single or not inner.plural:
+        return None
+    return act_on(verb, PlaceMeaning(inner.selector, "several", optional=True), used)
+
+
+@construction("capture: things=things", cost=2.5)
+def bare_things(things: tuple[Thing, ...], used: int) -> CaptureCommand:
+    """Compose "a CO2 reading", where a condition says when it is taken."""
+    return CaptureCommand(things, None, used, relation="bare")
+
+
+@construction(
+    "capture: verb [DET] GROUND FOR things=things relation place=place",
+    "capture: verb things=things OF [DET] GROUND relation place=place",
+    "capture: verb things=things AT [DET] GROUND relation place=place",
+    cost=0.3,
+)
+def of_the_ground(things: tuple[Thing, ...], place: PlaceMeaning, used: int) -> CaptureCommand:
+    """Compose "test the soil for nitrate at tree 6"."""
+    return CaptureCommand(things, place, used)
+
+
+@construction("capture: verb=ACTV things=things word=relation place=place", cost=0.4)
+def verb_and_thing(
+    verb: Lex, things: tuple[Thing, ...], word: str, place: PlaceMeaning, used: int
+) -> CaptureCommand | None:
+    """Compose "clip a leaf from tree 4"."""
+    if any(one.action not in verb.value.actions for one in things):
+        return None
+    return CaptureCommand(things, place, used, relation=word)

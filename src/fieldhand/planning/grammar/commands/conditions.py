@@ -265,11 +265,50 @@ def means(noun: Lex | None = None) -> str | None:
     "allow: FITS AT means",
     "allow: IF THEREIS [STILL] [SOME] means LEFT",
     "allow: IF means IS LEFT",
+    "allow: IF [ENOUGH] means REMAINS",
+    "allow: IF [ENOUGH] means IS [LEFT]",
+    "allow: IF means IS ENOUGH [FOR] [IT]",
+    "allow: FITS INSIDE means",
     cost=0.2,
 )
 def if_it_fits(used: int) -> Allowed:
     """Compose "if the battery allows it"."""
     return Allowed(used)
+
+
+@construction("means: first=means AND second=means", cost=0.1)
+def both_means(first: str, second: str) -> str:
+    """Compose "time and charge"."""
+    return first or second
+
+
+@construction("tests: SOMEONE [IS] test=predicate", "tests: SOMEONE READING [IS] test=predicate", cost=0.3)
+def someone(test: Test) -> AllTests:
+    """Compose "one is above 38 degC"."""
+    return AllTests((test,))
+
+
+@construction(
+    "test: IT DET value=ATTRVAL",
+    cost=0.3,
+)
+def it_is_one(value: Lex) -> list[Test]:
+    """Compose "it's a Carmel"."""
+    return tree_is(value)
+
+
+@construction("when: IF place=place [IS] value=ATTRVAL", "when: IF place=place IS DET value=ATTRVAL", cost=0.3)
+def when_tree_is(place: PlaceMeaning, value: Lex, used: int) -> list[When] | None:
+    """Compose "if tree 6 is yellow"."""
+    if place.shape != "one":
+        return None
+    return [When(AllTests((test,)), used, measured_at=place) for test in tree_is(value)]
+
+
+@construction("predicate: LEVEL [COMMA] MEANING test=predicate", cost=0.1)
+def level_explained(test: Test) -> Test:
+    """Compose "too hot, meaning over 40 degC"."""
+    return test
 
 
 @construction("until: UNTIL tests=tests", cost=0.3)

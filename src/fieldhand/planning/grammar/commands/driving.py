@@ -4,7 +4,16 @@ from __future__ import annotations
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Again, DriveCommand, Home, InAnOrder, Lead, PlaceMeaning, StopCommand
+from fieldhand.planning.grammar.meaning import (
+    Again,
+    DriveCommand,
+    Home,
+    InAnOrder,
+    Lead,
+    Nominal,
+    PlaceMeaning,
+    StopCommand,
+)
 from fieldhand.planning.grammar.words import Lex
 
 GRAMMAR = Grammar()
@@ -127,3 +136,17 @@ def halt(used: int) -> StopCommand:
 def again(used: int, place: PlaceMeaning | None = None) -> Again:
     """Compose "do the same at tree 9"."""
     return Again(place, used)
+
+
+@construction("drive: WHICHONE inner=nominal [IS] [STANDS] NEAREST [AT] to=place", cost=0.3)
+def which_is_nearest(inner: Nominal, to: PlaceMeaning, used: int) -> DriveCommand | None:
+    """Compose "which tree stands closest to the charger?"."""
+    if inner.single or inner.plural or inner.complete or to.shape != "one":
+        return None
+    return DriveCommand(PlaceMeaning(s.Nearest(to=to.selector, of=inner.selector), "one"), used)
+
+
+@construction("drive: GO where=each_row", "drive: GO ALONG where=each_row", cost=0.3)
+def drive_each_row(where: s.Selector, used: int) -> DriveCommand:
+    """Compose "walk every row"."""
+    return DriveCommand(PlaceMeaning(where, "area"), used)

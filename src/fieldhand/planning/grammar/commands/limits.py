@@ -87,3 +87,17 @@ def back_before(least: Amount, used: int) -> LimitClause | None:
 def at_word() -> str:
     """Compose "at"."""
     return "at"
+
+
+@construction(
+    "limit: AT less most=amount [of_what]",
+    "limit: WITH most=amount AS UPPERLIMIT",
+    "limit: WITH [DET] DRIVEN LIMITEDTO most=amount",
+    "limit: [DET] DRIVEN [IS] LIMITEDTO most=amount",
+    "limit: HAVE most=amount TOPS",
+    "limit: most=amount TOPS",
+    cost=0.3,
+)
+def limited_to(most: Amount, used: int) -> LimitClause | None:
+    """Compose "with the driving distance limited to 80 m"."""
+    return LimitClause(most, False, used) if most.unit in _LIMITED else None

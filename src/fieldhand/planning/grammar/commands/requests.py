@@ -91,6 +91,20 @@ def full_stop_then(used: int) -> Connective:
     return Connective(True, True, used)
 
 
+@construction("joint: INORDERTO", cost=1.0)
+def in_order_to(used: int) -> Connective:
+    """Compose "to", before what is done at the place."""
+    return Connective(False, True, used)
+
+
+@construction("said: word=BEFORE last=home [COMMA] rest=said", cost=0.3)
+def before_home(word: Lex, last: Home, rest: Said) -> Said | None:
+    """Compose "before going back to the start, photograph tree 4"."""
+    if "before_doing" not in word.features:
+        return None
+    return Said((*rest.clauses, LinkedCommand(Connective(False, True, 0), last)))
+
+
 @construction("joint: word=BEFORE", cost=0.3)
 def before_doing(word: Lex, used: int) -> Connective | None:
     """Compose "before"."""

@@ -59,6 +59,13 @@ def another_of_them() -> Thing:
     return Thing(LAST_THING, count=1)
 
 
+@construction("thing: [DET] rank=ORD noun=NOUN", cost=0.3)
+def second_thing(rank: Lex, noun: Lex) -> Thing | None:
+    """Compose "a second picture"."""
+    naming: Naming = noun.value
+    return Thing(naming.actions[0], count=1) if naming.actions and rank.value == 2 and not noun.plural else None
+
+
 @construction("thing: IT AGAIN", "thing: DET SAME", cost=0.5)
 def it_again() -> Thing:
     """Compose "the same"."""

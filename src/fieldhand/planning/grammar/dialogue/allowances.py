@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from fieldhand.planning.grammar.dialogue.plans import EMPTY
+from fieldhand.planning.grammar.dialogue.fitting import is_spoken_of
+from fieldhand.planning.grammar.dialogue.plans import EMPTY, Path
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, with_last_step, with_step
-from fieldhand.planning.grammar.meaning import Allowed, Connective, Failing, LinkedCommand
+from fieldhand.planning.grammar.meaning import Allowed, CaptureCommand, Connective, Failing, LinkedCommand
 from fieldhand.task import plan as p
 
 
@@ -38,10 +39,15 @@ def allowed(
     after_and = joint is None or joint.both or joint.then or joint.full
     if following and state.commands_in_sentence and not after_and:
         raise NotComposed("what is left out if the budget is short?")
+    loop: Path | None = None
+    next_command = following[0].command if following else None
+    if state.loop is not None and isinstance(next_command, CaptureCommand) and is_spoken_of(next_command.place):
+        loop = state.loop  # "at every yellow tree a picture and, if ..., a CO2 reading"
+        state = replace(state, scope=state.loop)
     if following:
         inside = (*state.next_step, "body")
         state = with_step(state, p.OptionalStep(id="", body=EMPTY, said=said))
-        return replace(state, scope=inside, open=True, loop=None)
+        return replace(state, scope=inside, open=True, loop=loop)
     if not steps or state.commands_in_sentence != 1:
         raise NotComposed("what is left out if the budget is short?")
     body = p.InOrder(id="", steps=steps[-1:])

@@ -16,6 +16,7 @@ from fieldhand.planning.grammar.dialogue.state import (
     Spans,
     done_at,
     with_capture,
+    with_joints,
     with_last_step,
     with_step,
 )
@@ -179,6 +180,8 @@ def _at_the_same_place(state: DialogueState, command: CaptureCommand, said: Span
     elif command.place is not None and command.place.shape == "those" and state.loop is None:
         raise NotComposed("which places are meant?")
     actions, done = {thing.action for thing in command.things}, {thing.action for thing in state.things}
+    if command.relation == "each" and actions <= done and state.loop is not None:
+        return with_joints(state, said)  # "from three trees, one sample per tree"
     if command.place is not None and command.place.shape == "those" and actions <= done:
         raise NotComposed("once more, or the same said twice?")
     state = _with_captures(state, command.things, command.times, said, scope)

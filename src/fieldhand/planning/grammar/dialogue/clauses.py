@@ -20,6 +20,7 @@ from fieldhand.planning.grammar.dialogue.state import (
     with_step,
 )
 from fieldhand.planning.grammar.meaning import (
+    LAST_THING,
     After,
     Again,
     Allowed,
@@ -94,6 +95,9 @@ def _read(
         case CaptureCommand():
             if state.lead is not None and not state.lead.relation and (joint is None or joint.both):
                 raise NotComposed("an announcement, or a command?")  # "two trees get a picture"
+            again = any(thing.action == LAST_THING for thing in command.things)
+            if command.relation == "bare" and (not state.open or (again and state.choice is None)):
+                raise NotComposed("what is done with it?")
             return capture(setting, state, command)
         case DriveCommand():
             return drive(setting, state, command)

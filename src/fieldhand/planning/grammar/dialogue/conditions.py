@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from fieldhand.planning.grammar.dialogue.capturing import capture, capture_once
+from fieldhand.planning.grammar.dialogue.driving import drive
 from fieldhand.planning.grammar.dialogue.plans import (
     EMPTY,
     Path,
@@ -29,6 +30,7 @@ from fieldhand.planning.grammar.dialogue.tested import condition_of, reading_bef
 from fieldhand.planning.grammar.meaning import (
     AllTests,
     CaptureCommand,
+    DriveCommand,
     LinkedCommand,
     Otherwise,
     PlaceMeaning,
@@ -58,7 +60,7 @@ def when(setting: Setting, state: DialogueState, command: When, following: Seque
     if command.measured_at is not None:
         if decides_last:
             raise NotComposed("what is decided?")
-        state = _measured(setting, state, command.tests.tests[0].quantity, command.measured_at, command.used)
+        state = _at_tested_place(setting, state, command, command.measured_at)
     if not command.tests.tests:
         if state.asked is None:
             raise NotComposed("if what is so?")
@@ -184,6 +186,13 @@ def question(setting: Setting, state: DialogueState, command: ReadingQuestion) -
         raise NotComposed("what is measured?")
     state = capture(setting, state, CaptureCommand((Thing(action),), command.place, command.used))
     return replace(state, asked=command.tests)
+
+
+def _at_tested_place(setting: Setting, state: DialogueState, command: When, place: PlaceMeaning) -> DialogueState:
+    """Return the state at the place that a condition names, after its reading was taken if one is tested."""
+    if command.tests.tests[0].attribute:
+        return drive(setting, state, DriveCommand(place, command.used))
+    return _measured(setting, state, command.tests.tests[0].quantity, place, command.used)
 
 
 def _measured(setting: Setting, state: DialogueState, quantity: str, place: PlaceMeaning, used: int) -> DialogueState:

@@ -32,13 +32,17 @@ def drive(setting: Setting, state: DialogueState, command: DriveCommand) -> Dial
     if command.begins and state.plan.steps:
         raise NotComposed("where to begin is said too late")
     require_known(state, place, setting.site)
+    if state.lead is not None and state.lead.place.shape == "one" and place.shape in ("one", "step"):
+        before = state.lead  # "From tree 4 drive to tree 9."
+        state = drive(setting, replace(state, lead=None), DriveCommand(before.place, before.used))
     if state.awaits_command:
         raise NotComposed("two places for one command")
     if place.shape in ("one", "step"):
         state = with_step(replace(state, loop=None), p.GoTo(id="", place=place.selector, said=said))
         return done_at(replace(state, returned=command.returns), place)
     if place.shape == "area" and place.per is None:
-        return replace(state, area=command, where=place, where_scope=state.scope, loop=None)
+        where = state.where if place.selector.relative else place
+        return replace(state, area=command, where=where, where_scope=state.scope, loop=None)
     if place.shape == "several" and place.per is None:
         inside = (*state.next_step, "body")
         state = with_step(state, visits(place, said))

@@ -100,6 +100,8 @@ def fitted(
     Raises:
         NotComposed: How many visits are meant is unclear.
     """
+    if place.each and place.shape == "several" and place.per is None:
+        return place, things
     counts = {thing.count for thing in things}
     if len(counts) > 1 and place.shape not in ("one", "step"):
         raise NotComposed("different numbers of captures")

@@ -193,3 +193,17 @@ def area(where: s.Selector) -> PlaceMeaning:
 def those_in(word: Lex, where: s.Selector) -> PlaceMeaning | None:
     """Compose "those in row 4"."""
     return PlaceMeaning(where, "several") if "those" in word.features else None
+
+
+@construction("region: [DET] PLOTPOSS where=region", cost=0.1)
+def of_the_farm(where: s.Selector) -> s.Selector:
+    """Compose "the orchard's east side"."""
+    return where
+
+
+@construction("place: [DET] zone=ZONEPOSS inner=nominal", cost=0.2)
+def of_the_zone(zone: Lex, inner: Nominal) -> PlaceMeaning | None:
+    """Compose "the wet corner's northernmost tree"."""
+    if not inner.single or not chooses_from_trees(inner.selector):
+        return None
+    return PlaceMeaning(over(inner.selector, s.InZone(zone=zone.value)), "one")

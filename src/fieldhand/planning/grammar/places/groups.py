@@ -334,3 +334,9 @@ def of_them_there(whole: PlaceMeaning, word: Lex) -> PlaceMeaning | None:
     if "in_area" not in word.features or whole.shape != "several" or whole.per is not None:
         return None
     return replace(whole, there=True) if chooses_from_trees(whole.selector) else None
+
+
+@construction("place: [DET] MOSTNUMBER OF inner=nominal", cost=0.2)
+def largest_number(inner: Nominal) -> PlaceMeaning | None:
+    """Compose "the largest possible number of trees"."""
+    return as_many(inner)

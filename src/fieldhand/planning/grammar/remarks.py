@@ -1,0 +1,128 @@
+"""Remarks of a request: sentences, asides and reasons that ask for nothing of the robot."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+from fieldhand.planning.english.tokens import Word
+from fieldhand.planning.grammar.chart import PhraseEdge
+from fieldhand.task.plan import Span
+
+#: Categories of words that may ask for something, or forbid it, in whatever sentence they stand.
+_ASKING = frozenset(
+    {
+        "ACTV", "ALLOW", "ANOTHER", "APART", "ASMANY", "ATLEAST", "ATTRVAL", "BATTERY", "BEFORE",
+        "BETWEEN", "BUT", "CMP", "CORNER", "COUNT", "DIR", "EACH", "EXCEPT", "FITS", "GO", "GOHOME",
+        "IF", "IFSO", "INORDER", "INSTEAD", "INTERVAL", "ISNOT", "KEEP", "LEVEL", "MEASURE", "MOST",
+        "NEAREST", "NEARBY", "NOORDER", "NOT", "NOUN", "NUM", "ORD", "ORDERED", "OTHERWISE", "REPEAT",
+        "RETURN", "ROW", "STOP", "SUPER", "TAKE", "TIMES", "TREE", "TREEID", "TRY", "UNIT", "UNLESS",
+        "UNTIL", "UPTO", "USE", "VISIT", "WHERE", "WHETHER", "WITHOUT", "ZONE",
+    }
+)  # fmt: skip
+#: Categories that ask for something even in a reason ("so we can check ..." gives a reason, "to photograph row 4" not).
+_ASKING_IN_REASON = _ASKING - {"MEASURE", "TAKE", "GO", "USE", "IF", "WHETHER", "LEVEL", "ACTV", "RETURN", "REPEAT"}
+#: Categories of words that an aside may have beside unknown ones ("for the lab").
+_IN_ASIDES = frozenset(
+    {"DET", "FOR", "FILLER", "IT", "IS", "WHICH", "OF", "MORE", "QUESTION", "THATWORD", "AT", "AS", "TELLS", "MEASURE"}
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Remarks:
+    """The words of a request without its remarks.
+
+    Attributes:
+        words: Words that are left.
+        spans: Character ranges of the remarks.
+    """
+
+    words: tuple[Word, ...]
+    spans: tuple[Span, ...]
+
+
+def without_remarks(words: Sequence[Word], edges: Iterable[PhraseEdge]) -> Remarks:
+    """Return the words without remarks: what is told beside the command, and the reasons that are given.
+
+    Args:
+        words: Words of the request.
+        edges: What its words and phrases can be.
+    """
+    kinds: list[set[str]] = [set() for _ in words]
+    reasons: set[int] = set()
+    for edge in edges:
+        for k in range(edge.start, edge.end):
+            kinds[k].add(edge.category)
+        if edge.category == "REASON":
+            reasons.add(edge.start)
+    left_out: set[int] = set()
+    for sentence in _parts(words, {"stop"}):
+        said = [k for k in sentence if words[k].kind != "comma"]
+        if said and _tells(said, kinds):
+            left_out.update(sentence)
+            continue
+        for clause in _clauses(words, sentence):
+            aside = _reason(clause, reasons, kinds) or _aside(clause, kinds)
+            if aside and len(aside) < len(said):
+                left_out.update(aside)
+    if len(left_out) == len(words):
+        left_out = set()
+    spans = tuple((words[part[0]].start, words[part[-1]].end) for part in _runs(sorted(left_out)))
+    return Remarks(words=tuple(word for k, word in enumerate(words) if k not in left_out), spans=spans)
+
+
+def _tells(said: Sequence[int], kinds: Sequence[set[str]]) -> bool:
+    """Return True for a sentence with unknown words that asks for nothing ("We had a leak last week.")."""
+    if "TELLS" not in kinds[said[0]] or any("DOES" in kinds[k] for k in said):
+        return False
+    return any(not kinds[k] for k in said) and not any(kinds[k] & _ASKING for k in said)
+
+
+def _reason(clause: Sequence[int], reasons: set[int], kinds: Sequence[set[str]]) -> Sequence[int]:
+    """Return the reason at the end of a clause, or a clause that is one; empty if there is none."""
+    begin = next((at for at, k in enumerate(clause) if k in reasons), None)
+    if begin is None or any(kinds[k] & _ASKING_IN_REASON for k in clause[begin:]):
+        return ()
+    return clause[begin:]
+
+
+def _aside(clause: Sequence[int], kinds: Sequence[set[str]]) -> Sequence[int]:
+    """Return an aside of unknown words: all of a clause, or what "for" begins; empty if there is none."""
+    begins = [0, *(at for at, k in enumerate(clause) if "FOR" in kinds[k] and at > 0)]
+    for begin in begins:
+        said = clause[begin:]
+        unknown = [k for k in said if not kinds[k]]
+        begins_aside = begin > 0 or bool({"FOR", "AS"} & kinds[said[0]])
+        if begins_aside and unknown and all(not kinds[k] or kinds[k] & _IN_ASIDES for k in said):
+            return said
+    return ()
+
+
+def _clauses(words: Sequence[Word], sentence: Sequence[int]) -> Iterator[list[int]]:
+    """Yield the parts of a sentence between commas."""
+    yield from _parts([words[k] for k in sentence], {"comma", "stop"}, sentence)
+
+
+def _parts(words: Sequence[Word], ends: set[str], numbers: Sequence[int] | None = None) -> Iterator[list[int]]:
+    """Yield the numbers of the words between marks of some kinds, without these marks."""
+    part: list[int] = []
+    for at, word in enumerate(words):
+        if word.kind not in ends:
+            part.append(at if numbers is None else numbers[at])
+        elif part:
+            yield part
+            part = []
+    if part:
+        yield part
+
+
+def _runs(numbers: Sequence[int]) -> Iterator[list[int]]:
+    """Yield the runs of successive numbers."""
+    run: list[int] = []
+    for number in numbers:
+        if run and number != run[-1] + 1:
+            yield run
+            run = []
+        run.append(number)
+    if run:
+        yield run
