@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import socket
 from collections.abc import Iterator
@@ -21,6 +22,18 @@ settings.load_profile("steady")
 _PRIVATE = ("FIELDHAND_", "OPENAI_", "ANTHROPIC_", "GOOGLE_", "GEMINI_")
 _PROXIES = ("http_proxy", "https_proxy", "all_proxy")
 _LOCAL = ("127.0.0.1", "::1", "localhost", None, b"localhost")
+
+
+def pytest_configure() -> None:
+    """Look for no garbage until the tests begin: all that is loaded and collected remains."""
+    gc.disable()
+
+
+def pytest_collection_finish() -> None:
+    """Look for garbage among what the tests make, and not again and again among a million objects that remain."""
+    gc.collect()
+    gc.freeze()
+    gc.enable()
 
 
 @pytest.fixture(scope="session", autouse=True)

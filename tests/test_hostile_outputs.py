@@ -456,23 +456,25 @@ def test_what_a_model_answers_is_shown_whole(answer: str, scene: Scene) -> None:
     require_visible((scene.folder / "talk.jsonl").read_text())
 
 
-BODIES: dict[str, dict[str, Any]] = {
-    "/api/site": {"site": {"name": "s.geojson", "text": "{}"}},
-    "/api/plan": {"request": "Read CO2 at tree 4.", "answers": [{"question": "Which?", "answer": "b"}], "lang": "en",
-                  "robot": "husky", "planner": "english"},
-    "/api/check": {"xml": corner_xml()},
-    "/api/run": {"xml": corner_xml(), "approved_by": "Ada", "confirmed": list(corner_warnings()), "seed": 3,
-                 "world": {"readings": {"co2": 1}, "faults": [{"fault": "robot_stops", "at_s": 9, "why": "cut"}]}},
+BODIES: dict[str, Callable[[], dict[str, Any]]] = {
+    "/api/site": lambda: {"site": {"name": "s.geojson", "text": "{}"}},
+    "/api/plan": lambda: {"request": "Read CO2 at tree 4.", "answers": [{"question": "Which?", "answer": "b"}],
+                          "lang": "en", "robot": "husky", "planner": "english"},
+    "/api/check": lambda: {"xml": corner_xml()},
+    "/api/run": lambda: {
+        "xml": corner_xml(), "approved_by": "Ada", "confirmed": list(corner_warnings()), "seed": 3,
+        "world": {"readings": {"co2": 1}, "faults": [{"fault": "robot_stops", "at_s": 9, "why": "cut"}]},
+    },
 }  # fmt: skip
 
 
 @pytest.mark.parametrize("path", BODIES)
 def test_no_answer_of_the_server_hides_what_it_was_sent(path: str) -> None:
-    server = browser(EnglishPlanner())
-    for where, body in each_text(BODIES[path], lambda text: f"{text}{SEEN}{UNSEEN}"):
+    server, whole = browser(EnglishPlanner()), BODIES[path]()
+    for where, body in each_text(whole, lambda text: f"{text}{SEEN}{UNSEEN}"):
         answer = server.post(path, body)
         assert answer.status_code in (200, 400, 422), (where, answer.text)
         require_json(answer.text, visible=True)
-    assert server.post(path, BODIES[path] | {"site": json.loads(worst_site().parts["site.geojson"])}).status_code < 500
+    assert server.post(path, whole | {"site": json.loads(worst_site().parts["site.geojson"])}).status_code < 500
     for odd in (WORST, f"?{WORST}"):
         require_json(server.get(f"/api/{quote(odd)}").text, visible=True)
