@@ -9,11 +9,15 @@ from pathlib import Path
 from fieldhand.errors import SiteError
 from fieldhand.site.formats.sandbox import REQUEST, RESULT, as_json
 
+#: Packages that pyogrio imports if they are installed, for functions that are not used here; they take most of a second.
+_UNUSED = ("geopandas", "pandas", "pyarrow")
+
 
 def main(folder: Path) -> int:
     """Read the files of a folder and write the records, or the error, beside them."""
     request = json.loads((folder / REQUEST).read_text())
     _limit(memory=request["memory"], cpu_s=request["cpu_s"], result=max(request["result"], 250_000_000))
+    sys.modules |= dict.fromkeys(_UNUSED)  # type: ignore[arg-type]  # None: as if not installed
     from fieldhand.site.formats.gis import read_in_process
 
     contents = {name: (folder / str(number)).read_bytes() for number, name in enumerate(request["names"])}
