@@ -11,6 +11,8 @@ from typing import Any
 import pytest
 from hypothesis import settings
 
+from support.processes.certificates import certificate
+
 # Every run draws the same examples: what fails here fails for everyone. Others, and of expensive properties many more,
 # are drawn with --hypothesis-profile=thorough, which is how to look for what these miss.
 # No example has a time limit: how long one takes depends on what else the machine does.
@@ -44,6 +46,17 @@ def _no_private_environment(tmp_path_factory: pytest.TempPathFactory) -> Iterato
             if name.startswith(_PRIVATE) or name.lower() in _PROXIES:
                 patch.delenv(name)
         patch.setenv("XDG_STATE_HOME", str(tmp_path_factory.mktemp("state")))
+        yield
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _no_authority_of_the_world(
+    _no_private_environment: None, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[None]:
+    """Trust one certificate that signs nothing, where a client would read the 150 of the system for each connection."""
+    cert, _, _ = certificate(tmp_path_factory.mktemp("authority"), "nobody")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("SSL_CERT_FILE", str(cert))
         yield
 
 

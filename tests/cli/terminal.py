@@ -7,13 +7,12 @@ import os
 import pty
 import re
 import struct
-import subprocess
-import sys
 import termios
+import threading
 from contextlib import suppress
 from pathlib import Path
 
-_LIMIT_S = 300
+from support.processes.command import at_terminal
 
 
 def screen(*words: str, cwd: Path, columns: int = 80, env: dict[str, str] | None = None) -> tuple[int, list[str]]:
@@ -25,17 +24,21 @@ def screen(*words: str, cwd: Path, columns: int = 80, env: dict[str, str] | None
     fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
     environment = {**os.environ, "TERM": "xterm", "NO_COLOR": "1", **(env or {})}
     environment.pop("COLUMNS", None)
-    process = subprocess.Popen(
-        [sys.executable, "-m", "fieldhand", *words], cwd=cwd, env=environment, stdin=theirs, stdout=theirs,
-        stderr=theirs, start_new_session=True,
-    )  # fmt: skip
-    os.close(theirs)
-    written = b""
-    with suppress(OSError):  # the terminal is gone when the last of its programs is
-        while chunk := os.read(ours, 65_536):
-            written += chunk
-    os.close(ours)
-    status = process.wait(_LIMIT_S)
+    written = bytearray()
+
+    def read() -> None:
+        with suppress(OSError):  # the terminal is gone when the last of its programs is
+            while chunk := os.read(ours, 65_536):
+                written.extend(chunk)
+
+    reader = threading.Thread(target=read)
+    reader.start()
+    try:
+        status = at_terminal(*words, terminal=os.ttyname(theirs), cwd=cwd, env=environment)
+    finally:
+        os.close(theirs)
+        reader.join()
+        os.close(ours)
     plain = re.sub("\x1b\\[[0-9;]*m", "", written.decode())  # bold, and back again
     lines = plain.replace("\r\n", "\n").split("\n")
     return status, [line[at : at + columns] for line in lines for at in range(0, max(len(line), 1), columns)]

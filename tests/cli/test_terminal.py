@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import os
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -25,12 +23,9 @@ def completed(shell: str, line: str) -> str:
         "_TYPER_COMPLETE_FISH_ACTION": "get-args",
         "_TYPER_COMPLETE_WORD_TO_COMPLETE": line.rpartition(" ")[2],
     }
-    ran = subprocess.run(
-        [sys.executable, "-c", "import sys; sys.argv[0] = 'fieldhand'; from fieldhand.program import main; main()"],
-        env=os.environ | env, capture_output=True, text=True, check=False,
-    )  # fmt: skip
-    assert "Traceback" not in ran.stderr
-    return ran.stdout
+    ran = fieldhand(env=os.environ | env)
+    assert "Traceback" not in ran.err
+    return ran.out
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
@@ -44,11 +39,9 @@ def test_a_shell_completes_commands_options_and_values(shell: str) -> None:
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
 def test_the_script_of_a_shell_is_printed(shell: str) -> None:
-    ran = subprocess.run(
-        [sys.executable, "-c", "import sys; sys.argv[0] = 'fieldhand'; from fieldhand.program import main; main()"],
-        env=os.environ | {"_FIELDHAND_COMPLETE": f"source_{shell}"}, capture_output=True, text=True, check=True,
-    )  # fmt: skip
-    assert "_FIELDHAND_COMPLETE=complete_" in ran.stdout
+    ran = fieldhand(env=os.environ | {"_FIELDHAND_COMPLETE": f"source_{shell}"})
+    assert ran.status == 0
+    assert "_FIELDHAND_COMPLETE=complete_" in ran.out
 
 
 def test_a_terminal_is_told_that_the_program_plans_and_a_pipe_is_not(tmp_path: Path) -> None:

@@ -49,8 +49,13 @@ def fieldhand(
     with tempfile.TemporaryDirectory() as folder:
         files = [Path(folder) / name for name in ("in", "out", "err")]
         files[0].write_text(stdin or "")
-        status = _ordered(words, cwd, environment, files, background=False)
+        status = _ordered(words, cwd, environment, files)
         return Run(status=status, out=files[1].read_text(), err=files[2].read_text())
+
+
+def at_terminal(*words: str, terminal: str, cwd: Path, env: dict[str, str]) -> int:
+    """Run ``fieldhand`` with these words at a terminal, a path such as /dev/pts/3, and return its exit status."""
+    return _ordered(words, cwd, env, [Path(terminal)] * 3, terminal=True)
 
 
 @contextmanager
@@ -72,7 +77,13 @@ def in_background(*words: str, out: Path) -> Iterator[int]:
 
 
 def _ordered(
-    words: tuple[str, ...], cwd: Path | None, env: dict[str, str], files: list[Path], *, background: bool
+    words: tuple[str, ...],
+    cwd: Path | None,
+    env: dict[str, str],
+    files: list[Path],
+    *,
+    background: bool = False,
+    terminal: bool = False,
 ) -> int:
     """What the first process answers to an order."""
     order = {
@@ -82,6 +93,7 @@ def _ordered(
         "files": [str(file) for file in files],
         "limit_s": _LIMIT_S,
         "background": background,
+        "terminal": terminal,
     }
     first = _first()
     assert first.stdin is not None

@@ -52,16 +52,32 @@ def _prepare() -> None:
 def become(order: dict[str, Any]) -> None:
     """Make this process the one that runs the command."""
     signal.alarm(order["limit_s"])
+    if order["terminal"]:
+        os.setsid()  # so that the terminal that is opened next is its own
     if order["background"]:
         sys.stdout.reconfigure(line_buffering=True)  # somebody reads what it has said so far
     for number, (file, how) in enumerate(zip(order["files"], (os.O_RDONLY, os.O_WRONLY, os.O_WRONLY), strict=True)):
-        opened = os.open(file, how | os.O_CREAT | os.O_TRUNC if how else how, 0o600)
+        how = os.O_RDWR if order["terminal"] else how | os.O_CREAT | os.O_TRUNC if how else how
+        opened = os.open(file, how, 0o600)
         os.dup2(opened, number)
         os.close(opened)
+    if order["terminal"]:
+        _begin_at_terminal()
     os.chdir(order["cwd"])
     os.environ.clear()
     os.environ.update(order["env"])
     sys.argv = ["fieldhand", *order["words"]]
+
+
+def _begin_at_terminal() -> None:
+    """Do anew what depends on a terminal: open the streams, and load the modules that look at them when loaded."""
+    sys.stdin = open(0, closefd=False, encoding=sys.stdin.encoding, errors=sys.stdin.errors)  # noqa: SIM115
+    sys.stdout, sys.stderr = (
+        open(number, "w", buffering=1, closefd=False, encoding=old.encoding, errors=old.errors)  # noqa: SIM115
+        for number, old in ((1, sys.stdout), (2, sys.stderr))
+    )
+    for name in [n for n in sys.modules if n.startswith(("fieldhand.cli", "fieldhand.program", "fieldhand_bench"))]:
+        del sys.modules[name]
 
 
 def run() -> None:
@@ -83,7 +99,9 @@ def run() -> None:
 
 def main() -> None:
     orders, answers = os.fdopen(os.dup(0), "r"), os.fdopen(os.dup(1), "w")
+    gc.disable()  # until all is loaded, none of which is garbage
     load()
+    gc.enable()
     gc.freeze()  # nor need a copy look for garbage in what it was given
     for line in orders:
         order = json.loads(line)
