@@ -9,7 +9,7 @@ from pathlib import Path
 from fieldhand.errors import SiteError
 from fieldhand.site.formats.sandbox import REQUEST, RESULT, as_json
 
-#: Packages that pyogrio imports if they are installed, for functions that are not used here; they take most of a second.
+#: Packages that pyogrio imports if they are installed, which takes most of a second; no function used here needs them.
 _UNUSED = ("geopandas", "pandas", "pyarrow")
 
 
