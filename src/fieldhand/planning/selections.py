@@ -232,3 +232,8 @@ def some_of(of: s.Selector, count: int) -> s.Selector:
     if isinstance(of, s.Successive) and 1 < count < of.count:
         return s.Evenly(count=count, of=of)
     return s.Take(count=count, of=of)
+
+
+def is_across(selector: s.Selector) -> bool:
+    """Return True for the tree across the aisle."""
+    return isinstance(selector, s.Across)

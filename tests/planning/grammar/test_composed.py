@@ -22,19 +22,20 @@ from support.requests import english, rows
 
 ROBOTS = {name: load_robot(name) for name in ("husky", "amiga")}
 KNOWN = [case[:3] for case in (*english.PLANNED, *rows.PLANNED)]
-#: Plans that are the same in another order of conditions on a tree.
+#: Plans that do the same: with conditions in another order, or without the name of a reading that nothing uses.
 SAME = {
+    "can you check whether the CO2 at tree 4 is below 400 ppm?": "co2 @ TreeIs(4)",
     "take a picture of every yellow tree older than 8 years that is within 50 m of the charger": "for Within(50, Marker(charger), of Where(age_years, gt, 8, of Where(leaf_color, eq, yellow))): [picture]",
 }
 #: Share of the requests that the rules plan, and the grammar as well.
-LEAST_SHARE = 0.7
+LEAST_SHARE = 0.8
 #: What the rules refuse for a word and the grammar plans.
 MORE = {
     "demo": [
         ("Everything within 15 metres of tree 88 needs a canopy temperature reading.", "for Within(15, TreeIs(88)): [picture]"),
         ("Pick 12 trees at random across the whole orchard and measure the canopy temperature of each.", "for RandomSample(12): [picture]"),
         ("Rows 4 through 6, canopy temp and air temp at each tree, then head back to where you began.", "for Rows(4, 6): [picture; air] | return_to_start"),
-        ("Thermal at trees 100 through 102. If there's enough battery left over, do CO2 on those too.", "for UnionOf(TreeIs(100)+TreeIs(101)+TreeIs(102)): [picture]; maybe [for UnionOf(TreeIs(100)+TreeIs(101)+TreeIs(102)): [co2]]"),
+        ("Thermal at trees 100 through 102. If there's enough battery left over, do CO2 on those too.", "for UnionOf(TreeIs(100)+TreeIs(101)+TreeIs(102)): [picture; maybe [co2]]"),
         ("Row 7, every third tree, thermal, then go park at the charger.", "for EveryNth(3, of Rows(7, 7)): [picture]; go Marker(charger) | stay"),
         ("read co2 at the tree of row 5 farthest from the charger", "co2 @ Farthest(Marker(charger), of Rows(5, 5))"),
         ("take a picture of three trees in row 3 next to each other", "for Adjacent(Here, 3, of Rows(3, 3)): [picture]"),

@@ -33,6 +33,7 @@ class Nominal:
         single: True if the description fits one place only ("northernmost tree").
         complete: Number of places if the description lists them all ("corners": 4), 0 otherwise.
         kind: Kind of its noun.
+        of_side: True if an adjective before it names the side on which it stands ("northern tree").
         pronoun: True for "one", which stands for a noun before it.
         tested: True if a clause behind the noun describes it ("that are older than 8 years").
     """
@@ -44,6 +45,7 @@ class Nominal:
     kind: Literal["tree", "corner"] = "tree"
     tested: bool = False
     pronoun: bool = False
+    of_side: bool = False
 
 
 @dataclass(frozen=True, slots=True)

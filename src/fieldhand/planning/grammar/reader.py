@@ -90,14 +90,23 @@ def composed(
         return None
     if isinstance(outcome, Refused):
         return outcome
-    if not isinstance(outcome, Planned) or _leaves_words(outcome) or mismatches(outcome.task, site, robot):
+    if (
+        not isinstance(outcome, Planned)
+        or _leaves_words(outcome, best.remarks)
+        or mismatches(outcome.task, site, robot)
+    ):
         return None
     return outcome
 
 
-def _leaves_words(outcome: Planned) -> bool:
-    """Return True if a word of the request has no counterpart in the plan."""
-    return any(piece.role == "nothing" for piece in request_pieces(outcome.task))
+def _leaves_words(outcome: Planned, remarks: Sequence[Span]) -> bool:
+    """Return True if a word of the request has no counterpart in the plan and is no remark."""
+    at = 0
+    for piece in request_pieces(outcome.task):
+        start, at = at, at + len(piece.text)
+        if piece.role == "nothing" and not any(first <= start and at <= last for first, last in remarks):
+            return True
+    return False
 
 
 def _meant(reading: RequestReading, request: str) -> Meant:

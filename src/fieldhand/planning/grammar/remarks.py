@@ -58,6 +58,8 @@ def without_remarks(words: Sequence[Word], edges: Iterable[PhraseEdge]) -> Remar
     left_out: set[int] = set()
     for sentence in _parts(words, {"stop"}):
         said = [k for k in sentence if words[k].kind != "comma"]
+        label = _label(words, sentence, kinds)
+        left_out.update(label)
         if said and _tells(said, kinds):
             left_out.update(sentence)
             continue
@@ -65,10 +67,23 @@ def without_remarks(words: Sequence[Word], edges: Iterable[PhraseEdge]) -> Remar
             aside = _reason(clause, reasons, kinds) or _aside(clause, kinds)
             if aside and len(aside) < len(said):
                 left_out.update(aside)
+    left_out |= {
+        k
+        for k, word in enumerate(words)
+        if word.kind == "comma" and (k - 1 in left_out or (k == 0 or k + 1 in left_out))
+    }
     if len(left_out) == len(words):
         left_out = set()
     spans = tuple((words[part[0]].start, words[part[-1]].end) for part in _runs(sorted(left_out)))
     return Remarks(words=tuple(word for k, word in enumerate(words) if k not in left_out), spans=spans)
+
+
+def _label(words: Sequence[Word], sentence: Sequence[int], kinds: Sequence[set[str]]) -> Sequence[int]:
+    """Return the label of a step with which a sentence begins ("Step 2: ..."); empty if there is none."""
+    comma = next((at for at, k in enumerate(sentence[:3]) if words[k].kind == "comma"), 0)
+    if comma == 0 or "LABEL" not in kinds[sentence[0]] or (comma == 2 and "NUM" not in kinds[sentence[1]]):
+        return ()
+    return sentence[: comma + 1]
 
 
 def _tells(said: Sequence[int], kinds: Sequence[set[str]]) -> bool:

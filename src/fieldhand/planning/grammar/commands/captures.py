@@ -10,6 +10,7 @@ from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import LAST_THING, CaptureCommand, Nominal, PlaceMeaning, Thing
 from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.selections import is_across
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -166,6 +167,15 @@ def here(word: Lex) -> PlaceMeaning:
     )
 
 
+@construction(
+    "capture: verb things=things place=place",
+    cost=0.9,
+)
+def thing_and_step(things: tuple[Thing, ...], place: PlaceMeaning, used: int) -> CaptureCommand | None:
+    """Compose "take a picture 4 trees further along"."""
+    return CaptureCommand(things, place, used) if place.shape == "step" or is_across(place.selector) else None
+
+
 @construction("capture: verb=ACTV place=place", "capture: verb=ACTV relation place=place", cost=0.3)
 def act_on(verb: Lex, place: PlaceMeaning, used: int) -> CaptureCommand:
     """Compose "photograph tree 4"."""
@@ -237,6 +247,8 @@ def every_so_far(far: Amount) -> float | None:
     "apart: EACH far=amount APART",
     "apart: EACH ONE far=amount APART",
     "apart: WITH far=amount APART",
+    "apart: ABOUT far=amount APART",
+    "apart: WITH far=amount BETWEEN ONE READING AND [DET] NEXTONE",
     cost=0.1,
 )
 def apart(far: Amount | None = None, every: float | None = None) -> float | None:
@@ -283,6 +295,8 @@ def at_spacing(
         things = (Thing(naming.actions[0]),)
     if place is not None and place.shape not in ("area", "those", "here"):
         return None
+    if dist[1] and all(one.count in (None, 1) for one in things):
+        dist = (dist[0], False)
     if not dist[1] and any(one.count is not None and one.count > 1 for one in things):
         return None  # "three pictures every 10 m": three stops, or three at each stop?
     if not dist[1]:

@@ -16,6 +16,7 @@ from fieldhand.planning.grammar.meaning import (
     PlaceMeaning,
     ReadingQuestion,
     Test,
+    Thing,
     UntilCondition,
     When,
 )
@@ -35,7 +36,7 @@ def anything() -> str:
 def quantity_at(noun: Lex, place: PlaceMeaning) -> tuple[str, PlaceMeaning] | None:
     """Compose "the temperature at tree 4"."""
     naming: Naming = noun.value
-    if len(naming.quantities) != 1 or place.shape != "one":
+    if len(set(naming.quantities)) != 1 or place.shape != "one":
         return None
     return (naming.quantities[0], place)
 
@@ -209,6 +210,18 @@ def tree_compared(check: Lex, value: Amount) -> Test | None:
     return Test("", check.value[0], value.number, attribute=check.value[1])
 
 
+@construction("when: FOREACHOF [COMMA] one=when", cost=0.1)
+def for_each_of_them(one: When, used: int) -> When:
+    """Compose "for each of them: if it is high"."""
+    return replace(one, used=used)
+
+
+@construction("when: one=bare_level FULLSTOP", cost=0.3)
+def level_question(one: AllTests, used: int) -> When:
+    """Compose "low?"."""
+    return When(one, used)
+
+
 @construction("when: IF tests=tests", "when: WHERE tests=tests", cost=0.3)
 def when(tests: AllTests, used: int) -> When:
     """Compose "if it is high"."""
@@ -297,6 +310,12 @@ def it_is_one(value: Lex) -> list[Test]:
     return tree_is(value)
 
 
+@construction("failing: IF things=things CANNOT verb", "failing: IF things=things CANNOT", cost=0.3)
+def if_it_cannot(things: tuple[Thing, ...], used: int) -> Failing | None:
+    """Compose "if the picture can't be taken"."""
+    return Failing(used) if len(things) == 1 else None
+
+
 @construction("when: IF place=place [IS] value=ATTRVAL", "when: IF place=place IS DET value=ATTRVAL", cost=0.3)
 def when_tree_is(place: PlaceMeaning, value: Lex, used: int) -> list[When] | None:
     """Compose "if tree 6 is yellow"."""
@@ -358,7 +377,7 @@ def _of_group(test: Test, noun: Lex | None, of_last: OfLast) -> AllTests | None:
     if noun is None:
         return AllTests((test,), of_last=of_last)
     naming: Naming = noun.value
-    if len(naming.quantities) != 1:
+    if len(set(naming.quantities)) != 1:
         return None
     return AllTests((replace(test, quantity=naming.quantities[0]),), of_last=of_last)
 
@@ -369,7 +388,7 @@ def if_none_is(used: int) -> Otherwise:
     return Otherwise(used)
 
 
-@construction("tests: level=LEVEL", cost=1.5)
+@construction("bare_level: level=LEVEL", cost=1.0)
 def bare_level(level: Lex) -> AllTests:
     """Compose "low" of "low?"."""
     return AllTests((Test("", "level", level.value),))

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from typing import get_args
+
 from fieldhand.places import selectors as s
+from fieldhand.places.picks.ordered import Order
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import (
     Again,
@@ -68,6 +71,24 @@ def compass_order(order: Lex) -> tuple[str, str, bool]:
 def order_of_attribute(attribute: Lex) -> list[tuple[str, str, bool]]:
     """Compose "in order of age"."""
     return [("attribute", name, False) for name in attribute.value]
+
+
+@construction(
+    "ordered: [GOING] FROM [DET] first=ranking [ONE] AT [DET] last=ranking [ONE]",
+    cost=0.1,
+)
+def from_best_to_worst(first: tuple[str, bool], last: tuple[str, bool]) -> tuple[str, str, bool] | None:
+    """Compose "from the oldest to the youngest"."""
+    if not first[0] or first[0] != last[0] or first[1] == last[1]:
+        return None
+    return ("attribute", first[0], not first[1])
+
+
+@construction("ordered: [GOING] FROM [DET] first=MOST AT [DET] last=MOST", cost=0.1)
+def from_side_to_side(first: Lex, last: Lex) -> tuple[str, str, bool] | None:
+    """Compose "from the most northerly to the most southerly"."""
+    by = f"{first.value}_to_{last.value}"
+    return (by, "", False) if by in get_args(Order) else None
 
 
 @construction("ordered: [DET] rank=ranking FIRSTONE", "ordered: STARTING [DET] rank=ranking [ONE]", cost=0.1)
@@ -138,7 +159,7 @@ def again(used: int, place: PlaceMeaning | None = None) -> Again:
     return Again(place, used)
 
 
-@construction("drive: WHICHONE inner=nominal [IS] [STANDS] NEAREST [AT] to=place", cost=0.3)
+@construction("drive: WHICHONE inner=nominal [IS] NEAREST [AT] to=place", cost=0.3)
 def which_is_nearest(inner: Nominal, to: PlaceMeaning, used: int) -> DriveCommand | None:
     """Compose "which tree stands closest to the charger?"."""
     if inner.single or inner.plural or inner.complete or to.shape != "one":

@@ -97,12 +97,16 @@ def in_order_to(used: int) -> Connective:
     return Connective(False, True, used)
 
 
-@construction("said: word=BEFORE last=home [COMMA] rest=said", cost=0.3)
-def before_home(word: Lex, last: Home, rest: Said) -> Said | None:
+@construction("opening: FIRSTONE", "opening: before=BEFORE", cost=0.0)
+def opening(used: int, before: Lex | None = None) -> Connective | None:
+    """Compose "first" and "before" at the beginning of a request."""
+    return None if before is not None and "before_doing" not in before.features else Connective(False, True, used)
+
+
+@construction("said: first=opening last=home [COMMA] rest=said", cost=0.3)
+def before_home(first: Connective, last: Home, rest: Said) -> Said:
     """Compose "before going back to the start, photograph tree 4"."""
-    if "before_doing" not in word.features:
-        return None
-    return Said((*rest.clauses, LinkedCommand(Connective(False, True, 0), last)))
+    return Said((*rest.clauses, LinkedCommand(first, last)))
 
 
 @construction("joint: word=BEFORE", cost=0.3)
@@ -121,6 +125,12 @@ def then(word: Lex) -> str | None:
 def after_doing(word: Lex, done: CaptureCommand | DriveCommand, used: int) -> After | None:
     """Compose "after photographing tree 4"."""
     return After(done, used) if "after_doing" in word.features else None
+
+
+@construction("said: first=opening one=command", cost=0.2)
+def first_of_all(first: Connective, one: Command) -> Said:
+    """Compose "first go to tree 4"."""
+    return Said((LinkedCommand(first, one),))
 
 
 @construction("said: one=command", "said: then [COMMA] one=command", cost=0.0)

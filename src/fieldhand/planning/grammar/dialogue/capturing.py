@@ -7,7 +7,14 @@ from dataclasses import replace
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.driving import drive, may_be_left_out, ordered, require_known, visits
 from fieldhand.planning.grammar.dialogue.fitting import fitted, in_area, in_each_row, is_spoken_of, spaced, within_area
-from fieldhand.planning.grammar.dialogue.plans import EMPTY, as_for_each, captures_at_last_place, is_inside
+from fieldhand.planning.grammar.dialogue.plans import (
+    EMPTY,
+    as_for_each,
+    block_at,
+    captures_at_last_place,
+    is_inside,
+    with_node,
+)
 from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
     NotComposed,
@@ -23,6 +30,7 @@ from fieldhand.planning.grammar.dialogue.state import (
 from fieldhand.planning.grammar.meaning import LAST_THING, Again, CaptureCommand, DriveCommand, PlaceMeaning, Thing
 from fieldhand.planning.selections import are_rows, counts_in_row, is_end_of_site, some_of
 from fieldhand.task import plan as p
+from fieldhand.task.conditions import Condition
 
 
 def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> DialogueState:
@@ -175,7 +183,9 @@ def _at_the_same_place(state: DialogueState, command: CaptureCommand, said: Span
     if command.place is not None and state.where is None:
         raise NotComposed("which place is meant?")
     scope = state.scope
-    if state.loop is not None and not is_inside(scope, state.loop):
+    if state.ended_by is not None and state.loop is not None:
+        state, scope = _where_it_ended(state, state.loop, state.ended_by)
+    elif state.loop is not None and not is_inside(scope, state.loop):
         scope = state.loop
     elif command.place is not None and command.place.shape == "those" and state.loop is None:
         raise NotComposed("which places are meant?")
@@ -186,6 +196,17 @@ def _at_the_same_place(state: DialogueState, command: CaptureCommand, said: Span
         raise NotComposed("once more, or the same said twice?")
     state = _with_captures(state, command.things, command.times, said, scope)
     return replace(state, things=command.things, commands_in_sentence=state.commands_in_sentence + 1)
+
+
+def _where_it_ended(state: DialogueState, body: Path, condition: Condition) -> tuple[DialogueState, Path]:
+    """Return the state with a block for what is done where a condition ends a for-each, and the path of the block."""
+    block = block_at(state.plan, body)
+    last = block.steps[-1] if block.steps else None
+    if last is None or not last.is_choice:
+        choice = p.If(id="", condition=condition, then=EMPTY, said=())
+        block = replace(block, steps=(*block.steps, choice))
+        state = replace(state, plan=with_node(state.plan, body, block))
+    return state, (*body, len(block.steps) - 1, "then")
 
 
 def capture_elided(setting: Setting, state: DialogueState) -> DialogueState:

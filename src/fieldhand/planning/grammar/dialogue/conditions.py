@@ -176,7 +176,9 @@ def until(setting: Setting, state: DialogueState, command: UntilCondition) -> Di
     path = state.loop[:-1]
     condition, state = condition_of(state, command.tests, setting.robot)
     loop = for_each_at(state.plan, path)
-    return replace(state, plan=with_node(state.plan, path, replace(loop, until=condition)))
+    said = (*loop.said, *setting.spans_of(command.used))
+    plan = with_node(state.plan, path, replace(loop, until=condition, said=said))
+    return replace(state, plan=plan, ended_by=condition)
 
 
 def question(setting: Setting, state: DialogueState, command: ReadingQuestion) -> DialogueState:

@@ -14,7 +14,6 @@ from fieldhand.planning.grammar.dialogue.state import (
     Setting,
     Spans,
     done_at,
-    with_joints,
     with_step,
 )
 from fieldhand.planning.grammar.meaning import DriveCommand, Home, InAnOrder, PlaceMeaning
@@ -140,7 +139,7 @@ def put_in_order(setting: Setting, state: DialogueState, command: InAnOrder) -> 
     if command.by == "any":
         if loop.order != "best":
             raise NotComposed("two orders")
-        return with_joints(state, said)
+        return replace(state, plan=with_node(state.plan, path, replace(loop, said=(*loop.said, *said))))
     return replace(state, plan=with_node(state.plan, path, ordered(loop, command, said)))
 
 

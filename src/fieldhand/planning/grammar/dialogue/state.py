@@ -21,6 +21,7 @@ from fieldhand.planning.grammar.meaning import (
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task import plan as p
+from fieldhand.task.conditions import Condition
 from fieldhand.task.frames import Then
 
 Spans = tuple[p.Span, ...]
@@ -74,6 +75,7 @@ class DialogueState:
         asked: Test of the last question.
         in_case: How the mission ends in one case.
         returned: True if the last drive is a return ("come back to the charger").
+        ended_by: Condition that ends the last for-each, until something else is done.
         joints: Spans of the connectives.
     """
 
@@ -101,6 +103,7 @@ class DialogueState:
     asked: AllTests | None = None
     in_case: Then | None = None
     returned: bool = False
+    ended_by: Condition | None = None
     joints: Spans = ()
 
     @property
@@ -123,7 +126,7 @@ def with_step(state: DialogueState, node: p.Node) -> DialogueState:
     """Return the state after a further step of the block that takes commands."""
     block = state.block
     plan = with_node(state.plan, state.scope, replace(block, steps=(*block.steps, node)))
-    return replace(state, plan=plan, open=False)
+    return replace(state, plan=plan, open=False, ended_by=None)
 
 
 def with_capture(state: DialogueState, act: p.Act, scope: Path) -> DialogueState:

@@ -115,13 +115,20 @@ def _of_reading(state: DialogueState, test: Test, robot: RobotProfile) -> tuple[
     if not act.reading:
         act = replace(act, reading=f"r{state.readings + 1}")
         state = replace(state, readings=state.readings + 1, plan=with_node(state.plan, path, act))
-    condition = _checked(test, act.reading, quantity, unit)
+    condition = _checked(test, act.reading, quantity, robot)
     return (c.Not(condition=condition) if test.negated else condition), replace(state, captured=path)
 
 
-def _checked(test: Test, reading: str, quantity: str, unit: str) -> c.Condition:
-    """Return the condition of a test that is not negated."""
+def _checked(test: Test, reading: str, quantity: str, robot: RobotProfile) -> c.Condition:
+    """Return the condition of a test that is not negated.
+
+    Raises:
+        NotComposed: The robot's profile does not say what the level is.
+    """
+    unit = robot.quantity[quantity].unit
     if test.check == "level":
+        if test.value not in robot.quantity[quantity].levels:
+            raise NotComposed("the robot knows no such level")
         return c.Level(reading=reading, quantity=quantity, level=test.value)
     if test.check == "between":
         low, high = test.value

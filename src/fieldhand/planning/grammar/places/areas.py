@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any, cast
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
@@ -144,6 +145,9 @@ def inside(inner: Nominal, where: s.Selector, way: str = "") -> Nominal | None:
     """Compose "trees in the northern half" and "trees along the northern edge"."""
     if not chooses_from_trees(inner.selector) or (way and is_row_of_place(where)):
         return None  # "3 trees down the row": the tree that far along, or trees there?
+    if inner.of_side and are_rows(where):
+        of_rows = cast(Any, inner.selector)  # "the northern trees of row 4": of that row, not of the orchard
+        return replace(inner, selector=replace(of_rows, of=over(of_rows.of, where)))
     return replace(inner, selector=over(inner.selector, where))
 
 
@@ -193,6 +197,14 @@ def area(where: s.Selector) -> PlaceMeaning:
 def those_in(word: Lex, where: s.Selector) -> PlaceMeaning | None:
     """Compose "those in row 4"."""
     return PlaceMeaning(where, "several") if "those" in word.features else None
+
+
+@construction("place: whole=place [COMMA] STICKING where=region", cost=0.3)
+def sticking_to(whole: PlaceMeaning, where: s.Selector) -> PlaceMeaning | None:
+    """Compose "the yellow trees, sticking to the northern half"."""
+    if whole.shape != "several" or whole.per is not None or not chooses_from_trees(whole.selector):
+        return None
+    return replace(whole, selector=over(whole.selector, where))
 
 
 @construction("region: [DET] PLOTPOSS where=region", cost=0.1)

@@ -10,7 +10,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import are_rows, chooses_from_trees, counts_in_row, is_end_of_site, over
+from fieldhand.planning.selections import are_rows, as_some, chooses_from_trees, counts_in_row, is_end_of_site, over
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -241,8 +241,8 @@ def both(first: PlaceMeaning, second: PlaceMeaning, word: Lex | None = None) -> 
         second = replace(second, selector=swapped(second.selector, s.Here(), first.selector), shape="one")
     if not {first.shape, second.shape} <= {"one", "several"} or first.optional or second.optional:
         return None
-    if first.at_most or second.at_most:
-        return None
+    if first.at_most or second.at_most or isinstance(first.selector, s.Excluding):
+        return None  # "all trees except tree 4 and tree 7": both are left out
     parts = tuple(part for one in (first, second) for part in one.selector.members)
     if any(is_end_of_site(part) for part in parts) and any(counts_in_row(part) for part in parts):
         return None  # "the first tree and the last tree of row 4": is the first that of the row, too?
@@ -299,7 +299,7 @@ def all_so_many(word: Lex, n: int, inner: Nominal, site: Site) -> PlaceMeaning |
 @construction("place: word=EACH OF place=place", "place: word=EACH place=place", cost=0.4)
 def each_of_group(word: Lex, place: PlaceMeaning) -> PlaceMeaning | None:
     """Compose "each of the 5 oldest trees"."""
-    if "all_of" in word.features or place.shape != "several" or place.each:
+    if "all_of" in word.features or place.shape != "several" or place.each or as_some(place.selector) is not None:
         return None
     if place.optional or place.at_most is not None or place.per is not None:
         return None

@@ -29,6 +29,7 @@ def tree(noun: Lex) -> Nominal:
     "nominal: inner=nominal WHICH [IS] NOT value=ATTRVAL",
     "nominal: inner=nominal WHICH ISNOT value=ATTRVAL",
     "nominal: inner=nominal WHICH NOT value=ATTRVAL",
+    "nominal: inner=nominal WHICHPOSS NOT value=ATTRVAL",
     cost=0.3,
 )
 def without_attribute(inner: Nominal, value: Lex) -> list[Nominal] | None:
@@ -249,7 +250,7 @@ def of_a_side(side: Lex, inner: Nominal) -> Nominal | None:
     if inner.single or inner.complete or inner.kind != "tree" or "adjective" not in side.features:
         return None
     part = s.Quarter(quarter=side.value) if side.value in CORNERS else s.Half(side=side.value)
-    return replace(inner, selector=replace(part, of=inner.selector))
+    return replace(inner, selector=replace(part, of=inner.selector), of_side=True)
 
 
 @construction("nominal: inner=nominal [WHICH] [IS] FARTHEST [AT] [DET] side=DIR", cost=0.2)

@@ -10,7 +10,7 @@ from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.places.numbers import name_of, whole
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import chooses_from_trees, counts_in_row, over
+from fieldhand.planning.selections import chooses_from_trees, counts_in_row, is_one_row, over
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -217,9 +217,9 @@ def each_row(noun: Lex) -> s.Selector | None:
 
 
 @construction("each_row: EACH AT rows=rows", "each_row: EACH OF rows=rows", "each_row: EACH rows=rows", cost=0.2)
-def each_of_rows(rows: s.Selector) -> s.Selector:
+def each_of_rows(rows: s.Selector) -> s.Selector | None:
     """Compose "each of rows 3 to 5"."""
-    return rows
+    return None if is_one_row(rows) else rows
 
 
 @construction("each_row: rows=each_row in_ block=block", cost=0.1)

@@ -19,6 +19,14 @@ construction = GRAMMAR.construction
 
 
 @construction(
+    "place: [DET] n=count OTHER inner=nominal NEARBY", "place: [DET] n=count OTHER NEARBY inner=nominal", cost=0.2
+)
+def others_nearby(n: int, inner: Nominal) -> PlaceMeaning | None:
+    """Compose "three different trees nearby"."""
+    return nearby(replace(inner, selector=s.NotVisited(of=inner.selector)), n)
+
+
+@construction(
     "place: DET NEARBY inner=nominal",
     "place: [n=count] NEARBY inner=nominal",
     "place: [n=count] inner=nominal NEARBY",
@@ -263,13 +271,14 @@ def nth_nearest(rank: Lex, inner: Nominal, to: PlaceMeaning) -> PlaceMeaning | N
 def nearest_in(near: PlaceMeaning, where: s.Selector) -> PlaceMeaning | None:
     """Compose "the 3 trees nearest to the charger in the northern half"."""
     nearest = as_nearest(near.selector)
-    if nearest is None or nearest.of != s.Trees() or nearest.to.relative:
+    if nearest is None or nearest.of != s.Trees() or nearest.to.relative or nearest.adjacent:
         return None
     return replace(near, selector=replace(nearest, of=where))
 
 
 @construction(
     "place: n=count inner=nominal [COMMA] [EACH] dist=apart",
+    "place: n=count inner=nominal [COMMA] ABOUT dist=apart",
     cost=0.2,
 )
 def trees_apart(n: int, inner: Nominal, dist: float) -> PlaceMeaning | None:
