@@ -18,6 +18,7 @@ from fieldhand.language.message import (
     recalled,
     shaped,
 )
+from fieldhand.language.request_language import RequestLanguage, language_of_request
 
 __all__ = [
     "ENGLISH",
@@ -25,10 +26,12 @@ __all__ = [
     "Language",
     "Message",
     "Number",
+    "RequestLanguage",
     "counted",
     "joined",
     "kept_in_log",
     "labelled",
+    "language_of_request",
     "languages",
     "message",
     "named",

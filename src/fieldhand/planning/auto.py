@@ -1,4 +1,4 @@
-"""The default planner: the built-in English one where it understands every word, else a language model.
+"""The default planner: the built-in one where it understands every word, else a language model.
 
 The built-in planner comes first because it costs nothing, needs no network and answers the same way every time. It
 drops no word in silence, so its plan is about the whole request; a model is asked only where it says that it did not
@@ -17,7 +17,7 @@ from fieldhand.site.model import Site
 
 
 class AutoPlanner:
-    """English if it accounts for every word, else the model if there is one, else what was not understood.
+    """The built-in planner if it accounts for every word, else the model if there is one, else what was not understood.
 
     Args:
         english: Plans without a model.
@@ -101,19 +101,19 @@ def make_auto_planner(settings: PlannerSettings) -> Planner:
     Raises:
         ModelError: A model is configured wrongly.
     """
-    from fieldhand.planning.english.planner import EnglishPlanner
+    from fieldhand.planning.builtin import BuiltinPlanner
     from fieldhand.planning.llm.settings import settings_from_environment
 
     model = settings_from_environment(settings.environ)
     if model is None:
-        return AutoPlanner(EnglishPlanner(), None)
+        return AutoPlanner(BuiltinPlanner(), None)
     from fieldhand.planning.llm.factory import planner_with
 
-    return AutoPlanner(EnglishPlanner(), planner_with(model, settings))
+    return AutoPlanner(BuiltinPlanner(), planner_with(model, settings))
 
 
 def make_english_planner(settings: PlannerSettings) -> Planner:  # noqa: ARG001  it needs none
     """Return the planner that needs no model."""
-    from fieldhand.planning.english.planner import EnglishPlanner
+    from fieldhand.planning.builtin import BuiltinPlanner
 
-    return EnglishPlanner()
+    return BuiltinPlanner()

@@ -147,7 +147,7 @@ def _open(said: Sequence[Token], k: int) -> bool:
 def _amount(said: Sequence[Token], number: _Number, nouns: dict[int, Noun], units: frozenset[str]) -> StatedAmount:
     value, k = number.value, number.end
     after = said[k].text if k < len(said) else ""
-    words = " ".join(t.text for t in said[number.start : min(k + 1, len(said))])
+    words = w.quoted(said[number.start : min(k + 1, len(said))])
     made = StatedAmount(
         kind="ordinal" if number.ordinal else "plain",
         values=(value,),

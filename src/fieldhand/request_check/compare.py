@@ -60,7 +60,7 @@ def _sensors(said: RequestFacts, plan: PlanFacts, robot: RobotProfile) -> Iterat
         if noun.actions & plan.actions or said.negated(k) or noun.actions in told:
             continue
         told.add(noun.actions)
-        words = " ".join(t.text for t in said.said[k : k + noun.length])
+        words = w.quoted(said.said[k : k + noun.length])
         able = listed([say_name(name) for name in sorted(noun.actions)], "or")
         yield PlanMismatch(
             kind="sensor",
@@ -127,7 +127,7 @@ def _phrase(said: RequestFacts, amount: StatedAmount) -> str:
         end = k + (said.nouns[k].length if k in said.nouns else 1)
         if k in said.nouns or text in w.TREES | w.CORNERS:
             break
-    return " ".join(t.text for t in said.said[amount.index : end])
+    return w.quoted(said.said[amount.index : end])
 
 
 def _explained(plan: PlanFacts, amount: StatedAmount) -> set[int]:

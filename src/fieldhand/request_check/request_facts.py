@@ -127,7 +127,7 @@ class RequestFacts:
 
 def request_facts(request: str, robot: RobotProfile, site: Site) -> RequestFacts:
     """Return the facts of a request."""
-    said = tokens(request)
+    said = w.tokens_of_request(request)
     names = _names(site)
     zones, covered = _said_names(said, names)
     attributes = {

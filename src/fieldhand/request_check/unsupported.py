@@ -71,7 +71,9 @@ def unsupported_words(said: RequestFacts) -> Iterator[PlanMismatch]:
             sentence = said.said[first].sentence
             remark = pattern is _REMARKS and not any(said.said[k].sentence == sentence for k in said.nouns)
             speed = first and said.said[first - 1].text in w.LENGTHS and match[0].startswith(("per ", "a ", "an "))
-            if not remark and not speed and said.named.isdisjoint(range(first, first + len(match[0].split()))):
+            last = first + len(match[0].split())
+            if not remark and not speed and said.named.isdisjoint(range(first, last)):
+                words = w.quoted(said.said[first:last])
                 yield PlanMismatch(
-                    kind="unheld", what=message("the request says '{words}', and {why}", words=match[0], why=why)
+                    kind="unheld", what=message("the request says '{words}', and {why}", words=words, why=why)
                 )

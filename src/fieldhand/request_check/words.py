@@ -8,8 +8,11 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from collections.abc import Sequence
 from dataclasses import dataclass
 
+from fieldhand.language import language_of_request
+from fieldhand.request_check import spanish
 from fieldhand.terms import Side
 
 
@@ -152,11 +155,13 @@ class Token:
         text: Text in lower case.
         sentence: Number of its sentence.
         joined: True if it follows the previous token without a space.
+        typed: Text as the request has it, if that is another language's word; empty otherwise.
     """
 
     text: str
     sentence: int
     joined: bool
+    typed: str = ""
 
 
 def tokens(request: str) -> tuple[Token, ...]:
@@ -170,6 +175,26 @@ def tokens(request: str) -> tuple[Token, ...]:
         last = match.end()
         sentence += match.group() in (".", "!", "?", ";")
     return tuple(found)
+
+
+def tokens_of_request(request: str) -> tuple[Token, ...]:
+    """Return the tokens of a request in any language that is read; those of Spanish with English words for them."""
+    if language_of_request(request) != "es":
+        return tokens(request)
+    said = tokens(spanish.with_decimal_points(request))
+    found: list[Token] = []
+    for start, end, words in spanish.english_words([token.text for token in said]):
+        typed = " ".join(token.text for token in said[start:end])
+        first = said[start]
+        for k, word in enumerate(words):
+            other = word if word == typed else typed if k == 0 else " "
+            found.append(Token(text=word, sentence=first.sentence, joined=first.joined and k == 0, typed=other))
+    return tuple(found)
+
+
+def quoted(said: Sequence[Token]) -> str:
+    """Return tokens as the request has them."""
+    return " ".join(token.typed or token.text for token in said if token.typed != " ")
 
 
 def is_number(text: str) -> bool:

@@ -7,6 +7,10 @@ number, side, time, manner or measured quantity, and nothing that negates or res
 
 from __future__ import annotations
 
+import unicodedata
+
+from fieldhand.language import RequestLanguage
+
 
 def _words(text: str) -> frozenset[str]:
     """Return the words of a text."""
@@ -61,7 +65,37 @@ _SAYING_LITTLE = _words(
 #: Words that ask for nothing.
 FILLER_WORDS = FUNCTION_WORDS | _COURTESY | _ADDRESSED | _LEADING | _SAYING_LITTLE
 
+#: The same of Spanish, without accents.
+_SPANISH_FUNCTION_WORDS = _words(
+    """
+    a al con de del e el ella ellas ellos en era es esa esas ese eso esos esta estan estas este esten esto estos fue
+    la las le les lo los me mi mis nos o para por que se sea son su sus te u un una y
+    """
+)
+_SPANISH_FILLERS = _words(
+    """
+    ademas ahora algun arbol arboles azar bien buenas buenos cada campo como comprobarlo confirmar confirmarlo
+    considerando cualquier despues dias entonces envia favor finca foto fotos gracias gustaria hola huerto luego
+    lugar manda media medicion mediciones medio muchas necesito orden podria podrias primero promedio puede
+    puedes punto quiero quisiera rectangulo robot tambien tardes toma tomar vale viendo
+    """
+)
 
-def is_filler(word: str) -> bool:
-    """Return True if a word asks for nothing wherever it occurs."""
+
+def is_function_word(word: str, language: RequestLanguage = "en") -> bool:
+    """Return True for an article, a preposition, a conjunction, a pronoun or an auxiliary of a language."""
+    if language == "es":
+        return _plain(word) in _SPANISH_FUNCTION_WORDS
+    return word in FUNCTION_WORDS
+
+
+def is_filler(word: str, language: RequestLanguage = "en") -> bool:
+    """Return True if a word asks for nothing wherever it occurs in a request of a language."""
+    if language == "es":
+        return _plain(word) in _SPANISH_FUNCTION_WORDS | _SPANISH_FILLERS
     return word.strip().lower().replace("\u2019", "'").rstrip(".") in FILLER_WORDS
+
+
+def _plain(word: str) -> str:
+    """Return a word in lower case without accents."""
+    return "".join(c for c in unicodedata.normalize("NFD", word.strip().lower()) if not unicodedata.combining(c))

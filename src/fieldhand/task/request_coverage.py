@@ -14,8 +14,8 @@ from dataclasses import dataclass
 from itertools import groupby
 from typing import Literal, get_args
 
-from fieldhand.language import message
-from fieldhand.task.filler_words import FUNCTION_WORDS, is_filler
+from fieldhand.language import language_of_request, message
+from fieldhand.task.filler_words import is_filler, is_function_word
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import Span, acts, walk
 
@@ -76,17 +76,18 @@ def _words(task: Task) -> Iterator[tuple[int, int, WordRole]]:
     """Yield start, end and role of every word with content; the shortest range around a word decides its role."""
     ranges = sorted(_ranges(task), key=lambda found: (found[0][1] - found[0][0], ROLES.index(found[1])))
     found: list[tuple[str, int, int, WordRole]] = []
+    language = language_of_request(task.command.request)
     for word in _WORD.finditer(task.command.request):
         start, end = word.start(), word.start() + len(word.group().rstrip())
         text = word.group().strip().lower()
-        if text not in FUNCTION_WORDS:
+        if not is_function_word(text, language):
             holding = (role for (first, last), role in ranges if first <= start and end <= last)
             found.append((text, start, end, next(holding, "nothing")))
     spoken = {_stem(text) for text, _, _, role in found if role not in ("no_part", "nothing") and text.isalpha()}
     spoken |= {_stem(r.name.lower()) for r in task.resources if r.kind == "robot"}
     spoken |= {_stem(word) for act in acts(task.composition.plan) for word in act.action.split("_")}
     for text, start, end, role in found:
-        dropped = role == "no_part" and not is_filler(text) and _stem(text) not in spoken
+        dropped = role == "no_part" and not is_filler(text, language) and _stem(text) not in spoken
         yield start, end, "nothing" if dropped else role
 
 

@@ -66,7 +66,7 @@ def test_another_language_is_named_with_the_planner_that_may_understand_it(reque
     assert isinstance(outcome, Refused)
     advice = " ".join(reason.advice for reason in outcome.reasons)
     assert f"seems to be {language}" in advice
-    assert "only English is understood" in advice
+    assert "only English and Spanish are understood" in advice
     assert "--planner llm" in advice
 
 

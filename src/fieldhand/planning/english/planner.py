@@ -90,6 +90,16 @@ def _unanswered(question: Question, given: Answer, *, known: bool) -> Reason:
     return Reason(what=what, advice=message("choose: {choices}", choices=choices))
 
 
+def check_request(request: str) -> None:
+    """Raise an error for a text that cannot be a request.
+
+    Raises:
+        RequestError: The request is empty, too long, or contains characters that no document can contain.
+    """
+    _check_text(request)
+    _check_length(words_of(request))
+
+
 def _check_text(request: str) -> None:
     if not request.strip():
         raise RequestError(

@@ -37,8 +37,8 @@ def unknown_words(terms: Sequence[Term], lexicon: Lexicon) -> tuple[Reason, ...]
         advice = message("did you mean {near}?", near=joined(", ", near)) if near else PLAINLY
         if language := language_of(t.text for t in strange):
             advice = message(
-                "this seems to be {language}, and only English is understood: say it in English, or plan it with a"
-                " language model (--planner llm)",
+                "this seems to be {language}, and only English and Spanish are understood: say it in English, or"
+                " plan it with a language model (--planner llm)",
                 language=named(language, "language"),
             )
         reasons.append(

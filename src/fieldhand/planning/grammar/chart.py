@@ -113,10 +113,11 @@ class Grammar:
 
         return register
 
-    def include(self, other: Grammar) -> None:
-        """Add the constructions of another grammar."""
+    def include(self, other: Grammar, without: Iterable[Callable[..., Any]] = ()) -> None:
+        """Add the constructions of another grammar, except those with one of some functions."""
+        left_out = tuple(without)
         for first, constructions in other.by_first.items():
-            self.by_first[first].extend(constructions)
+            self.by_first[first].extend(one for one in constructions if one.compose not in left_out)
 
 
 @dataclass(frozen=True, slots=True)
@@ -183,6 +184,11 @@ class Chart:
             for end in self._after(self.length):
                 found += self.edges(category, start, end)
         return sorted(found, key=lambda edge: edge.cost)
+
+    def furthest(self, category: str) -> int:
+        """Return the end of the longest edge of a category from the first token on, fillers before it skipped."""
+        starts = set(self._before(0))
+        return max((end for name, start, end in self._best if name == category and start in starts), default=0)
 
     def _before(self, start: int) -> Iterator[int]:
         """Yield the positions that are reached from ``start`` by skipping fillers."""

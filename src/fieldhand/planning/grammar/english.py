@@ -79,7 +79,7 @@ def _own() -> Mapping[str, Any]:
 
 @cache
 def _features() -> FeatureTable:
-    return FeatureTable.read(_own())
+    return FeatureTable.read(_own(), lambda phrase: split(phrase) or (phrase,))  # a dash has no words
 
 
 @cache

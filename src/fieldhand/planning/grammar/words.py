@@ -74,10 +74,15 @@ class FeatureTable:
     of_words: Mapping[str, frozenset[str]]
 
     @classmethod
-    def read(cls, table: Mapping[str, Any]) -> FeatureTable:
-        """Return the features of the tables ``features`` and ``features_of_words`` of a lexicon."""
+    def read(cls, table: Mapping[str, Any], split: Callable[[str], Phrase]) -> FeatureTable:
+        """Return the features of the tables ``features`` and ``features_of_words`` of a lexicon.
+
+        Args:
+            table: Tables of the lexicon.
+            split: Returns a phrase as words.
+        """
         return cls(
-            of_phrases=_by_word(table["features"], lambda phrase: split(phrase) or (phrase,)),
+            of_phrases=_by_word(table["features"], split),
             of_words=_by_word(table["features_of_words"], str),
         )
 

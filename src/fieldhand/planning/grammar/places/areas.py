@@ -196,7 +196,7 @@ def area(where: s.Selector) -> PlaceMeaning:
 @construction("place: word=DET in_ where=region", cost=0.4)
 def those_in(word: Lex, where: s.Selector) -> PlaceMeaning | None:
     """Compose "those in row 4"."""
-    return PlaceMeaning(where, "several") if "those" in word.features else None
+    return PlaceMeaning(where, "several") if "stands_for_noun" in word.features else None
 
 
 @construction("place: whole=place [COMMA] STICKING where=region", cost=0.3)

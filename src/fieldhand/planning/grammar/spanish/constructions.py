@@ -1,0 +1,169 @@
+"""Constructions of Spanish: those of all languages, with the patterns whose word order is Spanish.
+
+Most patterns here name a function that English has with another order of its parts. The constructions of English that
+would read Spanish words wrongly are left out.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.english.limits import Amount
+from fieldhand.planning.grammar import commands, places
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.commands import captures, driving, limits, things
+from fieldhand.planning.grammar.meaning import LimitClause, Nominal, PlaceMeaning, Thing
+from fieldhand.planning.grammar.places import groups, nouns, numbers, positions, rows, spots, steps
+from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
+from fieldhand.planning.grammar.words import Lex
+from fieldhand.terms import Side
+
+#: Constructions whose patterns would read Spanish words wrongly: an adjective behind its noun as a clause, and each of
+#: so many in "cada tres árboles".
+_ENGLISH = (
+    nouns.described,
+    nouns.with_attribute,
+    nouns.attribute_is,
+    nouns.those_with_attribute,
+    groups.each_of_group,
+)
+
+GRAMMAR = Grammar()
+GRAMMAR.include(places.GRAMMAR, without=_ENGLISH)
+GRAMMAR.include(commands.GRAMMAR)
+construction = GRAMMAR.construction
+
+# What describes a noun stands behind it: "árboles amarillos", "la mitad norte", "los 3 árboles más al norte".
+construction("nominal: inner=nominal value=ATTRVAL", "nominal: inner=nominal OF value=ATTRVAL", cost=0.2)(
+    nouns.described
+)
+construction("quality: value=ATTRVAL", cost=0.4)(nouns.attribute_is)
+construction(
+    "nominal: inner=nominal WHICH [IS] test=attribute_test",
+    "nominal: inner=nominal [WITH] test=attribute_test",
+    "nominal: inner=nominal WHICH [IS] test=quality",
+)(nouns.with_attribute)
+construction(
+    "place: whole=place WHICH [IS] test=attribute_test", "place: whole=place WHICH [IS] test=quality", cost=0.3
+)(nouns.those_with_attribute)
+construction("nominal: inner=nominal side=MOST", cost=0.2)(nouns.extreme)
+construction("place: [DET] n=count inner=nominal side=MOST", cost=0.2)(nouns.so_many_extreme)
+construction("rows: [DET] [n=count] noun=ROW side=MOST", cost=0.1)(rows.outermost_rows)
+construction("ranking: attribute=ATTR rank=ranking", cost=0.0)(nouns.ranking_of)
+construction(
+    "place: [DET] n=count inner=nominal rank=ranking",
+    "place: [DET] inner=nominal rank=ranking",
+    "place: [DET] n=count inner=nominal WITH rank=ranking",
+    "place: [DET] n=count inner=nominal OF [DET] rank=ranking",
+    "place: [DET] inner=nominal OF [DET] rank=ranking",
+)(nouns.ranked)
+construction("region: [DET] HALF side=DIR", "region: [DET] SIDE side=DIR", cost=0.2)(places.areas.half)
+construction("region: [DET] QUARTER side=DIR", cost=0.2)(places.areas.quarter)
+construction("region: [DET] EDGE side=DIR", cost=0.2)(places.areas.edge)
+construction("nominal: noun=CORNER side=DIR", "nominal: noun=CORNER OF DET side=DIR", cost=0.1)(spots.corner)
+construction("nominal: TREE OF DET [n=count] noun=CORNER", cost=0.2)(spots.corners)
+construction("edge_side: EDGE side=DIR", "edge_side: SIDE side=DIR", "edge_side: FINISH side=DIR", cost=0.1)(
+    spots.edge_side
+)
+construction("corner_at: noun=CORNER side=DIR", cost=0.0)(spots.corner_at)
+construction("place: [DET] FINISH side=DIR in_ rows=rows", cost=0.1)(positions.end_of_row)
+construction("place: DET inner=nominal NEARBY", cost=0.2)(steps.nearby)
+construction("nominal: inner=nominal OTHER", cost=0.2)(groups.another)
+construction("place: n=count inner=nominal OTHER", "place: OTHER n=count inner=nominal", cost=0.2)(groups.others)
+construction("place: n=count inner=nominal CONSECUTIVE", cost=0.1)(positions.consecutive)
+construction("rows: [DET] noun=ROW ODD", "rows: each=EACH noun=ROW ODD", cost=0.1)(rows.odd_rows)
+construction("rows: [DET] noun=ROW EVEN", "rows: each=EACH noun=ROW EVEN", cost=0.1)(rows.even_rows)
+construction("rows: DET rows=row_list", cost=0.1)(rows.listed_rows)
+construction("rows: [DET] n=count LAST noun=ROW", cost=0.1)(rows.last_rows)
+construction("rows: [DET] n=count rank=ORD noun=ROW", cost=0.1)(rows.first_rows)
+construction("positions: n=count rank=ORD", cost=0.0)(positions.first_so_many)
+construction("positions: n=count LAST", cost=0.0)(positions.last_so_many)
+construction("rows: [DET] ROW FROM [DET] first=NUM range_to [DET] last=NUM", cost=0.2)(rows.rows_from_to)
+construction("tree_ids: TREE FROM DET number=NUM range_to [DET] last=NUM", cost=0.3)(numbers.tree_range)
+construction("tree_ids: first=tree_ids [COMMA] AND DET number=NUM", cost=0.3)(numbers.and_tree_number)
+construction("place: word=EACHOF place=place", cost=0.4)(groups.each_of_group)
+construction("ordered: DET rank=ranking FIRSTONE", cost=0.1)(driving.best_first)
+construction("place: EACH [DET] inner=nominal ALLYOUCAN", "place: ASMANYOF inner=nominal", cost=0.1)(groups.as_many)
+construction("place: n=count inner=nominal UPTO", "place: n=count inner=nominal ATMOST", cost=0.2)(groups.up_to)
+construction(
+    "place: ANOTHER POINT [RANDOM] [COMMA] step=stride",
+    "place: ANOTHER TREE [RANDOM] [COMMA] step=stride",
+    "place: DET POINT step=stride",
+    cost=0.3,
+)(steps.tree_along_row)
+
+# Commands and clauses.
+construction("capture: TAKE place=to_it things=things", cost=0.3)(captures.measure_for)
+construction("capture: MEASURE place=place COMMA verb things=things", cost=0.4)(captures.measure_for)
+construction("capture: verb place=place TAKE things=things", cost=0.3)(captures.measure_for)
+construction("thing: n=count READING OF [DET] noun=NOUN", cost=0.1)(things.readings_of)
+construction("apart: AT far=amount APART", "apart: SPACEDBY far=amount APART", cost=0.1)(captures.apart)
+construction("apart: SPACEDBY [APART] far=amount", "apart: WITH far=amount APART", cost=0.1)(captures.apart)
+construction("apart: SPACEDBY APART FOR far=amount", cost=0.1)(captures.apart)
+construction("limit: WITHOUT GO [UPTO] check=CMP most=amount", cost=0.3)(limits.not_more_than)
+construction("limit: BEFORE BATTERY [IS] [at] least=amount", cost=0.3)(limits.keep)
+construction("limit: RETURN BEFORE WHICH BATTERY [IS] [at] least=amount", cost=0.2)(limits.back_before)
+construction("drive: GO OF place=place", cost=0.6)(driving.drive_to)
+
+
+@construction("amount: DET inner=amount", cost=0.1)
+def with_article(inner: Amount) -> Amount:
+    """Compose "el 30 %"."""
+    return inner
+
+
+@construction("to_it: word=ATHIM", cost=0.1)
+def to_it(word: Lex) -> PlaceMeaning:
+    """Compose "-le" of "tómale": where the robot is."""
+    return PlaceMeaning(s.Here(), "those" if "of_several" in word.features else "here")
+
+
+@construction("place: ONEOFEACH n=count inner=nominal", cost=0.2)
+def one_of_so_many(n: int, inner: Nominal) -> PlaceMeaning | None:
+    """Compose "uno de cada tres árboles"."""
+    if inner.single or inner.complete or n < 2 or not inner.plural or inner.tested or inner.kind != "tree":
+        return None
+    return PlaceMeaning(s.EveryNth(nth=n, of=inner.selector), "several", each=True)
+
+
+@construction("rows: EACH n=count noun=ROW", "rows: ONEOFEACH n=count noun=ROW", cost=0.2)
+def every_so_many_rows(n: int, noun: Lex) -> s.Selector | None:
+    """Compose "cada tres filas"."""
+    return s.Rows(every=n) if noun.plural and n > 1 else None
+
+
+@construction("place: DET inner=nominal BYTURNS", cost=0.2)
+def every_other(inner: Nominal) -> PlaceMeaning | None:
+    """Compose "un árbol sí y otro no"."""
+    return positions.every_other(inner)
+
+
+@construction("place: DET side=DIR", "place: DET side=DIR OF site", cost=0.6)
+def that_corner(side: Lex) -> PlaceMeaning | None:
+    """Compose "la noreste" behind "la esquina noroeste"."""
+    return PlaceMeaning(s.Corners(which=(side.value,)), "one") if side.value in CORNERS else None
+
+
+@construction("way: AT DET side=DIR OF DET ROW", cost=0.1)
+def way_along_row(side: Lex) -> Side | None:
+    """Compose "hacia el norte de la fila"."""
+    return side.value if side.value in SIDES else None
+
+
+@construction(
+    "limit: less most=amount [of_what]",
+    "limit: most=amount ATMOST [of_what]",
+    "limit: WITH less most=amount [of_what]",
+    cost=0.4,
+)
+def at_most(most: Amount, used: int) -> LimitClause | None:
+    """Compose "a lo sumo 200 metros"."""
+    return limits.at_most(most, used)
+
+
+@construction("thing: [DET] word=READING OF [DET] noun=NOUN", cost=0.2)
+def readings_of(word: Lex, noun: Lex) -> Thing | None:
+    """Compose "las lecturas de CO2"."""
+    made = things.reading_of(noun)
+    return None if made is None else replace(made, plural=word.plural)
