@@ -29,6 +29,9 @@ from fieldhand.site.model import Place, Site
 XY = tuple[float, float]
 Key = tuple[str, str, XY, XY | None]
 
+#: Number of drives that are kept; guards look again and again at the drives between the stops that remain.
+_MOST_DRIVES = 20_000
+
 
 @dataclass(frozen=True)
 class Drive:
@@ -77,6 +80,7 @@ class Drives:
         self._closed: dict[Key, str] = {}
         self._problems: dict[Key, str] = {}
         self._ways: dict[tuple[XY, XY], tuple[tuple[XY, ...], float] | None] = {}
+        self._drives: dict[tuple[Place, XY | None, Place, XY | None], Drive] = {}
 
     # --- drives -----------------------------------------------------------------------------------------------
 
@@ -88,6 +92,15 @@ class Drives:
         Raises:
             DriveFault: A place cannot be reached, or no path connects them.
         """
+        key = (a, a.stand, b, b.stand)
+        known = self._drives.get(key)
+        if known is None:
+            if len(self._drives) >= _MOST_DRIVES:
+                self._drives.clear()
+            known = self._drives[key] = self._shortest(a, b)
+        return known
+
+    def _shortest(self, a: Place, b: Place) -> Drive:
         self._check((a, b))
         if a.stand is None and b.stand is None and a.xy == b.xy:
             a = b = self.stands((a,))[0]
