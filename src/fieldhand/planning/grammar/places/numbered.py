@@ -53,11 +53,12 @@ def numbered(trees: Sequence[str], rows: s.Selector, site: Site) -> list[s.Selec
     says what it lacks.
     """
     by_id = _all_of([s.TreeIs(tree=name) for name in trees])
-    if not all(name.isdigit() for name in trees):
-        return [by_id]
-    counted = over(_all_of([s.InRow(first=first, last=last) for first, last in _runs(trees)]), rows)
-    at_places, in_rows = ids_of(counted, site), ids_of(rows, site)
+    in_rows = ids_of(rows, site)
     fits = in_rows is not None and set(trees) <= in_rows
+    if not all(name.isdigit() for name in trees):
+        return [by_id] if fits or in_rows is None else []
+    counted = over(_all_of([s.InRow(first=first, last=last) for first, last in _runs(trees)]), rows)
+    at_places = ids_of(counted, site)
     if fits and (at_places is None or at_places == set(trees)):
         return [by_id]
     return [counted, by_id] if fits else [counted]
