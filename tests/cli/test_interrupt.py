@@ -7,45 +7,25 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Iterable
 from pathlib import Path
 
 import pytest
 
 from ros2.sim_robots import patient
+from support.processes.command import started
 from support.processes.patience import LONG_S
 
 
-def as_usual() -> None:
-    """Signals as a terminal hands them to a program, whatever started the tests."""
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, signal.SIG_DFL)
-
-
-def in_the_background() -> None:
-    """A program that a script starts in the background does not see the Ctrl-C of the script."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    signal.signal(signal.SIGTERM, signal.SIG_DFL)
-
-
-def start(tmp_path: Path, speed: int, signals: Callable[[], None] = as_usual) -> subprocess.Popen[str]:
+def mission(tmp_path: Path, speed: int) -> list[str]:
     """A mission of many captures, so many times faster than it would be driven; its battery loses nothing meanwhile."""
     words = ["run", "Take a picture of every tree.", "--site", "demo", "--yes", "--speed", str(speed)]
     words += ["--robot", str(patient(tmp_path))]
-    files = ["--out", str(tmp_path / "out"), "--events", str(tmp_path / "e.jsonl")]
-    return subprocess.Popen(
-        [sys.executable, "-u", "-m", "fieldhand", *words, *files],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        env=dict(os.environ),
-        preexec_fn=signals,
-    )
+    return [*words, "--out", str(tmp_path / "out"), "--events", str(tmp_path / "e.jsonl")]
 
 
-def until_a_capture(process: subprocess.Popen[str]) -> None:
-    assert process.stdout is not None
-    for line in process.stdout:
+def until_a_capture(lines: Iterable[str]) -> None:
+    for line in lines:
         if "thermal picture" in line and "°C" in line:
             return
     pytest.fail("no capture was told")
@@ -54,12 +34,12 @@ def until_a_capture(process: subprocess.Popen[str]) -> None:
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_a_signal_keeps_what_was_gathered(number: signal.Signals, tmp_path: Path) -> None:
     # Slow enough to be ended under way, also where this process has to wait for its turn.
-    process = start(tmp_path, 20)
-    until_a_capture(process)
+    process = started(*mission(tmp_path, 20), folder=tmp_path)
+    until_a_capture(process.out)
     process.send_signal(number)
-    out, err = process.communicate(timeout=LONG_S)
-    assert "Traceback" not in err, err
-    assert process.returncode == 1, (out, err)
+    run = process.end()
+    assert "Traceback" not in run.err, run.err
+    assert run.status == 1, run
     events = [json.loads(line) for line in (tmp_path / "e.jsonl").read_text().splitlines()]
     assert events[-1]["event"] == "mission"
     assert events[-1]["status"] == "aborted"
@@ -68,21 +48,27 @@ def test_a_signal_keeps_what_was_gathered(number: signal.Signals, tmp_path: Path
 
 
 def test_a_mission_in_the_background_is_ended_by_a_kill_alone(tmp_path: Path) -> None:
-    process = start(tmp_path, 20, in_the_background)
-    until_a_capture(process)
+    process = started(*mission(tmp_path, 20), folder=tmp_path, deaf=True)
+    until_a_capture(process.out)
     process.send_signal(signal.SIGINT)
-    until_a_capture(process)
+    until_a_capture(process.out)
     process.send_signal(signal.SIGTERM)
-    process.communicate(timeout=LONG_S)
-    assert process.returncode == 1
+    assert process.end().status == 1
     last = json.loads((tmp_path / "e.jsonl").read_text().splitlines()[-1])
     assert (last["status"], "SIGTERM" in json.dumps(last)) == ("aborted", True)
 
 
 def test_a_reader_that_goes_away_ends_no_mission(tmp_path: Path) -> None:
-    process = start(tmp_path, 2000)
-    until_a_capture(process)
+    """A program that starts anew, since at its end the interpreter writes what is left."""
+    process = subprocess.Popen(
+        [sys.executable, "-u", "-m", "fieldhand", *mission(tmp_path, 2000)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=dict(os.environ),
+    )
     assert process.stdout is not None
+    until_a_capture(process.stdout)
     process.stdout.close()
     process.stdout = None
     _, err = process.communicate(timeout=LONG_S)

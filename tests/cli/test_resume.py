@@ -3,11 +3,7 @@
 from __future__ import annotations
 
 import json
-import os
 import signal
-import subprocess
-import sys
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -16,8 +12,7 @@ from typer.testing import CliRunner
 
 from fieldhand.cli.app import assemble
 from fieldhand.errors import FieldhandError
-from support.processes.command import Run
-from support.processes.patience import LONG_S
+from support.processes.command import Run, Started, started
 
 MISSION = ("run", "Take a thermal picture at every tree of row 2.", "--site", "demo", "--yes", "--confirm")
 
@@ -37,30 +32,19 @@ def missions(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path / "missions"
 
 
-def under_way(*words: str, captures: int) -> subprocess.Popen[str]:
+def under_way(*words: str, folder: Path, captures: int) -> Started:
     """A mission that has made so many captures, much slower than it could go on."""
-    process = subprocess.Popen(
-        [sys.executable, "-u", "-m", "fieldhand", *words], stdout=subprocess.PIPE, text=True, env=dict(os.environ)
-    )
-    for _ in captured(process, captures):
-        pass
-    return process
-
-
-def captured(process: subprocess.Popen[str], captures: int) -> Iterator[str]:
-    assert process.stdout is not None
-    for line in process.stdout:
-        if "°C" in line:
-            captures -= 1
-            yield line
+    process = started(*words, folder=folder)
+    for line in process.out:
+        captures -= "°C" in line
         if captures == 0:
-            return
+            return process
     pytest.fail("the mission ended too early")
 
 
-def kill(process: subprocess.Popen[str]) -> None:
+def kill(process: Started) -> None:
     process.send_signal(signal.SIGKILL)
-    process.communicate(timeout=LONG_S)
+    process.end()
 
 
 def status() -> dict[str, Any]:
@@ -69,7 +53,7 @@ def status() -> dict[str, Any]:
 
 
 def test_paused_killed_twice_and_resumed(missions: Path, tmp_path: Path) -> None:
-    process = under_way(*MISSION, "--speed", "10", captures=2)
+    process = under_way(*MISSION, "--speed", "10", folder=tmp_path, captures=2)
     assert "paused" in fieldhand("pause", "--because", "lunch").out
     assert status()["state"] == "paused"
     assert "continues" in fieldhand("resume").out
@@ -79,7 +63,7 @@ def test_paused_killed_twice_and_resumed(missions: Path, tmp_path: Path) -> None
     assert "interrupted" in fieldhand("status").out
     unheard = fieldhand("pause")
     assert (unheard.status, "was interrupted; the order remains in force" in unheard.out) == (1, True)
-    kill(under_way("resume", "--speed", "15", captures=2))
+    kill(under_way("resume", "--speed", "15", folder=tmp_path, captures=2))
     done = fieldhand("resume", "--json", "-o", str(tmp_path / "out"), "--events", str(tmp_path / "e.jsonl"))
     assert done.status == 0, (done.out, done.err)
     found = status()

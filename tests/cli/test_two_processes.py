@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import json
-import os
 import shutil
-import subprocess
-import sys
+import signal
 from pathlib import Path
 
 import pytest
@@ -14,23 +12,14 @@ import pytest
 from fieldhand import missions
 from fieldhand.errors import JournalError
 from fieldhand.task.results import Acted, Ended
-from support.processes.patience import LONG_S
-
-FIELDHAND = [sys.executable, "-u", "-m", "fieldhand"]
+from support.processes.command import Started, fieldhand, started
 
 
-def start(under: Path) -> tuple[subprocess.Popen[str], Path]:
+def start(under: Path, folder: Path) -> tuple[Started, Path]:
     """A mission of six captures, driven in another process, and its folder once the first is made."""
     words = ["run", "Take a thermal picture of tree 1, tree 2, tree 3, tree 4, tree 5 and tree 6.", "--site", "demo"]
-    process = subprocess.Popen(
-        [*FIELDHAND, *words, "--yes", "--confirm", "--speed", "20", "--missions", str(under)],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        env=dict(os.environ),
-    )
-    assert process.stdout is not None
-    for line in process.stdout:
+    process = started(*words, "--yes", "--confirm", "--speed", "20", "--missions", str(under), folder=folder)
+    for line in process.out:
         if "thermal picture" in line and "°C" in line:
             return process, missions.find(under, None)
     pytest.fail("no capture was told")
@@ -41,7 +30,8 @@ def captures(folder: Path) -> list[str]:
 
 
 def test_a_second_process_never_drives_beside_the_first(tmp_path: Path) -> None:
-    process, folder = start(tmp_path)
+    under = tmp_path / "missions"
+    process, folder = start(under, tmp_path)
     try:
         (folder / "lock").touch()
         (folder / "lock").unlink()
@@ -49,17 +39,18 @@ def test_a_second_process_never_drives_beside_the_first(tmp_path: Path) -> None:
         with pytest.raises(JournalError, match="another process is running this mission"):
             missions.carry_out(missions.open_mission(folder), speed=None, emit=lambda _: None)
         # The same files in another folder of the same name: there is no lock on that, and the journal is the same.
-        old = folder.rename(tmp_path / "old")
+        old = folder.rename(under / "old")
         folder.mkdir()
         for path in old.iterdir():
             path.rename(folder / path.name)
         result = missions.carry_out(missions.open_mission(folder), speed=None, emit=lambda _: None)
-        _, err = process.communicate(timeout=LONG_S)
+    except BaseException:
+        process.send_signal(signal.SIGKILL)
+        raise
     finally:
-        process.kill()
-        process.wait()
-    assert process.returncode == 2, err
-    assert "Traceback" not in err
+        run = process.end()
+    assert run.status == 2, run
+    assert "Traceback" not in run.err
     assert result.status == "completed"
     assert sorted(captures(folder)) == ["1", "2", "3", "4", "5", "6"]
     assert len((folder / "events.jsonl").read_text().splitlines()) == len(result.events)
@@ -67,27 +58,26 @@ def test_a_second_process_never_drives_beside_the_first(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("harm", ["renamed", "deleted"])
 def test_a_mission_whose_folder_goes_away_stops_and_says_so(tmp_path: Path, harm: str) -> None:
-    process, folder = start(tmp_path / "missions")
+    process, folder = start(tmp_path / "missions", tmp_path)
     try:
         if harm == "renamed":
             folder.rename(tmp_path / "elsewhere")
         else:
             while folder.exists():  # SQLite removes files of its own meanwhile
                 shutil.rmtree(folder, ignore_errors=True)
-        _, err = process.communicate(timeout=LONG_S)
+    except BaseException:
+        process.send_signal(signal.SIGKILL)
+        raise
     finally:
-        process.kill()
-        process.wait()
-    assert process.returncode == 2, err
-    assert "Traceback" not in err
-    assert "is no longer in its place" in err or "cannot be written" in err
+        run = process.end()
+    assert run.status == 2, run
+    assert "Traceback" not in run.err
+    assert "is no longer in its place" in run.err or "cannot be written" in run.err
     if harm == "deleted":
         return
     (tmp_path / "elsewhere").rename(folder)
-    done = subprocess.run(
-        [*FIELDHAND, "resume", str(folder), "--json"], capture_output=True, text=True, env=dict(os.environ), check=False
-    )
-    assert done.returncode == 0, done.stderr
-    assert json.loads(done.stdout)["status"] == "completed"
+    done = fieldhand("resume", str(folder), "--json")
+    assert done.status == 0, done.err
+    assert json.loads(done.out)["status"] == "completed"
     assert sorted(captures(folder)) == ["1", "2", "3", "4", "5", "6"]
     assert isinstance(missions.events_of(folder)[-1], Ended)

@@ -8,6 +8,7 @@ itself reads from the environment takes a new process, and so does who asks for 
 from __future__ import annotations
 
 import atexit
+import itertools
 import json
 import os
 import signal
@@ -19,6 +20,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from typing import IO
 
 #: Read by the interpreter when it starts.
 _AT_START = ("PYTHON", "LC_", "LANG")
@@ -76,6 +78,47 @@ def in_background(*words: str, out: Path) -> Iterator[int]:
             os.kill(process, signal.SIGKILL)
 
 
+@dataclass(frozen=True, kw_only=True)
+class Started:
+    """A command in a process of its own, whose output is read as it comes.
+
+    Attributes:
+        pid: The number of its process.
+        out: What it prints, from a pipe.
+    """
+
+    pid: int
+    out: IO[str]
+    _err: Path
+
+    def send_signal(self, number: int) -> None:
+        os.kill(self.pid, number)
+
+    def end(self) -> Run:
+        """Read what is left, and wait until it has ended."""
+        out = self.out.read()
+        self.out.close()
+        return Run(status=_answered({"wait": self.pid}), out=out, err=self._err.read_text())
+
+
+def started(*words: str, folder: Path, env: dict[str, str] | None = None, deaf: bool = False) -> Started:
+    """Start ``fieldhand`` with these words; who starts it ends it.
+
+    Args:
+        folder: For its pipe and its errors.
+        deaf: As a script starts a program in the background, which does not see the Ctrl-C of the script.
+    """
+    number = next(_NUMBERS)
+    pipe, err = folder / f"out-{number}", folder / f"err-{number}"
+    os.mkfifo(pipe)
+    environment = dict(os.environ) if env is None else env
+    pid = _ordered(words, None, environment, [Path(os.devnull), pipe, err], background=True, deaf=deaf)
+    return Started(pid=pid, out=pipe.open(), _err=err)
+
+
+_NUMBERS = itertools.count(1)
+
+
 def _ordered(
     words: tuple[str, ...],
     cwd: Path | None,
@@ -84,6 +127,7 @@ def _ordered(
     *,
     background: bool = False,
     terminal: bool = False,
+    deaf: bool = False,
 ) -> int:
     """What the first process answers to an order."""
     order = {
@@ -94,7 +138,12 @@ def _ordered(
         "limit_s": _LIMIT_S,
         "background": background,
         "terminal": terminal,
+        "deaf": deaf,
     }
+    return _answered(order)
+
+
+def _answered(order: dict[str, object]) -> int:
     first = _first()
     assert first.stdin is not None
     assert first.stdout is not None

@@ -1,7 +1,7 @@
 """A program that has loaded what ``fieldhand`` needs, and copies itself for each command that it is told to run.
 
 Reads an order a line and answers each with the exit status of its command, negative for the signal that ended it; one
-that goes on in the background with the number of its process.
+that goes on in the background with the number of its process, and later the order to wait for it with its exit status.
 """
 
 from __future__ import annotations
@@ -54,6 +54,9 @@ def become(order: dict[str, Any]) -> None:
     signal.alarm(order["limit_s"])
     if order["terminal"]:
         os.setsid()  # so that the terminal that is opened next is its own
+    signal.signal(signal.SIGINT, signal.SIG_IGN if order["deaf"] else signal.default_int_handler)
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
     if order["background"]:
         sys.stdout.reconfigure(line_buffering=True)  # somebody reads what it has said so far
     for number, (file, how) in enumerate(zip(order["files"], (os.O_RDONLY, os.O_WRONLY, os.O_WRONLY), strict=True)):
@@ -105,6 +108,10 @@ def main() -> None:
     gc.freeze()  # nor need a copy look for garbage in what it was given
     for line in orders:
         order = json.loads(line)
+        if "wait" in order:
+            _, ended = os.waitpid(order["wait"], 0)
+            print(os.waitstatus_to_exitcode(ended), file=answers, flush=True)
+            continue
         child = os.fork()
         if not child:
             become(order)
