@@ -77,7 +77,7 @@ _SPANISH_FILLERS = _words(
     ademas ahora algun arbol arboles azar bien buenas buenos cada campo como comprobarlo confirmar confirmarlo
     considerando cualquier despues dias entonces envia favor finca foto fotos gracias gustaria hola huerto luego
     lugar manda media medicion mediciones medio muchas necesito orden podria podrias primero promedio puede
-    puedes punto quiero quisiera rectangulo robot tambien tardes toma tomar vale viendo
+    puedes punto quiero quisiera rectangulo robot tambien tardes toma tomar vale vaya ve viendo
     """
 )
 

@@ -141,6 +141,7 @@ class Chart:
         fillers: Tokens that may be skipped.
         most: Maximum number of combinations of phrases that are tried; a text that takes more has no reading, since
             their number grows with the third power of its length.
+        predicted: Categories whose phrases are only made at the beginning, and where another phrase awaits them.
         given: What constructions may take beside their parts, by name.
 
     Attributes:
@@ -151,6 +152,7 @@ class Chart:
     length: int
     fillers: frozenset[int]
     most: int = MOST_COMBINATIONS
+    predicted: frozenset[str] = frozenset()
     given: Mapping[str, Any] = field(default_factory=dict)
     combinations: int = 0
     _best: dict[tuple[str, int, int], dict[Any, PhraseEdge]] = field(default_factory=dict)
@@ -217,6 +219,8 @@ class Chart:
     def _use(self, edge: PhraseEdge) -> None:
         """Begin constructions with an edge, and continue those that wait for it."""
         for construction in self.grammar.by_first.get(edge.category, ()):
+            if construction.result in self.predicted and not self._awaits(construction.result, edge):
+                continue
             empty = _Partial(construction, edge.start, (), construction.cost, 0)
             self._advance(empty, edge, 0.0)
         position, skipped = edge.start, 0.0
@@ -226,6 +230,17 @@ class Chart:
             if position - 1 not in self.fillers:
                 break
             position, skipped = position - 1, skipped + _FILLER_COST
+
+    def _awaits(self, category: str, edge: PhraseEdge) -> bool:
+        """Return True if a phrase of a category is expected where an edge starts: at the beginning, or by another."""
+        if edge.category == category:
+            return True
+        position = edge.start
+        while position > 0 and category not in self._partial[position]:
+            if position - 1 not in self.fillers:
+                return False
+            position -= 1
+        return True
 
     def _advance(self, partial: _Partial, edge: PhraseEdge, skipped: float) -> None:
         self.combinations += 1

@@ -21,6 +21,8 @@ OfLast = Literal["", "all", "any", "none"] | int
 
 #: Action of a capture that refers to the last one ("another one").
 LAST_THING = "*"
+#: Quantity of a test of the first reading of the request, whatever it measures.
+FIRST_READING = "^"
 
 
 @dataclass(frozen=True, slots=True)
@@ -274,6 +276,7 @@ class Connective:
         then: True if it says that one follows the other.
         both: True if it contains "and".
         first: True if it says that what follows is to be done before ("but first").
+        from_here: True if what follows begins where the robot is then ("from there").
     """
 
     full: bool
@@ -281,6 +284,7 @@ class Connective:
     used: int
     first: bool = False
     both: bool = False
+    from_here: bool = False
 
 
 Command = (

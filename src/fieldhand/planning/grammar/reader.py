@@ -27,6 +27,8 @@ from fieldhand.task.request_coverage import request_pieces
 
 #: Two readings whose costs differ by less are equally likely.
 _MARGIN = 0.5
+#: Sequences of commands begin where the request begins; without this they would be made from every command on.
+PREDICTED = frozenset({"said"})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,7 +56,7 @@ def readings(
     phrases = language.phrases(robot, site)
     remarks = without_remarks(words, edges_of(words, phrases))
     words = list(remarks.words)
-    chart = Chart(language.grammar(), len(words), fillers_of(words, phrases), given={"site": site})
+    chart = Chart(language.grammar(), len(words), fillers_of(words, phrases), given={"site": site}, predicted=PREDICTED)
     chart.parse(edges_of(words, phrases))
     setting = Setting(robot, site, lambda used: spans(words, used))
     found: list[RequestReading] = []

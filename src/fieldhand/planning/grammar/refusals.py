@@ -10,7 +10,7 @@ from fieldhand.planning.english.faults import PLAINLY
 from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.grammar.chart import Chart
 from fieldhand.planning.grammar.language import GrammarLanguage
-from fieldhand.planning.grammar.reader import readings
+from fieldhand.planning.grammar.reader import PREDICTED, readings
 from fieldhand.planning.grammar.words import edges_of, fillers_of
 from fieldhand.planning.planner import Reason
 from fieldhand.robot.model import RobotProfile
@@ -29,7 +29,7 @@ def refusal_reasons(request: str, site: Site, robot: RobotProfile, language: Gra
     known = {k for edge in edges for k in range(edge.start, edge.end)} | fillers
     if unknown := [word for k, word in enumerate(words) if k not in known]:
         return (_unknown(unknown),)
-    chart = Chart(language.grammar(), len(words), fillers, given={"site": site})
+    chart = Chart(language.grammar(), len(words), fillers, given={"site": site}, predicted=PREDICTED)
     chart.parse(edges)
     if not chart.whole("request"):
         return (_stuck(request, words, chart.furthest("said")),)

@@ -8,6 +8,7 @@ from fieldhand.planning.english.limits import Amount
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import (
+    FIRST_READING,
     Allowed,
     AllTests,
     Failing,
@@ -30,6 +31,12 @@ construction = GRAMMAR.construction
 def anything() -> str:
     """Compose "it"."""
     return ""
+
+
+@construction("subject: DET rank=ORD READING", cost=0.0)
+def first_reading(rank: Lex) -> str | None:
+    """Compose "the first reading"."""
+    return FIRST_READING if rank.value == 1 else None
 
 
 @construction("asked: [DET] noun=NOUN [READING] relation place=place", cost=0.0)

@@ -73,10 +73,10 @@ def joint(used: int, then: str = "", both: Lex | None = None) -> Connective:
     return Connective(False, bool(then), used, both=both is not None)
 
 
-@construction("joint: [COMMA] [AND] then [COMMA]", cost=0.1)
-def then_joint(used: int) -> Connective:
+@construction("joint: [COMMA] [AND] then=then [COMMA]", cost=0.1)
+def then_joint(used: int, then: str) -> Connective:
     """Compose "and then"."""
-    return Connective(False, True, used)
+    return Connective(False, True, used, from_here=then == "from here")
 
 
 @construction("joint: FULLSTOP [AND]", cost=0.1)
@@ -85,10 +85,10 @@ def full_stop(used: int) -> Connective:
     return Connective(True, False, used)
 
 
-@construction("joint: FULLSTOP [AND] then [COMMA]", cost=0.1)
-def full_stop_then(used: int) -> Connective:
+@construction("joint: FULLSTOP [AND] then=then [COMMA]", cost=0.1)
+def full_stop_then(used: int, then: str) -> Connective:
     """Compose ". Then"."""
-    return Connective(True, True, used)
+    return Connective(True, True, used, from_here=then == "from here")
 
 
 @construction("joint: INORDERTO", cost=1.0)
@@ -118,7 +118,9 @@ def before_doing(word: Lex, used: int) -> Connective | None:
 @construction("then: word=THEN", cost=0.0)
 def then(word: Lex) -> str | None:
     """Compose "then"."""
-    return None if "after_doing" in word.features else "then"
+    if "after_doing" in word.features:
+        return None
+    return "from here" if "from_here" in word.features else "then"
 
 
 @construction("after: word=THEN done=capture", "after: word=THEN done=drive", cost=0.2)
@@ -127,13 +129,19 @@ def after_doing(word: Lex, done: CaptureCommand | DriveCommand, used: int) -> Af
     return After(done, used) if "after_doing" in word.features else None
 
 
-@construction("said: first=opening one=command", cost=0.2)
+@construction("opened: then [COMMA]", cost=0.0)
+def then_at_first(used: int) -> Connective:
+    """Compose "firstly," at the beginning of a request."""
+    return Connective(False, True, used)
+
+
+@construction("said: first=opening one=command", "said: first=opened one=command", cost=0.2)
 def first_of_all(first: Connective, one: Command) -> Said:
     """Compose "first go to tree 4"."""
     return Said((LinkedCommand(first, one),))
 
 
-@construction("said: one=command", "said: then [COMMA] one=command", cost=0.0)
+@construction("said: one=command", cost=0.0)
 def first_command(one: Command) -> Said:
     """Compose "take a picture"."""
     return Said((LinkedCommand(None, one),))

@@ -15,6 +15,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
     is_inside,
     with_node,
 )
+from fieldhand.planning.grammar.dialogue.repeating import process_again
 from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
     NotComposed,
@@ -229,9 +230,9 @@ def capture_elided(setting: Setting, state: DialogueState) -> DialogueState:
 def capture_again(setting: Setting, state: DialogueState, command: Again) -> DialogueState:
     """Return the state after what was done at the last place was done at another one."""
     place, steps = command.place, state.plan.steps
-    if place is None or state.scope or not steps or place.per is not None:
-        raise NotComposed("what is repeated where?")
-    if steps[-1].is_optional_step or steps[-1].is_choice or steps[-1].caught:
+    if place is None or state.scope or (steps and steps[-1].is_choice):
+        return process_again(setting, state, command)
+    if not steps or place.per is not None or steps[-1].is_optional_step or steps[-1].caught:
         raise NotComposed("what is repeated where?")
     if place.shape == "area":
         last = as_for_each(steps[-1])

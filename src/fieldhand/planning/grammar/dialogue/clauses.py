@@ -89,6 +89,9 @@ def _read(
         state = driven_home(setting, state)
     if joint is not None and joint.full:
         state = _new_sentence(setting, state, command)
+    if joint is not None and joint.from_here and state.where is not None:
+        here = PlaceMeaning(s.Here(), "one")
+        state = replace(state, where=here, where_scope=state.scope, loop=None)
     if joint is not None and joint.then:
         state = with_joints(state, setting.spans_of(joint.used))
     match command:

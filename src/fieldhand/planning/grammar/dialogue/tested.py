@@ -17,7 +17,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
     with_node,
 )
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed
-from fieldhand.planning.grammar.meaning import AllTests, Check, Test
+from fieldhand.planning.grammar.meaning import FIRST_READING, AllTests, Check, Test
 from fieldhand.planning.selections import named_places
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task import conditions as c
@@ -106,7 +106,7 @@ def _of_reading(state: DialogueState, test: Test, robot: RobotProfile) -> tuple[
     if path is None or act is None:
         raise NotComposed("which reading is tested?")
     measures = robot.action[act.action].measures
-    quantity = test.quantity or (measures[0] if measures else "")
+    quantity = test.quantity.replace(FIRST_READING, "") or (measures[0] if measures else "")
     if quantity not in measures:
         raise NotComposed("it measures no such quantity")
     unit = robot.quantity[quantity].unit
@@ -137,7 +137,13 @@ def _checked(test: Test, reading: str, quantity: str, robot: RobotProfile) -> c.
 
 
 def _tested_capture(state: DialogueState, test: Test, robot: RobotProfile) -> Path | None:
-    """Return the path of the capture whose reading is tested: the last one, if its quantity and unit fit."""
+    """Return the path of the capture whose reading is tested: the last one, if its quantity and unit fit.
+
+    A test of the first reading is of the first capture that measures something.
+    """
+    if test.quantity == FIRST_READING:
+        measuring = [path for path, node in walk(state.plan) if _fits(node, replace(test, quantity=""), robot)]
+        return measuring[0] if measuring else None
     if state.captured is not None and _fits(node_at(state.plan, state.captured), test, robot):
         return state.captured
     fitting = [path for path, node in walk(state.plan) if _fits(node, test, robot)]

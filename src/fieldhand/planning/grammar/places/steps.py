@@ -57,6 +57,14 @@ def far_away(inner: Nominal) -> Nominal | None:
     return replace(inner, selector=s.Farthest(origin=s.Here(), of=inner.selector), single=True)
 
 
+@construction("nominal: ANOTHER inner=nominal FARTHEST", "nominal: ANOTHER inner=nominal FARTHEST FROM THERE", cost=0.1)
+def another_far_away(inner: Nominal) -> Nominal | None:
+    """Compose "another tree as far away as possible"."""
+    if inner.single or inner.plural or inner.complete:
+        return None
+    return replace(inner, selector=s.Farthest(origin=s.Here(), of=s.NotVisited(of=inner.selector)), single=True)
+
+
 @construction("place: n=count inner=nominal ADJACENT", "place: n=count ADJACENT inner=nominal", cost=0.2)
 def adjacent(n: int, inner: Nominal) -> PlaceMeaning | None:
     """Compose "three trees next to each other"."""

@@ -70,6 +70,10 @@ construction("corner_at: noun=CORNER side=DIR", cost=0.0)(spots.corner_at)
 construction("place: [DET] FINISH side=DIR in_ rows=rows", cost=0.1)(positions.end_of_row)
 construction("place: DET inner=nominal NEARBY", cost=0.2)(steps.nearby)
 construction("nominal: inner=nominal OTHER", cost=0.2)(groups.another)
+construction("place: n=count inner=nominal OTHER NEARBY", "place: n=count inner=nominal NEARBY OTHER", cost=0.2)(
+    steps.others_nearby
+)
+construction("nominal: ANOTHER inner=nominal OTHER", cost=0.1)(groups.another)
 construction("place: n=count inner=nominal OTHER", "place: OTHER n=count inner=nominal", cost=0.2)(groups.others)
 construction("place: n=count inner=nominal CONSECUTIVE", cost=0.1)(positions.consecutive)
 construction("rows: [DET] noun=ROW ODD", "rows: each=EACH noun=ROW ODD", cost=0.1)(rows.odd_rows)
@@ -95,8 +99,9 @@ construction(
 
 # Commands and clauses.
 construction("capture: TAKE place=to_it things=things", cost=0.3)(captures.measure_for)
-construction("capture: MEASURE place=place COMMA verb things=things", cost=0.4)(captures.measure_for)
-construction("capture: verb place=place TAKE things=things", cost=0.3)(captures.measure_for)
+construction(
+    "capture: verb place=place TAKE things=things", "capture: MEASURE place=place COMMA verb things=things", cost=0.4
+)(captures.measure_for)
 construction("thing: n=count READING OF [DET] noun=NOUN", cost=0.1)(things.readings_of)
 construction("apart: AT far=amount APART", "apart: SPACEDBY far=amount APART", cost=0.1)(captures.apart)
 construction("apart: SPACEDBY [APART] far=amount", "apart: WITH far=amount APART", cost=0.1)(captures.apart)

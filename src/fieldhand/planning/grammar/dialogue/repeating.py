@@ -1,0 +1,180 @@
+"""Repeating a process: what was done since the last place, with its conditions, at another place."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+from fieldhand.planning.grammar.dialogue.driving import drive
+from fieldhand.planning.grammar.dialogue.plans import Path, block_at, walk, with_node
+from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting
+from fieldhand.planning.grammar.meaning import Again, DriveCommand
+from fieldhand.task import conditions as c
+from fieldhand.task import plan as p
+
+
+def process_again(setting: Setting, state: DialogueState, command: Again) -> DialogueState:
+    """Return the state after the last process was repeated at the place named last.
+
+    The process begins at the last place before that one. If it contains the command to repeat it, it is repeated
+    without that branch. Captures that were already made at the new place are not made again.
+
+    Raises:
+        NotComposed: What is repeated, or where, is unclear.
+    """
+    if command.place is not None:
+        if command.place.shape != "one":
+            raise NotComposed("what is repeated where?")
+        state = drive(setting, state, DriveCommand(command.place, command.used))
+    if state.awaits_command or state.open:
+        raise NotComposed("what is repeated where?")
+    steps = state.block.steps
+    here = _last_place(steps, len(steps))
+    if here is None:
+        raise NotComposed("repeated where?")
+    process = _process_before(state.plan, state.scope, here)
+    done = [step for step in steps[here:] if not step.only_drives]
+    rest = _not_done(process, done)
+    if not rest or not _can_be_repeated(process):
+        raise NotComposed("what is repeated?")
+    names = _Names(state.readings)
+    made = _named(done, process, names)
+    first = len(steps) - len(done)
+    plan = with_node(state.plan, state.scope, p.InOrder(id="", steps=(*steps[:first], *made)))
+    said = setting.spans_of(command.used)
+    copies = tuple(_renamed(step, names, said) for step in rest)
+    block = block_at(plan, state.scope)
+    plan = with_node(plan, state.scope, replace(block, steps=(*block.steps, *copies)))
+    captured = [path for path, node in walk(plan) if node.act is not None and path[: len(state.scope)] == state.scope]
+    return replace(
+        state, plan=plan, readings=names.last, captured=captured[-1], loop=None, choice=None, things=(), open=False,
+        commands_in_sentence=state.commands_in_sentence + 1,
+    )  # fmt: skip
+
+
+def _last_place(steps: Sequence[p.Node], end: int) -> int | None:
+    """Return the index of the last step before an index that goes to a place of its own."""
+    for number in range(end - 1, -1, -1):
+        step = steps[number]
+        if step.only_drives or (step.act is not None and step.act.at is not None):
+            return number
+        if step.visits_each:
+            raise NotComposed("repeated at each of them?")
+    return None
+
+
+def _process_before(plan: p.InOrder, scope: Path, end: int) -> tuple[p.Node, ...]:
+    """Return the steps since the last place before a step of a block, without that place.
+
+    Args:
+        plan: Plan.
+        scope: Path of the block.
+        end: Index of the step, which goes to the new place.
+    """
+    steps = block_at(plan, scope).steps[:end]
+    begin = _last_place(steps, len(steps))
+    while begin is None:
+        scope, number, branch = _block_around(scope)
+        outer = block_at(plan, scope).steps
+        choice = outer[number]
+        if branch != "then" or not isinstance(choice, p.If) or choice.otherwise is not None:
+            raise NotComposed("what is repeated?")
+        inner = (replace(choice, then=p.InOrder(id="", steps=tuple(steps))),) if steps else ()
+        steps = (*outer[:number], *inner)
+        begin = _last_place(outer, number)
+    first = steps[begin]
+    at_place = () if first.act is None else (replace(first.act, at=None, at_said=()),)
+    return (*at_place, *steps[begin + 1 :])
+
+
+def _block_around(scope: Path) -> tuple[Path, int, str]:
+    """Return the path of the block around a block, the index of the step that contains it, and the branch.
+
+    Raises:
+        NotComposed: The block is the plan itself.
+    """
+    if len(scope) < 2:
+        raise NotComposed("what is repeated?")
+    *outer, number, branch = scope
+    if not isinstance(number, int) or not isinstance(branch, str):
+        raise NotComposed("what is repeated?")
+    return tuple(outer), number, branch
+
+
+def _not_done(process: Sequence[p.Node], done: Sequence[p.Node]) -> Sequence[p.Node]:
+    """Return the steps of a process that remain where its first captures were made already.
+
+    Raises:
+        NotComposed: Something else was done there.
+    """
+    for old, new in zip(process, done, strict=False):
+        if old.act is None or new.act is None or (old.act.action, old.act.count) != (new.act.action, new.act.count):
+            raise NotComposed("what is repeated?")
+    if len(done) > len(process):
+        raise NotComposed("what is repeated?")
+    return process[len(done) :]
+
+
+def _can_be_repeated(process: Sequence[p.Node]) -> bool:
+    """Return True if a process only captures, drives, visits, and decides by readings of its own."""
+    nodes = [node for step in process for node in p.walk(step)]
+    return not any(
+        node.ends_plan or node.is_optional_step or node.caught or getattr(node, "until", None) for node in nodes
+    )
+
+
+@dataclass
+class _Names:
+    """New names of readings by their old ones.
+
+    Attributes:
+        last: Number of the last name.
+        new: New names.
+    """
+
+    last: int
+    new: dict[str, str] = field(default_factory=dict)
+
+    def of(self, reading: str) -> str:
+        """Return the new name of a reading."""
+        if reading not in self.new:
+            self.last += 1
+            self.new[reading] = f"r{self.last}"
+        return self.new[reading]
+
+
+def _named(done: Sequence[p.Node], process: Sequence[p.Node], names: _Names) -> tuple[p.Node, ...]:
+    """Return captures that were made already, with names for the readings that the process tests."""
+    found: list[p.Node] = []
+    for old, new in zip(process, done, strict=False):
+        if old.act is None or new.act is None or not old.act.reading:
+            found.append(new)
+        elif new.act.reading:
+            names.new[old.act.reading] = new.act.reading
+            found.append(new)
+        else:
+            found.append(replace(new.act, reading=names.of(old.act.reading)))
+    return tuple(found)
+
+
+def _renamed(step: p.Node, names: _Names, said: tuple[p.Span, ...]) -> p.Node:
+    """Return a copy of a step with new names of its readings, said by other words."""
+    if step.act is not None:
+        reading = names.of(step.act.reading) if step.act.reading else ""
+        return replace(step.act, reading=reading, said=said, at_said=said if step.act.at is not None else ())
+    if isinstance(step, p.If):
+        step = replace(step, condition=_retested(step.condition, names))
+    return replace(step, said=said).with_children([_renamed(child, names, said) for child in step.children])
+
+
+def _retested(condition: c.Condition, names: _Names) -> c.Condition:
+    """Return a condition on the readings of the new names."""
+    match condition:
+        case c.Compare() | c.Between() | c.Level():
+            return replace(condition, reading=names.new.get(condition.reading, condition.reading))
+        case c.AllOf() | c.AnyOf():
+            return replace(condition, conditions=tuple(_retested(one, names) for one in condition.conditions))
+        case c.Not():
+            return replace(condition, condition=_retested(condition.condition, names))
+        case _:
+            return condition
