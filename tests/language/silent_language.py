@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator
+from functools import cache
 from importlib import resources
 
 from fieldhand.language import Language, open_language
@@ -18,6 +19,7 @@ def silent_language() -> Language:
     return Language(code="xx", name="xx", translations=_translations(_entries()), melts={}, patterns=patterns)
 
 
+@cache
 def silent_po() -> str:
     """Its catalogue, as a file."""
     return "\n".join(map(_written, _entries()))

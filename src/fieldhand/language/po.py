@@ -12,6 +12,8 @@ from fieldhand.errors import InputError
 
 _KEYWORD = re.compile(r'(msgctxt|msgid_plural|msgid|msgstr(?:\[(\d)\])?)\s+(".*")')
 
+_ESCAPED = re.compile(r'["\\]')
+
 
 @dataclass(frozen=True, kw_only=True)
 class Entry:
@@ -94,6 +96,9 @@ def _entry(held: dict[str, str]) -> Entry:
 
 
 def _unquoted(text: str, number: int) -> str:
+    inside = text[1:-1]
+    if len(text) > 1 and text[0] == text[-1] == '"' and not _ESCAPED.search(inside) and inside.isprintable():
+        return inside  # as nearly all are; the parser of Python takes thirty times as long
     try:
         value = ast.literal_eval(text)
     except (SyntaxError, ValueError):
