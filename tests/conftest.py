@@ -6,12 +6,15 @@ import gc
 import os
 import socket
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
 from hypothesis import settings
 
 from support.processes.certificates import certificate
+
+TESTS = Path(__file__).parent
 
 # Every run draws the same examples: what fails here fails for everyone. Others, and of expensive properties many more,
 # are drawn with --hypothesis-profile=thorough, which is how to look for what these miss.
@@ -24,6 +27,29 @@ settings.load_profile("steady")
 _PRIVATE = ("FIELDHAND_", "OPENAI_", "ANTHROPIC_", "GOOGLE_", "GEMINI_")
 _PROXIES = ("http_proxy", "https_proxy", "all_proxy")
 _LOCAL = ("127.0.0.1", "::1", "localhost", None, b"localhost")
+
+
+#: Files whose tests wait for robots and for processes most of their time, and those of the longest tests. They are
+#: begun first: one worker waits while the others compute, and at the end nobody waits for a long test.
+_FIRST = (
+    "ros2/test_missions_over_dds.py",
+    "cli/test_resume.py",
+    "program/test_agent.py",
+    "agent/test_busy.py",
+    "cli/test_interrupt.py",
+    "cli/test_two_processes.py",
+    "ros2/test_faults_over_dds.py",
+    "ros2/test_sim_robot_command.py",
+    "test_example_plugin.py",
+    "test_notebook.py",
+    "test_docs.py",
+)
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Begin with the tests of some files; keep the order otherwise."""
+    turns = {TESTS / name: turn for turn, name in enumerate(_FIRST)}
+    items.sort(key=lambda item: turns.get(item.path, len(turns)))
 
 
 def pytest_configure() -> None:

@@ -32,12 +32,21 @@ def trees_of(site: Site, *ids: int):
 # --- independent check -------------------------------------------------------------------------------------------
 
 
+def row_lines(site: Site) -> tuple[list[str], list[LineString]]:
+    """Return the names of the rows and the lines of their trees, made once for a site."""
+    if "lines of the rows" not in site.cache:
+        rows = [row for row in site.planting.rows if len(row.trees) > 1]
+        lines = [LineString(site.xy[row.trees]) for row in rows]
+        site.cache["lines of the rows"] = ([row.name for row in rows], lines)
+    return site.cache["lines of the rows"]
+
+
 def wrong(site: Site, way: Drive) -> str:
     """Return the violations of a drive, checked against the site alone."""
     line = LineString(way.points)
-    for row in site.planting.rows:
-        if len(row.trees) > 1 and line.intersects(LineString(site.xy[row.trees])):
-            return f"through the trees of row {row.name}"
+    names, rows = row_lines(site)
+    for k in np.flatnonzero(shapely.intersects(rows, line)):
+        return f"through the trees of row {names[k]}"
     for zone in site.zones_of("keep_out"):
         if line.intersects(zone.polygon.buffer(-1e-4)):
             return f"through {zone.name}"
