@@ -10,6 +10,7 @@ from fieldhand.planning.grammar.dialogue.driving import drive
 from fieldhand.planning.grammar.dialogue.plans import (
     EMPTY,
     Path,
+    as_choice,
     block_at,
     for_each_at,
     is_conditional,
@@ -158,8 +159,8 @@ def otherwise(setting: Setting, state: DialogueState, said: Spans) -> DialogueSt
         test = state.asked.tests[0]
         opposite = AllTests((replace(test, negated=not test.negated),))
         return when(setting, with_joints(replace(state, asked=None), said), When(opposite, 0), ())
-    choice = None if state.choice is None else node_at(state.plan, state.choice)
-    if state.choice is None or not isinstance(choice, p.If) or choice.otherwise is not None:
+    choice = None if state.choice is None else as_choice(node_at(state.plan, state.choice))
+    if state.choice is None or choice is None or choice.otherwise is not None:
         raise NotComposed("otherwise than what?")
     steps, number = block_at(state.plan, state.choice[:-1]).steps, state.choice[-1]
     if isinstance(number, int) and number > 0 and steps[number - 1].is_choice:

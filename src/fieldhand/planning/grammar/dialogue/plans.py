@@ -54,6 +54,11 @@ def as_for_each(node: p.Node) -> p.ForEach | None:
     return node if isinstance(node, p.ForEach) else None
 
 
+def as_choice(node: p.Node) -> p.If | None:
+    """Return the node if it is a condition, None otherwise."""
+    return node if isinstance(node, p.If) else None
+
+
 def with_node(plan: p.InOrder, path: Path, made: p.Node) -> p.InOrder:
     """Return a plan with another node at a path."""
     return cast(p.InOrder, _changed(plan, path, made))

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 from fieldhand.planning.grammar.dialogue.driving import drive
-from fieldhand.planning.grammar.dialogue.plans import Path, block_at, walk, with_node
+from fieldhand.planning.grammar.dialogue.plans import Path, as_choice, block_at, walk, with_node
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting
 from fieldhand.planning.grammar.meaning import Again, DriveCommand
 from fieldhand.task import conditions as c
@@ -76,8 +76,8 @@ def _process_before(plan: p.InOrder, scope: Path, end: int) -> tuple[p.Node, ...
     while begin is None:
         scope, number, branch = _block_around(scope)
         outer = block_at(plan, scope).steps
-        choice = outer[number]
-        if branch != "then" or not isinstance(choice, p.If) or choice.otherwise is not None:
+        choice = as_choice(outer[number])
+        if branch != "then" or choice is None or choice.otherwise is not None:
             raise NotComposed("what is repeated?")
         inner = (replace(choice, then=p.InOrder(id="", steps=tuple(steps))),) if steps else ()
         steps = (*outer[:number], *inner)
@@ -162,8 +162,8 @@ def _renamed(step: p.Node, names: _Names, said: tuple[p.Span, ...]) -> p.Node:
     if step.act is not None:
         reading = names.of(step.act.reading) if step.act.reading else ""
         return replace(step.act, reading=reading, said=said, at_said=said if step.act.at is not None else ())
-    if isinstance(step, p.If):
-        step = replace(step, condition=_retested(step.condition, names))
+    if (choice := as_choice(step)) is not None:
+        step = replace(choice, condition=_retested(choice.condition, names))
     return replace(step, said=said).with_children([_renamed(child, names, said) for child in step.children])
 
 
