@@ -154,7 +154,7 @@ def test_a_plan_that_fails_its_checks(command: Command) -> None:
 
 
 ASKED = ["Take a picture.", "Take pictures of some trees in row 3.", "Measure CO2 at the corner tree."]
-REFUSED = ["Fly to the moon.", "Photograph tree 9999.", "Prends une photo de tous les arbres", "Take a picture at noon."]
+REFUSED = ["Fly to the moon.", "Photograph tree 9999.", "Prends une photo des arbres", "Take a picture at noon."]
 
 
 @pytest.mark.parametrize("request_", [*ASKED, *REFUSED])

@@ -40,6 +40,8 @@ def english_words(words: Sequence[str]) -> Iterator[tuple[int, int, list[str]]]:
         said = known.get(tuple(plain[k : k + length]))
         if plain[k] == "este" and length == 1 and k and plain[k - 1] in east:
             said = "east"
+        if plain[k] in ("del", "al") and "".join(plain[k + 1 : k + 2]).isdecimal():
+            said = "to" if plain[k] == "al" else ""  # "árboles del 4 al 9"
         if said is None:
             verb = _verbs().fullmatch(plain[k])
             said = words[k] if verb is None or verb.lastgroup is None else verb.lastgroup

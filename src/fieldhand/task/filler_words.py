@@ -75,9 +75,9 @@ _SPANISH_FUNCTION_WORDS = _words(
 _SPANISH_FILLERS = _words(
     """
     ademas ahora algun arbol arboles azar bien buenas buenos cada campo como comprobarlo confirmar confirmarlo
-    considerando cualquier despues dias entonces envia favor finca foto fotos gracias gustaria hola huerto luego
-    lugar manda media medicion mediciones medio muchas necesito orden podria podrias primero promedio puede
-    puedes punto quiero quisiera rectangulo robot tambien tardes toma tomar vale vaya ve viendo
+    considerando cualquier debe debes despues dias entonces envia favor finca foto fotos gracias gustaria hola
+    huerto luego lugar manda media medicion mediciones medio muchas necesito orden podria podrias primero
+    promedio puede puedes punto quiero quisiera rectangulo robot tambien tardes toma tomar vale vaya ve viendo
     """
 )
 

@@ -1,6 +1,10 @@
 """Spanish requests: planned with every word, or refused with the words that are not understood."""
 
+# ruff: noqa: E501 - requests stand on one line each
+
 from __future__ import annotations
+
+from dataclasses import replace
 
 import pytest
 
@@ -12,11 +16,11 @@ from fieldhand.request_check import mismatches
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.loader import open_site
 from planning.english.outlines import outline
-from planning.spanish.requests import PLANNED
-from support.requests import english, rows
+from planning.spanish.requests import EXPERIMENTS, NOT_PLANNED, PLANNED
+from support.requests import english, orchards, rows
 
 DEMO = open_site("demo")
-HUSKY = load_robot("husky")
+HUSKY, AMIGA = load_robot("husky"), load_robot("amiga")
 
 
 @pytest.mark.parametrize(("request_", "plan"), PLANNED)
@@ -26,6 +30,44 @@ def test_a_request_is_planned_with_every_word(request_: str, plan: str) -> None:
     assert outline(outcome.task) == plan
     assert unaccounted(outcome.task) == ()
     assert mismatches(outcome.task, DEMO, HUSKY) == ()
+
+
+@pytest.mark.parametrize(("name", "request_", "plan"), EXPERIMENTS)
+def test_the_requests_of_the_published_experiments_are_planned_as_the_english_ones(
+    name: str, request_: str, plan: str
+) -> None:
+    robot = AMIGA if name in ("moisture-15m", "nitrate-east") else HUSKY
+    site = orchards.rewarded() if name == "reward" else DEMO
+    outcome = BuiltinPlanner().plan(request_, site, robot)
+    assert isinstance(outcome, Planned), outcome
+    assert outline(outcome.task) == plan
+    assert unaccounted(outcome.task) == ()
+    assert mismatches(outcome.task, site, robot) == ()
+
+
+@pytest.mark.parametrize("request_", NOT_PLANNED)
+def test_what_is_open_or_not_possible_is_refused(request_: str) -> None:
+    assert isinstance(BuiltinPlanner().plan(request_, DEMO, HUSKY), Refused)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "right"),
+    [
+        ("Toma dos fotos del árbol 4.", "Toma una foto del árbol 4."),
+        ("Fotografía los árboles de la fila 3.", "Fotografía los árboles de la fila 5."),
+        ("Fotografía la esquina noreste.", "Fotografía la esquina suroeste."),
+        ("Mide el CO2 en el árbol 4. Si es menor de 400 ppm, toma una foto.", "Mide el CO2 en el árbol 4. Si es mayor de 400 ppm, toma una foto."),
+        ("Fotografía los árboles amarillos.", "Fotografía los árboles verdes."),
+        ("Mide el CO2 en el árbol 4.", "Toma una foto del árbol 4."),
+        ("Fotografía las esquinas sin recorrer más de 300 metros.", "Fotografía las esquinas sin recorrer más de 800 metros."),
+        ("Fotografía el árbol 4 y vuelve al inicio.", "Fotografía el árbol 4 y vuelve al final."),
+    ],
+)  # fmt: skip
+def test_a_plan_of_another_spanish_request_contradicts_it(wrong: str, right: str) -> None:
+    outcome = BuiltinPlanner().plan(right, DEMO, HUSKY)
+    assert isinstance(outcome, Planned), outcome
+    command = replace(outcome.task.command, request=wrong)
+    assert mismatches(replace(outcome.task, command=command), DEMO, HUSKY) != ()
 
 
 @pytest.mark.parametrize("word", ["despacio", "mañana", "púrpura", "quizás", "xyzzy", "nunca"])

@@ -28,6 +28,16 @@ def two_blocks() -> Site:
     return _site("two blocks", trees)
 
 
+def rewarded() -> Site:
+    """Two rows of 10 trees, each with a reward."""
+    trees = [
+        _point(6 * row, -4 * k, id=10 * row + k + 1, reward=(7 * k + 3 * row) % 20)
+        for row in range(2)
+        for k in range(10)
+    ]
+    return _site("rewarded", trees)
+
+
 def crossed() -> Site:
     """Block home of rows A1 to A5 that run north-south, and block river of rows B1 to B5 that run east-west."""
     home = [

@@ -199,6 +199,7 @@ def _after(setting: Setting, state: DialogueState, command: After) -> DialogueSt
     if state.commands_in_sentence and home is None:
         raise NotComposed("after what?")
     state = without_home(state) if home is not None else state
+    state = with_joints(state, setting.spans_of(command.used & ~done.used))
     state = capture(setting, state, done) if isinstance(done, CaptureCommand) else drive(setting, state, done)
     # "Return to the start after photographing tree 9."
     return go_home(setting, state, home) if home is not None else state

@@ -12,15 +12,17 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.english.limits import Amount
 from fieldhand.planning.grammar import commands, places
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.commands import captures, driving, limits, things
+from fieldhand.planning.grammar.commands import captures, conditions, driving, limits, things
 from fieldhand.planning.grammar.meaning import LimitClause, Nominal, PlaceMeaning, Thing
 from fieldhand.planning.grammar.places import groups, nouns, numbers, positions, rows, spots, steps
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.selections import over
 from fieldhand.terms import Side
 
-#: Constructions whose patterns would read Spanish words wrongly: an adjective behind its noun as a clause, and each of
-#: so many in "cada tres árboles".
+#: Constructions whose patterns would read Spanish words wrongly: an adjective behind its noun as a clause, each of so
+#: many in "cada tres árboles", a time limit in "dentro de 5 minutos", which says when to begin, and work that the
+#: battery allows in "si la batería está", which a test may follow.
 _ENGLISH = (
     nouns.described,
     nouns.with_attribute,
@@ -31,7 +33,7 @@ _ENGLISH = (
 
 GRAMMAR = Grammar()
 GRAMMAR.include(places.GRAMMAR, without=_ENGLISH)
-GRAMMAR.include(commands.GRAMMAR)
+GRAMMAR.include(commands.GRAMMAR, without=[limits.at_most, conditions.if_it_fits])
 construction = GRAMMAR.construction
 
 # What describes a noun stands behind it: "árboles amarillos", "la mitad norte", "los 3 árboles más al norte".
@@ -48,15 +50,15 @@ construction(
     "place: whole=place WHICH [IS] test=attribute_test", "place: whole=place WHICH [IS] test=quality", cost=0.3
 )(nouns.those_with_attribute)
 construction("nominal: inner=nominal side=MOST", cost=0.2)(nouns.extreme)
-construction("place: [DET] n=count inner=nominal side=MOST", cost=0.2)(nouns.so_many_extreme)
+construction("best: [DET] n=count inner=nominal side=MOST", cost=0.2)(nouns.so_many_extreme)
 construction("rows: [DET] [n=count] noun=ROW side=MOST", cost=0.1)(rows.outermost_rows)
 construction("ranking: attribute=ATTR rank=ranking", cost=0.0)(nouns.ranking_of)
 construction(
-    "place: [DET] n=count inner=nominal rank=ranking",
-    "place: [DET] inner=nominal rank=ranking",
-    "place: [DET] n=count inner=nominal WITH rank=ranking",
-    "place: [DET] n=count inner=nominal OF [DET] rank=ranking",
-    "place: [DET] inner=nominal OF [DET] rank=ranking",
+    "best: [DET] n=count inner=nominal rank=ranking",
+    "best: [DET] inner=nominal rank=ranking",
+    "best: [DET] n=count inner=nominal WITH rank=ranking",
+    "best: [DET] n=count inner=nominal OF [DET] rank=ranking",
+    "best: [DET] inner=nominal OF [DET] rank=ranking",
 )(nouns.ranked)
 construction("region: [DET] HALF side=DIR", "region: [DET] SIDE side=DIR", cost=0.2)(places.areas.half)
 construction("region: [DET] QUARTER side=DIR", cost=0.2)(places.areas.quarter)
@@ -83,7 +85,11 @@ construction("rows: [DET] n=count LAST noun=ROW", cost=0.1)(rows.last_rows)
 construction("rows: [DET] n=count rank=ORD noun=ROW", cost=0.1)(rows.first_rows)
 construction("positions: n=count rank=ORD", cost=0.0)(positions.first_so_many)
 construction("positions: n=count LAST", cost=0.0)(positions.last_so_many)
-construction("rows: [DET] ROW FROM [DET] first=NUM range_to [DET] last=NUM", cost=0.2)(rows.rows_from_to)
+construction(
+    "rows: [DET] ROW FROM [DET] first=NUM range_to [DET] last=NUM",
+    "rows: [DET] ROW first=NUM range_to DET last=NUM",
+    cost=0.2,
+)(rows.rows_from_to)
 construction("tree_ids: TREE FROM DET number=NUM range_to [DET] last=NUM", cost=0.3)(numbers.tree_range)
 construction("tree_ids: first=tree_ids [COMMA] AND DET number=NUM", cost=0.3)(numbers.and_tree_number)
 construction("place: word=EACHOF place=place", cost=0.4)(groups.each_of_group)
@@ -102,10 +108,12 @@ construction("capture: TAKE place=to_it things=things", cost=0.3)(captures.measu
 construction(
     "capture: verb place=place TAKE things=things", "capture: MEASURE place=place COMMA verb things=things", cost=0.4
 )(captures.measure_for)
+construction("capture: TAKE ATHIM things=things word=relation place=place", cost=0.3)(captures.capture_at)
 construction("thing: n=count READING OF [DET] noun=NOUN", cost=0.1)(things.readings_of)
 construction("apart: AT far=amount APART", "apart: SPACEDBY far=amount APART", cost=0.1)(captures.apart)
 construction("apart: SPACEDBY [APART] far=amount", "apart: WITH far=amount APART", cost=0.1)(captures.apart)
 construction("apart: SPACEDBY APART FOR far=amount", cost=0.1)(captures.apart)
+construction("allow: FITS", cost=0.2)(conditions.if_it_fits)
 construction("limit: WITHOUT GO [UPTO] check=CMP most=amount", cost=0.3)(limits.not_more_than)
 construction("limit: BEFORE BATTERY [IS] [at] least=amount", cost=0.3)(limits.keep)
 construction("limit: RETURN BEFORE WHICH BATTERY [IS] [at] least=amount", cost=0.2)(limits.back_before)
@@ -116,6 +124,12 @@ construction("drive: GO OF place=place", cost=0.6)(driving.drive_to)
 def with_article(inner: Amount) -> Amount:
     """Compose "el 30 %"."""
     return inner
+
+
+@construction("place: best=best", "place: best=best in_ where=region", cost=0.1)
+def best_of_area(best: PlaceMeaning, where: s.Selector | None = None) -> PlaceMeaning:
+    """Compose "los cinco árboles más viejos de la mitad sur"."""
+    return best if where is None else replace(best, selector=over(best.selector, where))
 
 
 @construction("to_it: word=ATHIM", cost=0.1)
@@ -138,10 +152,11 @@ def every_so_many_rows(n: int, noun: Lex) -> s.Selector | None:
     return s.Rows(every=n) if noun.plural and n > 1 else None
 
 
-@construction("place: DET inner=nominal BYTURNS", cost=0.2)
-def every_other(inner: Nominal) -> PlaceMeaning | None:
-    """Compose "un árbol sí y otro no"."""
-    return positions.every_other(inner)
+@construction("place: DET inner=nominal BYTURNS", "place: DET inner=nominal BYTURNS in_ where=region", cost=0.2)
+def every_other(inner: Nominal, where: s.Selector | None = None) -> PlaceMeaning | None:
+    """Compose "un árbol sí y otro no de la fila 6"."""
+    found = positions.every_other(inner)
+    return found if found is None or where is None else replace(found, selector=over(found.selector, where))
 
 
 @construction("place: DET side=DIR", "place: DET side=DIR OF site", cost=0.6)
@@ -156,10 +171,19 @@ def way_along_row(side: Lex) -> Side | None:
     return side.value if side.value in SIDES else None
 
 
+construction(
+    "limit: word=AT most=amount [of_what]",
+    "limit: AT less most=amount [of_what]",
+    "limit: USE [less] most=amount [of_what]",
+    "limit: GO less most=amount [of_what]",
+    cost=0.4,
+)(limits.at_most)
+
+
 @construction(
-    "limit: less most=amount [of_what]",
+    "limit: UPTO most=amount [of_what]",
     "limit: most=amount ATMOST [of_what]",
-    "limit: WITH less most=amount [of_what]",
+    "limit: WITH UPTO most=amount [of_what]",
     cost=0.4,
 )
 def at_most(most: Amount, used: int) -> LimitClause | None:

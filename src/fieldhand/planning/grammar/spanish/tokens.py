@@ -26,6 +26,8 @@ _TOKEN = re.compile(
     r"|(?P<unknown>.)",
     re.DOTALL | re.IGNORECASE,
 )
+#: Words that would be an article without their accent.
+_KEPT = frozenset({"\u00e9l"})
 #: Number of letters of the first part, and the parts as the lexicon has them.
 _Parts = tuple[int, tuple[str, ...]]
 #: Words that consist of a preposition and an article.
@@ -48,8 +50,10 @@ def words_of(request: str) -> list[Word]:
 
 
 def folded(text: str) -> str:
-    """Return a text in lower case, without accents and compatibility forms."""
+    """Return a word in lower case, without accents and compatibility forms, except "él"."""
     plain = unicodedata.normalize("NFKC", text.replace("\u00ba", "\u00b0").strip()).lower()
+    if unicodedata.normalize("NFC", plain) in _KEPT:
+        return unicodedata.normalize("NFC", plain)
     return "".join(c for c in unicodedata.normalize("NFD", plain) if not unicodedata.combining(c))
 
 
