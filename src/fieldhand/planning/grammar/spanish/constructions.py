@@ -21,19 +21,23 @@ from fieldhand.planning.selections import over
 from fieldhand.terms import Side
 
 #: Constructions whose patterns would read Spanish words wrongly: an adjective behind its noun as a clause, each of so
-#: many in "cada tres árboles", a time limit in "dentro de 5 minutos", which says when to begin, and work that the
-#: battery allows in "si la batería está", which a test may follow.
+#: many in "cada tres árboles", two numbers in "1 200", a time limit in "dentro de 5 minutos", which says when to begin,
+#: and work that the battery allows in "si la batería está", which a test may follow.
 _ENGLISH = (
     nouns.described,
     nouns.with_attribute,
     nouns.attribute_is,
     nouns.those_with_attribute,
     groups.each_of_group,
+    numbers.and_tree_number,
+    rows.longer_row_list,
+    limits.at_most,
+    conditions.if_it_fits,
 )
 
 GRAMMAR = Grammar()
 GRAMMAR.include(places.GRAMMAR, without=_ENGLISH)
-GRAMMAR.include(commands.GRAMMAR, without=[limits.at_most, conditions.if_it_fits])
+GRAMMAR.include(commands.GRAMMAR, without=_ENGLISH)
 construction = GRAMMAR.construction
 
 # What describes a noun stands behind it: "árboles amarillos", "la mitad norte", "los 3 árboles más al norte".
@@ -91,8 +95,16 @@ construction(
     cost=0.2,
 )(rows.rows_from_to)
 construction("tree_ids: TREE FROM DET number=NUM range_to [DET] last=NUM", cost=0.3)(numbers.tree_range)
-construction("tree_ids: first=tree_ids [COMMA] AND DET number=NUM", cost=0.3)(numbers.and_tree_number)
+construction(
+    "tree_ids: first=tree_ids COMMA [AND] [DET] number=NUM", "tree_ids: first=tree_ids AND [DET] number=NUM", cost=0.3
+)(numbers.and_tree_number)
+construction(
+    "row_list: rows=row_list COMMA [AND] [DET] [ROW] number=NUM",
+    "row_list: rows=row_list AND [DET] [ROW] number=NUM",
+    cost=0.1,
+)(rows.longer_row_list)
 construction("place: word=EACHOF place=place", cost=0.4)(groups.each_of_group)
+construction("numbers: first=numbers [COMMA] AND DET number=NUM", cost=0.1)(numbers.more_numbers)
 construction("ordered: DET rank=ranking FIRSTONE", cost=0.1)(driving.best_first)
 construction("place: EACH [DET] inner=nominal ALLYOUCAN", "place: ASMANYOF inner=nominal", cost=0.1)(groups.as_many)
 construction("place: n=count inner=nominal UPTO", "place: n=count inner=nominal ATMOST", cost=0.2)(groups.up_to)

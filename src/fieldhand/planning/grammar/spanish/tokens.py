@@ -13,7 +13,8 @@ from fieldhand.planning.grammar.spanish.lexicon import tables
 
 _TOKEN = re.compile(
     r"(?P<rank>\d+(?:\.?[\u00ba\u00aa](?!\s?[cf]\b)|\.?(?:er|ro|do|to|mo|vo|no|ra|da|ta|ma|va|na|era)\b))"
-    r"|(?P<other>\d+[.,]\d{3}(?!\d)|\d+(?:[.,]\d+){2,})"  # thousands or decimals?
+    # Thousands, decimals, or two numbers?
+    r"|(?P<other>\d+[.,]\d{3}(?!\d)|\d+(?:[.,]\d+){2,}|\d{1,3}(?:[ \u00a0\u202f]\d{3})+(?!\d))"
     r"|(?P<number>\d+(?:[.,]\d+)?)"
     r"|(?P<word>[^\W\d_][\w\u0300-\u036f\u2080-\u2089]*)"
     r"|(?P<unit>%|[\u00b0\u00ba]\s?[cf]\b|[\u00b0\u00ba])"
