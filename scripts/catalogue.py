@@ -25,6 +25,7 @@ from fieldhand.language.words import say_action, say_captures, say_name  # noqa:
 from fieldhand.places.filters.attribute_words import say_attribute, say_with_article  # noqa: E402
 from fieldhand.planning.english.languages import known_languages  # noqa: E402
 from fieldhand.planning.english.vocabulary import vocabulary  # noqa: E402
+from fieldhand.planning.english.wishes import wish_kinds  # noqa: E402
 from fieldhand.robot.loader import load_robot, robot_names  # noqa: E402
 
 #: Attribute names of the built-in orchard, of common site files and of Tasks: they come from data, not from the source.
@@ -135,8 +136,11 @@ def _of_data() -> Iterator[Entry]:
     ):
         if hint:
             yield Entry(template=hint, context="attribute hint", said=())
-    for advice in (known["advice"] for part in ("unheld", "not_yet") for known in vocabulary()[part]):
-        yield Entry(template=advice, context="advice", said=())
+    for known in vocabulary()["not_yet"]:
+        yield Entry(template=known["advice"], context="advice", said=())
+    for kind in wish_kinds():
+        yield Entry(template=kind.what, context="wish", said=())
+        yield Entry(template=kind.advice, context="wish", said=())
 
 
 def _entry(said: str) -> Entry:

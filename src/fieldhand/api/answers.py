@@ -29,7 +29,13 @@ def unplanned_answer(outcome: Clarify | Refused, ground: SiteAndRobot) -> dict[s
             }
         case Refused():
             reasons = [{"what": r.what, "said": [list(s) for s in r.said], "advice": r.advice} for r in outcome.reasons]
-            return {"outcome": "refused", "planner": outcome.planner, "reasons": reasons}
+            return {
+                "outcome": "refused",
+                "planner": outcome.planner,
+                "reasons": reasons,
+                "understood": list(outcome.understood),
+                "example": outcome.example,
+            }
 
 
 def words_answer(task: Task, language: Language = ENGLISH) -> list[dict[str, str]]:

@@ -14,7 +14,7 @@ from fieldhand.cli.console import Words
 from fieldhand.cli.console import err as err
 from fieldhand.cli.console import out as out
 from fieldhand.hidden_characters import json_text, visible
-from fieldhand.language import ENGLISH, Language, message
+from fieldhand.language import ENGLISH, Language, joined, message
 from fieldhand.language.words import say_count, say_place
 from fieldhand.planning.planner import Clarify, Planned, Reason, Refused
 from fieldhand.task.request_coverage import ROLE_NAMES, Piece, WordRole, has_ranges, request_pieces
@@ -67,6 +67,11 @@ def fail_outcome(request: str, outcome: Clarify | Refused, language: Language = 
         err.print(underlined(request, spans))
     for reason in outcome.reasons:
         err.print(Words("fieldhand: ", style="bold") + Words(sentence(reason, language)))
+    if outcome.understood:
+        parts = message("understood: {parts}", parts=joined("; ", outcome.understood))
+        err.print(Words(language.say(parts), style="dim"))
+    if outcome.example:
+        err.print(Words(language.say(message("can be planned: '{example}'", example=outcome.example))))
     raise SystemExit(2)
 
 
@@ -114,7 +119,10 @@ def outcome_record(outcome: Planned | Clarify | Refused) -> dict[str, Any]:
             }  # fmt: skip
         case Refused():
             reasons = [{"what": r.what, "said": r.said, "advice": r.advice} for r in outcome.reasons]
-            return {"outcome": "refused", "reasons": reasons}
+            return {
+                "outcome": "refused", "reasons": reasons, "understood": list(outcome.understood),
+                "example": outcome.example,
+            }  # fmt: skip
 
 
 def review_record(review: Review, language: Language = ENGLISH, *, every: bool = False) -> dict[str, Any]:

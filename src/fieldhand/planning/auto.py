@@ -81,7 +81,9 @@ def _warn(planned: Planned, warning: str) -> Planned:
 
 
 def _advise(refused: Refused) -> Refused:
-    """The refusal with how to get a second opinion, said once."""
+    """Return the refusal with the advice to use a language model, if one could help."""
+    if any(reason.final for reason in refused.reasons):
+        return refused
     *others, last = refused.reasons
     second = message("or set FIELDHAND_MODEL to a language model that may try it (docs/planning-llm.md)")
     advice = joined("; ", (last.advice, second)) if last.advice else second

@@ -105,12 +105,16 @@ class Reason:
         said: Character ranges of the request that caused it: start, and end (exclusive).
         advice: Suggested wording or remedy; empty if there is none.
         unknown: True if the planner does not know these words; False if it knows them and cannot do what they say.
+        final: True if neither other words nor a language model can help: the plan, the robot or the site lacks it.
+        instead: Name of the site that can stand in place of the words; empty if there is none.
     """
 
     what: str
     said: tuple[Span, ...] = ()
     advice: str = ""
     unknown: bool = False
+    final: bool = False
+    instead: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -120,10 +124,14 @@ class Refused:
     Attributes:
         reasons: Reasons for the refusal, at least one.
         planner: Name of the planner that refused.
+        understood: The parts of the request that were understood, in the words of the read-back.
+        example: A request about these parts that can be planned on this site with this robot; empty if there is none.
     """
 
     reasons: tuple[Reason, ...]
     planner: str = ""
+    understood: tuple[str, ...] = ()
+    example: str = ""
 
     @property
     def task(self) -> NoReturn:
@@ -132,10 +140,10 @@ class Refused:
         Raises:
             RequestError: Always; the message contains the reasons.
         """
-        raise RequestError(
-            joined("; ", [reason.what for reason in self.reasons]),
-            advice=joined("; ", [reason.advice for reason in self.reasons if reason.advice]),
-        )
+        advice = [reason.advice for reason in self.reasons if reason.advice]
+        if self.example:
+            advice.append(message("for example: '{example}'", example=self.example))
+        raise RequestError(joined("; ", [reason.what for reason in self.reasons]), advice=joined("; ", advice))
 
 
 Outcome = Planned | Clarify | Refused

@@ -30,7 +30,7 @@ BY_ID = {vine.id: vine for vine in vines()}
 
 
 def outcome_of(request: str) -> Outcome:
-    return EnglishPlanner().plan(request, vineyard(), HUSKY)
+    return EnglishPlanner(suggests=False).plan(request, vineyard(), HUSKY)
 
 
 def visited(outcome: Planned) -> list[Vine]:

@@ -46,5 +46,5 @@ def check_averages(root: d.DraftBlock, request: str, robot: RobotProfile) -> Non
                 "'{words}': each reading is tested by itself; averages of several readings are not supported",
                 words=words,
             )
-            raise Unclear(Reason(what=what, said=said, advice=message("say what one reading has to be")))
+            raise Unclear(Reason(what=what, said=said, advice=message("say what one reading has to be"), final=True))
     choices[0].said = (*choices[0].said, *said)

@@ -22,7 +22,7 @@ from fieldhand.planning.english.areas import is_open, with_areas
 from fieldhand.planning.english.asking import every_or_how_many
 from fieldhand.planning.english.counting import Wanted, counts_each
 from fieldhand.planning.english.ellipsis import Elliptic
-from fieldhand.planning.english.faults import Question, spans_of, text_of, unclear
+from fieldhand.planning.english.faults import Question, idle_place, spans_of, text_of, unclear
 from fieldhand.planning.english.found import FoundPlace
 from fieldhand.planning.english.hand import ACTS as _ACTS
 from fieldhand.planning.english.hand import said_of_places
@@ -115,7 +115,7 @@ class Discourse(Elliptic):
                 case "lead" if not any(p.kind in (*COMMANDS, "condition", "question") for p in following) or (
                     following[0].kind == "lead"
                 ):
-                    raise unclear(part.terms, message("it does not say what to do there"))
+                    raise idle_place(part.terms)
                 case _:
                     self._read_command(part)
         self._close_allowance()
@@ -194,7 +194,7 @@ class Discourse(Elliptic):
             self._go(replace(part, kind="visit"))  # "Any 6 Kerman trees, a picture of each"
             return
         if not self._objects:
-            raise unclear(part.terms, message("it does not say what to do there"))
+            raise idle_place(part.terms)
         if self._at_most_of_them(part):
             return
         elided = None if part.relation is not None else self._elided(part)

@@ -67,8 +67,13 @@ def spans_of(terms: Iterable[Term]) -> tuple[Span, ...]:
     return tuple(merged)
 
 
+def idle_place(terms: Iterable[Term]) -> Unclear:
+    """Return the fault of a place without anything to do there."""
+    return unclear(terms, message("it does not say what to do there"), message("say what to take or measure there"))
+
+
 def unclear(terms: Iterable[Term], what: str, advice: str = PLAINLY) -> Unclear:
-    """A fault of some terms, which it quotes."""
+    """Return a fault of some terms, which it quotes; it is final if its advice says more than to use other words."""
     terms = tuple(terms)
     quoted = message("'{said}': {what}", said=text_of(terms), what=what)
-    return Unclear(Reason(what=quoted, said=spans_of(terms), advice=advice))
+    return Unclear(Reason(what=quoted, said=spans_of(terms), advice=advice, final=advice != PLAINLY))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 from fieldhand.errors import DriveFault, PlaceError, TaskError
 from fieldhand.forecast.walk_branch import walk_branch as walk_through
@@ -20,36 +20,48 @@ from fieldhand.task.plan import Node, Span, walk
 Read = Callable[[Worded, tuple[Answer, ...]], Outcome]
 
 
-def places_of_choices(
-    question: Question, worded: Worded, taken: tuple[Answer, ...], read: Read, site: Site, robot: RobotProfile
-) -> tuple[tuple[Place, ...], ...]:
-    """For each choice the places that the words asked about would mean; empty for a choice that leads to no plan yet.
+def outcomes_of_choices(
+    question: Question, worded: Worded, taken: tuple[Answer, ...], read: Read
+) -> tuple[Outcome | None, ...]:
+    """Return for each choice the outcome that it leads to; None if its words are open, or lead to another question.
 
     Args:
         question: What is asked.
         worded, taken: The request as it is read so far, and the answers in it.
         read: Plans it.
+    """
+    found: list[Outcome | None] = []
+    for choice, words in question.answers():
+        answered = (*taken, Answer(question=question.question, answer=choice))
+        found.append(_outcome(read, worded.with_words(question.said, words), answered) if words else None)
+    return tuple(found)
+
+
+def places_of_choices(
+    question: Question, worded: Worded, outcomes: Sequence[Outcome | None], site: Site, robot: RobotProfile
+) -> tuple[tuple[Place, ...], ...]:
+    """For each choice the places that the words asked about would mean; empty for a choice that leads to no plan yet.
+
+    Args:
+        question: What is asked.
+        worded: The request as it is read so far.
+        outcomes: Outcome of each choice.
         site, robot: Where and with what.
 
     Returns:
         Nothing at all where the choices do not differ in their places: there is nothing to show then.
     """
     said = worded.span(question.said)
-    found = []
-    for choice, words in question.answers():
-        answered = (*taken, Answer(question=question.question, answer=choice))
-        task = _planned(read, worded.with_words(question.said, words), answered) if words else None
-        found.append(() if task is None else _places(task, said, site, robot))
+    found = [_places(outcome.task, said, site, robot) if isinstance(outcome, Planned) else () for outcome in outcomes]
     return tuple(found) if len({frozenset(p.id for p in places) for places in found}) > 1 else ()
 
 
-def _planned(read: Read, worded: Worded, answered: tuple[Answer, ...]) -> Task | None:
-    """The Task of a request with an answer; None where it is still open or cannot be done."""
+def _outcome(read: Read, worded: Worded, answered: tuple[Answer, ...]) -> Outcome | None:
+    """Return the outcome of a request with an answer; None if it is still open or cannot be done."""
     try:
-        outcome = read(worded, answered)
+        return read(worded, answered)
     except (Unclear, Question):
         return None
-    return outcome.task if isinstance(outcome, Planned) else None
 
 
 def _places(task: Task, said: Span, site: Site, robot: RobotProfile) -> tuple[Place, ...]:

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import re
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
-from difflib import get_close_matches
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 from fieldhand.planning.english.kinds import CONTINUES, RELATIONS, TESTS
 from fieldhand.planning.english.naming import NameEntry, Phrase, robot_entries, site_entries, split
@@ -27,8 +26,6 @@ _NO_ORDER = frozenset(
 _MAY_NAME = frozenset({"UNKNOWN", "ATTRVAL", "ATTR", "START", "FINISH", "DIR", "ZONE", "IDS", "NAMED", "MIDDLE"})
 #: A shorter word is no word that another may be a misspelling of.
 _SPELLABLE = 6
-#: Likeness of two words, by difflib, from which one may be meant by the other.
-_ALIKE = 0.8
 #: An id of letters and a number, which names a tree without the word for it.
 CODE = re.compile(r"([^\W\d_]+)(\d+)")
 
@@ -232,26 +229,6 @@ class Lexicon:
         value = float(word.norm.replace(",", "")) if kind == "NUM" else None
         return Term(kind=kind, text=word.text, start=word.start, end=word.end, value=value), 1
 
-    def nearest(self, word: str) -> tuple[str, ...]:
-        """Known words that look like this one."""
-        return self._nearest(word.lower())
-
-    @cached_property
-    def _nearest(self) -> Callable[[str], tuple[str, ...]]:
-        """Find the known words that look like one in lower case; answers are kept, for words that are said again."""
-        by_length: dict[int, list[str]] = {}
-        for word in {w for p in (*self.own, *shared_vocabulary()) for w in p if len(w) > 3}:
-            by_length.setdefault(len(word), []).append(word)
-
-        @lru_cache(maxsize=1000)
-        def nearest(spelt: str) -> tuple[str, ...]:
-            # Words of another length have too few letters in common with it, which is quicker to see of all at once.
-            lengths = [n for n in by_length if 2.0 * min(n, len(spelt)) / (n + len(spelt)) >= _ALIKE]
-            known = [word for n in lengths for word in by_length[n]]
-            return tuple(w for w in get_close_matches(spelt, known, n=2, cutoff=_ALIKE) if w != spelt)
-
-        return nearest
-
 
 #: Lexicons made last, each for its robot and site: the requests of a session are about few of them, and making one
 #: takes 40 ms for 4,500 trees.
@@ -281,6 +258,13 @@ def _lexicon_of(robot: RobotProfile, site: Site) -> Lexicon:
         if shared is None or shared.kind in _REPLACEABLE or (shared.kind == "TAKE" and entry.kind == "ACTV"):
             own[phrase] = entry
     odd = {"".join(split(tree)): tree for tree in site.by_id if not tree.isdigit()}
+    lexicon = Lexicon(own=own, trees=odd, site=site)
+    short = {
+        (word,): value
+        for word, value in lexicon.short_values.items()
+        if lexicon.entry((word,)) is None and len(site.attributes[value[0]]) > 1
+    }
+    own |= {phrase: NameEntry(kind="ATTRVAL", value=(value,)) for phrase, value in short.items()}
     return Lexicon(own=own, trees=odd, site=site)
 
 

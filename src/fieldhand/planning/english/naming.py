@@ -99,9 +99,14 @@ def _texts(found: tuple[Any, ...]) -> list[str]:
     return texts if len(texts) <= _MOST_TEXTS else []
 
 
+def name_words(attribute: str) -> list[str]:
+    """Return the words of an attribute's name without its unit: "age" for ``age_years``."""
+    return [word for word in split(attribute) if word not in _UNIT_WORDS]
+
+
 def _spoken(attribute: str) -> set[Phrase]:
     """How people may call an attribute: its name, that without its unit, and other words for it."""
-    base = [w for w in split(attribute) if w not in _UNIT_WORDS]
+    base = name_words(attribute)
     spoken = {split(attribute), tuple(base)}
     for hint, words in vocabulary()["aliases"].items():
         if hint in base:

@@ -161,5 +161,5 @@ def _impossible(plan: p.Node, site: Site) -> Iterable[Reason]:
             try:
                 resolve(part, site, Context(here=site.start))
             except (PlaceError, TaskError) as error:
-                yield Reason(what=error.what, said=node.said, advice=error.advice)
+                yield Reason(what=error.what, said=node.said, advice=error.advice, final=True)
                 break

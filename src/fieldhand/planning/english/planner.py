@@ -7,12 +7,13 @@ from collections.abc import Sequence
 from fieldhand.errors import RequestError
 from fieldhand.language import Number, joined, message
 from fieldhand.planning.english.faults import Question, Unclear
-from fieldhand.planning.english.leading import places_of_choices
+from fieldhand.planning.english.leading import outcomes_of_choices, places_of_choices
+from fieldhand.planning.english.missing_blocks import missing_blocks
 from fieldhand.planning.english.planned import NAME
 from fieldhand.planning.english.reading import reading_of, refused
 from fieldhand.planning.english.rewording import Worded
 from fieldhand.planning.english.tokens import Word, words_of
-from fieldhand.planning.english.unheld import unheld
+from fieldhand.planning.english.wishes import early_wishes
 from fieldhand.planning.planner import Answer, Clarify, Outcome, Reason, Refused
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -28,7 +29,14 @@ class EnglishPlanner:
     """A planner with a grammar and a lexicon.
 
     Every word of a request is used, is known to mean nothing to a plan, or is reported: nothing is dropped in silence.
+
+    Args:
+        suggests: A refusal says what was understood and suggests a request that can be planned, which takes as long as
+            planning several requests.
     """
+
+    def __init__(self, *, suggests: bool = True) -> None:
+        self._suggests = suggests
 
     def plan(self, request: str, site: Site, robot: RobotProfile, answers: tuple[Answer, ...] = ()) -> Outcome:
         """Plan a request. Each answer is read in place of the words that its question was about.
@@ -40,21 +48,43 @@ class EnglishPlanner:
             RequestError: The request is empty, too long, or holds characters that no document can hold.
         """
         outcome = self._by_rules(request, site, robot, answers)
-        if not isinstance(outcome, Refused) or answers or unheld(words_of(request)):
+        if not isinstance(outcome, Refused) or answers:
             return outcome
+        outcome = self._by_grammar(outcome, request, site, robot)
+        if not isinstance(outcome, Refused) or not self._suggests:
+            return outcome
+        from fieldhand.planning.refusals.helping import helpful
+        from fieldhand.planning.refusals.understood import parse_parts
+
+        return helpful(outcome, parse_parts(request, site, robot), lambda text: self._plain(text, site, robot))
+
+    def _plain(self, request: str, site: Site, robot: RobotProfile) -> Outcome:
+        """Plan a request without help if it is refused."""
+        outcome = self._by_rules(request, site, robot, ())
+        return self._by_grammar(outcome, request, site, robot) if isinstance(outcome, Refused) else outcome
+
+    def _by_grammar(self, by_rules: Refused, request: str, site: Site, robot: RobotProfile) -> Outcome:
+        """Return the plan of the grammar for a request that the rules refuse, or the better of the two refusals."""
+        words = words_of(request)
+        if early_wishes(words) or any(missing_blocks(words, site)):
+            return by_rules
         from fieldhand.planning.grammar.reader import composed
 
         found = composed(request, site, robot)
-        if isinstance(found, Refused) and not any(reason.unknown for reason in outcome.reasons):
-            return outcome  # the rules know the words, and say more of what is wrong
-        return found or outcome
+        if isinstance(found, Refused) and not any(reason.unknown for reason in by_rules.reasons):
+            return by_rules  # the rules know the words, and say more of what is wrong
+        return found or by_rules
 
     def _by_rules(self, request: str, site: Site, robot: RobotProfile, answers: tuple[Answer, ...]) -> Outcome:
         def read(worded: Worded, taken: tuple[Answer, ...]) -> Outcome:
             said = words_of(worded.text)
             _check_length(said)
-            if reasons := unheld(said):
-                return refused(worded, reasons)
+            if found := early_wishes(said):
+                from fieldhand.planning.refusals.helping import wish_reasons
+
+                return refused(worded, tuple(wish_reasons(found, worded.text, said, site, robot)))
+            if missing := tuple(missing_blocks(said, site)):
+                return refused(worded, missing)
             return reading_of(request, worded, said, taken, site, robot).outcome()
 
         _check_text(request)
@@ -68,12 +98,23 @@ class EnglishPlanner:
             except Question as question:
                 given = next((a for a in answers if a.question == question.question and a not in taken), None)
                 if given is None:
-                    places = places_of_choices(question, worded, taken, read, site, robot)
+                    outcomes = outcomes_of_choices(question, worded, taken, read)
+                    impossible = _impossible(outcomes)
+                    if impossible is not None:
+                        return impossible
+                    places = places_of_choices(question, worded, outcomes, site, robot)
                     return Clarify(question=question.question, choices=question.choices, places=places, planner=NAME)
                 words = question.words_of(given.answer)
                 if not words:
                     return refused(worded, (_unanswered(question, given, known=words is not None),))
                 worded, taken = worded.with_words(question.said, words), (*taken, given)
+
+
+def _impossible(outcomes: Sequence[Outcome | None]) -> Refused | None:
+    """Return the refusal to which every choice of a question leads; None if a choice leads to something else."""
+    refusals = [outcome for outcome in outcomes if isinstance(outcome, Refused)]
+    what = {reason.what for refusal in refusals for reason in refusal.reasons}
+    return refusals[0] if refusals and len(refusals) == len(outcomes) and len(what) == 1 else None
 
 
 def _unanswered(question: Question, given: Answer, *, known: bool) -> Reason:

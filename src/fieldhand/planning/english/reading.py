@@ -24,7 +24,7 @@ from fieldhand.planning.english.steps import steps
 from fieldhand.planning.english.syntax import NotParsed, parse
 from fieldhand.planning.english.tokens import Term, Word
 from fieldhand.planning.english.told import Told, settle
-from fieldhand.planning.english.unknown import unknown_words
+from fieldhand.planning.english.unknown import check_numbers, unknown_words
 from fieldhand.planning.english.vocabulary import glue
 from fieldhand.planning.english.wording import reworded
 from fieldhand.planning.planner import Answer, Outcome, Planned, Reason, Refused
@@ -95,6 +95,7 @@ class Reading:
         text = self.worded.text
         terms, aside, remarks = without_remarks(self.terms, text)
         asked = without_filler(terms, text)
+        check_numbers(asked.terms)
         unknown = unknown_words(asked.terms, self.lexicon)
         if unknown:
             return refused(self.worded, unknown), None

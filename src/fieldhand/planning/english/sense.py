@@ -167,4 +167,4 @@ def _text(said: tuple[Span, ...], request: str) -> str:
 
 def _unclear(said: tuple[Span, ...], request: str, what: str, advice: str = PLAINLY) -> Unclear:
     quoted = message("'{said}': {what}", said=_text(said, request), what=what)
-    return Unclear(Reason(what=quoted, said=said, advice=advice))
+    return Unclear(Reason(what=quoted, said=said, advice=advice, final=advice != PLAINLY))

@@ -4,13 +4,37 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from fieldhand.language import joined, message, named
+from fieldhand.language import message, named
 from fieldhand.language.words import some_names
-from fieldhand.planning.english.faults import PLAINLY
+from fieldhand.planning.english.faults import PLAINLY, Question
 from fieldhand.planning.english.languages import language_of
 from fieldhand.planning.english.lexicon import Lexicon
-from fieldhand.planning.english.tokens import Term
+from fieldhand.planning.english.tokens import Term, Word
 from fieldhand.planning.planner import Reason
+
+#: Numbers to choose from in place of a vague one.
+_NUMBERS = ("3", "5", "10")
+#: Vague numbers that a number can replace.
+_VAGUE = frozenset({"a few", "several", "some of", "a number of", "lots of", "plenty of"})
+
+
+def check_numbers(terms: Sequence[Term]) -> None:
+    """Ask for the number where a request says "a few" and is understood otherwise.
+
+    Raises:
+        Question: How many are meant.
+    """
+    unclear = [k for k, term in enumerate(terms) if term.kind in ("UNKNOWN", "NOTYET")]
+    vague = [k for k in unclear if terms[k].text.lower() in _VAGUE and not (k and terms[k - 1].kind in ("EACH", "DET"))]
+    if vague and vague == unclear:
+        term = terms[vague[0]]
+        after = " of" if term.text.lower() == "some of" else ""
+        raise Question(
+            message("'{said}': how many?", context="question", said=term.text),
+            _NUMBERS,
+            terms=(term,),
+            words=tuple(f"{number}{after}" for number in _NUMBERS),
+        )
 
 
 def unknown_words(terms: Sequence[Term], lexicon: Lexicon) -> tuple[Reason, ...]:
@@ -21,6 +45,7 @@ def unknown_words(terms: Sequence[Term], lexicon: Lexicon) -> tuple[Reason, ...]
             what=message("'{said}' is not possible yet", said=t.text),
             said=(t.span,),
             advice=named(str(t.value), "advice"),
+            final=True,
         )
         for t in known
     ]
@@ -28,28 +53,31 @@ def unknown_words(terms: Sequence[Term], lexicon: Lexicon) -> tuple[Reason, ...]
     reasons += [_no_such(terms[terms.index(t) - 1], t, lexicon) for t in nameless]
     strange = [t for t in terms if t.kind == "UNKNOWN" and t not in nameless]
     if strange:
-        words = some_names([message("'{said}'", said=t.text) for t in strange], 12)
-        near = [
-            message("'{near}' for '{said}'", near=n[0], said=t.text)
-            for t in strange[:12]
-            if (n := lexicon.nearest(t.text))
-        ]
-        advice = message("did you mean {near}?", near=joined(", ", near)) if near else PLAINLY
-        if language := language_of(t.text for t in strange):
-            advice = message(
-                "this seems to be {language}, and only English and Spanish are understood: say it in English, or"
-                " plan it with a language model (--planner llm)",
-                language=named(language, "language"),
-            )
-        reasons.append(
-            Reason(
-                what=message("not understood: {words}", words=words),
-                said=tuple(t.span for t in strange),
-                advice=advice,
-                unknown=True,
-            )
-        )
+        reasons.append(not_understood(strange))
     return tuple(reasons)
+
+
+def not_understood(words: Sequence[Term | Word], advice: str = PLAINLY) -> Reason:
+    """Return a reason for unknown words, which names their language if it is another one.
+
+    Args:
+        words: Unknown words, at least one.
+        advice: What to do if they are English.
+    """
+    texts = [word.text for word in words]
+    if language := language_of(texts):
+        advice = message(
+            "this seems to be {language}, and only English and Spanish are understood: say it in English, or plan it"
+            " with a language model (--planner llm)",
+            language=named(language, "language"),
+        )
+    quoted = some_names([message("'{said}'", said=text) for text in texts], 12)
+    return Reason(
+        what=message("not understood: {words}", words=quoted),
+        said=tuple((word.start, word.end) for word in words),
+        advice=advice,
+        unknown=True,
+    )
 
 
 def _called(term: Term) -> str:
@@ -70,4 +98,5 @@ def _no_such(head: Term, name: Term, lexicon: Lexicon) -> Reason:
     else:
         what = message("there is no block '{said}'", said=name.text)
         has = message("this site has block {there}", there=there)
-    return Reason(what=what, said=(name.span,), advice=has if names else message("no rows were found on this site"))
+    advice = has if names else message("no rows were found on this site")
+    return Reason(what=what, said=(name.span,), advice=advice, final=True, instead=names[0] if names else "")

@@ -177,6 +177,19 @@ class Chart:
         found = self._best.get((category, start, end), {})
         return sorted(found.values(), key=lambda edge: edge.cost)
 
+    def all_edges(self) -> Iterator[PhraseEdge]:
+        """Yield the edges of words and phrases."""
+        for found in self._best.values():
+            yield from found.values()
+
+    def of_category(self, category: str) -> list[PhraseEdge]:
+        """Return the cheapest edge of a category over each range of tokens."""
+        return [
+            min(found.values(), key=lambda edge: edge.cost)
+            for (known, *_), found in self._best.items()
+            if known == category
+        ]
+
     def whole(self, category: str) -> list[PhraseEdge]:
         """Return the edges of a category over all tokens but fillers at either end, cheapest first."""
         found: list[PhraseEdge] = []

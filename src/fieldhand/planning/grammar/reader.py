@@ -101,6 +101,31 @@ def composed(
     return outcome
 
 
+def planned_clauses(
+    phrase: PhraseEdge, words: Sequence[Word], request: str, site: Site, robot: RobotProfile
+) -> Planned | None:
+    """Return the plan of some clauses of a request by themselves; None if they are no request.
+
+    Args:
+        phrase: The clauses, as the chart over the words has them.
+        words: Words of the request.
+        request: Request as typed.
+        site, robot: Site and robot of the mission.
+    """
+    try:
+        state = read_clauses(Setting(robot, site, lambda used: spans(words, used)), phrase.meaning)
+    except NotComposed:
+        return None
+    meant = _meant(RequestReading(state=state, cost=phrase.cost, skipped=()), request)
+    if _leaves_block_open(meant.plan, site) or _counts_unnumbered_rows(meant.plan, site):
+        return None
+    try:
+        outcome = planned_as(meant, request, site, robot)
+    except Unclear:
+        return None
+    return outcome if isinstance(outcome, Planned) else None
+
+
 def _leaves_words(outcome: Planned, remarks: Sequence[Span]) -> bool:
     """Return True if a word of the request has no counterpart in the plan and is no remark."""
     at = 0

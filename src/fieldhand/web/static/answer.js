@@ -56,7 +56,10 @@ function refusal(answer, request) {
   const reasons = answer.reasons.map((reason) =>
     el("li", {}, sentence(reason.what), reason.advice ? el("span", { class: "advice" }, ` ${sentence(reason.advice)}`) : null),
   );
-  return [...said, el("ul", { class: "reasons" }, reasons)];
+  const parts = [...said, el("ul", { class: "reasons" }, reasons)];
+  if (answer.understood?.length) parts.push(el("p", { class: "hint" }, `Understood: ${answer.understood.join("; ")}`));
+  if (answer.example) parts.push(el("p", {}, "Can be planned: ", el("q", {}, answer.example)));
+  return parts;
 }
 
 // The request with the words in question marked. Ranges count characters, not the halves of surrogate pairs.

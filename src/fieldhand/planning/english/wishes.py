@@ -1,0 +1,168 @@
+"""Wishes that no plan can express, recognised by their words: schedules, waiting, spraying, counting, the weather.
+
+Some are looked for before anything is read, so that no turn of phrase and no reading can leave them out. The others are
+looked for once a request is refused, and say what its unknown words ask for.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from typing import Literal
+
+from fieldhand.language import message
+from fieldhand.planning.english.lexicon import Lexicon
+from fieldhand.planning.english.naming import Phrase, split
+from fieldhand.planning.english.tokens import Word
+from fieldhand.task.plan import Span
+
+#: What a robot or a site has instead of that which is wished for.
+Offers = Literal["", "actions", "places", "properties"]
+
+#: Words with which no wish begins.
+_BEFORE = frozenset({"of", "for", "with", "in", "at", "to", "from", "and", "any", "on", "by", "near", "but", "so"})
+#: What stands before the first word of a clause.
+_OPENING = (
+    *(". ", "; ", "! ", "? ", ", ", ": ", "and ", "then ", "or ", "but ", "please ", "also ", "you to ", "you "),
+    *("robot ", "it to ", "i want to ", "to be ", "be ", "go ", "just ", "let's "),
+)
+_CLAUSE = rf"(?:^|{'|'.join(f'(?<={re.escape(before)})' for before in _OPENING)})"
+_WORD = r"(?<!\S)"
+
+
+@dataclass(frozen=True, kw_only=True)
+class WishKind:
+    """A kind of wishes, as ``wishes.toml`` describes it.
+
+    Attributes:
+        what: Template of what the words ask for.
+        advice: Template of what to say instead.
+        early: True if it is looked for before anything is read.
+        begins: True if it is looked for at the beginning of clauses only.
+        clause: True if unknown words of the same clause belong to it.
+        aside: True if the rest of the request is a request without the words.
+        rest: True if all that follows in the same clause belongs to it.
+        offers: What is listed in the advice.
+        example: Form of a request with the same purpose, with a placeholder for another request.
+        pattern: Matches its words.
+    """
+
+    what: str
+    advice: str
+    early: bool
+    begins: bool
+    clause: bool
+    aside: bool
+    rest: bool
+    offers: Offers
+    example: str
+    pattern: re.Pattern[str]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Wish:
+    """A part of a request that no plan can express: the words ``first`` to ``last``, the latter excluded."""
+
+    kind: WishKind
+    first: int
+    last: int
+
+    def span(self, words: Sequence[Word]) -> Span:
+        """Return the range of characters of its words."""
+        return (words[self.first].start, words[self.last - 1].end)
+
+    def say(self, said: str, robot: str) -> str:
+        """Return what the words ask for.
+
+        Args:
+            said: The words.
+            robot: Name of the robot.
+        """
+        return message(self.kind.what, context="wish", said=said, robot=robot)
+
+    def advise(self, robot: str, offers: str) -> str:
+        """Return what to say instead; ``offers`` lists what the robot or the site has."""
+        return message(self.kind.advice, context="wish", robot=robot, offers=offers)
+
+
+def early_wishes(words: Sequence[Word]) -> list[Wish]:
+    """Return the wishes that no reading can leave out."""
+    return _longest(_found(words, [kind for kind in wish_kinds() if kind.early]))
+
+
+def wishes(words: Sequence[Word], lexicon: Lexicon) -> list[Wish]:
+    """Return all wishes, but for those that the robot or the site has a word for ("mow" on a robot that mows)."""
+    own = _own_phrases(lexicon)
+    return _longest([wish for wish in _found(words, wish_kinds()) if not _is_own(wish, words, own)])
+
+
+def _found(words: Sequence[Word], kinds: Sequence[WishKind]) -> Iterator[Wish]:
+    starts: dict[int, int] = {}
+    ends: dict[int, int] = {}
+    text = ""
+    for k, word in enumerate(words):
+        starts[len(text)] = k
+        text += word.norm
+        ends[len(text)] = k + 1
+        text += " "
+    text = text.rstrip()
+    for kind in kinds:
+        for match in kind.pattern.finditer(text):
+            first, last = starts.get(match.start()), ends.get(match.end())
+            if first is None or last is None:
+                continue
+            while not kind.early and first < last - 1 and words[first].norm in _BEFORE:
+                first += 1
+            yield Wish(kind=kind, first=first, last=last)
+
+
+def _longest(found: Iterator[Wish] | Sequence[Wish]) -> list[Wish]:
+    """Return the wishes in the order of the words, without those whose words are part of a longer one."""
+    kept: list[Wish] = []
+    for wish in sorted(found, key=lambda wish: wish.first - wish.last):
+        if all(wish.last <= other.first or other.last <= wish.first for other in kept):
+            kept.append(wish)
+    return sorted(kept, key=lambda wish: wish.first)
+
+
+def _own_phrases(lexicon: Lexicon) -> frozenset[Phrase]:
+    site = lexicon.site
+    names = {split(name) for name in (*(gate.place.id for gate in site.gates), *(zone.name for zone in site.zones))}
+    return frozenset(phrase for phrase in {*lexicon.own, *names} if phrase)
+
+
+def _is_own(wish: Wish, words: Sequence[Word], own: frozenset[Phrase]) -> bool:
+    """Return True if the robot or the site has a word for what is wished for: its verb, or its last noun."""
+    if wish.kind.early:
+        return False
+    norms = tuple(word.norm for word in words[wish.first : wish.last])
+    if wish.kind.begins:
+        return any(norms[:length] in own for length in range(1, len(norms) + 1))
+    return any(norms[-length:] in own for length in range(1, len(norms) + 1))
+
+
+@cache
+def wish_kinds() -> tuple[WishKind, ...]:
+    """Return the kinds of wishes of ``wishes.toml``."""
+    text = (files("fieldhand.planning.english") / "wishes.toml").read_text(encoding="utf-8")
+    return tuple(
+        WishKind(
+            what=known["what"],
+            advice=known["advice"],
+            early=known.get("early", False),
+            begins=known.get("begins", False),
+            clause=known.get("clause", False),
+            aside=known.get("aside", False),
+            rest=known.get("rest", False),
+            offers=known.get("offers", ""),
+            example=known.get("example", ""),
+            pattern=re.compile(
+                rf"{_CLAUSE if known.get('begins', False) else _WORD}(?:{'|'.join(known['said'])})(?!\S)"
+            ),
+        )
+        for known in tomllib.loads(text)["wish"]
+    )
