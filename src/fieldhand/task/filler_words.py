@@ -69,7 +69,7 @@ FILLER_WORDS = FUNCTION_WORDS | _COURTESY | _ADDRESSED | _LEADING | _SAYING_LITT
 _SPANISH_FUNCTION_WORDS = _words(
     """
     a al con de del e el ella ellas ellos en era es esa esas ese eso esos esta estan estas este esten esto estos fue
-    la las le les lo los me mi mis nos o para por que se sea son su sus te u un una y
+    la las le les lo los me mi mis nos o para pero por que se sea son su sus te u un una y
     """
 )
 _SPANISH_FILLERS = _words(

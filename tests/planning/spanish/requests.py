@@ -175,6 +175,17 @@ PLANNED: list[tuple[str, str]] = [
         "Mide el CO2 en los árboles 5 y 6, y mide la temperatura del aire en el árbol 7.",
         "for UnionOf(TreeIs(5)+TreeIs(6)): [co2]; air @ TreeIs(7)",
     ),
+    ("Fotografía el árbol 4. Si es amarillo, mide el CO2.", "picture @ TreeIs(4); if leaf_color = yellow: [co2]"),
+    ("Toma una foto en el árbol 4 a menos que sea amarillo.", "go TreeIs(4); if not leaf_color = yellow: [picture]"),
+    (
+        "Mide el CO2 en los árboles 4 y 40. Si ambos son bajos, toma una foto del árbol 20.",
+        "co2 @ TreeIs(4) = r1; co2 @ TreeIs(40) = r2; if r1 low and r2 low: [picture @ TreeIs(20)]",
+    ),
+    ("Toma una foto del árbol 4, pero solo si es amarillo.", "go TreeIs(4); if leaf_color = yellow: [picture]"),
+    (
+        "En cada árbol de la fila 3 toma una foto si no es amarillo.",
+        "for Rows(3, 3): [if not leaf_color = yellow: [picture]]",
+    ),
 ]
 
 #: Requests that have to be asked about or refused, and none of which is planned.
