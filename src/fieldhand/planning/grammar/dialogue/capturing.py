@@ -215,7 +215,7 @@ def capture_elided(setting: Setting, state: DialogueState) -> DialogueState:
     lead = state.lead
     if lead is None or not state.things or lead.place.shape not in ("one", "several", "area"):
         return state
-    if lead.relation == "" and isinstance(lead.place.selector, s.Marker):
+    if lead.relation == "" and lead.place.selector.named_marker:
         raise NotComposed("another place, or another place to measure from?")
     if state.where is not None and is_end_of_site(state.where.selector) and counts_in_row(lead.place.selector):
         raise NotComposed("the first of the row, or of the site?")

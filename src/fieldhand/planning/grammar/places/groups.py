@@ -235,7 +235,7 @@ def both(first: PlaceMeaning, second: PlaceMeaning, word: Lex | None = None) -> 
     """Compose "tree 12 and the charger"."""
     if (word is not None and "contrast" in word.features) or first.per is not None or second.per is not None:
         return None
-    if isinstance(second.selector, s.Marker) and isinstance(first.selector, s.Within | s.Nearest | s.Farthest):
+    if second.selector.named_marker and isinstance(first.selector, s.Within | s.Nearest | s.Farthest):
         return None  # "within 20 m of the start and the charger"
     if first.shape == "one" and second.shape in ("one", "step"):
         second = replace(second, selector=swapped(second.selector, s.Here(), first.selector), shape="one")
