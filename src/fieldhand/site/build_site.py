@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from types import MappingProxyType
 
 import numpy as np
@@ -24,6 +24,8 @@ SAME_TREE_M = 0.2
 #: slightly outside.
 ON_BOUNDARY_M = 0.05
 _MOST_PAIRS = 5
+#: Maximum number of characters of the name of a marker that requests may use.
+_LONGEST_MARKER_NAME = 60
 
 
 def build(features: FeatureSet, faults: Faults, *, name: str, sha256: str, notes: Sequence[str] = ()) -> Site:
@@ -50,9 +52,8 @@ def build(features: FeatureSet, faults: Faults, *, name: str, sha256: str, notes
     gates = gates_of([p for p in sound.points if p.kind == "gate"], projection)
     fences, opens_nothing = barrier_zones(sound.barriers, gates, projection)
     trees, about_trees = _trees(planted, numbering, projection, zones + fences, faults)
-    markers = _markers(
-        [p for p in sound.points if p.kind not in ("tree", "gate", "landmark")], projection, zones + fences, faults
-    )
+    marked = [p for p in sound.points if p.kind not in ("tree", "gate", "landmark")]
+    markers = _markers(marked, projection, zones + fences, faults)
     faults.check()
     if not trees:
         raise _no_trees(features, faults.source, left_out=True)
@@ -73,6 +74,7 @@ def build(features: FeatureSet, faults: Faults, *, name: str, sha256: str, notes
             *opens_nothing,
         ),
         gates=gates,
+        marker_names=tuple(_marker_names(marked, markers)),
     )
 
 
@@ -238,6 +240,17 @@ def _markers(
             numbers[p.kind] = p.feature
             markers[p.kind] = Place(kind="marker", id=p.kind, x=x, y=y, lat=p.lat, lon=p.lon)
     return markers
+
+
+def _marker_names(points: Sequence[PointFeature], markers: Mapping[str, Place]) -> Iterator[tuple[str, str]]:
+    """Yield the kind of each marker whose name says something else than its kind, and the name."""
+    named: set[str] = set()
+    for p in points:
+        name = str(p.properties.get("name") or p.own_id or "").strip()
+        known = p.kind not in markers or p.kind in named
+        if not known and name and name.isprintable() and len(name) <= _LONGEST_MARKER_NAME and name.lower() != p.kind:
+            named.add(p.kind)
+            yield p.kind, name
 
 
 def _zones(areas: Sequence[AreaFeature], projection: Projection, faults: Faults) -> tuple[Zone, ...]:

@@ -123,6 +123,7 @@ class Site:
         sha256: SHA-256 of the bytes that the site was read from; an approval refers to it.
         source: Path or name of the input, for messages.
         gates: Openings in fences.
+        marker_names: Kind of a marker and the name that the file gives it, such as ("start", "barn").
         notes: Sentences about features that the reader left out or interpreted differently from the file.
     """
 
@@ -135,6 +136,7 @@ class Site:
     source: str = ""
     notes: tuple[str, ...] = ()
     gates: tuple[Gate, ...] = ()
+    marker_names: tuple[tuple[str, str], ...] = ()
 
     __repr__ = short_repr
 

@@ -14,7 +14,7 @@ from fieldhand.planning.english.reading import reading_of, refused
 from fieldhand.planning.english.rewording import Worded
 from fieldhand.planning.english.tokens import Word, words_of
 from fieldhand.planning.english.wishes import early_wishes
-from fieldhand.planning.planner import Answer, Clarify, Outcome, Reason, Refused
+from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Reason, Refused
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.codec_text import hidden_character
@@ -41,14 +41,14 @@ class EnglishPlanner:
     def plan(self, request: str, site: Site, robot: RobotProfile, answers: tuple[Answer, ...] = ()) -> Outcome:
         """Plan a request. Each answer is read in place of the words that its question was about.
 
-        A request that the rules do not understand is read by the grammar of constructions, which plans it only if it
-        covers every word in one way.
+        A request that the rules do not understand, or would ask about, is read by the grammar of constructions, which
+        plans it only if it covers every word in one way.
 
         Raises:
             RequestError: The request is empty, too long, or holds characters that no document can hold.
         """
         outcome = self._by_rules(request, site, robot, answers)
-        if not isinstance(outcome, Refused) or answers:
+        if isinstance(outcome, Planned) or answers:
             return outcome
         outcome = self._by_grammar(outcome, request, site, robot)
         if not isinstance(outcome, Refused) or not self._suggests:
@@ -61,17 +61,18 @@ class EnglishPlanner:
     def _plain(self, request: str, site: Site, robot: RobotProfile) -> Outcome:
         """Plan a request without help if it is refused."""
         outcome = self._by_rules(request, site, robot, ())
-        return self._by_grammar(outcome, request, site, robot) if isinstance(outcome, Refused) else outcome
+        return outcome if isinstance(outcome, Planned) else self._by_grammar(outcome, request, site, robot)
 
-    def _by_grammar(self, by_rules: Refused, request: str, site: Site, robot: RobotProfile) -> Outcome:
-        """Return the plan of the grammar for a request that the rules refuse, or the better of the two refusals."""
+    def _by_grammar(self, by_rules: Refused | Clarify, request: str, site: Site, robot: RobotProfile) -> Outcome:
+        """Return the plan of the grammar for a request that the rules do not plan, or the better of the two answers."""
         words = words_of(request)
         if early_wishes(words) or any(missing_blocks(words, site)):
             return by_rules
         from fieldhand.planning.grammar.reader import composed
 
         found = composed(request, site, robot)
-        if isinstance(found, Refused) and not any(reason.unknown for reason in by_rules.reasons):
+        rules_know = isinstance(by_rules, Clarify) or not any(reason.unknown for reason in by_rules.reasons)
+        if isinstance(found, Refused) and rules_know:
             return by_rules  # the rules know the words, and say more of what is wrong
         return found or by_rules
 

@@ -17,6 +17,8 @@ from fieldhand.site.model import Site
 _WORD_COST = 1.0
 #: Comparisons that are written as signs.
 _COMPARISONS = {">": "gt", "<": "lt", "\N{GREATER-THAN OR EQUAL TO}": "ge", "\N{LESS-THAN OR EQUAL TO}": "le"}
+#: Categories of markers by their kind.
+_MARKERS = {"start": "START", "end": "FINISH", "charger": "CHARGER"}
 _SIGNS = {"comma": "COMMA", "dash": "DASH", "sign": "AND", "hash": "HASH", "stop": "FULLSTOP"}
 #: Category of words that always may be skipped.
 _SILENT = "FILLER"
@@ -174,6 +176,10 @@ def _names(words: Sequence[Word], start: int, phrases: Phrases) -> Iterator[Phra
         ):
             if name is not None:
                 yield _edge(kind, start, end, Lex(name, False, spelt))
+    for kind, name in lexicon.site.marker_names:
+        phrase = split(name)
+        if phrase and tuple(w.norm for w in words[start : start + len(phrase)]) == phrase:
+            yield _edge(_MARKERS[kind], start, start + len(phrase), Lex(None, False, name))
     for gate in lexicon.site.gates:
         phrase = split(gate.place.id)
         if phrase and tuple(w.norm for w in words[start : start + len(phrase)]) == phrase:

@@ -39,7 +39,7 @@ def site_document(site: Site, network: DrivableNetwork | None = None) -> dict[st
     """
     features = [
         *_trees(site),
-        *(_point(p.lon, p.lat, {"kind": name}) for name, p in site.markers.items()),
+        *(_point(p.lon, p.lat, {"kind": kind} | _named(site, kind)) for kind, p in site.markers.items()),
         *(
             _point(g.place.lon, g.place.lat, {"kind": "gate", "name": g.place.id, "width_m": g.width_m})
             for g in site.gates
@@ -49,6 +49,11 @@ def site_document(site: Site, network: DrivableNetwork | None = None) -> dict[st
         *(_drivable(site, network) if network is not None else ()),
     ]
     return {"type": "FeatureCollection", "name": site.name, "features": features}
+
+
+def _named(site: Site, kind: str) -> dict[str, Value]:
+    """Return the name of a marker as a property, if it has one."""
+    return {"name": name for known, name in site.marker_names if known == kind}
 
 
 def _trees(site: Site) -> Iterator[Feature]:
