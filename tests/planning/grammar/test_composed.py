@@ -36,6 +36,7 @@ MORE = {
         ("Pick 12 trees at random across the whole orchard and measure the canopy temperature of each.", "for RandomSample(12): [picture]"),
         ("Rows 4 through 6, canopy temp and air temp at each tree, then head back to where you began.", "for Rows(4, 6): [picture; air] | return_to_start"),
         ("Thermal at trees 100 through 102. If there's enough battery left over, do CO2 on those too.", "for UnionOf(TreeIs(100)+TreeIs(101)+TreeIs(102)): [picture; maybe [co2]]"),
+        ("scan every second tree of row 2 with the thermal camera", "for EveryNth(2, of Rows(2, 2)): [picture]"),
         ("Row 7, every third tree, thermal, then go park at the charger.", "for EveryNth(3, of Rows(7, 7)): [picture]; go Marker(charger) | stay"),
         ("read co2 at the tree of row 5 farthest from the charger", "co2 @ Farthest(Marker(charger), of Rows(5, 5))"),
         ("take a picture of three trees in row 3 next to each other", "for Adjacent(Here, 3, of Rows(3, 3)): [picture]"),

@@ -1110,11 +1110,6 @@ ASKED = [
         "please have the robot inspect row 4, taking a thermal picture of each tree",
         "'inspect row 4': what should be taken?",
     ),
-    (
-        "husky",
-        "scan every second tree of row 2 with the thermal camera",
-        "'scan every second tree of row 2': what should be taken?",
-    ),
     ("husky", "do rows 1 to 3, photographing every third tree", "'do rows 1 to 3': what should be taken?"),
 ]
 

@@ -294,6 +294,10 @@ def _some_of(bag: Bag, of: s.Selector, *, plural: bool, site: Site, single: bool
             asked=message("'{said}': how many of them?", context="question", said=text),
             of_all=True,
         )
+    if bag.any and count is None and any(isinstance(part, s.Where) for part in of.walk()):
+        raise how_many(
+            bag.phrase, ("1",), asked=message("'{said}': how many of them?", context="question", said=text), of_all=True
+        )
     if bag.article == "some" and plural and count is None:
         raise how_many(bag.phrase, ("2", "4"), of_all=True)
     if bag.spread:

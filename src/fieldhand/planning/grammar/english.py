@@ -13,6 +13,7 @@ from typing import Any
 from fieldhand.planning.english.inflection import forms_of, plural_of
 from fieldhand.planning.english.lexicon import Lexicon, lexicon_for
 from fieldhand.planning.english.naming import NameEntry, Naming, Phrase, split
+from fieldhand.planning.english.spelling import respelt
 from fieldhand.planning.english.tokens import words_of
 from fieldhand.planning.english.vocabulary import vocabulary
 from fieldhand.planning.grammar.chart import Grammar
@@ -126,4 +127,4 @@ def _grammar() -> Grammar:
     return made
 
 
-ENGLISH = GrammarLanguage(code="en", words_of=words_of, phrases=phrases_for, grammar=_grammar)
+ENGLISH = GrammarLanguage(code="en", words_of=words_of, phrases=phrases_for, grammar=_grammar, respelt=respelt)

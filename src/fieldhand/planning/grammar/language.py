@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+from fieldhand.planning.english.lexicon import Lexicon
 from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.words import Phrases
@@ -21,9 +22,11 @@ class GrammarLanguage:
         words_of: Returns the words of a request in order.
         phrases: Returns the words of the language for a robot on a site.
         grammar: Returns the constructions of the language; most are shared by all languages.
+        respelt: Returns words with small misspellings mended, and what was mended as sentences; None for none.
     """
 
     code: str
     words_of: Callable[[str], list[Word]]
     phrases: Callable[[RobotProfile, Site], Phrases]
     grammar: Callable[[], Grammar]
+    respelt: Callable[[Sequence[Word], Lexicon], tuple[list[Word], list[str]]] | None = None

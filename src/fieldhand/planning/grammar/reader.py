@@ -15,7 +15,7 @@ from fieldhand.planning.grammar.dialogue import DialogueState, NotComposed, Sett
 from fieldhand.planning.grammar.english import ENGLISH
 from fieldhand.planning.grammar.language import GrammarLanguage
 from fieldhand.planning.grammar.remarks import without_remarks
-from fieldhand.planning.grammar.words import edges_of, fillers_of
+from fieldhand.planning.grammar.words import Phrases, edges_of, fillers_of
 from fieldhand.planning.planner import Planned, Refused
 from fieldhand.planning.selections import is_in_block, rows_of
 from fieldhand.request_check import mismatches
@@ -40,22 +40,42 @@ class RequestReading:
         cost: Cost of its parse.
         skipped: Fillers that were skipped.
         remarks: What asks for nothing.
+        mended: What was read as another word, as sentences.
     """
 
     state: DialogueState
     cost: float
     skipped: tuple[Span, ...]
     remarks: tuple[Span, ...] = ()
+    mended: tuple[str, ...] = ()
 
 
 def readings(
     request: str, site: Site, robot: RobotProfile, language: GrammarLanguage = ENGLISH
 ) -> list[RequestReading]:
     """Return the ways to read a request as a whole, cheapest first; empty if the grammar does not cover it."""
-    words = language.words_of(request)
-    phrases = language.phrases(robot, site)
+    words, phrases = language.words_of(request), language.phrases(robot, site)
+    found = _readings_of(words, phrases, site, robot, language)
+    if found or language.respelt is None:
+        return found
+    known = {token for edge in edges_of(words, phrases) for token in range(edge.start, edge.end)}
+    mended: list[str] = []
+    for token, word in enumerate(words):
+        if token not in known:
+            (words[token],), notes = language.respelt([word], phrases.lexicon)
+            mended += notes
+    if not mended:
+        return found
+    found = _readings_of(words, phrases, site, robot, language)
+    return [replace(reading, mended=tuple(mended)) for reading in found]
+
+
+def _readings_of(
+    words: Sequence[Word], phrases: Phrases, site: Site, robot: RobotProfile, language: GrammarLanguage
+) -> list[RequestReading]:
+    """Return the ways to read words, cheapest first."""
     remarks = without_remarks(words, edges_of(words, phrases))
-    words = list(remarks.words)
+    words = remarks.words
     chart = Chart(language.grammar(), len(words), fillers_of(words, phrases), given={"site": site}, predicted=PREDICTED)
     chart.parse(edges_of(words, phrases))
     setting = Setting(robot, site, lambda used: spans(words, used))
@@ -161,7 +181,7 @@ def _meant(reading: RequestReading, request: str) -> Meant:
         nominal=state.nominal,
         nominal_said=state.nominal_said,
         no_part=tuple(no_part),
-        assumptions=remarked,
+        assumptions=(*reading.mended, *remarked),
     )
 
 

@@ -166,7 +166,7 @@ def _names(words: Sequence[Word], start: int, phrases: Phrases) -> Iterator[Phra
     for end in range(start + 1, min(start + 5, len(words) + 1)):
         word = words[end - 1]
         if word.kind not in ("word", "number", "dash", "rank"):
-            return
+            break
         spelt += "".join(split(word.text)) if word.kind != "dash" else ""
         tree = lexicon.trees.get(spelt) or (_missing_tree(word, phrases) if end == start + 1 else None)
         for kind, name in (
@@ -174,7 +174,7 @@ def _names(words: Sequence[Word], start: int, phrases: Phrases) -> Iterator[Phra
             ("ROWNAME", lexicon.row_names.get(spelt)),
             ("BLOCKNAME", lexicon.block_names.get(spelt)),
         ):
-            if name is not None:
+            if name is not None and not (end == start + 1 and _is_article(word, name, phrases)):
                 yield _edge(kind, start, end, Lex(name, False, spelt))
     for kind, name in lexicon.site.marker_names:
         phrase = split(name)
@@ -184,6 +184,11 @@ def _names(words: Sequence[Word], start: int, phrases: Phrases) -> Iterator[Phra
         phrase = split(gate.place.id)
         if phrase and tuple(w.norm for w in words[start : start + len(phrase)]) == phrase:
             yield _edge("GATENAME", start, start + len(phrase), Lex(gate.place.id, False, gate.place.id))
+
+
+def _is_article(word: Word, name: str, phrases: Phrases) -> bool:
+    """Return True for an article that could be a name if it were written like one ("a block" where block A is)."""
+    return word.text != name and any(entry.kind == "DET" for entry in phrases.entries((word.norm,)))
 
 
 def _missing_tree(word: Word, phrases: Phrases) -> str | None:

@@ -53,7 +53,8 @@ def site_document(site: Site, network: DrivableNetwork | None = None) -> dict[st
 
 def _named(site: Site, kind: str) -> dict[str, Value]:
     """Return the name of a marker as a property, if it has one."""
-    return {"name": name for known, name in site.marker_names if known == kind}
+    name = dict(site.marker_names).get(kind)
+    return {} if name is None else {"name": name}
 
 
 def _trees(site: Site) -> Iterator[Feature]:

@@ -93,7 +93,7 @@ def needs(place: PlaceMeaning, things: tuple[Thing, ...], used: int) -> CaptureC
 
 @construction(
     "capture: verb=ACTV place=place WITH things=things",
-    "capture: LOOKAT place=place WITH things=things",
+    "capture: MEASURE place=place WITH things=things",
     "capture: GO ALONG place=place WITH things=things",
     cost=0.6,
 )
@@ -181,6 +181,24 @@ def act_on(verb: Lex, place: PlaceMeaning, used: int) -> CaptureCommand:
     """Compose "photograph tree 4"."""
     naming: Naming = verb.value
     return CaptureCommand((Thing(naming.actions[0]),), place, used, relation="of")
+
+
+@construction(
+    "capture: GO [towards] place=place FOR things=things", "capture: VISIT place=place FOR things=things", cost=0.3
+)
+def go_for(place: PlaceMeaning, things: tuple[Thing, ...], used: int) -> CaptureCommand | None:
+    """Compose "go to tree 4 for a picture"."""
+    if place.shape not in ("one", "several"):
+        return None
+    return CaptureCommand(things, place, used, relation="lead" if place.shape == "one" else "at")
+
+
+@construction("capture: act=capture [COMMA] EACH noun=TREE", cost=0.3)
+def at_every_tree(act: CaptureCommand, noun: Lex, used: int) -> CaptureCommand | None:
+    """Compose "measure CO2 along row 4, every tree"."""
+    if noun.plural or act.place is None or act.place.shape != "area" or act.place.per is not None:
+        return None
+    return replace(act, place=replace(act.place, shape="several", each=True), used=used)
 
 
 @construction("capture: verb=ACTV", cost=0.6)

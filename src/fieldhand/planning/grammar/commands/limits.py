@@ -83,6 +83,18 @@ def back_before(least: Amount, used: int) -> LimitClause | None:
     return LimitClause(least, True, used, back=True) if least.unit == "percent" else None
 
 
+@construction(
+    "limit: home IF [DET] BATTERY [IS] check=CMP least=amount",
+    "limit: IF [DET] BATTERY [IS] check=CMP least=amount [COMMA] home",
+    cost=0.2,
+)
+def home_below(check: Lex, least: Amount, used: int) -> LimitClause | None:
+    """Compose "return if the battery drops below 25 %"."""
+    if check.value[0] not in ("lt", "le") or least.unit != "percent":
+        return None
+    return LimitClause(least, True, used, back=True)
+
+
 @construction("at: AT", "at: CMP", cost=0.0)
 def at_word() -> str:
     """Compose "at"."""

@@ -31,11 +31,15 @@ def drive(setting: Setting, state: DialogueState, command: DriveCommand) -> Dial
     if command.begins and state.plan.steps:
         raise NotComposed("where to begin is said too late")
     require_known(state, place, setting.site)
+    leads = False
     if state.lead is not None and state.lead.place.shape == "one" and place.shape in ("one", "step"):
+        leads = True
         before = state.lead  # "From tree 4 drive to tree 9."
         state = drive(setting, replace(state, lead=None), DriveCommand(before.place, before.used))
     if state.awaits_command:
         raise NotComposed("two places for one command")
+    if not leads and _stands_idle(state) and not place.selector.relative and not command.returns:
+        raise NotComposed("what is done at the place before?")
     if place.shape in ("one", "step"):
         state = with_step(replace(state, loop=None), p.GoTo(id="", place=place.selector, said=said))
         return done_at(replace(state, returned=command.returns), place)
@@ -47,6 +51,12 @@ def drive(setting: Setting, state: DialogueState, command: DriveCommand) -> Dial
         state = with_step(state, visits(place, said))
         return replace(done_at(state, place), loop=inside)
     raise NotComposed("where to?")
+
+
+def _stands_idle(state: DialogueState) -> bool:
+    """Return True if the robot was just sent to a place where nothing has been done yet."""
+    steps = state.block.steps
+    return bool(steps) and steps[-1].only_drives
 
 
 def visits(place: PlaceMeaning, said: Spans) -> p.ForEach:

@@ -108,9 +108,11 @@ def in_word(word: Lex) -> str | None:
     return "in" if "within" in word.features else None
 
 
-@construction("site: [DET] noun=PLOT", cost=0.0)
-def the_site(noun: Lex) -> str | None:
+@construction("site: [word=DET] noun=PLOT", cost=0.0)
+def the_site(noun: Lex, word: Lex | None = None) -> str | None:
     """Compose "the orchard"."""
+    if word is not None and "indefinite" in word.features:
+        return None
     return None if "block" in noun.features else "site"
 
 
@@ -205,6 +207,14 @@ def sticking_to(whole: PlaceMeaning, where: s.Selector) -> PlaceMeaning | None:
     if whole.shape != "several" or whole.per is not None or not chooses_from_trees(whole.selector):
         return None
     return replace(whole, selector=over(whole.selector, where))
+
+
+@construction("nominal: where=block inner=nominal", "nominal: where=bare_block inner=nominal", cost=0.3)
+def of_block(where: s.Selector, inner: Nominal) -> Nominal | None:
+    """Compose "north block vines"."""
+    if not chooses_from_trees(inner.selector):
+        return None
+    return replace(inner, selector=over(inner.selector, where))
 
 
 @construction("region: [DET] PLOTPOSS where=region", cost=0.1)

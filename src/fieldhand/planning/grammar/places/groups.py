@@ -37,8 +37,10 @@ def any_one(word: Lex, inner: Nominal) -> PlaceMeaning | None:
 
 @construction("place: ANY inner=nominal", cost=0.3)
 def any_of_them(inner: Nominal) -> PlaceMeaning | None:
-    """Compose "any yellow tree"."""
-    return None if inner.single else PlaceMeaning(s.Take(count=1, of=inner.selector), "one")
+    """Compose "any tree of row 4"."""
+    if inner.single or any(isinstance(part, s.Where) for part in inner.selector.walk()):
+        return None  # "any yellow tree": one, or each that there is?
+    return PlaceMeaning(s.Take(count=1, of=inner.selector), "one")
 
 
 @construction("place: ANY n=count inner=nominal", "place: ATLEAST n=count inner=nominal", cost=0.3)

@@ -218,6 +218,28 @@ def ranked(rank: tuple[str, bool], inner: Nominal, n: int | None = None) -> Plac
     return PlaceMeaning(selector, "one") if number == 1 else PlaceMeaning(selector, "several", count=number)
 
 
+@construction("place: [DET] n=count inner=nominal WHICH ATTRVERB DET best=ranking", cost=0.2, given=("site",))
+def that_yielded(n: int, inner: Nominal, best: tuple[str, bool], site: Site) -> list[PlaceMeaning] | None:
+    """Compose "the ten trees that yielded the least"."""
+    if best[0] or inner.single or inner.complete:
+        return None
+    return [
+        PlaceMeaning(
+            s.Top(attribute=name, count=n, lowest=best[1], of=inner.selector), "one" if n == 1 else "several", count=n
+        )
+        for name in hinted_attributes("yield", site)
+    ]
+
+
+@construction("place: best=place in_ where=region", cost=0.4)
+def best_in(best: PlaceMeaning, where: s.Selector) -> PlaceMeaning | None:
+    """Compose "the 20 vines with the lowest vigor in the south block"."""
+    top = best.selector
+    if not isinstance(top, s.Top) or top.of != s.Trees() or best.per is not None or best.each:
+        return None
+    return replace(best, selector=replace(top, of=where))
+
+
 @construction("nominal: EVERYTHING", cost=0.2)
 def everything() -> Nominal:
     """Compose "everything"."""

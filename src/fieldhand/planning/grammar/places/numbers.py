@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+import re
+
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.limits import Amount
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import PlaceMeaning
 from fieldhand.planning.grammar.words import Lex
+from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
+
+#: Id of letters and a number.
+_CODED = re.compile(r"(\D*)([1-9]\d*)")
 
 
 def whole(number: float) -> int | None:
@@ -96,6 +102,16 @@ def tree_range(number: Lex, last: Lex) -> tuple[str, ...] | None:
     if low is None or high is None or not low < high <= low + 500:
         return None
     return tuple(str(k) for k in range(low, high + 1))
+
+
+@construction("tree_ids: [TREE] first=tree_id range_to [TREE] last=tree_id", cost=0.2, given=("site",))
+def code_range(first: tuple[str, ...], last: tuple[str, ...], site: Site) -> tuple[str, ...] | None:
+    """Compose "N300 through N310", where the ids differ by their number only."""
+    low, high = (_CODED.fullmatch(one[0]) for one in (first, last))
+    if low is None or high is None or low[1] != high[1] or not int(low[2]) < int(high[2]) <= int(low[2]) + 500:
+        return None
+    names = tuple(f"{low[1]}{number}" for number in range(int(low[2]), int(high[2]) + 1))
+    return names if all(name in site.by_id for name in names) else None
 
 
 @construction("range_to: word=AT", "range_to: word=ALONG", "range_to: word=DASH", cost=0.0)

@@ -277,6 +277,7 @@ def at_each_row(rows: s.Selector) -> PlaceMeaning:
     "rows_of_block: rows=rows in_ block=block",
     "rows_of_block: rows=each_row in_ block=block",
     "rows_of_block: rows=rows in_ block=bare_block",
+    "rows_of_block: rows=rows COMMA block=block",
     cost=0.1,
 )
 def rows_of_block(rows: s.Selector, block: s.Selector) -> s.Selector | None:
