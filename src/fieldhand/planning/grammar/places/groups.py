@@ -17,9 +17,11 @@ GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
 
-@construction("place: [DET] inner=nominal", cost=0.3)
-def definite(inner: Nominal) -> PlaceMeaning | None:
+@construction("place: [word=DET] inner=nominal", cost=0.3)
+def definite(inner: Nominal, word: Lex | None = None) -> PlaceMeaning | None:
     """Compose "the yellow trees"."""
+    if inner.plural and not inner.complete and word is not None and "indefinite" in word.features:
+        return None  # "some trees": how many?
     if inner.single:
         return PlaceMeaning(inner.selector, "one")
     if inner.complete:
