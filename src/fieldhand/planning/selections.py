@@ -237,3 +237,13 @@ def some_of(of: s.Selector, count: int) -> s.Selector:
 def is_across(selector: s.Selector) -> bool:
     """Return True for the tree across the aisle."""
     return isinstance(selector, s.Across)
+
+
+def is_by_attribute(selector: s.Selector) -> bool:
+    """Return True if trees are chosen by an attribute ("yellow", "with vigor below 0.4")."""
+    return any(isinstance(part, s.Where) for part in selector.walk())
+
+
+def as_where(selector: s.Selector) -> s.Where | None:
+    """Return the selector if it tests an attribute, None otherwise."""
+    return selector if isinstance(selector, s.Where) else None

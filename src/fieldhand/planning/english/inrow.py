@@ -18,6 +18,7 @@ from fieldhand.planning.english.rows import check_rows
 from fieldhand.planning.english.rowwords import From, Steps
 from fieldhand.planning.english.sets import Group
 from fieldhand.planning.english.ways import check_over, side_along, trees_named
+from fieldhand.planning.selections import as_where
 from fieldhand.site.model import Site
 from fieldhand.terms import CountedFrom, Towards
 
@@ -287,9 +288,10 @@ def parted(area: s.Selector) -> tuple[s.Selector, list[s.Where]]:
     trees that are counted that are tested.
     """
     tests: list[s.Where] = []
-    if isinstance(area, s.Where):
-        inner, tests = parted(area.of)
-        return inner, [area, *tests]
+    tested = as_where(area)
+    if tested is not None:
+        inner, tests = parted(tested.of)
+        return inner, [tested, *tests]
     if area.members != (area,):
         found = [parted(part) for part in area.members]
         if all(one[1] == found[0][1] for one in found):

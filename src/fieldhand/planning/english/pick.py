@@ -20,7 +20,7 @@ from fieldhand.planning.english.onebyone import distributed
 from fieldhand.planning.english.regions import corners, extremes, middle, region
 from fieldhand.planning.english.sets import Group
 from fieldhand.planning.english.tokens import Term
-from fieldhand.planning.selections import is_about_rows, is_spot, some_of, zone_of_points
+from fieldhand.planning.selections import is_about_rows, is_by_attribute, is_spot, some_of, zone_of_points
 from fieldhand.site.model import Site
 from fieldhand.terms import CornerName, MarkerName
 
@@ -294,7 +294,7 @@ def _some_of(bag: Bag, of: s.Selector, *, plural: bool, site: Site, single: bool
             asked=message("'{said}': how many of them?", context="question", said=text),
             of_all=True,
         )
-    if bag.any and count is None and any(isinstance(part, s.Where) for part in of.walk()):
+    if bag.any and count is None and is_by_attribute(of):
         raise how_many(
             bag.phrase, ("1",), asked=message("'{said}': how many of them?", context="question", said=text), of_all=True
         )

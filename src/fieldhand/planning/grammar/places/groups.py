@@ -10,7 +10,15 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import are_rows, as_some, chooses_from_trees, counts_in_row, is_end_of_site, over
+from fieldhand.planning.selections import (
+    are_rows,
+    as_some,
+    chooses_from_trees,
+    counts_in_row,
+    is_by_attribute,
+    is_end_of_site,
+    over,
+)
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -40,7 +48,7 @@ def any_one(word: Lex, inner: Nominal) -> PlaceMeaning | None:
 @construction("place: ANY inner=nominal", cost=0.3)
 def any_of_them(inner: Nominal) -> PlaceMeaning | None:
     """Compose "any tree of row 4"."""
-    if inner.single or any(isinstance(part, s.Where) for part in inner.selector.walk()):
+    if inner.single or is_by_attribute(inner.selector):
         return None  # "any yellow tree": one, or each that there is?
     return PlaceMeaning(s.Take(count=1, of=inner.selector), "one")
 
