@@ -10,7 +10,7 @@ import re
 import tomllib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 from importlib.resources import files
 from typing import Literal
 
@@ -48,7 +48,7 @@ class WishKind:
         rest: True if all that follows in the same clause belongs to it.
         offers: What is listed in the advice.
         example: Form of a request with the same purpose, with a placeholder for another request.
-        pattern: Matches its words.
+        said: Regular expressions of its words.
     """
 
     what: str
@@ -60,7 +60,12 @@ class WishKind:
     rest: bool
     offers: Offers
     example: str
-    pattern: re.Pattern[str]
+    said: tuple[str, ...]
+
+    @cached_property
+    def pattern(self) -> re.Pattern[str]:
+        """Matches its words; compiled when it is first needed, since most kinds are needed by refusals only."""
+        return re.compile(rf"{_CLAUSE if self.begins else _WORD}(?:{'|'.join(self.said)})(?!\S)")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -160,9 +165,7 @@ def wish_kinds() -> tuple[WishKind, ...]:
             rest=known.get("rest", False),
             offers=known.get("offers", ""),
             example=known.get("example", ""),
-            pattern=re.compile(
-                rf"{_CLAUSE if known.get('begins', False) else _WORD}(?:{'|'.join(known['said'])})(?!\S)"
-            ),
+            said=tuple(known["said"]),
         )
         for known in tomllib.loads(text)["wish"]
     )
