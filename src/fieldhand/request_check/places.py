@@ -30,6 +30,9 @@ _SOME_ROWS = re.compile(
     r"(?: \w+){0,3} rows?\b"
 )
 
+#: Range of ids that differ by their number: "n300 through n310".
+_CODE_RANGE = re.compile(r"\b([a-z]+)(\d+)\s*(?:to|through|thru|a|al|hasta|-|\u2013)\s*\1(\d+)\b")
+
 
 def place_mismatches(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
     """Yield contradictions in places."""
@@ -66,11 +69,19 @@ def _trees(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
         spelt = "".join(ch for ch in tree.lower() if ch.isalnum())
         if _digits(tree) in numbers or tree.lower() in spoken or spelt in "".join(c for c in spoken if c.isalnum()):
             continue
+        if any(_is_between(tree.lower(), *ends) for ends in _CODE_RANGE.findall(said.text)):
+            continue
         yield PlanMismatch(
             kind="place",
             what=message("the plan names tree '{tree}', but the request does not", tree=tree[:40]),
             node=node,
         )
+
+
+def _is_between(tree: str, prefix: str, first: str, last: str) -> bool:
+    """Return True if a tree's id has a prefix and a number of a range."""
+    number = tree.removeprefix(prefix)
+    return tree.startswith(prefix) and number.isdigit() and int(first) <= int(number) <= int(last)
 
 
 def _digits(name: str) -> str:

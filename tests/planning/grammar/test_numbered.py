@@ -14,6 +14,7 @@ from fieldhand.robot.loader import load_robot
 from fieldhand.site.formats.geojson_export import site_document
 from fieldhand.site.loader import load_site, open_site
 from planning.english.outlines import outline
+from planning.english.vineyards import vineyard
 
 ROBOT = load_robot("husky")
 
@@ -67,3 +68,16 @@ def test_a_marker_is_known_by_the_name_that_the_file_gives_it(tmp_path: Path) ->
     assert outcome.task.composition.nominal == "return_to_start"
     again = site_document(site)
     assert {"kind": "start", "name": "old barn"} in [feature["properties"] for feature in again["features"]]
+
+
+@pytest.mark.parametrize("request_", ["Photograph N12 to N15.", "take a picture of vines N12 through N15"])
+def test_a_range_of_ids_is_every_one_between(request_: str) -> None:
+    outcome = EnglishPlanner().plan(request_, vineyard(), ROBOT)
+    assert isinstance(outcome, Planned)
+    assert outline(outcome.task).startswith("for UnionOf(TreeIs(N12)+TreeIs(N13)+TreeIs(N14)+TreeIs(N15)): [picture]")
+
+
+@pytest.mark.parametrize("request_", ["Photograph N15 to N12.", "Photograph N12 to S15."])
+def test_a_range_that_runs_backwards_or_between_two_kinds_of_ids_is_none(request_: str) -> None:
+    outcome = EnglishPlanner().plan(request_, vineyard(), ROBOT)
+    assert not (isinstance(outcome, Planned) and "N13" in outline(outcome.task))

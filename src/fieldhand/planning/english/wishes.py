@@ -136,7 +136,9 @@ def _longest(found: Iterator[Wish] | Sequence[Wish]) -> list[Wish]:
 
 def _own_phrases(lexicon: Lexicon) -> frozenset[Phrase]:
     site = lexicon.site
-    names = {split(name) for name in (*(gate.place.id for gate in site.gates), *(zone.name for zone in site.zones))}
+    markers = (name for _, name in site.marker_names)
+    gates, zones = (gate.place.id for gate in site.gates), (zone.name for zone in site.zones)
+    names = {split(name) for name in (*gates, *zones, *markers)}
     return frozenset(phrase for phrase in {*lexicon.own, *names} if phrase)
 
 
