@@ -67,6 +67,8 @@ def _ended(state: DialogueState) -> DialogueState:
     if all(step.ends_plan for step in state.plan.steps):
         raise NotComposed("nothing is done")
     for _, node in walk(state.plan):
+        if node.is_choice and EMPTY in node.children:
+            raise NotComposed("nothing is done in one case")
         if node.is_optional_step and not any(one.act for one in p.walk(node)):
             raise NotComposed("what may be left out?")
     if state.open or state.awaits_command or state.order is not None:

@@ -98,7 +98,8 @@ def _choice(state: DialogueState, tests: AllTests, said: Spans, robot: RobotProf
     scope = _scope_of_test(state)
     path = (*scope, len(block_at(state.plan, scope).steps))
     state = with_step(replace(state, scope=scope), p.If(id="", condition=condition, then=EMPTY, said=said))
-    return replace(state, scope=(*path, "then"), choice=path, decided=tests, open=True)
+    tested_at = (state.where, state.where_scope)
+    return replace(state, scope=(*path, "then"), choice=path, decided=tests, open=True, tested_at=tested_at)
 
 
 def _scope_of_test(state: DialogueState) -> Path:
@@ -122,7 +123,7 @@ def _decide_last(state: DialogueState, command: When, said: Spans, robot: RobotP
         raise NotComposed("which reading is tested?")
     last = p.InOrder(id="", steps=state.block.steps[-1:])
     state = with_last_step(state, p.If(id="", condition=condition, then=last, said=said))
-    return replace(state, choice=inside, decided=command.tests, loop=None)
+    return replace(state, choice=inside, decided=command.tests, loop=None, tested_at=(state.where, state.where_scope))
 
 
 def _decide_last_at_tree(state: DialogueState, condition: c.Condition, said: Spans) -> DialogueState:
@@ -167,7 +168,21 @@ def otherwise(setting: Setting, state: DialogueState, said: Spans) -> DialogueSt
         raise NotComposed("otherwise than which of them?")
     both = replace(choice, otherwise=EMPTY, said=(*choice.said, *said))
     plan = with_node(state.plan, state.choice, both)
-    return replace(state, plan=plan, scope=(*state.choice, "otherwise"), open=True)
+    where, where_scope = state.tested_at  # the robot stands where it was when the condition was tested
+    return replace(
+        state,
+        plan=plan,
+        scope=(*state.choice, "otherwise"),
+        open=True,
+        loop=_loop_around(state),
+        where=where,
+        where_scope=where_scope,
+    )
+
+
+def _loop_around(state: DialogueState) -> Path | None:
+    """Return the body of the last for-each if the condition stands in it; places of the other case are not meant."""
+    return state.loop if state.loop is not None and is_inside(state.choice or (), state.loop) else None
 
 
 def until(setting: Setting, state: DialogueState, command: UntilCondition) -> DialogueState:

@@ -75,6 +75,7 @@ class DialogueState:
         asked: Test of the last question.
         in_case: How the mission ends in one case.
         returned: True if the last drive is a return ("come back to the charger").
+        tested_at: Place and block of the command before the last condition.
         ended_by: Condition that ends the last for-each, until something else is done.
         joints: Spans of the connectives.
     """
@@ -103,6 +104,7 @@ class DialogueState:
     asked: AllTests | None = None
     in_case: Then | None = None
     returned: bool = False
+    tested_at: tuple[PlaceMeaning | None, Path | None] = (None, None)
     ended_by: Condition | None = None
     joints: Spans = ()
 

@@ -161,6 +161,12 @@ def corners_except(whole: PlaceMeaning, side: Lex) -> PlaceMeaning | None:
     return PlaceMeaning(s.Excluding(places=s.Corners(which=(side.value,)), of=whole.selector), "several")
 
 
+@construction("place: n=count TREE AT EACH noun=CORNER", cost=0.2)
+def tree_at_each_corner(n: int, noun: Lex) -> PlaceMeaning | None:
+    """Compose "one tree at each corner"."""
+    return None if n != 1 or noun.plural else PlaceMeaning(s.Corners(), "several", each=True, count=4)
+
+
 @construction("place: EACH noun=QUARTER", "place: EACH noun=QUARTER OF site", cost=0.2)
 def each_quarter(noun: Lex) -> PlaceMeaning | None:
     """Compose "each quarter" as a place."""

@@ -48,6 +48,8 @@ def nearby(inner: Nominal, n: int | None = None) -> PlaceMeaning | None:
     "nominal: inner=nominal FAR",
     "nominal: FARTHEST inner=nominal",
     "nominal: inner=nominal FARTHEST [FROM] [THERE]",
+    "nominal: inner=nominal [WHICH] [IS] FARTHEST FROM IT",
+    "nominal: inner=nominal WHICH IS FARTHEST FROM THERE",
     cost=0.3,
 )
 def far_away(inner: Nominal) -> Nominal | None:
