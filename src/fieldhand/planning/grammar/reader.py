@@ -16,7 +16,7 @@ from fieldhand.planning.grammar.english import ENGLISH
 from fieldhand.planning.grammar.language import GrammarLanguage
 from fieldhand.planning.grammar.remarks import without_remarks
 from fieldhand.planning.grammar.words import Phrases, edges_of, fillers_of
-from fieldhand.planning.planner import Planned, Refused
+from fieldhand.planning.planner import Outcome, Planned, Refused
 from fieldhand.planning.selections import is_in_block, rows_of
 from fieldhand.request_check import mismatches
 from fieldhand.robot.model import RobotProfile
@@ -104,12 +104,7 @@ def composed(
     meant = _meant(best, request)
     if any(other.cost < best.cost + _MARGIN and not _same(_meant(other, request), meant) for other in others):
         return None
-    if _leaves_block_open(meant.plan, site) or _counts_unnumbered_rows(meant.plan, site):
-        return None
-    try:
-        outcome = planned_as(meant, request, site, robot)
-    except Unclear:
-        return None
+    outcome = _outcome_of(meant, request, site, robot)
     if isinstance(outcome, Refused):
         return outcome
     if (
@@ -137,13 +132,18 @@ def planned_clauses(
     except NotComposed:
         return None
     meant = _meant(RequestReading(state=state, cost=phrase.cost, skipped=()), request)
+    outcome = _outcome_of(meant, request, site, robot)
+    return outcome if isinstance(outcome, Planned) else None
+
+
+def _outcome_of(meant: Meant, request: str, site: Site, robot: RobotProfile) -> Outcome | None:
+    """Return the plan of a meaning, or its refusal; None if a row or a limit is left open."""
     if _leaves_block_open(meant.plan, site) or _counts_unnumbered_rows(meant.plan, site):
         return None
     try:
-        outcome = planned_as(meant, request, site, robot)
+        return planned_as(meant, request, site, robot)
     except Unclear:
         return None
-    return outcome if isinstance(outcome, Planned) else None
 
 
 def _leaves_words(outcome: Planned, remarks: Sequence[Span]) -> bool:

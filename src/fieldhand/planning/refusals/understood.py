@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 from fieldhand.errors import PlaceError, TaskError
@@ -32,6 +32,11 @@ _WORTH = {"said": 1.0, "place": 0.8, "things": 0.8}
 _MOST_COVERS = 16
 #: Places that mean nothing by themselves.
 _RELATIVE = frozenset({"here", "those", "nearby", "step"})
+
+
+def _worth(part: PhraseEdge) -> float:
+    """Return the worth of a part of a request: its words by its category, less the cost of a part."""
+    return _WORTH[part.category] * part.used.bit_count() - _COST
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -161,11 +166,10 @@ def _cover(edges: Sequence[PhraseEdge], length: int) -> list[PhraseEdge]:
     for edge in edges:
         by_end[edge.end].append(edge)
     best: list[tuple[float, float, tuple[PhraseEdge, ...]]] = [(0.0, 0.0, ())]
-    worth: Callable[[PhraseEdge], float] = lambda edge: _WORTH[edge.category] * edge.used.bit_count() - _COST  # noqa: E731
     for end in range(1, length + 1):
         choices = [best[end - 1]]
         for edge in by_end[end]:
             score, cost, chosen = best[edge.start]
-            choices.append((score + worth(edge), cost - edge.cost, (*chosen, edge)))
+            choices.append((score + _worth(edge), cost - edge.cost, (*chosen, edge)))
         best.append(max(choices, key=lambda choice: choice[:2]))
     return list(best[length][2])

@@ -41,7 +41,7 @@ class UnknownWords:
 
     @property
     def topic(self) -> Offers:
-        """What the site has instead of most of them."""
+        """Name the kind of thing that the site has instead of most of them."""
         kinds = [_lacking(word, self.terms) for word in self.words]
         return next((kind for kind in kinds if kind), "")
 

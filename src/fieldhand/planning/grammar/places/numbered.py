@@ -10,9 +10,7 @@ from fieldhand.places import selectors as s
 from fieldhand.places.context import Context
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import PlaceMeaning, Shape
-from fieldhand.planning.grammar.places.compass import SIDES
-from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import as_in_row, is_one_row, over
+from fieldhand.planning.selections import is_one_row, over
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -88,20 +86,6 @@ def ids_of(selector: s.Selector, site: Site) -> set[str] | None:
         return {place.id for place in resolve(selector, site, Context(here=site.start))}
     except (PlaceError, TaskError):
         return None
-
-
-@construction(
-    "place: whole=place [COMMA] COUNTED [DET] side=DIR",
-    "place: whole=place [COMMA] COUNTED [DET] side=DIR FINISH",
-    "place: whole=place [COMMA] COUNTED [DET] side=DIR SIDE",
-    cost=0.3,
-)
-def numbered_from(whole: PlaceMeaning, side: Lex) -> PlaceMeaning | None:
-    """Compose "trees 4 to 8 of row 3 counted from the south"."""
-    counted = as_in_row(whole.selector)
-    if counted is None or counted.counted_from != "usual" or side.value not in SIDES:
-        return None
-    return replace(whole, selector=replace(counted, counted_from=side.value))
 
 
 @construction("place: [DET] trees=tree_ids in_ rows=each_row", cost=0.1)

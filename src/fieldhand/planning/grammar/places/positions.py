@@ -11,7 +11,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning, Shape
 from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import as_every_nth, chooses_from_trees, is_one_row, over
+from fieldhand.planning.selections import as_every_nth, as_in_row, chooses_from_trees, is_one_row, over
 from fieldhand.terms import Side
 
 GRAMMAR = Grammar()
@@ -252,11 +252,11 @@ def counted_from_side(whole: PlaceMeaning, side: Side) -> PlaceMeaning | None:
     cost=0.3,
 )
 def counted_from(whole: PlaceMeaning, side: Lex) -> PlaceMeaning | None:
-    """Compose "every other tree of row 6 counted from the south"."""
-    every = as_every_nth(whole.selector)
-    if every is None or every.counted_from != "usual" or side.value not in SIDES:
+    """Compose "every other tree of row 6 counted from the south" and "trees 4 to 8 of row 3 counted from the south"."""
+    counted = as_every_nth(whole.selector) or as_in_row(whole.selector)
+    if counted is None or counted.counted_from != "usual" or side.value not in SIDES:
         return None
-    return replace(whole, selector=replace(every, counted_from=side.value))
+    return replace(whole, selector=replace(counted, counted_from=side.value))
 
 
 @construction("place: whole=place [COMMA] STARTING [DET] rank=ORD [TREE]", cost=0.3)
