@@ -58,6 +58,11 @@ def are_rows(selector: s.Selector) -> bool:
     return all(isinstance(part, s.Rows | s.RowOf) for part in selector.members)
 
 
+def is_whole_rows(rows: s.Selector) -> bool:
+    """Return True for rows of the whole site, or of a block, that nothing else restricts."""
+    return all(isinstance(part.of, s.Trees | s.InBlock) for part in rows_of(rows))
+
+
 def is_one_row(rows: s.Selector) -> bool:
     """Return True for a single row."""
     return isinstance(rows, s.RowOf) or (isinstance(rows, s.Rows) and rows.first == rows.last != "")

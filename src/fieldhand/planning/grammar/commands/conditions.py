@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 from fieldhand.planning.english.limits import Amount
@@ -11,6 +12,7 @@ from fieldhand.planning.grammar.meaning import (
     FIRST_READING,
     Allowed,
     AllTests,
+    Check,
     Failing,
     OfLast,
     Otherwise,
@@ -25,6 +27,9 @@ from fieldhand.planning.grammar.words import Lex
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
+
+#: Comparisons that are true where another one is not.
+_OPPOSITE: Mapping[Check, Check] = {"lt": "ge", "ge": "lt", "gt": "le", "le": "gt"}
 
 
 @construction("subject: IT", "subject: [DET] READING", cost=0.0)
@@ -92,7 +97,10 @@ def compared(check: Lex, value: tuple[float, str]) -> Test | None:
     """Compose "above 30 degC"."""
     if check.value in (None, "UPTO"):
         return Test("", "le", value[0], value[1])
-    return Test("", check.value[0], value[0], value[1]) if not check.value[1] else None
+    if check.value[1]:
+        return None
+    denied = "denies" in check.features
+    return Test("", _OPPOSITE[check.value[0]] if denied else check.value[0], value[0], value[1], negated=denied)
 
 
 @construction(

@@ -127,10 +127,10 @@ def lead(place: PlaceMeaning, used: int, word: str) -> Lead | None:
     return Lead(place, used, word) if place.shape in ("one", "several", "area") else None
 
 
-@construction("home: GOHOME", "home: RETURN", "home: RETURN AT DET PLOT", cost=0.3)
-def go_home(used: int) -> Home:
+@construction("home: GOHOME", "home: verb=RETURN", "home: RETURN AT DET PLOT", cost=0.3)
+def go_home(used: int, verb: Lex | None = None) -> Home | None:
     """Compose "go home"."""
-    return Home(None, used)
+    return None if verb is not None and "ends" in verb.features else Home(None, used)
 
 
 @construction("home: RETURN AT marker=marker", "home: RETURN marker=marker", cost=0.2)

@@ -94,7 +94,7 @@ def _read(
     if joint is not None and joint.from_here and state.where is not None:
         here = PlaceMeaning(s.Here(), "one")
         state = replace(state, where=here, where_scope=state.scope, loop=None)
-    if joint is not None and joint.then:
+    if joint is not None and (joint.then or joint.both):
         state = with_joints(state, setting.spans_of(joint.used))
     match command:
         case CaptureCommand():

@@ -135,6 +135,7 @@ def finished(node: p.Node) -> p.Node:
         return inner[0] if len(inner) == 1 else node.with_children(inner)
     if node.visits_each and node.children == (EMPTY,):
         return node.with_children([p.GoTo(id="", place=s.Here(), said=node.said)])
-    if node.is_optional_step and inner[0].is_optional and inner[0].visits_each:
-        return inner[0]  # visits that are optional one by one need not be optional as a whole
+    visits = as_for_each(inner[0]) if node.is_optional_step else None
+    if visits is not None and visits.optional:  # one by one, so they need not be optional as a whole
+        return replace(visits, said=(*node.said, *visits.said))
     return node.with_children(inner)

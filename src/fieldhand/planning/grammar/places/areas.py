@@ -11,7 +11,17 @@ from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.places.numbers import name_of
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import AREAS, are_rows, as_edge, as_zone, chooses_from_trees, is_row_of_place, over
+from fieldhand.planning.selections import (
+    AREAS,
+    are_rows,
+    as_edge,
+    as_zone,
+    chooses_from_trees,
+    is_row_of_place,
+    is_whole_rows,
+    measures_from_here,
+    over,
+)
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -102,10 +112,16 @@ def _is_larger(whole: s.Selector, part: s.Selector) -> bool:
     return not (are_rows(whole) and not are_rows(part))
 
 
-@construction("in_: word=AT", "in_: word=INSIDE", "in_: word=OF", "in_: word=FROM", cost=0.0)
+@construction("in_: word=AT", "in_: word=INSIDE", "in_: word=OF", cost=0.0)
 def in_word(word: Lex) -> str | None:
     """Compose "in" and "throughout"."""
     return "in" if "within" in word.features else None
+
+
+@construction("in_: word=FROM", cost=0.0)
+def from_word(word: Lex) -> str | None:
+    """Compose "from", which may name what a distance is measured from as well."""
+    return "from" if "within" in word.features else None
 
 
 @construction("site: [word=DET] noun=PLOT", cost=0.0)
@@ -126,6 +142,8 @@ def both_areas(first: s.Selector, second: s.Selector) -> s.Selector | None:
     """Compose "the northern half and the eastern edge"."""
     if are_rows(first) != are_rows(second) or first == second:
         return None
+    if are_rows(first) and is_whole_rows(first) and not is_whole_rows(second):
+        return None  # "row 2 and row 4 in the northern half": both are meant there
     parts = tuple(part for one in (first, second) for part in one.members)
     return s.UnionOf(parts=parts)
 
@@ -142,11 +160,13 @@ def of_the_whole_site(inner: Nominal) -> Nominal:
     return inner
 
 
-@construction("nominal: inner=nominal in_ where=region", "nominal: inner=nominal way=along where=region", cost=0.3)
-def inside(inner: Nominal, where: s.Selector, way: str = "") -> Nominal | None:
+@construction("nominal: inner=nominal way=in_ where=region", "nominal: inner=nominal way=along where=region", cost=0.3)
+def inside(inner: Nominal, where: s.Selector, way: str) -> Nominal | None:
     """Compose "trees in the northern half" and "trees along the northern edge"."""
-    if not chooses_from_trees(inner.selector) or (way and is_row_of_place(where)):
+    if not chooses_from_trees(inner.selector) or (way == "along" and is_row_of_place(where)):
         return None  # "3 trees down the row": the tree that far along, or trees there?
+    if way == "from" and measures_from_here(inner.selector):
+        return None  # "the tree farthest from the pond"
     if inner.of_side and are_rows(where):
         of_rows = cast(Any, inner.selector)  # "the northern trees of row 4": of that row, not of the orchard
         return replace(inner, selector=replace(of_rows, of=over(of_rows.of, where)))

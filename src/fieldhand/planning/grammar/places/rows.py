@@ -86,13 +86,13 @@ def listed_rows(rows: tuple[str, ...]) -> s.Selector | None:
     return s.UnionOf(parts=tuple(s.Rows(first=name, last=name) for name in rows))
 
 
-@construction("rows: EACH n=ORD ROW", cost=0.2)
+@construction("rows: EACH n=ORD ROW", cost=0.8)
 def every_nth_row(n: Lex) -> s.Selector | None:
     """Compose "every third row"."""
     return s.Rows(every=n.value) if n.value > 1 else None
 
 
-@construction("rows: EACH OTHER ROW", cost=0.2)
+@construction("rows: EACH OTHER ROW", cost=0.8)
 def every_other_row() -> s.Selector:
     """Compose "every other row"."""
     return s.Rows(every=2)
@@ -251,7 +251,9 @@ def trees_of_each_row(inner: Nominal, rows: s.Selector, each: Lex | None = None)
     if not chooses_from_trees(inner.selector):
         return None
     if inner.single:
-        return PlaceMeaning(inner.selector, "several", each=True, per=rows) if each is None else None
+        if each is not None or counts_in_row(over(inner.selector, rows)):
+            return None  # "the last tree of each row" is counted along it
+        return PlaceMeaning(inner.selector, "several", each=True, per=rows)
     return PlaceMeaning(over(inner.selector, rows), "several") if inner.plural or each is not None else None
 
 

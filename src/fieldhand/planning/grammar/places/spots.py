@@ -29,17 +29,13 @@ def corner_at(side: Lex, noun: Lex) -> Nominal | None:
     return corner(side, noun)
 
 
-@construction(
-    "nominal: TREE in_ DET MIDDLE [in_] [site]",
-    "nominal: TREE NEAREST [AT] DET MIDDLE [in_] [site]",
-    cost=0.1,
-)
+@construction("nominal: TREE in_ DET MIDDLE [in_] [site]", cost=0.1)
 def tree_in_middle() -> Nominal:
     """Compose "tree in the middle of the orchard"."""
     return Nominal(s.Middle(), single=True)
 
 
-@construction("nominal: TREE in_ DET MIDDLE OF where=region", cost=0.1)
+@construction("nominal: TREE in_ DET MIDDLE OF where=region", cost=0.7)
 def tree_in_middle_of(where: s.Selector) -> Nominal | None:
     """Compose "tree in the middle of row 4"."""
     if (edge := as_edge(where)) is not None:
@@ -76,6 +72,7 @@ def corners(noun: Lex, n: int | None = None) -> Nominal | None:
     "place: [DET] MIDDLE",
     "place: [DET] MIDDLE TREE",
     "place: [DET] MIDDLE ONE",
+    "place: [DET] TREE NEAREST [AT] DET MIDDLE [in_] [site]",
     cost=0.2,
 )
 def middle() -> PlaceMeaning:
@@ -83,7 +80,7 @@ def middle() -> PlaceMeaning:
     return PlaceMeaning(s.Middle(), "one")
 
 
-@construction("place: [DET] MIDDLE in_ where=region", "place: [DET] MIDDLE TREE in_ where=region", cost=0.2)
+@construction("place: [DET] MIDDLE in_ where=region", "place: [DET] MIDDLE TREE in_ where=region", cost=0.7)
 def middle_of(where: s.Selector) -> PlaceMeaning | None:
     """Compose "the middle of row 4"."""
     if (zone := as_zone(where)) is not None:
@@ -117,9 +114,11 @@ def marker(marker: s.Selector) -> PlaceMeaning:
     return PlaceMeaning(marker, "one")
 
 
-@construction("edge_side: side=DIR EDGE", "edge_side: side=DIR SIDE", "edge_side: side=DIR FINISH", cost=0.1)
-def edge_side(side: Lex) -> Side | None:
+@construction("edge_side: side=DIR EDGE", "edge_side: side=DIR part=SIDE", "edge_side: side=DIR FINISH", cost=0.1)
+def edge_side(side: Lex, part: Lex | None = None) -> Side | None:
     """Compose "northern edge" behind "the middle of the"."""
+    if part is not None and "borders" not in part.features:
+        return None  # "the northern part"
     return side.value if side.value in SIDES else None
 
 
