@@ -100,6 +100,25 @@ def chooses_from_trees(selector: s.Selector) -> bool:
     return of is not None and chooses_from_trees(of)
 
 
+def specifies_part(selector: s.Selector) -> bool:
+    """Return True for trees that are described without an area of their own ("the yellow trees", "the first tree")."""
+    described = selector != s.Trees() and chooses_from_trees(selector)
+    return described and not any(isinstance(part, AREAS) for part in selector.walk())
+
+
+def landmark_of(one: s.Selector, other: s.Selector) -> s.Selector | None:
+    """Return what one tree is near to or far from, if another is said to be far from or near to "it"; None otherwise.
+
+    "The tree nearest to the charger and the one farthest from it" are both measured from the charger.
+    """
+    marks = {s.Nearest: "to", s.Farthest: "origin"}
+    if type(one) not in marks or type(other) not in marks or type(one) is type(other):
+        return None
+    landmark: s.Selector = getattr(one, marks[type(one)])
+    refers = getattr(other, marks[type(other)]) == s.Here()
+    return landmark if refers and not landmark.relative else None
+
+
 def says_how_many(selector: s.Selector) -> bool:
     """Return True if the words of a selection say how many trees are meant ("the 4 oldest", "the corners")."""
     return isinstance(selector, s.Take | s.Top | s.Extreme | s.Nearest | s.Adjacent | s.Corners | s.UnionOf)

@@ -99,6 +99,8 @@ def more_words() -> Mapping[Phrase, tuple[NameEntry, ...]]:
         found[split(plural_of(phrase))].append(NameEntry(kind="PICTURE", plural=True))
     for phrase, value in own["derived"].items():
         found[split(phrase)].append(NameEntry(kind="SUPER", value=tuple(value)))
+    for phrase, value in own["bounds"].items():
+        found[split(phrase)].append(NameEntry(kind="BOUND", value=tuple(value)))
     for kind, phrases in own["verbs"].items():
         for phrase in phrases:
             for form in forms_of(phrase):

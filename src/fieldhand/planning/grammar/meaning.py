@@ -98,6 +98,7 @@ class CaptureCommand:
         relation: ``of`` or ``at``, which ties the captures to the place; ``lead`` if the place was
             named first; ``bare`` for captures without a verb, which only a condition can have.
         spacing: Distance between the captures along a line, in metres.
+        within: Area or rows in which the place is, if the phrase names them by themselves ("in row 3, at the ...").
     """
 
     things: tuple[Thing, ...]
@@ -106,6 +107,7 @@ class CaptureCommand:
     times: int = 1
     spacing: float | None = None
     relation: str = "at"
+    within: PlaceMeaning | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -204,7 +204,7 @@ def _values(entry: NameEntry, lexicon: Lexicon) -> Iterator[Any]:
     value = _hashable(entry.value)
     if entry.kind == "SUPER" and value[0]:
         yield from ((name, value[1]) for name in hinted_attributes(value[0], lexicon.site))
-    elif entry.kind == "CMP" and value[1]:
+    elif entry.kind in ("CMP", "BOUND") and value[1]:
         yield from ((value[0], name) for name in hinted_attributes(value[1], lexicon.site))
     else:
         yield value

@@ -10,7 +10,7 @@ from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import LAST_THING, CaptureCommand, Nominal, PlaceMeaning, Thing
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import is_across
+from fieldhand.planning.selections import is_across, specifies_part
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -242,6 +242,17 @@ def without_verb(things: tuple[Thing, ...], word: str, place: PlaceMeaning, used
     return CaptureCommand(things, place, used, relation=word)
 
 
+@construction("capture: act=capture COMMA relation place=place", cost=0.2)
+def specified(act: CaptureCommand, place: PlaceMeaning, used: int) -> CaptureCommand | None:
+    """Compose "take pictures in row 4, at the yellow trees"."""
+    area = act.place
+    if area is None or area.shape != "area" or act.within is not None or act.spacing is not None:
+        return None
+    if not specifies_part(place.selector):
+        return None
+    return replace(act, place=place, within=area, used=used, relation="at")
+
+
 @construction("capture: act=capture times=COUNT", cost=0.2)
 def so_often(act: CaptureCommand, times: Lex, used: int) -> CaptureCommand | None:
     """Compose "take a picture twice"."""
@@ -367,6 +378,12 @@ def bare_things(things: tuple[Thing, ...], used: int) -> CaptureCommand:
 def of_the_ground(things: tuple[Thing, ...], place: PlaceMeaning, used: int) -> CaptureCommand:
     """Compose "test the soil for nitrate at tree 6"."""
     return CaptureCommand(things, place, used)
+
+
+@construction("capture: verb things=things where=place_where", cost=0.3)
+def capture_where(things: tuple[Thing, ...], where: PlaceMeaning, used: int) -> CaptureCommand:
+    """Compose "take a picture wherever vigor is below 0.4"."""
+    return CaptureCommand(things, where, used)
 
 
 @construction("capture: verb=ACTV things=things word=relation place=place", cost=0.4)

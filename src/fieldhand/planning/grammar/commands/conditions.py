@@ -30,6 +30,8 @@ construction = GRAMMAR.construction
 
 #: Comparisons that are true where another one is not.
 _OPPOSITE: Mapping[Check, Check] = {"lt": "ge", "ge": "lt", "gt": "le", "le": "gt"}
+#: Units of the readings of which some levels are said, by the feature of the words.
+_SAID_OF = {"of_heat": "degC", "of_water": "percent"}
 
 
 @construction("subject: IT", "subject: [DET] READING", cost=0.0)
@@ -123,16 +125,16 @@ def between_in_unit(low: Lex, high: Lex, unit: Lex) -> Test | None:
     return Test("", "between", (first, second), name) if first < second else None
 
 
-@construction("predicate: value=amount OR MORE", "predicate: value=amount OR_MORE", cost=0.1)
-def or_more(value: Amount) -> Test:
+@construction("predicate: value=threshold bound=BOUND", cost=0.1)
+def bounded(value: tuple[float, str], bound: Lex) -> Test | None:
     """Compose "30 degC or more"."""
-    return Test("", "ge", value.number, value.unit)
+    return None if bound.value[1] else Test("", bound.value[0], value[0], value[1])
 
 
 @construction("predicate: level=LEVEL", cost=0.1)
-def level(level: Lex) -> Test:
-    """Compose "high"."""
-    return Test("", "level", level.value)
+def at_level(level: Lex) -> Test:
+    """Compose "high"; "hot" is said of a temperature only, and "dry" of moisture."""
+    return Test("", "level", level.value, next((unit for name, unit in _SAID_OF.items() if name in level.features), ""))
 
 
 @construction("predicate: NOT test=predicate", cost=0.1)
@@ -406,13 +408,13 @@ def if_none_is(used: int) -> Otherwise:
 @construction("bare_level: level=LEVEL", cost=1.0)
 def bare_level(level: Lex) -> AllTests:
     """Compose "low" of "low?"."""
-    return AllTests((Test("", "level", level.value),))
+    return AllTests((at_level(level),))
 
 
 @construction("when: AT DET level=LEVEL READING", "when: INCASE DET level=LEVEL READING", cost=0.2)
 def on_a_level(level: Lex, used: int) -> When:
     """Compose "on a low reading"."""
-    return When(AllTests((Test("", "level", level.value),)), used)
+    return When(AllTests((at_level(level),)), used)
 
 
 @construction("when: DET READING test=predicate MEANING", cost=0.3)

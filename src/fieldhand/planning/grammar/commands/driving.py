@@ -18,6 +18,7 @@ from fieldhand.planning.grammar.meaning import (
     StopCommand,
 )
 from fieldhand.planning.grammar.words import Lex
+from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -127,10 +128,13 @@ def lead(place: PlaceMeaning, used: int, word: str) -> Lead | None:
     return Lead(place, used, word) if place.shape in ("one", "several", "area") else None
 
 
-@construction("home: GOHOME", "home: verb=RETURN", "home: RETURN AT DET PLOT", cost=0.3)
-def go_home(used: int, verb: Lex | None = None) -> Home | None:
-    """Compose "go home"."""
-    return None if verb is not None and "ends" in verb.features else Home(None, used)
+@construction("home: word=GOHOME", "home: word=RETURN", "home: word=RETURN AT DET PLOT", cost=0.3, given=("site",))
+def go_home(word: Lex, used: int, site: Site) -> Home | None:
+    """Compose "go home", to where the robot started."""
+    if "ends" in word.features:
+        return None
+    back = "to_start" in word.features and "start" in site.markers
+    return Home("return_to_start" if back else None, used)
 
 
 @construction("home: RETURN AT marker=marker", "home: RETURN marker=marker", cost=0.2)

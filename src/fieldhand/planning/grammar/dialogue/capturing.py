@@ -5,14 +5,17 @@ from __future__ import annotations
 from dataclasses import replace
 
 from fieldhand.places import selectors as s
+from fieldhand.planning.english.onebyone import swapped
 from fieldhand.planning.grammar.dialogue.driving import drive, may_be_left_out, ordered, require_known, visits
 from fieldhand.planning.grammar.dialogue.fitting import fitted, in_area, in_each_row, is_spoken_of, spaced, within_area
 from fieldhand.planning.grammar.dialogue.plans import (
     EMPTY,
+    as_choice,
     as_for_each,
     block_at,
     captures_at_last_place,
     is_inside,
+    node_at,
     with_node,
 )
 from fieldhand.planning.grammar.dialogue.repeating import process_again
@@ -28,8 +31,16 @@ from fieldhand.planning.grammar.dialogue.state import (
     with_last_step,
     with_step,
 )
-from fieldhand.planning.grammar.meaning import LAST_THING, Again, CaptureCommand, DriveCommand, PlaceMeaning, Thing
-from fieldhand.planning.selections import are_rows, counts_in_row, is_end_of_site, some_of
+from fieldhand.planning.grammar.meaning import (
+    LAST_THING,
+    Again,
+    CaptureCommand,
+    DriveCommand,
+    Lead,
+    PlaceMeaning,
+    Thing,
+)
+from fieldhand.planning.selections import are_rows, counts_in_row, is_end_of_site, landmark_of, some_of
 from fieldhand.task import plan as p
 from fieldhand.task.conditions import Condition
 
@@ -130,6 +141,10 @@ def _place_of(
 ) -> tuple[PlaceMeaning | None, DialogueState, Spans]:
     """Return the place of a command, with the area or lead before it, the state without these, and their spans."""
     place, before = command.place, state.lead or state.area
+    if command.within is not None:
+        if before is not None:
+            raise NotComposed("two places for one command")
+        before = Lead(command.within, 0)
     if place is not None and place.there:
         area = state.within if before is None and state.within is not None else None
         if area is None and (before is None or before.place.shape != "area"):
@@ -183,6 +198,8 @@ def _at_the_same_place(state: DialogueState, command: CaptureCommand, said: Span
         raise NotComposed("at which tree?")
     if command.place is not None and state.where is None:
         raise NotComposed("which place is meant?")
+    if command.place is not None and _is_of_other_case(state):
+        raise NotComposed("where it was tested, or where the other case goes?")
     scope = state.scope
     if state.ended_by is not None and state.loop is not None:
         state, scope = _where_it_ended(state, state.loop, state.ended_by)
@@ -197,6 +214,14 @@ def _at_the_same_place(state: DialogueState, command: CaptureCommand, said: Span
         raise NotComposed("once more, or the same said twice?")
     state = _with_captures(state, command.things, command.times, said, scope)
     return replace(state, things=command.things, commands_in_sentence=state.commands_in_sentence + 1)
+
+
+def _is_of_other_case(state: DialogueState) -> bool:
+    """Return True if the next command begins the other case of a condition, whose first case goes to another place."""
+    if not state.scope or state.scope[-1] != "otherwise" or state.block.steps:
+        return False
+    choice = as_choice(node_at(state.plan, state.scope[:-1]))
+    return choice is not None and any(node.selector is not None for node in p.walk(choice.then))
 
 
 def _where_it_ended(state: DialogueState, body: Path, condition: Condition) -> tuple[DialogueState, Path]:
@@ -219,6 +244,8 @@ def capture_elided(setting: Setting, state: DialogueState) -> DialogueState:
         raise NotComposed("another place, or another place to measure from?")
     if state.where is not None and is_end_of_site(state.where.selector) and counts_in_row(lead.place.selector):
         raise NotComposed("the first of the row, or of the site?")
+    if state.where is not None and (mark := landmark_of(state.where.selector, lead.place.selector)) is not None:
+        lead = replace(lead, place=replace(lead.place, selector=swapped(lead.place.selector, s.Here(), mark)))
     things = state.things
     if lead.place.shape != "area":
         things = tuple(replace(thing, count=None) for thing in things)

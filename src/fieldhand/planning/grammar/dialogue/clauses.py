@@ -42,7 +42,7 @@ from fieldhand.planning.grammar.meaning import (
     UntilCondition,
     When,
 )
-from fieldhand.planning.selections import chooses_from_trees
+from fieldhand.planning.selections import AREAS, chooses_from_trees, specifies_part
 from fieldhand.task import plan as p
 
 
@@ -107,6 +107,8 @@ def _read(
         case DriveCommand():
             return drive(setting, state, command)
         case Lead():
+            if joint is not None and not (joint.full or joint.then or joint.both):
+                _require_other_places(state, command.place)
             return _lead(setting, state, command)
         case Home():
             return go_home(setting, state, command)
@@ -167,6 +169,18 @@ def _lead(setting: Setting, state: DialogueState, command: Lead) -> DialogueStat
     if state.awaits_command:
         raise NotComposed("two places for one command")
     return replace(state, lead=command)
+
+
+def _require_other_places(state: DialogueState, place: PlaceMeaning) -> None:
+    """Refuse places behind a comma that are part of the area before them ("in row 4, ... at the yellow trees").
+
+    Raises:
+        NotComposed: They are part of it.
+    """
+    last = state.where
+    areas = last is not None and last.shape == "several" and any(isinstance(one, AREAS) for one in last.selector.walk())
+    if areas and specifies_part(place.selector):
+        raise NotComposed("some of those, or others?")
 
 
 def _limit(setting: Setting, state: DialogueState, command: LimitClause) -> DialogueState:

@@ -17,6 +17,7 @@ from fieldhand.planning.selections import (
     counts_in_row,
     is_by_attribute,
     is_end_of_site,
+    landmark_of,
     over,
 )
 from fieldhand.site.model import Site
@@ -193,6 +194,64 @@ def _unvisited(selector: s.Selector) -> s.Selector:
 
 
 @construction(
+    "place: whole=place [COMMA] EXCEPT [FOR] trees=numbers",
+    "place: whole=place [COMMA] BUT [NOT] trees=numbers",
+    "place: whole=place [COMMA] EXCEPT [FOR] [DET] trees=tree_ids",
+    "place: whole=place [COMMA] BUT [NOT] [DET] trees=tree_ids",
+    cost=0.3,
+)
+def named_except_numbers(whole: PlaceMeaning, trees: tuple[str, ...]) -> PlaceMeaning | None:
+    """Compose "trees 1 to 19 except 7 and 13"."""
+    parts = tuple(s.TreeIs(tree=tree) for tree in trees)
+    if not set(parts) <= set(whole.selector.members) or len(parts) >= len(whole.selector.members):
+        return None
+    out = parts[0] if len(parts) == 1 else s.UnionOf(parts=parts)
+    return replace(whole, selector=s.Excluding(places=out, of=whole.selector), count=None)
+
+
+@construction(
+    "place: whole=place [COMMA] EXCEPT [FOR] [DET] value=ATTRVAL ONE",
+    "place: whole=place [COMMA] BUT [NOT] [DET] value=ATTRVAL ONE",
+    cost=0.2,
+)
+def except_those_of_a_kind(whole: PlaceMeaning, value: Lex) -> list[PlaceMeaning] | None:
+    """Compose "row 3 except the yellow ones"."""
+    if not _may_leave_out(whole):
+        return None
+    return [
+        replace(
+            whole,
+            selector=s.Excluding(
+                places=s.Where(attribute=name, test="eq", value=text, of=whole.selector), of=whole.selector
+            ),
+        )
+        for name, text in value.value
+    ]
+
+
+@construction(
+    "place: whole=place [COMMA] EXCEPT [FOR] [DET] out=positions [TREE] in_ row=rows",
+    "place: whole=place [COMMA] BUT [NOT] [DET] out=positions [TREE] in_ row=rows",
+    "place: whole=place [COMMA] EXCEPT [FOR] [DET] out=position ONE in_ row=rows",
+    "place: whole=place [COMMA] BUT [NOT] [DET] out=position ONE in_ row=rows",
+    cost=0.2,
+)
+def except_positions(whole: PlaceMeaning, out: tuple[int, int], row: s.Selector) -> PlaceMeaning | None:
+    """Compose "row 3 except the last two in the row"."""
+    if not _may_leave_out(whole) or not are_rows(whole.selector) or row not in (s.RowOf(), whole.selector):
+        return None
+    first, last = out
+    return replace(
+        whole, selector=s.Excluding(places=s.InRow(first=first, last=last, of=whole.selector), of=whole.selector)
+    )
+
+
+def _may_leave_out(whole: PlaceMeaning) -> bool:
+    """Return True for all trees of a kind, of which some can be left out."""
+    return whole.shape in ("several", "area") and whole.count is None and whole.per is None and not whole.optional
+
+
+@construction(
     "place: EACH inner=nominal EXCEPT trees=numbers",
     "place: EACH inner=nominal EXCEPT DET trees=numbers",
     cost=0.3,
@@ -205,7 +264,9 @@ def except_numbers(inner: Nominal, trees: tuple[str, ...]) -> PlaceMeaning | Non
     return PlaceMeaning(s.Excluding(places=parts[0] if len(parts) == 1 else s.UnionOf(parts=parts)), "several")
 
 
-@construction("place: whole=place [COMMA] EXCEPT [FOR] part=place", cost=0.3, given=("site",))
+@construction(
+    "place: whole=place [COMMA] EXCEPT [FOR] part=place", "place: whole=place BUT part=place", cost=0.3, given=("site",)
+)
 def except_for(whole: PlaceMeaning, part: PlaceMeaning, site: Site) -> PlaceMeaning | None:
     """Compose "all trees except the yellow trees"."""
     if (
@@ -221,7 +282,9 @@ def except_for(whole: PlaceMeaning, part: PlaceMeaning, site: Site) -> PlaceMean
         if whole.shape != "area" or not are_rows(part.selector):
             return None
         return replace(whole, per=s.Excluding(places=part.selector, of=whole.per))
-    return replace(whole, selector=s.Excluding(places=part.selector, of=whole.selector))
+    all_of_it = whole.shape == "area" and part.shape == "several"  # "row 6 except the yellow trees"
+    selector = s.Excluding(places=part.selector, of=whole.selector)
+    return replace(whole, selector=selector, shape="several" if all_of_it else whole.shape)
 
 
 @construction("place: ANY inner=nominal EXCEPT part=place", "place: ANY inner=nominal word=AND part=place", cost=0.2)
@@ -250,7 +313,8 @@ def both(first: PlaceMeaning, second: PlaceMeaning, word: Lex | None = None) -> 
     if second.selector.named_marker and isinstance(first.selector, s.Within | s.Nearest | s.Farthest):
         return None  # "within 20 m of the start and the charger"
     if first.shape == "one" and second.shape in ("one", "step"):
-        second = replace(second, selector=swapped(second.selector, s.Here(), first.selector), shape="one")
+        here = landmark_of(first.selector, second.selector) or first.selector
+        second = replace(second, selector=swapped(second.selector, s.Here(), here), shape="one")
     if not {first.shape, second.shape} <= {"one", "several"} or first.optional or second.optional:
         return None
     if first.at_most or second.at_most or isinstance(first.selector, s.Excluding):

@@ -118,6 +118,98 @@ def hinted_compared(check: Lex, value: Any) -> tuple[str, Test, Any] | None:
     return (name, check.value[0], _number(value)) if name else None
 
 
+@construction("attribute_test: value=NUM bound=BOUND", "attribute_test: value=amount bound=BOUND", cost=0.2)
+def bounded(value: Any, bound: Lex) -> tuple[str, Test, Any] | None:
+    """Compose "8 years or older"."""
+    if isinstance(value, Amount) and value.unit not in ("years", "kg", "metres"):
+        return None
+    return (bound.value[1], bound.value[0], _number(value)) if bound.value[1] else None
+
+
+@construction(
+    "attribute_test: [DET] attribute=ATTR [OF] [IS] value=NUM bound=BOUND",
+    "attribute_test: [DET] attribute=ATTR [OF] [IS] value=amount bound=BOUND",
+    cost=0.2,
+)
+def attribute_bounded(attribute: Lex, value: Any, bound: Lex) -> list[tuple[str, Test, Any]] | None:
+    """Compose "vigor of 0.9 or more"."""
+    return None if bound.value[1] else [(name, bound.value[0], _number(value)) for name in attribute.value]
+
+
+@construction(
+    "attribute_test: ATTRVERB check=CMP value=NUM",
+    "attribute_test: ATTRVERB check=CMP value=amount",
+    cost=0.2,
+    given=("site",),
+)
+def yielded(check: Lex, value: Any, site: Site) -> list[tuple[str, Test, Any]] | None:
+    """Compose "yielded less than 5 kg"."""
+    if check.value[1] or (isinstance(value, Amount) and value.unit != "kg"):
+        return None
+    return [(name, check.value[0], _number(value)) for name in hinted_attributes("yield", site)]
+
+
+@construction("attribute_test: attribute=ATTR IS value=ATTRVAL", cost=0.2)
+def attribute_is_value(attribute: Lex, value: Lex) -> list[tuple[str, Test, Any]]:
+    """Compose "leaves are yellow"."""
+    return [(name, "eq", text) for name, text in value.value if name in attribute.value]
+
+
+@construction(
+    "attribute_test: attribute=ATTR ISNOT value=ATTRVAL",
+    "attribute_test: attribute=ATTR IS NOT value=ATTRVAL",
+    cost=0.2,
+)
+def attribute_is_not(attribute: Lex, value: Lex) -> list[tuple[str, Test, Any]]:
+    """Compose "leaves are not green"."""
+    return [(name, "ne", text) for name, text in value.value if name in attribute.value]
+
+
+@construction(
+    "nominal: inner=nominal [WHICH] [DET] attribute=ATTR [IS] BETWEEN low=NUM AND high=NUM",
+    "nominal: inner=nominal WITH [DET] attribute=ATTR [OF] BETWEEN low=NUM AND high=NUM",
+    "nominal: inner=nominal WHICH [DET] attribute=ATTR OF BETWEEN low=NUM AND high=NUM",
+    cost=0.3,
+)
+def with_attribute_between(inner: Nominal, attribute: Lex, low: Lex, high: Lex) -> list[Nominal] | None:
+    """Compose "trees with a yield between 4 and 6"."""
+    if inner.single or inner.complete or low.value >= high.value or not chooses_from_trees(inner.selector):
+        return None
+    return [
+        replace(
+            inner,
+            selector=s.Where(
+                attribute=name,
+                test="le",
+                value=high.value,
+                of=s.Where(attribute=name, test="ge", value=low.value, of=inner.selector),
+            ),
+            tested=True,
+        )
+        for name in attribute.value
+    ]
+
+
+@construction(
+    "place_where: WHERE [DET] [TREE] [IS] test=attribute_test",
+    "place_where: WHERE [DET] [TREE] [IS] test=attribute_test in_ where=region",
+    "place_where: WHERE IT [IS] [DET] test=attribute_test",
+    "place_where: WHERE IT [IS] [DET] test=attribute_test in_ where=region",
+    cost=0.3,
+)
+def where_so(test: tuple[str, Test, Any], where: s.Selector | None = None) -> PlaceMeaning | None:
+    """Compose "where vigor is under 0.35 in the south block"."""
+    name, check, value = test
+    of = s.Trees() if where is None else where
+    return PlaceMeaning(s.Where(attribute=name, test=check, value=value, of=of), "several")
+
+
+@construction("place: where=place_where", cost=0.3)
+def at_places_where(where: PlaceMeaning) -> PlaceMeaning:
+    """Compose "where vigor is under 0.35" as places."""
+    return where
+
+
 @construction("attribute_test: value=ATTRVAL", "attribute_test: value=ATTRVAL ATTR", cost=0.4)
 def attribute_is(value: Lex) -> list[tuple[str, Test, Any]]:
     """Compose "yellow" behind a noun."""
