@@ -16,6 +16,9 @@ Shape = Literal["one", "several", "area", "here", "those", "nearby", "step"]
 #: Tests of a reading or of an attribute.
 Check = Literal["lt", "le", "gt", "ge", "eq", "level", "between"]
 
+#: How a drive goes along a row; empty if it goes to a place.
+Along = Literal["", "along", "down", "up"]
+
 #: How many of several readings pass a test.
 OfLast = Literal["", "all", "any", "none"] | int
 
@@ -112,12 +115,21 @@ class CaptureCommand:
 
 @dataclass(frozen=True, slots=True)
 class DriveCommand:
-    """A command to drive somewhere; with ``begins`` to where the work begins, with ``returns`` to come back."""
+    """A command to drive somewhere.
+
+    Attributes:
+        place: Where to.
+        used: Tokens of the phrase.
+        begins: True if the work begins there.
+        returns: True if the robot comes back there.
+        along: Direction along a row, if the robot drives along it.
+    """
 
     place: PlaceMeaning
     used: int
     begins: bool = False
     returns: bool = False
+    along: Along = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,10 +143,17 @@ class Lead:
 
 @dataclass(frozen=True, slots=True)
 class Home:
-    """A return at the end of the mission: to a marker, or to the usual one of the site."""
+    """A return at the end of the mission: to a marker, or to the usual one of the site.
+
+    Attributes:
+        then: Where to.
+        used: Tokens of the phrase.
+        when_done: True if the phrase says that nothing follows ("when you are done").
+    """
 
     then: Literal["return_to_start", "return_to_end"] | None
     used: int
+    when_done: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import get_args
 
 from fieldhand.places import selectors as s
@@ -9,6 +10,7 @@ from fieldhand.places.picks.ordered import Order
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import (
     Again,
+    Along,
     DriveCommand,
     Home,
     InAnOrder,
@@ -17,6 +19,7 @@ from fieldhand.planning.grammar.meaning import (
     PlaceMeaning,
     StopCommand,
 )
+from fieldhand.planning.grammar.places.groups import both
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.site.model import Site
 
@@ -30,7 +33,24 @@ def pick(place: PlaceMeaning, used: int) -> DriveCommand | None:
     return DriveCommand(place, used) if place.shape == "several" else None
 
 
-@construction("drive: verb=GO [towards] place=place", "drive: VISIT place=place", cost=0.3)
+@construction(
+    "stops: first=place [COMMA] [AND] then [COMMA] [AT] second=place",
+    "stops: first=stops [COMMA] [AND] then [COMMA] [AT] second=place",
+    cost=0.3,
+)
+def stops(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | None:
+    """Compose "tree 4, then tree 9" behind "go to"."""
+    found = both(first, second)
+    return None if found is None else replace(found, in_order=True)
+
+
+@construction(
+    "drive: verb=GO [towards] place=place",
+    "drive: VISIT place=place",
+    "drive: GO [towards] place=stops",
+    "drive: VISIT place=stops",
+    cost=0.3,
+)
 def drive_to(place: PlaceMeaning, used: int, verb: Lex | None = None) -> DriveCommand:
     """Compose "go to tree 4"."""
     return DriveCommand(place, used, begins=verb is not None and "begins" in verb.features)
@@ -56,10 +76,14 @@ def come_back_to(place: PlaceMeaning, used: int) -> DriveCommand | None:
     return DriveCommand(place, used, returns=True) if place.shape == "one" else None
 
 
-@construction("drive: GO ALONG where=region", "drive: GO AT where=region", "drive: GO where=region", cost=0.2)
-def drive_along(where: s.Selector, used: int) -> DriveCommand:
+@construction("drive: GO way=ALONG where=region", "drive: GO AT where=region", "drive: GO where=region", cost=0.2)
+def drive_along(where: s.Selector, used: int, way: Lex | None = None) -> DriveCommand:
     """Compose "drive along row 3"."""
-    return DriveCommand(PlaceMeaning(where, "area"), used)
+    place = PlaceMeaning(where, "area")
+    if way is None:
+        return DriveCommand(place, used)
+    along: Along = "up" if "upwards" in way.features else "down" if "downwards" in way.features else "along"
+    return DriveCommand(place, used, along=along)
 
 
 @construction("ordered: order=ORDERED", "ordered: AT order=ORDERED", cost=0.1)
@@ -143,6 +167,12 @@ def return_to(marker: s.Selector, used: int) -> Home | None:
     if not isinstance(marker, s.Marker) or marker.name == "charger":
         return None
     return Home("return_to_start" if marker.name == "start" else "return_to_end", used)
+
+
+@construction("home: way=home [COMMA] word=THEN", cost=0.2)
+def home_in_the_end(way: Home, word: Lex, used: int) -> Home | None:
+    """Compose "come back when done"."""
+    return Home(way.then, used, when_done=True) if "when_done" in word.features else None
 
 
 @construction("halt: noun=FINISH", cost=0.6)

@@ -109,6 +109,12 @@ def before_home(first: Connective, last: Home, rest: Said) -> Said:
     return Said((*rest.clauses, LinkedCommand(first, last)))
 
 
+@construction("said: last=home COMMA rest=said", "said: last=home FULLSTOP rest=said", cost=0.2)
+def home_when_done(last: Home, rest: Said) -> Said | None:
+    """Compose "come back when done: photograph tree 4"."""
+    return Said((*rest.clauses, LinkedCommand(None, last))) if last.when_done else None
+
+
 @construction("joint: word=BEFORE", cost=0.3)
 def before_doing(word: Lex, used: int) -> Connective | None:
     """Compose "before"."""
@@ -164,6 +170,7 @@ def next_command(before: Said, joint: Connective, one: Command) -> Said:
     "said: before=said one=after",
     "said: before=said one=drive",
     "said: before=said one=home",
+    "said: before=said one=lead",
     cost=0.8,
 )
 def without_joint(before: Said, one: Command) -> Said | None:
@@ -175,6 +182,8 @@ def without_joint(before: Said, one: Command) -> Said | None:
         )
         and not (isinstance(one, CaptureCommand) and isinstance(before.clauses[-1].command, DriveCommand))
     ):
+        return None
+    if isinstance(one, Lead) and not isinstance(before.clauses[-1].command, Otherwise):
         return None
     return Said((*before.clauses, LinkedCommand(None, one)))
 

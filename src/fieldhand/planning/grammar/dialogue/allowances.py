@@ -48,7 +48,8 @@ def allowed(
         inside = (*state.next_step, "body")
         state = with_step(state, p.OptionalStep(id="", body=EMPTY, said=said))
         return replace(state, scope=inside, open=True, loop=loop)
-    if not steps or state.commands_in_sentence != 1:
+    own_place = bool(steps) and (steps[-1].visits_each or (steps[-1].act is not None and steps[-1].act.at is not None))
+    if not steps or not state.commands_in_sentence or (state.commands_in_sentence > 1 and not own_place):
         raise NotComposed("what is left out if the budget is short?")
     body = p.InOrder(id="", steps=steps[-1:])
     return replace(with_last_step(state, p.OptionalStep(id="", body=body, said=said)), loop=None, captured=None)

@@ -7,7 +7,15 @@ from dataclasses import replace
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.onebyone import swapped
 from fieldhand.planning.grammar.dialogue.driving import drive, may_be_left_out, ordered, require_known, visits
-from fieldhand.planning.grammar.dialogue.fitting import fitted, in_area, in_each_row, is_spoken_of, spaced, within_area
+from fieldhand.planning.grammar.dialogue.fitting import (
+    along_row,
+    fitted,
+    in_area,
+    in_each_row,
+    is_spoken_of,
+    spaced,
+    within_area,
+)
 from fieldhand.planning.grammar.dialogue.plans import (
     EMPTY,
     as_choice,
@@ -40,7 +48,7 @@ from fieldhand.planning.grammar.meaning import (
     PlaceMeaning,
     Thing,
 )
-from fieldhand.planning.selections import are_rows, counts_in_row, is_end_of_site, landmark_of, some_of
+from fieldhand.planning.selections import are_rows, counts_in_row, is_end_of_site, is_row_of_place, landmark_of, some_of
 from fieldhand.task import plan as p
 from fieldhand.task.conditions import Condition
 
@@ -97,7 +105,7 @@ def _capture_at_each(
     setting: Setting, state: DialogueState, command: CaptureCommand, place: PlaceMeaning, said: Spans
 ) -> DialogueState:
     """Return the state after captures at each of several places."""
-    loop = replace(visits(place, said), order="given" if place.in_order else "best")
+    loop = visits(place, said)
     if state.order is not None:
         loop = ordered(loop, state.order, setting.spans_of(state.order.used))
         state = replace(state, order=None)
@@ -154,6 +162,10 @@ def _place_of(
         return within_area(place, state.within), state, ()
     state, said = replace(state, lead=None, area=None), setting.spans_of(before.used)
     first = before.place
+    if isinstance(before, DriveCommand) and place is not None and is_row_of_place(first.selector):
+        further = along_row(before, place)
+        if further is not None:
+            return further, state, said
     if first.shape == "area" and first.per is None:
         return in_area(before, place), replace(state, within=first.selector), said
     if first.per is not None and place is not None and place.per is None and place.shape in ("one", "several"):
@@ -200,6 +212,8 @@ def _at_the_same_place(state: DialogueState, command: CaptureCommand, said: Span
         raise NotComposed("which place is meant?")
     if command.place is not None and _is_of_other_case(state):
         raise NotComposed("where it was tested, or where the other case goes?")
+    if command.place is None and state.where is not None and state.where.in_order and _nothing_done_there(state):
+        raise NotComposed("at each of them, or at the last?")  # "go to tree 4, then tree 9 and take a picture"
     scope = state.scope
     if state.ended_by is not None and state.loop is not None:
         state, scope = _where_it_ended(state, state.loop, state.ended_by)
@@ -222,6 +236,11 @@ def _is_of_other_case(state: DialogueState) -> bool:
         return False
     choice = as_choice(node_at(state.plan, state.scope[:-1]))
     return choice is not None and any(node.selector is not None for node in p.walk(choice.then))
+
+
+def _nothing_done_there(state: DialogueState) -> bool:
+    """Return True if the robot was sent to several places, and nothing has been done at them yet."""
+    return state.loop is not None and block_at(state.plan, state.loop) == EMPTY
 
 
 def _where_it_ended(state: DialogueState, body: Path, condition: Condition) -> tuple[DialogueState, Path]:
@@ -256,10 +275,10 @@ def capture_elided(setting: Setting, state: DialogueState) -> DialogueState:
 
 def capture_again(setting: Setting, state: DialogueState, command: Again) -> DialogueState:
     """Return the state after what was done at the last place was done at another one."""
-    place, steps = command.place, state.plan.steps
-    if place is None or state.scope or (steps and steps[-1].is_choice):
+    place, steps = command.place, _steps_before(state)
+    if place is None or not steps or steps[-1].is_choice:
         return process_again(setting, state, command)
-    if not steps or place.per is not None or steps[-1].is_optional_step or steps[-1].caught:
+    if place.per is not None or steps[-1].is_optional_step or steps[-1].caught:
         raise NotComposed("what is repeated where?")
     if place.shape == "area":
         last = as_for_each(steps[-1])
@@ -276,8 +295,17 @@ def capture_again(setting: Setting, state: DialogueState, command: Again) -> Dia
         state, inside = drive(setting, state, DriveCommand(place, command.used)), state.scope
     else:
         loop = p.ForEach(id="", select=place.selector, body=EMPTY, said=said)
-        inside = (len(steps), "body")
+        inside = (*state.next_step, "body")
         state = replace(with_step(state, loop), loop=inside)
     for act in captures:
         state = with_capture(state, act, inside)
     return done_at(state, place)
+
+
+def _steps_before(state: DialogueState) -> tuple[p.Node, ...]:
+    """Return the steps before the next command if it stands in the plan itself, or begins an optional step there."""
+    if not state.scope:
+        return state.plan.steps
+    *outer, number, _ = state.scope
+    begins_optional = not outer and not state.block.steps and state.plan.steps[-1].is_optional_step
+    return state.plan.steps[:-1] if begins_optional and number == len(state.plan.steps) - 1 else ()

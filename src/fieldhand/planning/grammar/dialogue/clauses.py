@@ -9,7 +9,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.allowances import allowed, failing
 from fieldhand.planning.grammar.dialogue.capturing import capture, capture_again, capture_elided, meant_things
 from fieldhand.planning.grammar.dialogue.conditions import otherwise, question, until, when
-from fieldhand.planning.grammar.dialogue.driving import drive, driven_home, go_home, put_in_order, without_home
+from fieldhand.planning.grammar.dialogue.driving import drive, driven_home, enter, go_home, put_in_order, without_home
 from fieldhand.planning.grammar.dialogue.fitting import is_spoken_of
 from fieldhand.planning.grammar.dialogue.plans import EMPTY, walk
 from fieldhand.planning.grammar.dialogue.state import (
@@ -42,7 +42,7 @@ from fieldhand.planning.grammar.meaning import (
     UntilCondition,
     When,
 )
-from fieldhand.planning.selections import AREAS, chooses_from_trees, specifies_part
+from fieldhand.planning.selections import AREAS, specifies_part
 from fieldhand.task import plan as p
 
 
@@ -75,6 +75,8 @@ def _ended(state: DialogueState) -> DialogueState:
         raise NotComposed("nothing is done there")
     if state.nominal is None and state.in_case is not None:
         return replace(state, nominal=state.in_case)
+    if state.nominal is None and state.plan.steps[-1].ends_plan:
+        return replace(state, nominal_said=state.plan.steps[-1].said)
     if state.nominal is None and state.returned and state.plan.steps[-1].only_drives:
         return replace(state, nominal="stay")
     return state
@@ -89,9 +91,12 @@ def _read(
         return _do_before_last(setting, state, command, joint, following)
     if state.plan.steps and isinstance(command, CaptureCommand | DriveCommand | Lead | When | Again | StopCommand):
         state = driven_home(setting, state)
+    if joint is not None and (joint.both or joint.then) and _has_own_place(command) and state.commands_in_sentence:
+        state = capture_elided(setting, state)  # "take a picture at tree 4, at tree 5 and read CO2 at tree 6"
     if joint is not None and joint.full:
         state = _new_sentence(setting, state, command)
-    if joint is not None and joint.from_here and state.where is not None:
+    steps_on = isinstance(command, DriveCommand) and command.place.shape == "step"
+    if joint is not None and (joint.from_here or (joint.then and steps_on)) and state.where is not None:
         here = PlaceMeaning(s.Here(), "one")
         state = replace(state, where=here, where_scope=state.scope, loop=None)
     if joint is not None and (joint.then or joint.both):
@@ -136,6 +141,13 @@ def _read(
             return failing(setting, state, command)
 
 
+def _has_own_place(command: Command) -> bool:
+    """Return True for a command that is done at a place of its own, and not at one that was named before it."""
+    if not isinstance(command, CaptureCommand | DriveCommand):
+        return isinstance(command, Home | StopCommand)
+    return command.place is not None and command.place.shape == "one" and not command.place.selector.relative
+
+
 def _rest_of_sentence(following: Sequence[LinkedCommand]) -> list[LinkedCommand]:
     """Return the clauses up to the end of the sentence that are neither limits nor the end of the mission."""
     found: list[LinkedCommand] = []
@@ -152,13 +164,8 @@ def _new_sentence(setting: Setting, state: DialogueState, command: Command) -> D
     state = capture_elided(setting, state)
     if state.open or state.lead is not None:
         raise NotComposed("a sentence ends before it says what to do")
-    area = state.area
-    if area is not None:
-        place = command.place if isinstance(command, CaptureCommand) else None
-        if place is not None and chooses_from_trees(place.selector):
-            raise NotComposed("of that area, or of the whole site?")
-        one = PlaceMeaning(s.Take(count=1, of=area.place.selector), "one")
-        state = drive(setting, replace(state, area=None), DriveCommand(one, area.used))
+    if state.area is not None:
+        state = enter(setting, state, state.area, command.place if isinstance(command, CaptureCommand) else None)
     scope = state.scope if isinstance(command, Otherwise) else ()
     return replace(state, scope=scope, commands_in_sentence=0, within=None)
 

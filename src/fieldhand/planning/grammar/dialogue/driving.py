@@ -7,6 +7,7 @@ from typing import cast
 
 from fieldhand.places import selectors as s
 from fieldhand.places.picks.ordered import Order
+from fieldhand.planning.grammar.dialogue.fitting import in_area
 from fieldhand.planning.grammar.dialogue.plans import EMPTY, for_each_at, is_conditional, is_inside, with_node
 from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
@@ -17,8 +18,7 @@ from fieldhand.planning.grammar.dialogue.state import (
     with_step,
 )
 from fieldhand.planning.grammar.meaning import DriveCommand, Home, InAnOrder, PlaceMeaning
-from fieldhand.planning.homeward import usual_exit
-from fieldhand.planning.selections import as_every_nth, starts_here
+from fieldhand.planning.selections import as_every_nth, chooses_from_trees, starts_here
 from fieldhand.site.model import Site
 from fieldhand.task import plan as p
 
@@ -30,12 +30,18 @@ def drive(setting: Setting, state: DialogueState, command: DriveCommand) -> Dial
     said, place = setting.spans_of(command.used), command.place
     if command.begins and state.plan.steps:
         raise NotComposed("where to begin is said too late")
-    require_known(state, place, setting.site)
-    leads = False
+    area, leads = state.area, False
     if state.lead is not None and state.lead.place.shape == "one" and place.shape in ("one", "step"):
         leads = True
         before = state.lead  # "From tree 4 drive to tree 9."
         state = drive(setting, replace(state, lead=None), DriveCommand(before.place, before.used))
+    if area is not None and place.shape == "one" and not place.selector.relative and not area.along:
+        leads = True  # "Go to row 3, then go to tree 5."
+        state = enter(setting, state, area, place)
+    if area is not None and place.shape == "several" and chooses_from_trees(place.selector):
+        state, place = replace(state, area=None), in_area(area, place)  # "drive down row 3, visit every tree"
+        said = (*setting.spans_of(area.used), *said)
+    require_known(state, place, setting.site)
     if state.awaits_command:
         raise NotComposed("two places for one command")
     if not leads and _stands_idle(state) and not place.selector.relative and not command.returns:
@@ -53,6 +59,24 @@ def drive(setting: Setting, state: DialogueState, command: DriveCommand) -> Dial
     raise NotComposed("where to?")
 
 
+def enter(setting: Setting, state: DialogueState, area: DriveCommand, following: PlaceMeaning | None) -> DialogueState:
+    """Return the state after a drive to any tree of the area that the robot was sent to.
+
+    Args:
+        setting: Robot and site that the request is read for.
+        state: State before it.
+        area: Drive into the area.
+        following: Place of the command behind it.
+
+    Raises:
+        NotComposed: The next place may be one of that area.
+    """
+    if following is not None and chooses_from_trees(following.selector):
+        raise NotComposed("of that area, or of the whole site?")
+    one = PlaceMeaning(s.Take(count=1, of=area.place.selector), "one")
+    return drive(setting, replace(state, area=None), DriveCommand(one, area.used))
+
+
 def _stands_idle(state: DialogueState) -> bool:
     """Return True if the robot was just sent to a place where nothing has been done yet."""
     steps = state.block.steps
@@ -62,7 +86,13 @@ def _stands_idle(state: DialogueState) -> bool:
 def visits(place: PlaceMeaning, said: Spans) -> p.ForEach:
     """Return a for-each over places, with nothing to do at them yet."""
     return p.ForEach(
-        id="", select=place.selector, body=EMPTY, optional=place.optional, at_most=place.at_most, said=said
+        id="",
+        select=place.selector,
+        body=EMPTY,
+        optional=place.optional,
+        at_most=place.at_most,
+        order="given" if place.in_order else "best",
+        said=said,
     )
 
 
@@ -104,10 +134,10 @@ def go_home(setting: Setting, state: DialogueState, command: Home) -> DialogueSt
     if state.home is not None:
         raise NotComposed("two ends")
     if command.then is None:
-        usual = usual_exit(setting.site)
-        if usual == "stay":
+        markers = setting.site.markers
+        if not {"start", "end"} & set(markers):
             raise NotComposed("where is home?")
-        command = replace(command, then=usual)
+        command = replace(command, then="return_to_start" if "start" in markers else "return_to_end")
     steps = state.block.steps
     if steps and steps[-1].ends_plan:
         return replace(state, nominal=command.then, nominal_said=said)
@@ -123,6 +153,8 @@ def driven_home(setting: Setting, state: DialogueState) -> DialogueState:
     home = state.home
     if home is None:
         return state
+    if home.when_done:
+        raise NotComposed("what follows the end?")
     return drive(setting, replace(without_home(state), scope=()), _way_home(home))
 
 

@@ -50,6 +50,25 @@ def in_area(before: Lead | DriveCommand, place: PlaceMeaning | None) -> PlaceMea
     raise NotComposed("two places for one command")
 
 
+def along_row(before: DriveCommand, place: PlaceMeaning) -> PlaceMeaning | None:
+    """Return the next trees of the row that the robot is sent up or down; None for other places.
+
+    Raises:
+        NotComposed: The two name different directions.
+    """
+    parts = [part for part in place.selector.members if isinstance(part, s.AlongRow) and part.origin == s.Here()]
+    if (
+        before.along not in ("down", "up")
+        or before.place.selector != s.RowOf()
+        or len(parts) != len(place.selector.members)
+    ):
+        return None
+    if {part.towards for part in parts} != {"down"}:
+        raise NotComposed("up or down the row?")
+    made = tuple(replace(part, towards=before.along) for part in parts)
+    return replace(place, selector=made[0] if len(made) == 1 else s.UnionOf(parts=made))
+
+
 def in_each_row(rows: s.Selector, place: PlaceMeaning) -> PlaceMeaning:
     """Return the place of a command in each of the rows that were named before it ("in each row, ... at the ends").
 
@@ -81,13 +100,14 @@ def spaced(
         if count < 2:
             raise NotComposed("along which row?")
         return PlaceMeaning(s.Spaced(apart_m=spacing, count=count), "several"), once
-    rows = one_by_one(place.selector, site) if are_rows(place.selector) else ()
+    area = place.selector if place.per is None else place.per
+    rows = one_by_one(area, site) if are_rows(area) else ()
     if not rows:
         raise NotComposed("along which row?")
-    if count and len(rows) > 1:
+    if count and len(rows) > 1 and place.per is None:
         raise NotComposed("so many in each row, or in all?")
     if len(rows) == 1:
-        return PlaceMeaning(s.Spaced(apart_m=spacing, count=count, of=place.selector), "several"), once
+        return PlaceMeaning(s.Spaced(apart_m=spacing, count=count, of=area), "several"), once
     parts = tuple(s.Spaced(apart_m=spacing, count=count, of=row) for row in rows)
     return PlaceMeaning(s.UnionOf(parts=parts), "several"), once
 

@@ -1,0 +1,58 @@
+"""What several clauses mean together, beyond the known requests: where to go, what is left out, and what is open."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+
+from fieldhand.planning.grammar.reader import composed
+from fieldhand.planning.planner import Planned
+from fieldhand.robot.loader import load_robot
+from fieldhand.site.loader import open_site
+from fieldhand.site.model import Site
+from planning.english.outlines import outline
+
+
+@cache
+def demo() -> Site:
+    return open_site("demo")
+
+
+def plan_of(request: str) -> str | None:
+    outcome = composed(request, demo(), load_robot("husky"))
+    return outline(outcome.task) if isinstance(outcome, Planned) else None
+
+
+@pytest.mark.parametrize(
+    "end", ["come back", "go home", "return", "drive back when done", "come back when you are done"]
+)
+def test_a_return_without_a_place_is_one_to_the_start(end: str) -> None:
+    assert plan_of(f"Take a picture of tree 4 and {end}.") == "picture @ TreeIs(4) | return_to_start"
+
+
+def test_nothing_follows_a_return_when_all_is_done() -> None:
+    assert plan_of("Take a picture of tree 4, come back when done, then take a picture of tree 5.") is None
+
+
+def test_only_the_last_of_two_commands_may_be_left_out_if_it_has_a_place_of_its_own() -> None:
+    both = "Take a picture of tree 4 and measure CO2 at tree 5 if there is time."
+    assert plan_of(both) == "picture @ TreeIs(4); maybe [co2 @ TreeIs(5)]"
+    assert plan_of("Go to tree 4, take a picture and measure CO2 if there is time.") is None
+
+
+def test_stops_one_after_the_other_stay_in_order_and_say_where_something_is_done() -> None:
+    stops = "for UnionOf(TreeIs(3)+TreeIs(9)+TreeIs(4)) given: [co2]"
+    assert plan_of("Go to tree 3, then tree 9, then tree 4, and read CO2 at each of them.") == stops
+    assert plan_of("Go to tree 3, then tree 9 and read CO2.") is None  # at tree 3 as well?
+
+
+@pytest.mark.parametrize(("way", "towards"), [("down", ""), ("up", ", up")])
+def test_the_next_trees_are_those_in_the_direction_of_the_drive(way: str, towards: str) -> None:
+    plan = f"go TreeIs(50); for UnionOf(AlongRow(1{towards})+AlongRow(2{towards})): [picture]"
+    assert plan_of(f"Go to tree 50, go {way} the row and take a picture of the next two trees.") == plan
+
+
+def test_a_tree_that_may_be_one_of_the_row_before_is_left_open() -> None:
+    assert plan_of("Go to row 3, then go to tree 5 and take a picture.") is not None
+    assert plan_of("Go to row 3, then go to the northernmost tree and take a picture.") is None
