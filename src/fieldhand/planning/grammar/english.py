@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 from importlib.resources import files
+from itertools import product
 from typing import Any
 
 from fieldhand.planning.english.inflection import forms_of, plural_of
@@ -28,6 +29,8 @@ _PICTURES = frozenset({"picture", "photo", "image", "thermal picture"})
 _SPELT_OUT = {"temp": "temperature", "temps": "temperature", "temperatures": "temperature", "pic": "picture"}
 #: Words for pictures and for taking them, by what they are to the grammar.
 _WITH_A_CAMERA = {"PICTURE": "NOUN", "CAMERA": "ACTV"}
+#: Categories of phrases that are silent in the shared vocabulary only.
+_SAY_SOMETHING = frozenset({"ONEBYONE"})
 
 
 @dataclass(frozen=True)
@@ -54,16 +57,20 @@ class EnglishPhrases:
     def entries(self, phrase: Phrase) -> Iterator[NameEntry]:
         """Yield what a phrase can be: in the lexicon, spelt out, and in english.toml."""
         known = self.lexicon.entry(phrase)
+        own = more_words().get(phrase, ())
+        if known is not None and known.kind == "FILLER" and any(one.kind in _SAY_SOMETHING for one in own):
+            known = None
         if known is not None:
             yield known
         else:
-            full = self.lexicon.entry(tuple(_SPELT_OUT.get(word, word) for word in phrase))
+            spelt_out = _asked_by_adjective().get(phrase) or tuple(_SPELT_OUT.get(word, word) for word in phrase)
+            full = self.lexicon.entry(spelt_out)
             if full is not None and full.kind == "NOUN":
                 yield replace(full, plural=full.plural or phrase[-1].endswith("s"))
         kind = "" if known is None else known.kind
         if known is None and len(phrase) == 1 and phrase[0] in self.lexicon.short_values:
             yield NameEntry(kind="ATTRVAL", value=(self.lexicon.short_values[phrase[0]],))
-        for other in more_words().get(phrase, ()):
+        for other in own:
             if other.kind in _WITH_A_CAMERA:
                 meant = _WITH_A_CAMERA[other.kind]
                 if self.camera is not None and meant != kind:
@@ -81,6 +88,17 @@ def _own() -> Mapping[str, Any]:
 @cache
 def _features() -> FeatureTable:
     return FeatureTable.read(_own(), lambda phrase: split(phrase) or (phrase,))  # a dash has no words
+
+
+@cache
+def _asked_by_adjective() -> Mapping[Phrase, Phrase]:
+    """Return the names of readings by the questions for them: "how warm is the air"."""
+    found: dict[Phrase, Phrase] = {}
+    for reading, asked in _own()["asked_by_adjective"].items():
+        for adjective, thing in product(asked["adjectives"], asked["of"]):
+            found[split(f"how {adjective} is {thing}")] = split(reading)
+            found[split(f"how {adjective} {thing} is")] = split(reading)
+    return found
 
 
 @cache

@@ -217,11 +217,14 @@ class When:
     Attributes:
         tests: Tests; none for "if so".
         measured_at: Place at which the tested reading is taken first, if the condition names one.
+        among: What it may choose from: the trees of an area ("wherever a tree is yellow"), or the places visited last
+            ("those above 30 degC").
     """
 
     tests: AllTests
     used: int
     measured_at: PlaceMeaning | None = None
+    among: Literal["", "area", "visited"] = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -273,7 +276,7 @@ class Failing:
 
 @dataclass(frozen=True, slots=True)
 class InAnOrder:
-    """The order of visits: that of their mention (``by`` empty), any order, by the compass, or by an attribute."""
+    """The order of visits: that of their mention (``by`` empty), any order, one by one, by compass or attribute."""
 
     by: str
     attribute: str

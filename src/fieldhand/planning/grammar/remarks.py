@@ -60,6 +60,7 @@ def without_remarks(words: Sequence[Word], edges: Iterable[PhraseEdge]) -> Remar
         said = [k for k in sentence if words[k].kind != "comma"]
         label = _label(words, sentence, kinds)
         left_out.update(label)
+        left_out.update(_wish(sentence, kinds))
         if said and _tells(said, kinds):
             left_out.update(sentence)
             continue
@@ -67,15 +68,21 @@ def without_remarks(words: Sequence[Word], edges: Iterable[PhraseEdge]) -> Remar
             aside = _reason(clause, reasons, kinds) or _aside(clause, kinds)
             if aside and len(aside) < len(said):
                 left_out.update(aside)
-    left_out |= {
-        k
-        for k, word in enumerate(words)
-        if word.kind == "comma" and (k - 1 in left_out or (k == 0 or k + 1 in left_out))
-    }
+    left_out |= {k for k, word in enumerate(words) if word.kind == "comma" and _sets_off(words, k, left_out)}
     if len(left_out) == len(words):
         left_out = set()
     spans = tuple((words[part[0]].start, words[part[-1]].end) for part in _runs(sorted(left_out)))
     return Remarks(words=tuple(word for k, word in enumerate(words) if k not in left_out), spans=spans)
+
+
+def _sets_off(words: Sequence[Word], comma: int, left_out: set[int]) -> bool:
+    """Return True for a comma before a remark, or behind one that a comma or nothing stands before."""
+    if comma == 0 or comma + 1 in left_out:
+        return True
+    begin = comma
+    while begin - 1 in left_out:
+        begin -= 1
+    return begin < comma and (begin == 0 or words[begin - 1].kind in ("comma", "stop"))
 
 
 def _label(words: Sequence[Word], sentence: Sequence[int], kinds: Sequence[set[str]]) -> Sequence[int]:
@@ -84,6 +91,16 @@ def _label(words: Sequence[Word], sentence: Sequence[int], kinds: Sequence[set[s
     if comma == 0 or "LABEL" not in kinds[sentence[0]] or (comma == 2 and "NUM" not in kinds[sentence[1]]):
         return ()
     return sentence[: comma + 1]
+
+
+def _wish(sentence: Sequence[int], kinds: Sequence[set[str]]) -> Sequence[int]:
+    """Return the words that say who wants it ("My professor wants ..."); empty if there are none."""
+    begin = next((at for at, k in enumerate(sentence) if "WANTS" in kinds[k]), 0)
+    who = sentence[:begin]
+    if all(kinds[k] for k in who) or any(kinds[k] - {"DET", "TELLS"} for k in who):
+        return ()
+    end = next((at for at in range(begin, len(sentence)) if "WANTS" not in kinds[sentence[at]]), 0)
+    return sentence[:end]
 
 
 def _tells(said: Sequence[int], kinds: Sequence[set[str]]) -> bool:

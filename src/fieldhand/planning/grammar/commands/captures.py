@@ -10,7 +10,7 @@ from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import LAST_THING, CaptureCommand, Nominal, PlaceMeaning, Thing
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import is_across, specifies_part
+from fieldhand.planning.selections import as_zone, is_across, specifies_part
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -22,6 +22,12 @@ construction = GRAMMAR.construction
 def capture_at(things: tuple[Thing, ...], place: PlaceMeaning, used: int, word: str = "at") -> CaptureCommand:
     """Compose "take a picture at tree 4"."""
     return CaptureCommand(things, place, used, relation=word)
+
+
+@construction("capture: verb place=owned_by things=things", cost=0.3)
+def owned(place: PlaceMeaning, things: tuple[Thing, ...], used: int) -> CaptureCommand:
+    """Compose "take the first tree's picture"."""
+    return CaptureCommand(things, place, used, relation="of")
 
 
 @construction("capture: verb things=things", cost=0.4)
@@ -145,14 +151,20 @@ def at_points(
     return CaptureCommand(tuple(replace(one, count=n) for one in things), place, used, spacing=dist[0])
 
 
-@construction("capture: verb things=things SPREAD [DET] zone=ZONE", cost=0.3)
-def spread_over(things: tuple[Thing, ...], zone: Lex, used: int) -> CaptureCommand | None:
+@construction(
+    "capture: verb things=things SPREAD where=region", "capture: SCATTER things=things OVER where=region", cost=0.3
+)
+def spread_over(things: tuple[Thing, ...], where: s.Selector, used: int) -> CaptureCommand | None:
     """Compose "take 6 pictures spread over the pond zone"."""
     counts = {one.count for one in things}
     count = counts.pop()
     if counts or count is None or count < 2:
         return None
-    points = PlaceMeaning(s.PointsIn(zone=zone.value, count=count), "several", count=count)
+    zone = as_zone(where)
+    if zone is not None and zone.outside:
+        return None
+    over = s.Spread(count=count, of=where) if zone is None else s.PointsIn(zone=zone.zone, count=count)
+    points = PlaceMeaning(over, "several", count=count)
     return CaptureCommand(tuple(replace(one, count=None) for one in things), points, used)
 
 
@@ -193,10 +205,12 @@ def go_for(place: PlaceMeaning, things: tuple[Thing, ...], used: int) -> Capture
     return CaptureCommand(things, place, used, relation="lead" if place.shape == "one" else "at")
 
 
-@construction("capture: act=capture [COMMA] EACH noun=TREE", cost=0.3)
-def at_every_tree(act: CaptureCommand, noun: Lex, used: int) -> CaptureCommand | None:
-    """Compose "measure CO2 along row 4, every tree"."""
-    if noun.plural or act.place is None or act.place.shape != "area" or act.place.per is not None:
+@construction("capture: act=capture [COMMA] EACH noun=TREE", "capture: act=capture ONEBYONE", cost=0.3)
+def at_every_tree(act: CaptureCommand, used: int, noun: Lex | None = None) -> CaptureCommand | None:
+    """Compose "measure CO2 along row 4, every tree" and "measure CO2 along row 4 tree by tree"."""
+    if (noun is not None and noun.plural) or act.place is None or act.place.shape != "area":
+        return None
+    if act.place.per is not None or any(one.count is not None for one in act.things):
         return None
     return replace(act, place=replace(act.place, shape="several", each=True), used=used)
 
@@ -361,6 +375,12 @@ def maximise(inner: Nominal, verb: Lex, used: int) -> CaptureCommand | None:
     if inner.single or not inner.plural:
         return None
     return act_on(verb, PlaceMeaning(inner.selector, "several", optional=True), used)
+
+
+@construction("capture: things=things REMAINS", cost=0.6)
+def enough(things: tuple[Thing, ...], used: int) -> CaptureCommand:
+    """Compose "one picture is enough", where a condition says when."""
+    return bare_things(things, used)
 
 
 @construction("capture: things=things", cost=2.5)

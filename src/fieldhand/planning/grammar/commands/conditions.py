@@ -34,7 +34,7 @@ _OPPOSITE: Mapping[Check, Check] = {"lt": "ge", "ge": "lt", "gt": "le", "le": "g
 _SAID_OF = {"of_heat": "degC", "of_water": "percent"}
 
 
-@construction("subject: IT", "subject: [DET] READING", cost=0.0)
+@construction("subject: IT", "subject: ITS", "subject: [DET] READING", cost=0.0)
 def anything() -> str:
     """Compose "it"."""
     return ""
@@ -125,7 +125,7 @@ def between_in_unit(low: Lex, high: Lex, unit: Lex) -> Test | None:
     return Test("", "between", (first, second), name) if first < second else None
 
 
-@construction("predicate: value=threshold bound=BOUND", cost=0.1)
+@construction("predicate: [AT] value=threshold bound=BOUND", cost=0.1)
 def bounded(value: tuple[float, str], bound: Lex) -> Test | None:
     """Compose "30 degC or more"."""
     return None if bound.value[1] else Test("", bound.value[0], value[0], value[1])
@@ -239,10 +239,10 @@ def level_question(one: AllTests, used: int) -> When:
     return When(one, used)
 
 
-@construction("when: IF tests=tests", "when: WHERE tests=tests", cost=0.3)
-def when(tests: AllTests, used: int) -> When:
-    """Compose "if it is high"."""
-    return When(tests, used)
+@construction("when: IF tests=tests", "when: where=WHERE tests=tests", cost=0.3)
+def when(tests: AllTests, used: int, where: Lex | None = None) -> When:
+    """Compose "if it is high" and "wherever a tree is yellow"."""
+    return When(tests, used, among="" if where is None else "area")
 
 
 @construction(
@@ -353,7 +353,22 @@ def until(tests: AllTests, used: int) -> UntilCondition:
     return UntilCondition(tests, used)
 
 
-@construction("otherwise: OTHERWISE", cost=0.2)
+@construction(
+    "when: word=DET [WHICH] [IS] test=predicate [SHOULD]",
+    "when: [DET] noun=TREE [WHICH] [IS] test=predicate [SHOULD]",
+    "when: [DET] noun=ONE [WHICH] [IS] test=predicate [SHOULD]",
+    cost=0.6,
+)
+def those_that_are(test: Test, used: int, word: Lex | None = None, noun: Lex | None = None) -> When | None:
+    """Compose "those hotter than 35 degC should get"."""
+    if word is not None and noun is None and "those" not in word.features:
+        return None
+    if noun is not None and not (noun.plural or "plural" in noun.features):
+        return None
+    return When(AllTests((test,)), used, among="visited")
+
+
+@construction("otherwise: OTHERWISE [MEANING]", "otherwise: OTHERS [SHOULD]", cost=0.2)
 def otherwise(used: int) -> Otherwise:
     """Compose "otherwise"."""
     return Otherwise(used)

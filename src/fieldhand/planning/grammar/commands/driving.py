@@ -19,6 +19,7 @@ from fieldhand.planning.grammar.meaning import (
     PlaceMeaning,
     StopCommand,
 )
+from fieldhand.planning.grammar.places.compass import AWAY_FROM
 from fieldhand.planning.grammar.places.groups import both
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.site.model import Site
@@ -98,6 +99,12 @@ def order_of_attribute(attribute: Lex) -> list[tuple[str, str, bool]]:
     return [("attribute", name, False) for name in attribute.value]
 
 
+@construction("ordered: FROM [DET] side=DIR FINISH", "ordered: STARTING [DET] side=DIR FINISH", cost=0.1)
+def from_an_end(side: Lex) -> tuple[str, str, bool] | None:
+    """Compose "from its southern end"."""
+    return (AWAY_FROM[side.value], "", False) if side.value in AWAY_FROM else None
+
+
 @construction(
     "ordered: [GOING] FROM [DET] first=ranking [ONE] AT [DET] last=ranking [ONE]",
     cost=0.1,
@@ -128,13 +135,19 @@ def in_an_order(order: tuple[str, str, bool], used: int) -> InAnOrder:
     return InAnOrder(order[0], order[1], order[2], used)
 
 
+@construction("order: ONEBYONE", cost=0.2)
+def one_by_one(used: int) -> InAnOrder:
+    """Compose "go along row 3 tree by tree"."""
+    return InAnOrder("each", "", False, used)
+
+
 @construction("order: INORDER", cost=0.2)
 def in_that_order(used: int) -> InAnOrder:
     """Compose "in that order"."""
     return InAnOrder("", "", False, used)
 
 
-@construction("order: NOORDER", "order: DISTINCT", cost=0.2)
+@construction("order: NOORDER", "order: DISTINCT", "order: ORDERWORD COMMA ANY", cost=0.2)
 def in_any_order(used: int) -> InAnOrder:
     """Compose "in any order"."""
     return InAnOrder("any", "", False, used)

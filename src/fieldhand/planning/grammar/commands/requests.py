@@ -141,6 +141,12 @@ def then_at_first(used: int) -> Connective:
     return Connective(False, True, used)
 
 
+@construction("opened: SEENAS site AS [DET] RECTANGLE [COMMA] [AND]", cost=0.0)
+def as_a_rectangle(used: int) -> Connective:
+    """Compose "treat the farm as a rectangle and", which is what its corners are of anyway."""
+    return Connective(False, True, used)
+
+
 @construction("said: first=opening one=command", "said: first=opened one=command", cost=0.2)
 def first_of_all(first: Connective, one: Command) -> Said:
     """Compose "first go to tree 4"."""

@@ -40,6 +40,18 @@ def reading_of(noun: Lex) -> Thing | None:
     return Thing(naming.actions[0]) if naming.actions else None
 
 
+@construction(
+    "thing: HOWMUCH [DET] noun=NOUN",
+    "thing: HOWMUCH [DET] noun=NOUN IS AT DET GROUND",
+    "thing: HOW LEVEL IS [DET] noun=NOUN",
+    "thing: HOW LEVEL [DET] noun=NOUN IS",
+    cost=0.1,
+)
+def how_much(noun: Lex) -> Thing | None:
+    """Compose "how much nitrate is in the soil"."""
+    return reading_of(noun)
+
+
 @construction("thing: n=count noun=NOUN READING", cost=0.1)
 def readings_of(n: int, noun: Lex) -> Thing | None:
     """Compose "three temperature readings"."""
@@ -47,7 +59,7 @@ def readings_of(n: int, noun: Lex) -> Thing | None:
     return Thing(naming.actions[0], count=n, plural=True) if naming.actions else None
 
 
-@construction("thing: n=count", "thing: n=count ONE", cost=1.5)
+@construction("thing: n=count", "thing: n=count ONE", "thing: n=count READING", cost=1.5)
 def so_many_of_them(n: int) -> Thing:
     """Compose "two more"."""
     return Thing(LAST_THING, count=n, plural=n > 1)

@@ -22,6 +22,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
     as_for_each,
     block_at,
     captures_at_last_place,
+    for_each_at,
     is_inside,
     node_at,
     with_node,
@@ -35,7 +36,6 @@ from fieldhand.planning.grammar.dialogue.state import (
     Spans,
     done_at,
     with_capture,
-    with_joints,
     with_last_step,
     with_step,
 )
@@ -175,7 +175,7 @@ def _place_of(
     if first.shape == "one" and (place is None or place.shape in ("here", "nearby", "step")):
         moves = place is not None and place.shape != "here"
         return place if moves else None, drive(setting, state, DriveCommand(first, before.used)), ()
-    if first.shape == "several" and is_spoken_of(place):
+    if first.shape in ("several", "nearby") and is_spoken_of(place):
         return first, state, said
     raise NotComposed("two places for one command")
 
@@ -223,7 +223,8 @@ def _at_the_same_place(state: DialogueState, command: CaptureCommand, said: Span
         raise NotComposed("which places are meant?")
     actions, done = {thing.action for thing in command.things}, {thing.action for thing in state.things}
     if command.relation == "each" and actions <= done and state.loop is not None:
-        return with_joints(state, said)  # "from three trees, one sample per tree"
+        loop = for_each_at(state.plan, state.loop[:-1])  # "from three trees, one sample per tree"
+        return replace(state, plan=with_node(state.plan, state.loop[:-1], replace(loop, said=(*loop.said, *said))))
     if command.place is not None and command.place.shape == "those" and actions <= done:
         raise NotComposed("once more, or the same said twice?")
     state = _with_captures(state, command.things, command.times, said, scope)

@@ -212,6 +212,22 @@ def _do_before_last(
     return replace(with_joints(state, setting.spans_of(joint.used)), plan=plan, captured=None, loop=None)
 
 
+def _done_after(setting: Setting, state: DialogueState, command: After) -> DialogueState:
+    """Return the state after a command that is done before the only other one ("go to the charger after ...")."""
+    steps = state.plan.steps
+    if state.scope or state.commands_in_sentence > 1 or not steps or state.awaits_command or state.open:
+        raise NotComposed("after what?")
+    last = steps[-1]
+    if not last.only_drives and not last.visits_each and (last.act is None or last.act.at is None):
+        raise NotComposed("after what?")
+    rest = replace(state.plan, steps=steps[:-1])
+    done = _after(setting, replace(state, plan=rest, commands_in_sentence=0, loop=None, returned=False), command)
+    plan = replace(done.plan, steps=(*done.plan.steps, last))
+    return replace(
+        done, plan=plan, captured=None, loop=None, returned=state.returned, where=state.where, where_scope=()
+    )
+
+
 def _after(setting: Setting, state: DialogueState, command: After) -> DialogueState:
     """Return the state after a command that is done before the others of its sentence, unless it was done already."""
     done, home = command.done, state.home
@@ -220,7 +236,7 @@ def _after(setting: Setting, state: DialogueState, command: After) -> DialogueSt
             return with_joints(state, setting.spans_of(command.used))
         raise NotComposed("after what?")
     if state.commands_in_sentence and home is None:
-        raise NotComposed("after what?")
+        return _done_after(setting, state, command)
     state = without_home(state) if home is not None else state
     state = with_joints(state, setting.spans_of(command.used & ~done.used))
     state = capture(setting, state, done) if isinstance(done, CaptureCommand) else drive(setting, state, done)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.capturing import capture, capture_once
 from fieldhand.planning.grammar.dialogue.driving import drive
 from fieldhand.planning.grammar.dialogue.plans import (
@@ -27,11 +28,12 @@ from fieldhand.planning.grammar.dialogue.state import (
     with_last_step,
     with_step,
 )
-from fieldhand.planning.grammar.dialogue.tested import condition_of, reading_before
+from fieldhand.planning.grammar.dialogue.tested import TREE_TESTS, condition_of, reading_before
 from fieldhand.planning.grammar.meaning import (
     AllTests,
     CaptureCommand,
     DriveCommand,
+    Lead,
     LinkedCommand,
     Otherwise,
     PlaceMeaning,
@@ -66,6 +68,8 @@ def when(setting: Setting, state: DialogueState, command: When, following: Seque
         if state.asked is None:
             raise NotComposed("if what is so?")
         command = replace(command, tests=state.asked)
+    if command.among == "visited" and state.loop is None:
+        raise NotComposed("which of them?")
     command = replace(command, tests=_for_each_place(state, command.tests, following))
     said, robot = setting.spans_of(command.used), setting.robot
     vague = [test for test in command.tests.tests if not test.quantity and not test.attribute]
@@ -74,13 +78,26 @@ def when(setting: Setting, state: DialogueState, command: When, following: Seque
     if decides_last:
         return _decide_last(state, command, said, robot)
     if state.awaits_command:
-        raise NotComposed("a condition before what is done there")
+        return _only_some(state, command)
     if _is_opposite(state, command.tests):
         return otherwise(setting, state, said)
     inner = state.captured is not None and is_conditional(state.captured)
     if inner and state.decided is not None and any(not test.unit for test in vague):
         raise NotComposed("which reading is tested?")
     return _choice(state, command.tests, said, robot)
+
+
+def _only_some(state: DialogueState, command: When) -> DialogueState:
+    """Return the state in which only some trees of the area are meant ("along row 3, wherever a tree is yellow")."""
+    before, test = state.area or state.lead, command.tests.tests[0]
+    if command.among != "area" or before is None or before.place.shape != "area" or before.place.per is not None:
+        raise NotComposed("a condition before what is done there")
+    if len(command.tests.tests) > 1 or not test.attribute or (test.negated and test.check != "eq"):
+        raise NotComposed("a condition before what is done there")
+    check = "ne" if test.negated else TREE_TESTS[test.check]
+    some = s.Where(attribute=test.attribute, test=check, value=test.value, of=before.place.selector)
+    place = PlaceMeaning(some, "several", each=True)
+    return replace(state, area=None, lead=Lead(place, before.used | command.used))
 
 
 def _for_each_place(state: DialogueState, tests: AllTests, following: Sequence[LinkedCommand]) -> AllTests:

@@ -15,9 +15,10 @@ from fieldhand.planning.grammar.dialogue.state import (
     Setting,
     Spans,
     done_at,
+    with_joints,
     with_step,
 )
-from fieldhand.planning.grammar.meaning import DriveCommand, Home, InAnOrder, PlaceMeaning
+from fieldhand.planning.grammar.meaning import DriveCommand, Home, InAnOrder, Lead, PlaceMeaning
 from fieldhand.planning.selections import as_every_nth, chooses_from_trees, starts_here
 from fieldhand.site.model import Site
 from fieldhand.task import plan as p
@@ -30,6 +31,8 @@ def drive(setting: Setting, state: DialogueState, command: DriveCommand) -> Dial
     said, place = setting.spans_of(command.used), command.place
     if command.begins and state.plan.steps:
         raise NotComposed("where to begin is said too late")
+    if command.begins and place.selector == s.Marker(name="start"):
+        return with_joints(state, said)  # every mission begins there
     area, leads = state.area, False
     if state.lead is not None and state.lead.place.shape == "one" and place.shape in ("one", "step"):
         leads = True
@@ -52,6 +55,8 @@ def drive(setting: Setting, state: DialogueState, command: DriveCommand) -> Dial
     if place.shape == "area" and place.per is None:
         where = state.where if place.selector.relative else place
         return replace(state, area=command, where=where, where_scope=state.scope, loop=None)
+    if place.shape == "nearby":
+        return replace(state, lead=Lead(place, command.used))  # how many depends on what is done there
     if place.shape == "several" and place.per is None:
         inside = (*state.next_step, "body")
         state = with_step(state, visits(place, said))
@@ -172,6 +177,9 @@ def _way_home(home: Home) -> DriveCommand:
 def put_in_order(setting: Setting, state: DialogueState, command: InAnOrder) -> DialogueState:
     """Return the state with the last for-each in an order; an order that is said first waits for its places."""
     said = setting.spans_of(command.used)
+    if command.by == "each" and state.area is not None:
+        place = replace(state.area.place, each=True)  # "along row 3 tree by tree"
+        return replace(state, area=replace(state.area, place=place, used=state.area.used | command.used))
     if state.loop is None:
         if command.by in ("", "any") or state.order is not None or state.commands_in_sentence:
             raise NotComposed("an order of what?")
@@ -191,6 +199,8 @@ def ordered(loop: p.ForEach, command: InAnOrder, said: Spans) -> p.ForEach:
     Raises:
         NotComposed: The places are not fixed, or what the order refers to is unclear.
     """
+    if command.by == "each":
+        return replace(loop, said=(*loop.said, *said))
     if loop.order == "given" or loop.optional or loop.at_most is not None:
         raise NotComposed("an order of a choice")
     said = (*loop.said, *said)

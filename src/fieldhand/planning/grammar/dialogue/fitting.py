@@ -34,6 +34,8 @@ def in_area(before: Lead | DriveCommand, place: PlaceMeaning | None) -> PlaceMea
         NotComposed: The two are different places, or how many trees are meant is unclear.
     """
     area = before.place.selector
+    if before.place.each and is_spoken_of(place):
+        return PlaceMeaning(area, "several", each=True)
     if place is None and isinstance(before, DriveCommand) and are_several_rows(area):
         raise NotComposed("at every tree, or at how many?")
     if place is None or place.shape in ("here", "those"):

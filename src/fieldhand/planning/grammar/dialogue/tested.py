@@ -24,7 +24,8 @@ from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
 from fieldhand.terms import Test as Comparison
 
-_COMPARISON: Mapping[Check, Comparison] = {"eq": "eq", "lt": "lt", "le": "le", "gt": "gt", "ge": "ge"}
+#: Tests of an attribute.
+TREE_TESTS: Mapping[Check, Comparison] = {"eq": "eq", "lt": "lt", "le": "le", "gt": "gt", "ge": "ge"}
 
 
 def condition_of(state: DialogueState, tests: AllTests, robot: RobotProfile) -> tuple[c.Condition, DialogueState]:
@@ -95,7 +96,7 @@ def _of_tree(state: DialogueState, test: Test) -> c.Condition:
     """Return the condition on an attribute of the current tree."""
     if state.where is None and state.loop is None:
         raise NotComposed("which tree is tested?")
-    condition = c.TreeHas(attribute=test.attribute, test=_COMPARISON[test.check], value=test.value)
+    condition = c.TreeHas(attribute=test.attribute, test=TREE_TESTS[test.check], value=test.value)
     return c.Not(condition=condition) if test.negated else condition
 
 

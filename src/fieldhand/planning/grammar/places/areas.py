@@ -22,6 +22,7 @@ from fieldhand.planning.selections import (
     measures_from_here,
     over,
 )
+from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -124,12 +125,12 @@ def from_word(word: Lex) -> str | None:
     return "from" if "within" in word.features else None
 
 
-@construction("site: [word=DET] noun=PLOT", cost=0.0)
-def the_site(noun: Lex, word: Lex | None = None) -> str | None:
-    """Compose "the orchard"."""
+@construction("site: [word=DET] noun=PLOT", cost=0.0, given=("site",))
+def the_site(noun: Lex, site: Site, word: Lex | None = None) -> str | None:
+    """Compose "the orchard", and "the block" where it is the only one."""
     if word is not None and "indefinite" in word.features:
         return None
-    return None if "block" in noun.features else "site"
+    return None if "block" in noun.features and len(site.planting.blocks) > 1 else "site"
 
 
 @construction(
@@ -171,6 +172,13 @@ def inside(inner: Nominal, where: s.Selector, way: str) -> Nominal | None:
         of_rows = cast(Any, inner.selector)  # "the northern trees of row 4": of that row, not of the orchard
         return replace(inner, selector=replace(of_rows, of=over(of_rows.of, where)))
     return replace(inner, selector=over(inner.selector, where))
+
+
+@construction("nominal: inner=nominal way=in_ DET side=DIR", cost=0.4)
+def in_the_north(inner: Nominal, way: str, side: Lex) -> Nominal | None:
+    """Compose "tree in the north"."""
+    where = half(side)
+    return None if where is None or way == "from" else inside(inner, where, way)
 
 
 @construction("along: ALONG", cost=0.0)
@@ -221,7 +229,9 @@ def those_in(word: Lex, where: s.Selector) -> PlaceMeaning | None:
     return PlaceMeaning(where, "several") if "stands_for_noun" in word.features else None
 
 
-@construction("place: whole=place [COMMA] STICKING where=region", cost=0.3)
+@construction(
+    "place: whole=place [COMMA] STICKING where=region", "place: whole=place COMMA where=region ONLY", cost=0.3
+)
 def sticking_to(whole: PlaceMeaning, where: s.Selector) -> PlaceMeaning | None:
     """Compose "the yellow trees, sticking to the northern half"."""
     if whole.shape != "several" or whole.per is not None or not chooses_from_trees(whole.selector):

@@ -38,6 +38,14 @@ def definite(inner: Nominal, word: Lex | None = None) -> PlaceMeaning | None:
     return PlaceMeaning(inner.selector, "several") if inner.plural else None
 
 
+@construction("owned_by: [word=DET] inner=owner", cost=0.3)
+def owned_by(inner: Nominal, word: Lex | None = None) -> PlaceMeaning | None:
+    """Compose "the first tree's"."""
+    if word is not None and word.features.isdisjoint({"definite", "indefinite"}):
+        return None
+    return definite(inner, word) or (None if word is None else any_one(word, inner) or that_tree(word))
+
+
 @construction("place: word=DET inner=nominal", cost=0.3)
 def any_one(word: Lex, inner: Nominal) -> PlaceMeaning | None:
     """Compose "a yellow tree"."""
@@ -46,9 +54,18 @@ def any_one(word: Lex, inner: Nominal) -> PlaceMeaning | None:
     return PlaceMeaning(s.Take(count=1, of=inner.selector), "one")
 
 
-@construction("place: ANY inner=nominal", cost=0.3)
-def any_of_them(inner: Nominal) -> PlaceMeaning | None:
-    """Compose "any tree of row 4"."""
+@construction("place: [word=DET] inner=nominal COMMA DET exact=nominal", cost=0.2)
+def namely(inner: Nominal, exact: Nominal, word: Lex | None = None) -> PlaceMeaning | None:
+    """Compose "another tree, the farthest one from there"."""
+    vague = inner.single and as_some(inner.selector) is not None if word is None else any_one(word, inner) is not None
+    return PlaceMeaning(exact.selector, "one") if vague and exact.single and exact.pronoun else None
+
+
+@construction("place: word=ANY inner=nominal", cost=0.3)
+def any_of_them(word: Lex, inner: Nominal) -> PlaceMeaning | None:
+    """Compose "any tree of row 4" and "whichever tree is farthest to the west"."""
+    if inner.single and "free_choice" in word.features:
+        return PlaceMeaning(inner.selector, "one")
     if inner.single or is_by_attribute(inner.selector):
         return None  # "any yellow tree": one, or each that there is?
     return PlaceMeaning(s.Take(count=1, of=inner.selector), "one")

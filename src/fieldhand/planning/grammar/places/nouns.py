@@ -19,7 +19,7 @@ GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
 
-@construction("nominal: noun=TREE", cost=0.0)
+@construction("nominal: noun=TREE", "owner: noun=TREEPOSS", cost=0.0)
 def tree(noun: Lex) -> Nominal:
     """Compose "trees"."""
     return Nominal(s.Trees(), plural=noun.plural)
@@ -60,7 +60,7 @@ def pronoun(noun: Lex) -> Nominal:
     return Nominal(s.Trees(), plural="plural" in noun.features, pronoun=True)
 
 
-@construction("nominal: value=ATTRVAL inner=nominal", cost=0.2)
+@construction("nominal: value=ATTRVAL inner=nominal", "owner: value=ATTRVAL inner=owner", cost=0.2)
 def described(value: Lex, inner: Nominal) -> list[Nominal] | None:
     """Compose "yellow trees"."""
     if inner.single or inner.complete or inner.pronoun or inner.tested:
@@ -221,7 +221,7 @@ def _number(value: Lex | Amount) -> float:
     return value.number if isinstance(value, Amount) else value.value
 
 
-@construction("nominal: side=MOST inner=nominal", cost=0.2)
+@construction("nominal: side=MOST inner=nominal", "owner: side=MOST inner=owner", cost=0.2)
 def extreme(side: Lex, inner: Nominal) -> Nominal | None:
     """Compose "northernmost tree"."""
     if inner.single or inner.complete or inner.kind != "tree":
@@ -258,7 +258,7 @@ def two_extremes(first: Lex, second: Lex, inner: Nominal) -> PlaceMeaning | None
     return PlaceMeaning(s.UnionOf(parts=parts), "several", count=2)
 
 
-@construction("nominal: rank=ORD inner=nominal", cost=0.2)
+@construction("nominal: rank=ORD inner=nominal", "owner: rank=ORD inner=owner", cost=0.2)
 def first_of_site(rank: Lex, inner: Nominal) -> Nominal | None:
     """Compose "first tree"."""
     if (
@@ -273,7 +273,7 @@ def first_of_site(rank: Lex, inner: Nominal) -> Nominal | None:
     return replace(inner, selector=s.First(), single=True)
 
 
-@construction("nominal: LAST inner=nominal", cost=0.2)
+@construction("nominal: LAST inner=nominal", "owner: LAST inner=owner", cost=0.2)
 def last_of_site(inner: Nominal) -> Nominal | None:
     """Compose "last tree"."""
     if inner.single or inner.plural or inner.kind != "tree" or inner.pronoun or inner.selector != s.Trees():

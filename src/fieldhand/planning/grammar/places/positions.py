@@ -2,28 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
 
 from fieldhand.places import selectors as s
-from fieldhand.places.picks.ordered import Order
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning, Shape
-from fieldhand.planning.grammar.places.compass import SIDES
+from fieldhand.planning.grammar.places.compass import AWAY_FROM, SIDES
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_every_nth, as_in_row, chooses_from_trees, is_one_row, over
 from fieldhand.terms import Side
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
-
-#: Order of visits that begins at a side.
-_AWAY_FROM: Mapping[Side, Order] = {
-    "north": "north_to_south",
-    "east": "east_to_west",
-    "south": "south_to_north",
-    "west": "west_to_east",
-}
 
 
 @construction("position: rank=ORD", cost=0.0)
@@ -242,7 +232,7 @@ def counted_from_side(whole: PlaceMeaning, side: Side) -> PlaceMeaning | None:
     if every is None or every.counted_from != "usual":
         return None
     counted = replace(every, counted_from=side)
-    return replace(whole, selector=s.Ordered(by=_AWAY_FROM[side], of=counted), in_order=True)
+    return replace(whole, selector=s.Ordered(by=AWAY_FROM[side], of=counted), in_order=True)
 
 
 @construction(

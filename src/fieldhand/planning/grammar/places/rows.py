@@ -11,6 +11,7 @@ from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.places.numbers import name_of, whole
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import chooses_from_trees, counts_in_row, is_one_row, over
+from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -132,6 +133,15 @@ def next_row() -> s.Selector:
 def previous_row() -> s.Selector:
     """Compose "the previous row"."""
     return s.RowOf(over=-1)
+
+
+@construction("rows: n=count noun=ROW side=DIR", "rows: n=count noun=ROW AT DET side=DIR", cost=0.1, given=("site",))
+def rows_to_side(n: int, noun: Lex, side: Lex, site: Site) -> s.Selector | None:
+    """Compose "three rows east", where rows lie beside each other that way; they count from the west or the north."""
+    across = ("north", "south") if all(block.runs_east_west for block in site.planting.blocks) else ("west", "east")
+    if side.value not in across or noun.plural != (n > 1):
+        return None
+    return s.RowOf(over=-n if side.value == across[0] else n)
 
 
 @construction("rows: n=count ROWSOVER", cost=0.1)

@@ -28,6 +28,7 @@ def others_nearby(n: int, inner: Nominal) -> PlaceMeaning | None:
 
 @construction(
     "place: DET NEARBY inner=nominal",
+    "place: DET inner=nominal NEARBY",
     "place: [n=count] NEARBY inner=nominal",
     "place: [n=count] inner=nominal NEARBY",
     cost=0.2,
@@ -48,6 +49,8 @@ def nearby(inner: Nominal, n: int | None = None) -> PlaceMeaning | None:
     "nominal: inner=nominal FAR",
     "nominal: FARTHEST inner=nominal",
     "nominal: inner=nominal FARTHEST [FROM] [THERE]",
+    "nominal: FARTHEST inner=nominal FROM THERE",
+    "nominal: FARTHEST inner=nominal FROM IT",
     "nominal: inner=nominal [WHICH] [IS] FARTHEST FROM IT",
     "nominal: inner=nominal WHICH IS FARTHEST FROM THERE",
     cost=0.3,
@@ -198,6 +201,8 @@ def nearest(inner: Nominal, to: PlaceMeaning, n: int | None = None, near: Lex | 
     origin = to.selector
     if to.shape == "area" and as_zone(origin) is None:
         return None
+    if origin == s.Middle() and number == 1 and inner.selector == s.Trees():
+        return None  # that is the middle itself
     selector: s.Selector = s.Nearest(to=origin, count=number, of=inner.selector)
     if is_spot(origin):
         selector = s.Adjacent(near=origin, count=number, of=inner.selector)
@@ -252,6 +257,15 @@ def beyond_place(inner: Nominal, check: Lex, far: Amount, to: PlaceMeaning) -> P
         away: s.Selector = s.InZone(zone=zone.zone, outside=True, margin_m=far.number)
         return PlaceMeaning(over(inner.selector, away), "several") if chooses_from_trees(inner.selector) else None
     return PlaceMeaning(s.Excluding(places=beyond(far.number, to.selector), of=inner.selector), "several")
+
+
+@construction("place: word=DET inner=nominal check=CMP far=amount FROM to=place", cost=0.3)
+def one_beyond_place(word: Lex, inner: Nominal, check: Lex, far: Amount, to: PlaceMeaning) -> PlaceMeaning | None:
+    """Compose "a tree at least 20 m away from it"."""
+    if inner.plural or "indefinite" not in word.features or to.shape not in ("one", "here"):
+        return None
+    all_of_them = beyond_place(inner, check, far, replace(to, shape="one"))
+    return None if all_of_them is None else PlaceMeaning(s.Take(count=1, of=all_of_them.selector), "one")
 
 
 @construction("place: DET n=count NEAREST inner=nominal", "place: DET NEAREST inner=nominal", cost=0.4)
