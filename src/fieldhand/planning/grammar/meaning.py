@@ -65,6 +65,7 @@ class PlaceMeaning:
         optional: True for "as many as you can".
         at_most: Maximum number of visits ("up to 6").
         in_order: True if the places are visited in the order in which they are named.
+        itself: True for "the tree itself", and no other place that was spoken of.
         there: True if the phrase says that they are in the area spoken of ("every tree there").
         per: Rows of each of which the selector says something by itself ("the oldest tree of each row").
     """
@@ -77,6 +78,7 @@ class PlaceMeaning:
     at_most: int | None = None
     in_order: bool = False
     there: bool = False
+    itself: bool = False
     per: s.Selector | None = None
 
 
@@ -243,6 +245,14 @@ class UntilCondition:
 
 
 @dataclass(frozen=True, slots=True)
+class VisitLimit:
+    """The maximum number of visits of the places before it."""
+
+    count: int
+    used: int
+
+
+@dataclass(frozen=True, slots=True)
 class Again:
     """A command to do what was done at the last place again, at another place or there."""
 
@@ -322,6 +332,7 @@ Command = (
     | Otherwise
     | Allowed
     | UntilCondition
+    | VisitLimit
     | Again
     | InAnOrder
     | After

@@ -213,7 +213,13 @@ def tree_is(value: Lex) -> list[Test]:
     return [Test("", "eq", text, attribute=name) for name, text in value.value]
 
 
-@construction("test: IT ISNOT value=ATTRVAL", "test: IT IS NOT value=ATTRVAL", cost=0.3)
+@construction(
+    "test: IT ISNOT value=ATTRVAL",
+    "test: IT IS NOT value=ATTRVAL",
+    "test: DET TREE ISNOT value=ATTRVAL",
+    "test: DET TREE IS NOT value=ATTRVAL",
+    cost=0.3,
+)
 def tree_is_not(value: Lex) -> list[Test]:
     """Compose "it is not yellow"."""
     return [Test("", "eq", text, attribute=name, negated=True) for name, text in value.value]
@@ -347,7 +353,7 @@ def level_explained(test: Test) -> Test:
     return test
 
 
-@construction("until: UNTIL tests=tests", cost=0.3)
+@construction("until: UNTIL tests=tests", "until: ASSOONAS tests=tests [COMMA] STOP", cost=0.3)
 def until(tests: AllTests, used: int) -> UntilCondition:
     """Compose "until it is high"."""
     return UntilCondition(tests, used)

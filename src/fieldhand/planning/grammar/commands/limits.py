@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fieldhand.planning.english.limits import Amount
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import LimitClause
+from fieldhand.planning.grammar.meaning import LimitClause, VisitLimit
 from fieldhand.planning.grammar.words import Lex
 
 GRAMMAR = Grammar()
@@ -113,3 +113,18 @@ def at_word() -> str:
 def limited_to(most: Amount, used: int) -> LimitClause | None:
     """Compose "with the driving distance limited to 80 m"."""
     return LimitClause(most, False, used) if most.unit in _LIMITED else None
+
+
+@construction(
+    "visit_limit: n=count [OFTHEM] TOPS",
+    "visit_limit: n=count TREE TOPS",
+    "visit_limit: check=CMP n=count",
+    "visit_limit: check=CMP n=count OFTHEM",
+    "visit_limit: STOP word=THEN n=count TREE",
+    cost=0.5,
+)
+def visits_at_most(n: int, used: int, word: Lex | None = None, check: Lex | None = None) -> VisitLimit | None:
+    """Compose "five at most", "at most five of them" and "give up after 8 trees"."""
+    if (word is not None and "after_doing" not in word.features) or (check is not None and check.value != ("le", "")):
+        return None
+    return VisitLimit(n, used)

@@ -67,8 +67,8 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
             return _lines_at_each(state, replace(command, things=once), place, line, said)
         place, things = spaced(place, things, command.spacing, setting.site)
     place = _those_again(state, place)
-    if place is not None and place.shape == "those" and place.count is not None:
-        return _at_some_of_those(state, replace(command, things=things), place.count, said)
+    if place is not None and place.shape == "those" and (place.count or place.at_most):
+        return _at_some_of_those(state, replace(command, things=things), place, said)
     require_known(state, place, setting.site)
     if place is None or place.shape in ("here", "those"):
         return _at_the_same_place(state, replace(command, things=things, place=place), said)
@@ -193,13 +193,14 @@ def _lines_at_each(
     return replace(done_at(state, place), things=command.things, scope=inside[:-2], loop=inside)
 
 
-def _at_some_of_those(state: DialogueState, command: CaptureCommand, count: int, said: Spans) -> DialogueState:
+def _at_some_of_those(state: DialogueState, command: CaptureCommand, place: PlaceMeaning, said: Spans) -> DialogueState:
     """Return the state after captures at some of the places that the robot was sent to ("at 3 of them")."""
     steps = state.block.steps
     loop = as_for_each(steps[-1]) if steps else None
     if loop is None or loop.body != EMPTY or loop.optional or loop.at_most is not None:
         raise NotComposed("which of them?")
-    state = with_last_step(state, replace(loop, select=some_of(loop.select, count)))
+    some = loop.select if place.count is None else some_of(loop.select, place.count)
+    state = with_last_step(state, replace(loop, select=some, at_most=place.at_most))
     state = _with_captures(state, command.things, command.times, said, (*state.scope, len(steps) - 1, "body"))
     return replace(state, things=command.things, commands_in_sentence=state.commands_in_sentence + 1)
 
@@ -210,7 +211,7 @@ def _at_the_same_place(state: DialogueState, command: CaptureCommand, said: Span
         raise NotComposed("at which tree?")
     if command.place is not None and state.where is None:
         raise NotComposed("which place is meant?")
-    if command.place is not None and _is_of_other_case(state):
+    if command.place is not None and not command.place.itself and _is_of_other_case(state):
         raise NotComposed("where it was tested, or where the other case goes?")
     if command.place is None and state.where is not None and state.where.in_order and _nothing_done_there(state):
         raise NotComposed("at each of them, or at the last?")  # "go to tree 4, then tree 9 and take a picture"

@@ -9,9 +9,17 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.allowances import allowed, failing
 from fieldhand.planning.grammar.dialogue.capturing import capture, capture_again, capture_elided, meant_things
 from fieldhand.planning.grammar.dialogue.conditions import otherwise, question, until, when
-from fieldhand.planning.grammar.dialogue.driving import drive, driven_home, enter, go_home, put_in_order, without_home
+from fieldhand.planning.grammar.dialogue.driving import (
+    drive,
+    driven_home,
+    enter,
+    go_home,
+    limit_visits,
+    put_in_order,
+    without_home,
+)
 from fieldhand.planning.grammar.dialogue.fitting import is_spoken_of
-from fieldhand.planning.grammar.dialogue.plans import EMPTY, walk
+from fieldhand.planning.grammar.dialogue.plans import EMPTY, as_for_each, walk
 from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
     NotComposed,
@@ -40,6 +48,7 @@ from fieldhand.planning.grammar.meaning import (
     Said,
     StopCommand,
     UntilCondition,
+    VisitLimit,
     When,
 )
 from fieldhand.planning.selections import AREAS, specifies_part
@@ -67,6 +76,8 @@ def _ended(state: DialogueState) -> DialogueState:
     if all(step.ends_plan for step in state.plan.steps):
         raise NotComposed("nothing is done")
     for _, node in walk(state.plan):
+        if (loop := as_for_each(node)) is not None and _visits_open_number(loop):
+            raise NotComposed("how many different ones?")
         if node.is_choice and EMPTY in node.children:
             raise NotComposed("nothing is done in one case")
         if node.is_optional_step and not any(one.act for one in p.walk(node)):
@@ -80,6 +91,12 @@ def _ended(state: DialogueState) -> DialogueState:
     if state.nominal is None and state.returned and state.plan.steps[-1].only_drives:
         return replace(state, nominal="stay")
     return state
+
+
+def _visits_open_number(loop: p.ForEach) -> bool:
+    """Return True for visits of "different trees" of which nothing says how many."""
+    unbounded = not loop.optional and loop.at_most is None and loop.until is None
+    return unbounded and isinstance(loop.select, s.NotVisited)
 
 
 def _read(
@@ -129,6 +146,8 @@ def _read(
             return allowed(setting, state, command, _rest_of_sentence(following), joint)
         case UntilCondition():
             return until(setting, state, command)
+        case VisitLimit():
+            return limit_visits(setting, state, command)
         case Again():
             return capture_again(setting, state, command)
         case InAnOrder():

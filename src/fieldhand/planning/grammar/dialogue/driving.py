@@ -18,7 +18,7 @@ from fieldhand.planning.grammar.dialogue.state import (
     with_joints,
     with_step,
 )
-from fieldhand.planning.grammar.meaning import DriveCommand, Home, InAnOrder, Lead, PlaceMeaning
+from fieldhand.planning.grammar.meaning import DriveCommand, Home, InAnOrder, Lead, PlaceMeaning, VisitLimit
 from fieldhand.planning.selections import as_every_nth, chooses_from_trees, starts_here
 from fieldhand.site.model import Site
 from fieldhand.task import plan as p
@@ -211,3 +211,19 @@ def ordered(loop: p.ForEach, command: InAnOrder, said: Spans) -> p.ForEach:
     by = cast(Order, command.by)
     select = s.Ordered(by=by, attribute=command.attribute, descending=command.descending, of=loop.select)
     return replace(loop, select=select, order="given", said=said)
+
+
+def limit_visits(setting: Setting, state: DialogueState, command: VisitLimit) -> DialogueState:
+    """Return the state with a maximum number of visits of the last for-each.
+
+    Raises:
+        NotComposed: It has one, or visits a number of places that was named.
+    """
+    if state.loop is None:
+        raise NotComposed("so many of what?")
+    path = state.loop[:-1]
+    loop = for_each_at(state.plan, path)
+    if loop.optional or loop.at_most is not None or (state.where is not None and state.where.count is not None):
+        raise NotComposed("so many, or at most so many?")
+    said = (*loop.said, *setting.spans_of(command.used))
+    return replace(state, plan=with_node(state.plan, path, replace(loop, at_most=command.count, said=said)))

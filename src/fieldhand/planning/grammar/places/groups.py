@@ -184,6 +184,14 @@ def up_to(n: int, inner: Nominal) -> PlaceMeaning | None:
     return None if inner.single or inner.complete else PlaceMeaning(inner.selector, "several", at_most=n)
 
 
+@construction("place: OTHER inner=nominal", cost=0.3)
+def different_ones(inner: Nominal) -> PlaceMeaning | None:
+    """Compose "different trees", of which something else says how many."""
+    if inner.single or not inner.plural or inner.complete:
+        return None
+    return PlaceMeaning(_unvisited(inner.selector), "several")
+
+
 @construction("nominal: ANOTHER inner=nominal", "nominal: DET OTHER inner=nominal", cost=0.2)
 def another(inner: Nominal) -> Nominal | None:
     """Compose "another tree"."""
@@ -407,10 +415,10 @@ def any_of_group(group: PlaceMeaning, n: int) -> PlaceMeaning | None:
     return PlaceMeaning(s.Take(count=n, of=group.selector), "one" if n == 1 else "several", count=n)
 
 
-@construction("place: word=DET TREE [ITSELF]", cost=0.7)
-def that_tree(word: Lex) -> PlaceMeaning | None:
-    """Compose "that tree"."""
-    return PlaceMeaning(s.Here(), "here") if "definite" in word.features else None
+@construction("place: word=DET TREE [same=ITSELF]", cost=0.7)
+def that_tree(word: Lex, same: Lex | None = None) -> PlaceMeaning | None:
+    """Compose "that tree" and "the tree itself"."""
+    return PlaceMeaning(s.Here(), "here", itself=same is not None) if "definite" in word.features else None
 
 
 @construction("place: n=count OFTHEM", "place: n=count OF word=DET", "place: n=count THERE", cost=0.5)
@@ -419,6 +427,13 @@ def so_many_of_those(n: int, word: Lex | None = None) -> PlaceMeaning | None:
     if word is not None and "those" not in word.features:
         return None
     return PlaceMeaning(s.Here(), "those", count=n)
+
+
+@construction("place: UPTO n=count OFTHEM", "place: UPTO n=count THERE", "place: UPTO n=count OF word=DET", cost=0.5)
+def up_to_so_many_of_those(n: int, word: Lex | None = None) -> PlaceMeaning | None:
+    """Compose "up to 3 of them"."""
+    those = so_many_of_those(n, word)
+    return None if those is None else replace(those, count=None, at_most=n)
 
 
 @construction("place: whole=place word=THERE", cost=0.4)

@@ -298,6 +298,7 @@ def ranking_of(rank: tuple[str, bool], attribute: Lex) -> list[tuple[str, bool]]
     "place: DET rank=ranking n=count inner=nominal",
     "place: [DET] n=count inner=nominal [WHICH] WITH DET rank=ranking",
     "place: [DET] rank=ranking inner=nominal",
+    "owned_by: [DET] rank=ranking inner=owner",
     "place: [DET] inner=nominal [WHICH] WITH DET rank=ranking",
 )
 def ranked(rank: tuple[str, bool], inner: Nominal, n: int | None = None) -> PlaceMeaning | None:
