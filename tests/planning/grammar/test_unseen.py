@@ -32,17 +32,44 @@ PLANNED = {
         ("I want CO2 in row 6, except where the tree is younger than 4 years.", "for Excluding(Where(age_years, lt, 4), of Rows(6, 6)): [co2]"),
         ("Take CO2 at every tree in row 3 but the yellow ones.", "for Excluding(Where(leaf_color, eq, yellow, of Rows(3, 3)), of Rows(3, 3)): [co2]"),
         ("Photograph row 6, every tree, except the last two in the row.", "for Excluding(InRow(-2, -1, of Rows(6, 6)), of Rows(6, 6)): [picture]"),
+        ("Take pictures of every tree in row 5 and measure CO2 at any tree that is above 38 degrees.", "for Rows(5, 5): [picture = r1; if r1 > 38 degC: [co2]]"),
+        ("Take a picture of every tree in row 5. Measure CO2 at the ones that are hot, then go to the charger.", "for Rows(5, 5): [picture = r1; if r1 high: [co2]]; go Marker(charger)"),
+        ("Photograph row 4, all trees. Any that are hot get a CO2 reading.", "for Rows(4, 4): [picture = r1; if r1 high: [co2]]"),
+        ("Measure CO2 at each tree of row 7 and photograph those where it is high.", "for Rows(7, 7): [co2 = r1; if r1 high: [picture]]"),
+        ("Photograph every tree of row 3; for those that are hot, get the CO2 and the air temperature. Then photograph tree 9.", "for Rows(3, 3): [picture = r1; if r1 high: [co2; air]]; picture @ TreeIs(9)"),
+        ("Measure CO2 at each tree of row 7 and photograph it if it is high, otherwise measure the air temperature.", "for Rows(7, 7): [co2 = r1; if r1 high: [picture] else [air]]"),
+        ("If a tree in row 3 has more than 450 ppm of CO2, photograph it.", "for Rows(3, 3): [co2 = r1; if r1 > 450 ppm: [picture]]"),
+        ("If any tree in row 3 is above 38 degrees in the thermal picture, take its CO2. Then go to the charger.", "for Rows(3, 3): [picture = r1; if r1 > 38 degC: [co2]]; go Marker(charger)"),
+        ("Photograph row 4, every tree. Take a CO2 reading at every tree in row 4 that is hot.", "for Rows(4, 4): [picture = r1; if r1 high: [co2]]"),
+        ("What I need is this: CO2 at trees 10, 20, 30 and 40, and then back to the start.", "for UnionOf(TreeIs(10)+TreeIs(20)+TreeIs(30)+TreeIs(40)): [co2] | return_to_start"),
+        ("Record how warm the air is at every tree in the wet corner and come back to the start.", "for InZone(wet corner): [air] | return_to_start"),
+        ("Photograph the trees in the wet corner, oldest first, for no more than 12 minutes.", "for Ordered(attribute, age_years, True, of InZone(wet corner)) given: [picture] | duration_s 720"),
+        ("Measure air temperature at every third tree of row 8 starting from the second one.", "for EveryNth(3, 2, of Rows(8, 8)): [air]"),
     ],
     "vineyard": [
         ("Take thermal pictures in row 12 of the North block, at the vines with vigor below 0.35.", "for Where(vigor, lt, 0.35, of Rows(12, 12, of InBlock(North))): [picture] | return_to_start"),
         ("Measure CO2 at the vine nearest the pond and at the vine furthest from it.", "co2 @ Nearest(InZone(pond)); co2 @ Farthest(InZone(pond)) | return_to_start"),
         ("Measure CO2 at every Syrah vine with vigor between 0.3 and 0.4.", "for Where(vigor, le, 0.4, of Where(vigor, ge, 0.3, of Where(variety, eq, Syrah))): [co2] | return_to_start"),
         ("Take a CO2 reading wherever vigor is under 0.35 in the South block.", "for Where(vigor, lt, 0.35, of InBlock(South)): [co2] | return_to_start"),
+        ("Photograph the vines N10, N20 and N30, and measure CO2 at those that are hot.", "for UnionOf(TreeIs(N10)+TreeIs(N20)+TreeIs(N30)): [picture = r1; if r1 high: [co2]] | return_to_start"),
+        ("Take CO2 at the 30 least vigorous Cabernet Sauvignon vines and take a thermal picture wherever it is above 500.", "for Top(vigor, 30, True, of Where(variety, eq, Cabernet Sauvignon)): [co2 = r1; if r1 > 500 ppm: [picture]] | return_to_start"),
+        ("Whenever a vine in row 11 of the North block turns out to be above 36 degrees in the thermal picture, its CO2 should be measured too.", "for Rows(11, 11, of InBlock(North)): [picture = r1; if r1 > 36 degC: [co2]] | return_to_start"),
+        ("Okay so first thing, CO2 at the gate. After that go over to North row 9 and do a thermal on each vine that has a vigor under 0.4.", "co2 @ GateIs(gate); for Where(vigor, lt, 0.4, of Rows(9, 9, of InBlock(North))): [picture] | return_to_start"),
+        ("I'd like to know how warm the canopy is at the ends of rows 1, 4 and 10 in the North block.", "for UnionOf(InRow(1, 1, of UnionOf(Rows(1, 1, of InBlock(North))+Rows(4, 4, of InBlock(North))+Rows(10, 10, of InBlock(North))))+InRow(-1, -1, of UnionOf(Rows(1, 1, of InBlock(North))+Rows(4, 4, of InBlock(North))+Rows(10, 10, of InBlock(North))))): [picture] | return_to_start"),
     ],
 }  # fmt: skip
+#: Requests with words that ask for nothing and have to be confirmed.
+REMARKED = [
+    ("Right, I want it to go down row 7, and at any tree that reads above 38 degrees on the thermal camera, get a CO2 reading too.", "for Rows(7, 7): [picture = r1; if r1 > 38 degC: [co2]]", "'Right'"),
+    ("Hi, when you get a minute could you have the robot swing past row 6 and grab me a thermal of each tree, cheers.", "for Rows(6, 6): [picture]", "'minute'"),
+    ("So what I'd like is basically a CO2 number for each of the Carmels down in the wet corner, nothing fancy.", "for Where(variety, eq, Carmel, of InZone(wet corner)): [co2]", "'nothing fancy'"),
+]  # fmt: skip
 #: What the grammar leaves to a question or a refusal, and why.
 NOT_PLANNED = {
     "Measure CO2 at tree 5. If it is hot, photograph it.": "CO2 is not hot",
+    "Measure CO2 at each tree of row 7 and photograph it if it is hot.": "CO2 is not hot",
+    "Take a CO2 reading at every tree in row 3 that is hot.": "hot in the air, or in the canopy?",
+    "Measure CO2 at tree 5 and photograph those that are high.": "which trees?",
     "If the air temperature at the start is above 30 degrees, photograph every tree in row 2; otherwise measure CO2 there.": "there: at the start, or in row 2?",
 }
 
@@ -60,6 +87,14 @@ def test_it_is_planned_with_every_word(site: str, request_: str, plan: str) -> N
     assert outline(outcome.task) == plan
     assert unaccounted(outcome.task) == ()
     assert mismatches(outcome.task, site_of(site), HUSKY) == ()
+
+
+@pytest.mark.parametrize(("request_", "plan", "remark"), REMARKED)
+def test_what_asks_for_nothing_is_planned_with_a_warning(request_: str, plan: str, remark: str) -> None:
+    outcome = composed(request_, site_of("demo"), HUSKY)
+    assert isinstance(outcome, Planned), outcome
+    assert outline(outcome.task) == plan
+    assert [remark in str(problem.what) for problem in unaccounted(outcome.task)] == [True]
 
 
 @pytest.mark.parametrize("request_", NOT_PLANNED)

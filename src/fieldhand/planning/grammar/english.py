@@ -25,6 +25,8 @@ from fieldhand.site.model import Site
 
 #: Words of an action that takes pictures.
 _PICTURES = frozenset({"picture", "photo", "image", "thermal picture"})
+#: Number of words of the longest phrase of english.toml that is read as a word.
+_LONGEST = 6
 #: Short forms.
 _SPELT_OUT = {"temp": "temperature", "temps": "temperature", "temperatures": "temperature", "pic": "picture"}
 #: Words for pictures and for taking them, by what they are to the grammar.
@@ -48,7 +50,7 @@ class EnglishPhrases:
     @property
     def longest(self) -> int:
         """The number of words of the longest phrase."""
-        return self.lexicon.longest
+        return max(self.lexicon.longest, _LONGEST)
 
     def features(self, phrase: Phrase) -> frozenset[str]:
         """Return the features of a phrase."""
@@ -67,6 +69,10 @@ class EnglishPhrases:
             full = self.lexicon.entry(spelt_out)
             if full is not None and full.kind == "NOUN":
                 yield replace(full, plural=full.plural or phrase[-1].endswith("s"))
+            meant = _own()["same"].get(" ".join(phrase))
+            same = None if meant is None else self.lexicon.entry(split(meant))
+            if same is not None:
+                yield same
         kind = "" if known is None else known.kind
         if known is None and len(phrase) == 1 and phrase[0] in self.lexicon.short_values:
             yield NameEntry(kind="ATTRVAL", value=(self.lexicon.short_values[phrase[0]],))

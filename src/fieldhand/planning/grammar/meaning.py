@@ -230,6 +230,23 @@ class When:
 
 
 @dataclass(frozen=True, slots=True)
+class CaptureWhere:
+    """A capture at those of several places where a reading passes a test ("... at those that are hot").
+
+    Attributes:
+        tests: Test of the reading.
+        capture: Capture, without a place.
+        used: Tokens of the phrase.
+        area: Places at which the tested reading is taken first, if the phrase names them.
+    """
+
+    tests: AllTests
+    capture: CaptureCommand
+    used: int
+    area: PlaceMeaning | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Allowed:
     """Work that is done only if the budget allows it: what follows it, or the command before it."""
 
@@ -329,6 +346,7 @@ Command = (
     | StopCommand
     | LimitClause
     | When
+    | CaptureWhere
     | Otherwise
     | Allowed
     | UntilCondition

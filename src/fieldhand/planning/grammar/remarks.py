@@ -50,12 +50,15 @@ def without_remarks(words: Sequence[Word], edges: Iterable[PhraseEdge]) -> Remar
     """
     kinds: list[set[str]] = [set() for _ in words]
     reasons: set[int] = set()
+    asides: set[int] = set()
     for edge in edges:
         for k in range(edge.start, edge.end):
             kinds[k].add(edge.category)
         if edge.category == "REASON":
             reasons.add(edge.start)
-    left_out: set[int] = set()
+        if edge.category == "ASIDE" and _stands_apart(words, edge):
+            asides.update(range(edge.start, edge.end))
+    left_out = asides
     for sentence in _parts(words, {"stop"}):
         said = [k for k in sentence if words[k].kind != "comma"]
         label = _label(words, sentence, kinds)
@@ -83,6 +86,14 @@ def _sets_off(words: Sequence[Word], comma: int, left_out: set[int]) -> bool:
     while begin - 1 in left_out:
         begin -= 1
     return begin < comma and (begin == 0 or words[begin - 1].kind in ("comma", "stop"))
+
+
+def _stands_apart(words: Sequence[Word], edge: PhraseEdge) -> bool:
+    """Return True for a fixed aside of several words, and for a short one between commas ("Right, ...")."""
+    marks = ("comma", "stop")
+    begins = edge.start == 0 or words[edge.start - 1].kind in marks
+    ends = edge.end == len(words) or words[edge.end].kind in marks
+    return edge.end - edge.start > 2 or (begins and ends)
 
 
 def _label(words: Sequence[Word], sentence: Sequence[int], kinds: Sequence[set[str]]) -> Sequence[int]:

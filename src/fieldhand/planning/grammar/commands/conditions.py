@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
+from fieldhand.places import selectors as s
 from fieldhand.planning.english.limits import Amount
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
@@ -12,8 +13,11 @@ from fieldhand.planning.grammar.meaning import (
     FIRST_READING,
     Allowed,
     AllTests,
+    CaptureCommand,
+    CaptureWhere,
     Check,
     Failing,
+    Nominal,
     OfLast,
     Otherwise,
     PlaceMeaning,
@@ -24,6 +28,7 @@ from fieldhand.planning.grammar.meaning import (
     When,
 )
 from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.selections import as_some
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -50,8 +55,8 @@ def first_reading(rank: Lex) -> str | None:
 def quantity_at(noun: Lex, place: PlaceMeaning) -> tuple[str, PlaceMeaning] | None:
     """Compose "the temperature at tree 4"."""
     naming: Naming = noun.value
-    if len(set(naming.quantities)) != 1 or place.shape != "one":
-        return None
+    if len(set(naming.quantities)) != 1 or place.shape != "one" or as_some(place.selector) is not None:
+        return None  # "the temperature at any tree": at which?
     return (naming.quantities[0], place)
 
 
@@ -351,6 +356,114 @@ def when_tree_is(place: PlaceMeaning, value: Lex, used: int) -> list[When] | Non
 def level_explained(test: Test) -> Test:
     """Compose "too hot, meaning over 40 degC"."""
     return test
+
+
+@construction(
+    "tested: word=DET WHICH [IS] test=predicate",
+    "tested: word=DET WHERE [IT] [IS] test=predicate",
+    "tested: ANY WHICH [IS] test=predicate",
+    "tested: ANY [OF] IT WHICH [IS] test=predicate",
+    "tested: EACH WHICH [IS] test=predicate",
+    "tested: DET inner=nominal WHICH [IS] test=predicate",
+    "tested: [DET] inner=nominal WHERE [IT] [IS] test=predicate",
+    "tested: ANY inner=nominal WHICH [IS] test=predicate",
+    "tested: ANY inner=nominal WHERE [IT] [IS] test=predicate",
+    "tested: EACH inner=nominal WHICH [IS] test=predicate",
+    "tested: EACH inner=nominal WHERE [IT] [IS] test=predicate",
+    "tested: DET test=predicate ONE",
+    cost=0.2,
+)
+def those_tested(
+    test: Test, inner: Nominal | None = None, word: Lex | None = None
+) -> tuple[AllTests, PlaceMeaning | None] | None:
+    """Compose "those that are hot" and "any tree of row 4 that is hot"."""
+    if word is not None and "those" not in word.features:
+        return None
+    if inner is not None and (inner.single or inner.complete):
+        return None
+    area = None if inner is None or inner.selector == s.Trees() else inner.selector
+    return AllTests((test,)), None if area is None else PlaceMeaning(area, "several", each=True)
+
+
+@construction("tested: those=tested AT [DET] noun=NOUN", "tested: those=tested INSIDE [DET] noun=NOUN", cost=0.2)
+def tested_by(those: tuple[AllTests, PlaceMeaning | None], noun: Lex) -> list[tuple[AllTests, PlaceMeaning | None]]:
+    """Compose "any tree that is above 38 degC in the thermal picture"."""
+    (test,) = those[0].tests
+    return [(AllTests((replace(test, quantity=name),)), those[1]) for name in measured_by(noun)]
+
+
+@construction("tested: those=tested OF noun=NOUN", cost=0.2)
+def tested_of(those: tuple[AllTests, PlaceMeaning | None], noun: Lex) -> list[tuple[AllTests, PlaceMeaning | None]]:
+    """Compose "any tree that has more than 450 ppm of CO2"."""
+    return tested_by(those, noun)
+
+
+@construction(
+    "capture_where: WHERE DET inner=nominal [IS] test=predicate COMMA act=capture",
+    "capture_where: IF DET inner=nominal [IS] test=predicate COMMA act=capture",
+    "capture_where: IF ANY inner=nominal [IS] test=predicate COMMA act=capture",
+    "capture_where: WHERE ANY inner=nominal [IS] test=predicate COMMA act=capture",
+    "capture_where: WHERE DET inner=nominal [IS] test=predicate by=measured_by COMMA act=capture",
+    "capture_where: IF DET inner=nominal [IS] test=predicate by=measured_by COMMA act=capture",
+    "capture_where: IF ANY inner=nominal [IS] test=predicate by=measured_by COMMA act=capture",
+    cost=0.3,
+)
+def whenever_one_is(inner: Nominal, test: Test, act: CaptureCommand, used: int, by: str = "") -> CaptureWhere | None:
+    """Compose "whenever a tree of row 4 is above 38 degC in the thermal picture, measure its CO2"."""
+    if inner.single or inner.complete or inner.plural or inner.selector == s.Trees():
+        return None
+    if act.place is not None and act.place.shape != "here":
+        return None
+    area = PlaceMeaning(inner.selector, "several", each=True)
+    return CaptureWhere(AllTests((replace(test, quantity=by),)), replace(act, place=None), used, area)
+
+
+@construction(
+    "measured_by: AT [DET] noun=NOUN", "measured_by: INSIDE [DET] noun=NOUN", "measured_by: OF noun=NOUN", cost=0.1
+)
+def measured_by(noun: Lex) -> list[str]:
+    """Compose "in the thermal picture": the quantity, or the action that measures it."""
+    naming: Naming = noun.value
+    return list(dict.fromkeys(naming.quantities)) or list(naming.actions[:1])
+
+
+@construction("measured: place=place [IS] test=predicate by=measured_by", cost=0.2)
+def measured_there(place: PlaceMeaning, test: Test, by: str) -> tuple[PlaceMeaning, Test] | None:
+    """Compose "tree 14 has more than 450 ppm of CO2"."""
+    if place.shape != "one" or as_some(place.selector) is not None:
+        return None
+    return (place, replace(test, quantity=by))
+
+
+@construction(
+    "capture_where: verb things=things relation tests=tested",
+    "capture_where: verb things=things FOR tests=tested",
+    "capture_where: things=things relation tests=tested",
+    "capture_where: relation tests=tested [COMMA] verb things=things",
+    "capture_where: FOR tests=tested [COMMA] verb things=things",
+    "capture_where: relation tests=tested [COMMA] things=things",
+    cost=0.3,
+)
+def capture_where(things: tuple[Thing, ...], tests: tuple[AllTests, PlaceMeaning | None], used: int) -> CaptureWhere:
+    """Compose "measure CO2 at those that are hot"."""
+    return CaptureWhere(tests[0], CaptureCommand(things, None, used), used, tests[1])
+
+
+@construction("capture_where: verb=ACTV tests=tested", cost=0.3)
+def act_where(verb: Lex, tests: tuple[AllTests, PlaceMeaning | None], used: int) -> CaptureWhere:
+    """Compose "photograph those that are hot"."""
+    naming: Naming = verb.value
+    return CaptureWhere(tests[0], CaptureCommand((Thing(naming.actions[0]),), None, used), used, tests[1])
+
+
+@construction(
+    "capture_where: tests=tested SHOULD things=things",
+    "capture_where: tests=tested TAKE things=things",
+    cost=0.4,
+)
+def those_get(things: tuple[Thing, ...], tests: tuple[AllTests, PlaceMeaning | None], used: int) -> CaptureWhere:
+    """Compose "any that are hot get a CO2 reading"."""
+    return capture_where(things, tests, used)
 
 
 @construction("until: UNTIL tests=tests", "until: ASSOONAS tests=tests [COMMA] STOP", cost=0.3)

@@ -103,6 +103,7 @@ def at_word() -> str:
 
 @construction(
     "limit: AT less most=amount [of_what]",
+    "limit: FOR less most=amount [of_what]",
     "limit: WITH most=amount AS UPPERLIMIT",
     "limit: WITH [DET] DRIVEN LIMITEDTO most=amount",
     "limit: [DET] DRIVEN [IS] LIMITEDTO most=amount",

@@ -34,6 +34,7 @@ construction = GRAMMAR.construction
     "command: one=home",
     "command: one=halt",
     "command: one=when",
+    "command: one=capture_where",
     "command: one=otherwise",
     "command: one=limit",
     "command: one=allow",
@@ -86,6 +87,12 @@ def full_stop(used: int) -> Connective:
     return Connective(True, False, used)
 
 
+@construction("joint: FULLSTOP OPENER [COMMA]", cost=0.1)
+def full_stop_opener(used: int) -> Connective:
+    """Compose ". Right,"."""
+    return Connective(True, True, used)
+
+
 @construction("joint: FULLSTOP [AND] then=then [COMMA]", cost=0.1)
 def full_stop_then(used: int, then: str) -> Connective:
     """Compose ". Then"."""
@@ -134,6 +141,12 @@ def then(word: Lex) -> str | None:
 def after_doing(word: Lex, done: CaptureCommand | DriveCommand, used: int) -> After | None:
     """Compose "after photographing tree 4"."""
     return After(done, used) if "after_doing" in word.features else None
+
+
+@construction("opened: OPENER [COMMA]", "opened: OPENER [COMMA] then [COMMA]", cost=0.0)
+def opener(used: int) -> Connective:
+    """Compose "right," at the beginning of a request."""
+    return Connective(False, True, used)
 
 
 @construction("opened: then [COMMA]", cost=0.0)

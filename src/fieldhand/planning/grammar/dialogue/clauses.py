@@ -8,7 +8,7 @@ from dataclasses import replace
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.allowances import allowed, failing
 from fieldhand.planning.grammar.dialogue.capturing import capture, capture_again, capture_elided, meant_things
-from fieldhand.planning.grammar.dialogue.conditions import otherwise, question, until, when
+from fieldhand.planning.grammar.dialogue.conditions import captured_where, otherwise, question, until, when
 from fieldhand.planning.grammar.dialogue.driving import (
     drive,
     driven_home,
@@ -33,6 +33,7 @@ from fieldhand.planning.grammar.meaning import (
     Again,
     Allowed,
     CaptureCommand,
+    CaptureWhere,
     Command,
     Connective,
     DriveCommand,
@@ -138,6 +139,8 @@ def _read(
             return with_step(state, p.StopMission(id="", said=setting.spans_of(command.used)))
         case When():
             return when(setting, state, command, _rest_of_sentence(following))
+        case CaptureWhere():
+            return captured_where(setting, state, command)
         case Otherwise():
             return otherwise(setting, state, setting.spans_of(command.used))
         case LimitClause():

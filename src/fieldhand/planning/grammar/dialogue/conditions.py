@@ -32,6 +32,7 @@ from fieldhand.planning.grammar.dialogue.tested import TREE_TESTS, condition_of,
 from fieldhand.planning.grammar.meaning import (
     AllTests,
     CaptureCommand,
+    CaptureWhere,
     DriveCommand,
     Lead,
     LinkedCommand,
@@ -60,10 +61,11 @@ def when(setting: Setting, state: DialogueState, command: When, following: Seque
         NotComposed: What is tested, or what depends on it, is unclear.
     """
     decides_last = state.commands_in_sentence > 0 and (not following or isinstance(following[0].command, Otherwise))
-    if command.measured_at is not None:
+    if (place := command.measured_at) is not None:
+        command = replace(command, tests=_of_quantity(setting, command.tests))
         if decides_last:
             raise NotComposed("what is decided?")
-        state = _at_tested_place(setting, state, command, command.measured_at)
+        state = _at_tested_place(setting, state, command, place)
     if not command.tests.tests:
         if state.asked is None:
             raise NotComposed("if what is so?")
@@ -100,6 +102,86 @@ def _only_some(state: DialogueState, command: When) -> DialogueState:
     return replace(state, area=None, lead=Lead(place, before.used | command.used))
 
 
+def captured_where(setting: Setting, state: DialogueState, command: CaptureWhere) -> DialogueState:
+    """Return the state after captures at those of the last places where a reading passes a test.
+
+    Raises:
+        NotComposed: No reading was taken at several places.
+    """
+    if state.ended_by is not None or state.order is not None:
+        raise NotComposed("which of those?")
+    command = replace(command, tests=_of_quantity(setting, command.tests))
+    state = _measured_at_each(setting, state, command)
+    if state.loop is None or state.captured is None or not is_inside(state.captured, state.loop):
+        raise NotComposed("which of those?")
+    scope, loop = state.scope, state.loop
+    clause = LinkedCommand(None, command.capture)
+    state = when(setting, replace(state, commands_in_sentence=0), When(command.tests, 0), (clause,))
+    state = capture(setting, state, command.capture)
+    done = state.commands_in_sentence + 1
+    return replace(state, scope=scope, loop=loop, choice=None, decided=None, commands_in_sentence=done)
+
+
+def _of_quantity(setting: Setting, tests: AllTests) -> AllTests:
+    """Return tests of what an action measures, where they name the action ("in the thermal picture").
+
+    Raises:
+        NotComposed: The action measures nothing, or several quantities.
+    """
+    made = []
+    for test in tests.tests:
+        action = setting.robot.action.get(test.quantity)
+        if action is not None and len(action.measures) != 1:
+            raise NotComposed("which reading is tested?")
+        made.append(test if action is None else replace(test, quantity=action.measures[0]))
+    return replace(tests, tests=tuple(made))
+
+
+def _measured_at_each(setting: Setting, state: DialogueState, command: CaptureWhere) -> DialogueState:
+    """Return the state after the reading that a test needs was taken at each of the places that were named for it.
+
+    Raises:
+        NotComposed: The places are others than the last ones, and the reading is not named.
+    """
+    area = command.area
+    if area is None and not state.awaits_command:
+        return state
+    if (
+        area is not None
+        and state.loop is not None
+        and state.where is not None
+        and area.selector == state.where.selector
+    ):
+        return state
+    action = setting.action_measuring(command.tests.tests[0].quantity)
+    if action is None or (area is not None and state.awaits_command):
+        raise NotComposed("what is measured where?")
+    place = area if area is not None else PlaceMeaning(s.Trees(), "several", each=True)
+    return capture(setting, state, CaptureCommand((Thing(action, plural=True),), place, command.used))
+
+
+def _decide_last_at_each(state: DialogueState, command: When, said: Spans, robot: RobotProfile) -> DialogueState | None:
+    """Return the state in which a reading taken at each of several places decides the last captures there.
+
+    None if the last captures are the first ones there.
+    """
+    body = state.loop
+    if body is None or body[:-1] != (*state.scope, len(state.block.steps) - 1):
+        return None
+    steps, number = block_at(state.plan, body).steps, len(state.things)
+    if len(steps) <= number or any(step.act is None for step in steps):
+        return None
+    tested = (*body, len(steps) - number - 1)
+    condition, state = condition_of(replace(state, captured=tested), command.tests, robot)
+    if state.captured != tested:
+        raise NotComposed("which reading is tested?")
+    steps = block_at(state.plan, body).steps
+    choice = p.If(id="", condition=condition, then=p.InOrder(id="", steps=steps[-number:]), said=said)
+    plan = with_node(state.plan, body, p.InOrder(id="", steps=(*steps[:-number], choice)))
+    path = (*body, len(steps) - number)
+    return replace(state, plan=plan, choice=path, decided=command.tests, tested_at=(state.where, state.where_scope))
+
+
 def _for_each_place(state: DialogueState, tests: AllTests, following: Sequence[LinkedCommand]) -> AllTests:
     """Return tests of any of several readings as tests of each, where what depends on them is done at that place."""
     command = following[0].command if following else None
@@ -132,6 +214,8 @@ def _decide_last(state: DialogueState, command: When, said: Spans, robot: RobotP
     if not steps:
         raise NotComposed("nothing depends on the condition")
     inside = (*state.scope, len(steps) - 1)
+    if (at_each := _decide_last_at_each(state, command, said, robot)) is not None:
+        return at_each
     state = replace(state, captured=reading_before(state.plan, inside, robot))
     condition, state = condition_of(state, command.tests, robot)
     if all(test.attribute for test in command.tests.tests):

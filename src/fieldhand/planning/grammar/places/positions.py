@@ -249,7 +249,11 @@ def counted_from(whole: PlaceMeaning, side: Lex) -> PlaceMeaning | None:
     return replace(whole, selector=replace(counted, counted_from=side.value))
 
 
-@construction("place: whole=place [COMMA] STARTING [DET] rank=ORD [TREE]", cost=0.3)
+@construction(
+    "place: whole=place [COMMA] STARTING [DET] rank=ORD [TREE]",
+    "place: whole=place [COMMA] STARTING [DET] rank=ORD ONE",
+    cost=0.3,
+)
 def starting_with(whole: PlaceMeaning, rank: Lex) -> PlaceMeaning | None:
     """Compose "every third tree in row 4, starting with the second tree"."""
     every = as_every_nth(whole.selector)
