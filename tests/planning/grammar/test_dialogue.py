@@ -56,3 +56,30 @@ def test_the_next_trees_are_those_in_the_direction_of_the_drive(way: str, toward
 def test_a_tree_that_may_be_one_of_the_row_before_is_left_open() -> None:
     assert plan_of("Go to row 3, then go to tree 5 and take a picture.") is not None
     assert plan_of("Go to row 3, then go to the northernmost tree and take a picture.") is None
+
+
+def test_rows_are_counted_to_a_side_that_they_do_not_run_to() -> None:
+    assert plan_of("Take a picture of tree 50, move two rows further west and take another.") == (
+        "picture @ TreeIs(50); go Take(1, of RowOf(-2)); picture"
+    )
+    assert plan_of("Take a picture of tree 50, move two rows further north and take another.") is None
+    assert plan_of("Take a picture of tree 50, go to the row to the south and take a picture there.") is None
+
+
+def test_trees_are_counted_from_a_side_by_numbers_as_by_ranks() -> None:
+    by_rank = plan_of("Take a picture of the third tree from the south in row 3.")
+    assert by_rank is not None
+    assert plan_of("Take a picture of tree 3 from the south in row 3.") == by_rank
+    counted = "for InRow(2, 4, south, of Rows(3, 3)): [picture]"
+    assert plan_of("Take pictures of trees 2 to 4 from the south in row 3.") == counted
+
+
+def test_what_is_said_to_come_first_is_the_first_step() -> None:
+    first = "Photograph the oldest tree first, then measure CO2 at tree 4."
+    assert plan_of(first) == "picture @ Top(age_years, 1); co2 @ TreeIs(4)"
+
+
+def test_a_bare_end_is_no_place_and_nothing_follows_it() -> None:
+    assert plan_of("Take a picture at tree 4 and finish.") == "picture @ TreeIs(4)"
+    assert plan_of("Go to tree 4 and stop.") == "go TreeIs(4) | stay"
+    assert plan_of("Take a picture at tree 4, stop, then measure CO2 at tree 5.") is None

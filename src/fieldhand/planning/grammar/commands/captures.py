@@ -10,7 +10,7 @@ from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import LAST_THING, CaptureCommand, Nominal, PlaceMeaning, Thing
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import as_zone, is_across, specifies_part
+from fieldhand.planning.selections import as_every_nth, as_zone, is_across, specifies_part
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -184,8 +184,9 @@ def here(word: Lex) -> PlaceMeaning:
     cost=0.9,
 )
 def thing_and_step(things: tuple[Thing, ...], place: PlaceMeaning, used: int) -> CaptureCommand | None:
-    """Compose "take a picture 4 trees further along"."""
-    return CaptureCommand(things, place, used) if place.shape == "step" or is_across(place.selector) else None
+    """Compose "take a picture 4 trees further along" and "take a picture every 5 trees"."""
+    every = as_every_nth(place.selector) is not None and place.each and all(one.count in (None, 1) for one in things)
+    return CaptureCommand(things, place, used) if place.shape == "step" or is_across(place.selector) or every else None
 
 
 @construction("capture: verb=ACTV place=place", "capture: verb=ACTV relation place=place", cost=0.3)
@@ -367,6 +368,17 @@ def repeated_at_spacing(
     if any(one.count is not None for one in things):
         return None
     return at_spacing((dist, True), used, tuple(replace(one, count=times.value, plural=True) for one in things), place)
+
+
+@construction("capture: verb things=things relation inner=nominal [COMMA] dist=apart", cost=0.2)
+def of_trees_apart(things: tuple[Thing, ...], inner: Nominal, dist: float, used: int) -> CaptureCommand | None:
+    """Compose "take three pictures of trees 15 m apart"."""
+    counts = {one.count for one in things}
+    count = counts.pop()
+    if counts or count is None or count < 2 or not inner.plural or inner.single or inner.complete:
+        return None
+    place = PlaceMeaning(s.Apart(apart_m=dist, count=count, of=inner.selector), "several", count=count)
+    return CaptureCommand(things, place, used)
 
 
 @construction("capture: MAXIMISE NUMBEROF inner=nominal verb=ACTV", cost=0.2)

@@ -129,7 +129,7 @@ def best_first(rank: tuple[str, bool]) -> tuple[str, str, bool] | None:
     return ("attribute", rank[0], not rank[1]) if rank[0] else None
 
 
-@construction("order: order=ordered", cost=0.2)
+@construction("order: order=ordered", "order: GO order=ordered", cost=0.2)
 def in_an_order(order: tuple[str, str, bool], used: int) -> InAnOrder:
     """Compose "visit them from west to east"."""
     return InAnOrder(order[0], order[1], order[2], used)

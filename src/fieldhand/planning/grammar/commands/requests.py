@@ -167,6 +167,12 @@ def first_of_all(first: Connective, one: Command) -> Said:
     return Said((LinkedCommand(first, one),))
 
 
+@construction("said: one=capture FIRSTONE", "said: one=drive FIRSTONE", cost=0.2)
+def what_is_first(one: CaptureCommand | DriveCommand, used: int) -> Said:
+    """Compose "photograph tree 4 first"."""
+    return Said((LinkedCommand(Connective(False, True, used & ~one.used), one),))
+
+
 @construction("said: one=command", cost=0.0)
 def first_command(one: Command) -> Said:
     """Compose "take a picture"."""

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.onebyone import swapped
-from fieldhand.planning.grammar.dialogue.driving import drive, may_be_left_out, ordered, require_known, visits
+from fieldhand.planning.grammar.dialogue.driving import drive, enter, may_be_left_out, ordered, require_known, visits
 from fieldhand.planning.grammar.dialogue.fitting import (
     along_row,
     fitted,
@@ -48,7 +48,15 @@ from fieldhand.planning.grammar.meaning import (
     PlaceMeaning,
     Thing,
 )
-from fieldhand.planning.selections import are_rows, counts_in_row, is_end_of_site, is_row_of_place, landmark_of, some_of
+from fieldhand.planning.selections import (
+    are_rows,
+    counts_in_row,
+    is_end_of_site,
+    is_one_row,
+    is_row_of_place,
+    landmark_of,
+    some_of,
+)
 from fieldhand.task import plan as p
 from fieldhand.task.conditions import Condition
 
@@ -58,6 +66,13 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
     if command.relation == "lead" and command.place is not None and command.place.shape == "one":
         state = drive(setting, state, DriveCommand(command.place, command.used))
         command = replace(command, place=None)
+    if (
+        state.area is not None
+        and command.place is None
+        and _is_one_more(command)
+        and is_one_row(state.area.place.selector)
+    ):
+        state = enter(setting, state, state.area, None)  # "move two rows over and take another"
     things = meant_things(state, command.things)
     place, state, before = _place_of(setting, state, command)
     said = (*before, *setting.spans_of(command.used))
@@ -78,6 +93,11 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
     if place.shape == "one":
         return capture_once(state, replace(command, things=things), place, said)
     return _capture_at_each(setting, replace(state, loop=None), replace(command, things=things), place, said)
+
+
+def _is_one_more(command: CaptureCommand) -> bool:
+    """Return True for "another one" of what was captured last."""
+    return [(one.action, one.count) for one in command.things] == [(LAST_THING, 1)]
 
 
 def _those_again(state: DialogueState, place: PlaceMeaning | None) -> PlaceMeaning | None:

@@ -79,6 +79,8 @@ def _ended(state: DialogueState) -> DialogueState:
     for _, node in walk(state.plan):
         if (loop := as_for_each(node)) is not None and _visits_open_number(loop):
             raise NotComposed("how many different ones?")
+        if node.is_series and any(step.ends_plan for step in node.children[:-1]):
+            raise NotComposed("what follows the end?")
         if node.is_choice and EMPTY in node.children:
             raise NotComposed("nothing is done in one case")
         if node.is_optional_step and not any(one.act for one in p.walk(node)):
@@ -88,7 +90,8 @@ def _ended(state: DialogueState) -> DialogueState:
     if state.nominal is None and state.in_case is not None:
         return replace(state, nominal=state.in_case)
     if state.nominal is None and state.plan.steps[-1].ends_plan:
-        return replace(state, nominal_said=state.plan.steps[-1].said)
+        stays = state.plan.steps[-2].only_drives
+        return replace(state, nominal="stay" if stays else None, nominal_said=state.plan.steps[-1].said)
     if state.nominal is None and state.returned and state.plan.steps[-1].only_drives:
         return replace(state, nominal="stay")
     return state
@@ -117,7 +120,9 @@ def _read(
     if joint is not None and (joint.from_here or (joint.then and steps_on)) and state.where is not None:
         here = PlaceMeaning(s.Here(), "one")
         state = replace(state, where=here, where_scope=state.scope, loop=None)
-    if joint is not None and (joint.then or joint.both):
+    if joint is not None and joint.then and isinstance(command, Home):
+        command = replace(command, used=command.used | joint.used)  # "afterwards go home"
+    elif joint is not None and (joint.then or joint.both):
         state = with_joints(state, setting.spans_of(joint.used))
     match command:
         case CaptureCommand():

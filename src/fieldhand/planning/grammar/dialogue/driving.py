@@ -206,7 +206,7 @@ def ordered(loop: p.ForEach, command: InAnOrder, said: Spans) -> p.ForEach:
     said = (*loop.said, *said)
     if not command.by:
         return replace(loop, order="given", said=said)
-    if any(as_every_nth(part) is not None for part in loop.select.walk()) and command.by != "attribute":
+    if any(as_every_nth(part) is not None for part in loop.select.walk()) and command.by not in ("attribute", "rows"):
         raise NotComposed("counted or visited from there?")
     by = cast(Order, command.by)
     select = s.Ordered(by=by, attribute=command.attribute, descending=command.descending, of=loop.select)

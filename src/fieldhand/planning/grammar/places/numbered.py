@@ -10,6 +10,8 @@ from fieldhand.places import selectors as s
 from fieldhand.places.context import Context
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import PlaceMeaning, Shape
+from fieldhand.planning.grammar.places.compass import SIDES
+from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import is_one_row, over
 from fieldhand.site.model import Site
 
@@ -86,6 +88,20 @@ def ids_of(selector: s.Selector, site: Site) -> set[str] | None:
         return {place.id for place in resolve(selector, site, Context(here=site.start))}
     except (PlaceError, TaskError):
         return None
+
+
+@construction(
+    "place: [DET] trees=tree_ids FROM [DET] side=DIR in_ rows=rows",
+    "place: [DET] trees=tree_ids FROM [DET] side=DIR in_ rows=each_row",
+    cost=0.1,
+)
+def trees_from_side(trees: tuple[str, ...], side: Lex, rows: s.Selector) -> PlaceMeaning | None:
+    """Compose "tree 3 from the south in row 4"."""
+    if side.value not in SIDES or not all(name.isdigit() for name in trees):
+        return None
+    parts = [s.InRow(first=first, last=last, counted_from=side.value) for first, last in _runs(trees)]
+    count = len(trees) if is_one_row(rows) else None
+    return PlaceMeaning(over(_all_of(parts), rows), "one" if count == 1 else "several", count=count)
 
 
 @construction("place: [DET] trees=tree_ids in_ rows=each_row", cost=0.1)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.limits import Amount
@@ -71,6 +72,17 @@ def tree_with_id(word: Lex, number: Lex) -> PlaceMeaning | None:
     if "by_id" not in word.features or whole(number.value) is None:
         return None
     return PlaceMeaning(s.TreeIs(tree=name_of(number)), "one")
+
+
+@construction("place: whole=place [COMMA] EXCEPT [FOR] [DET] TREE word=NUMBERED [HASH] number=NUM", cost=0.1)
+def except_tree_with_id(whole: PlaceMeaning, word: Lex, number: Lex) -> PlaceMeaning | None:
+    """Compose "every tree in the same row except the tree with id 12"."""
+    left_out = tree_with_id(word, number)
+    if left_out is None or not whole.selector.relative:  # elsewhere it is known which trees stand there
+        return None
+    if whole.shape not in ("several", "area") or whole.count is not None or whole.per is not None:
+        return None
+    return replace(whole, selector=s.Excluding(places=left_out.selector, of=whole.selector))
 
 
 @construction(

@@ -12,6 +12,7 @@ from fieldhand.planning.grammar.places.numbers import name_of, whole
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import chooses_from_trees, counts_in_row, is_one_row, over
 from fieldhand.site.model import Site
+from fieldhand.terms import Towards
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -71,6 +72,12 @@ def rows_from_to(first: Lex, last: Lex) -> s.Selector:
 def row_list(noun: Lex, first: Lex) -> tuple[str, ...] | None:
     """Compose "rows 3", the beginning of "rows 3, 5 and 7"."""
     return (name_of(first),) if noun.plural else None
+
+
+@construction("row_list: ROW first=NUM [COMMA] [AND] ROW number=NUM", cost=0.0)
+def two_in_row_list(first: Lex, number: Lex) -> tuple[str, ...]:
+    """Compose "row 3 and row 5", the beginning of "row 3, row 5 and row 7"."""
+    return (name_of(first), name_of(number))
 
 
 @construction("row_list: rows=row_list [COMMA] [AND] [ROW] number=NUM", cost=0.1)
@@ -135,13 +142,24 @@ def previous_row() -> s.Selector:
     return s.RowOf(over=-1)
 
 
-@construction("rows: n=count noun=ROW side=DIR", "rows: n=count noun=ROW AT DET side=DIR", cost=0.1, given=("site",))
-def rows_to_side(n: int, noun: Lex, side: Lex, site: Site) -> s.Selector | None:
-    """Compose "three rows east", where rows lie beside each other that way; they count from the west or the north."""
-    across = ("north", "south") if all(block.runs_east_west for block in site.planting.blocks) else ("west", "east")
-    if side.value not in across or noun.plural != (n > 1):
+@construction("rows: n=count noun=ROW way=way", cost=0.1, given=("site",))
+def rows_to_side(n: int, noun: Lex, way: Towards, site: Site) -> s.Selector | None:
+    """Compose "three rows further east"."""
+    return rows_towards(n, way, site) if noun.plural == (n > 1) else None
+
+
+@construction("rows: DET noun=ROW to=AT DET side=DIR", cost=0.1, given=("site",))
+def row_to_side(noun: Lex, to: Lex, side: Lex, site: Site) -> s.Selector | None:
+    """Compose "the row to the east"."""
+    return None if noun.plural or "motion" not in to.features else rows_towards(1, side.value, site)
+
+
+def rows_towards(number: int, side: str, site: Site) -> s.Selector | None:
+    """Return the row so many rows to a side of the current one; None if the rows run to that side."""
+    runs = {block.runs_east_west for block in site.planting.blocks}
+    if runs != {side in ("north", "south")} or side not in SIDES:
         return None
-    return s.RowOf(over=-n if side.value == across[0] else n)
+    return s.RowOf(over=number if side in ("east", "south") else -number)
 
 
 @construction("rows: n=count ROWSOVER", cost=0.1)

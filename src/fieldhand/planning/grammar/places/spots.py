@@ -96,10 +96,16 @@ def start_marker() -> s.Selector:
     return s.Marker(name="start")
 
 
-@construction("marker: FINISH", "marker: DET FINISH", cost=0.1)
-def end_marker() -> s.Selector:
+@construction("marker: noun=FINISH", "marker: DET FINISH", cost=0.1)
+def end_marker(noun: Lex | None = None) -> s.Selector | None:
     """Compose "the end"."""
-    return s.Marker(name="end")
+    return None if noun is not None and "ends" in noun.features else s.Marker(name="end")
+
+
+@construction("marker: noun=FINISH", cost=1.6)
+def bare_end_marker(noun: Lex) -> s.Selector | None:
+    """Compose "end", which rather is a command: "take a picture at tree 4 and finish"."""
+    return s.Marker(name="end") if "ends" in noun.features else None
 
 
 @construction("marker: [DET] CHARGER", cost=0.1)

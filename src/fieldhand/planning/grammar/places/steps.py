@@ -112,6 +112,12 @@ def opposite(to: PlaceMeaning | None = None, inner: Nominal | None = None) -> Pl
     return PlaceMeaning(s.Across(origin=to.selector), "one") if to.shape in ("one", "here") else None
 
 
+@construction("place: word=OPPOSITE", cost=0.6)
+def across_the_aisle(word: Lex) -> PlaceMeaning | None:
+    """Compose "across the aisle"."""
+    return PlaceMeaning(s.Across(origin=s.Here()), "one") if "over_aisle" in word.features else None
+
+
 @construction("way: word=ALONG", "way: word=ALONG DET ROW", "way: word=ALONG THATROW", cost=0.1)
 def way_along(word: Lex) -> Towards | None:
     """Compose "down the row"."""
@@ -127,6 +133,7 @@ def further() -> Towards:
 @construction(
     "way: AT DET side=DIR",
     "way: side=DIR",
+    "way: MORE side=DIR",
     "way: MORE AT DET side=DIR",
     "way: WAY AT DET side=DIR",
     "way: WAY side=DIR",
