@@ -25,7 +25,6 @@ KNOWN = [case[:3] for case in (*english.PLANNED, *rows.PLANNED)]
 #: Plans that do the same: with conditions in another order, without the name of a reading that nothing uses, or with the
 #: drive to a tree as part of what is done there.
 SAME = {
-    "Picture of tree 50, then shift three rows east and take another.": "picture @ TreeIs(50); picture @ Take(1, of RowOf(3))",
     "can you check whether the CO2 at tree 4 is below 400 ppm?": "co2 @ TreeIs(4)",
     "take a picture of every yellow tree older than 8 years that is within 50 m of the charger": "for Within(50, Marker(charger), of Where(age_years, gt, 8, of Where(leaf_color, eq, yellow))): [picture]",
 }

@@ -5,8 +5,10 @@ from __future__ import annotations
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import (
     After,
+    Again,
     Allowed,
     CaptureCommand,
+    CaptureWhere,
     Command,
     Connective,
     DriveCommand,
@@ -17,6 +19,7 @@ from fieldhand.planning.grammar.meaning import (
     LimitClause,
     LinkedCommand,
     Otherwise,
+    ReadingQuestion,
     Said,
     StopCommand,
     When,
@@ -25,6 +28,9 @@ from fieldhand.planning.grammar.words import Lex
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
+
+#: Clauses that a command may follow without a connective.
+_LEADS_ON = When | Otherwise | Lead | LimitClause | Allowed | InAnOrder | Failing
 
 
 @construction(
@@ -185,37 +191,31 @@ def next_command(before: Said, joint: Connective, one: Command) -> Said:
     return Said((*before.clauses, LinkedCommand(joint, one)))
 
 
-@construction(
-    "said: before=said one=when",
-    "said: before=said one=limit",
-    "said: before=said one=capture",
-    "said: before=said one=allow",
-    "said: before=said one=until",
-    "said: before=said one=visit_limit",
-    "said: before=said one=halt",
-    "said: before=said one=order",
-    "said: before=said one=after",
-    "said: before=said one=drive",
-    "said: before=said one=home",
-    "said: before=said one=lead",
-    cost=0.8,
-)
+@construction("said: before=said one=command", cost=0.8)
 def without_joint(before: Said, one: Command) -> Said | None:
     """Compose "take a picture if it is high"."""
-    if (
-        isinstance(one, CaptureCommand | StopCommand | DriveCommand | Home)
-        and not isinstance(
-            before.clauses[-1].command, When | Otherwise | Lead | LimitClause | Allowed | InAnOrder | Failing
-        )
-        and not (isinstance(one, CaptureCommand) and isinstance(before.clauses[-1].command, DriveCommand))
-    ):
-        return None
-    if isinstance(one, Lead) and not isinstance(before.clauses[-1].command, Otherwise):
-        return None
-    return Said((*before.clauses, LinkedCommand(None, one)))
+    last = before.clauses[-1].command
+    match one:
+        case Otherwise() | Again() | CaptureWhere() | ReadingQuestion() | Failing():
+            return None
+        case Lead():
+            follows = isinstance(last, Otherwise)
+        case CaptureCommand():
+            follows = isinstance(last, _LEADS_ON | DriveCommand)
+        case StopCommand() | DriveCommand() | Home():
+            follows = isinstance(last, _LEADS_ON)
+        case _:
+            follows = True
+    return Said((*before.clauses, LinkedCommand(None, one))) if follows else None
 
 
-@construction("request: said=said [FULLSTOP] [FULLSTOP]", "request: FULLSTOP said=said [FULLSTOP] [FULLSTOP]", cost=0.0)
+@construction("stops_at_end: FULLSTOP [FULLSTOP]", cost=0.0)
+def stops_at_end() -> str:
+    """Compose "."."""
+    return "."
+
+
+@construction("request: [FULLSTOP] said=said [stops_at_end]", cost=0.0)
 def request(said: Said) -> Said:
     """Compose "take a picture at tree 4."."""
     return said

@@ -218,11 +218,21 @@ def _unvisited(selector: s.Selector) -> s.Selector:
     return s.NotVisited(of=selector)
 
 
+@construction("except: [COMMA] EXCEPT [FOR]", cost=0.0)
+def except_word() -> str:
+    """Compose "except for"."""
+    return "except"
+
+
+@construction("but_not: except", "but_not: [COMMA] BUT [NOT]", cost=0.0)
+def but_not() -> str:
+    """Compose ", but not"."""
+    return "except"
+
+
 @construction(
-    "place: whole=place [COMMA] EXCEPT [FOR] trees=numbers",
-    "place: whole=place [COMMA] BUT [NOT] trees=numbers",
-    "place: whole=place [COMMA] EXCEPT [FOR] [DET] trees=tree_ids",
-    "place: whole=place [COMMA] BUT [NOT] [DET] trees=tree_ids",
+    "place: whole=place but_not trees=numbers",
+    "place: whole=place but_not [DET] trees=tree_ids",
     cost=0.3,
 )
 def named_except_numbers(whole: PlaceMeaning, trees: tuple[str, ...]) -> PlaceMeaning | None:
@@ -234,11 +244,7 @@ def named_except_numbers(whole: PlaceMeaning, trees: tuple[str, ...]) -> PlaceMe
     return replace(whole, selector=s.Excluding(places=out, of=whole.selector), count=None)
 
 
-@construction(
-    "place: whole=place [COMMA] EXCEPT [FOR] [DET] value=ATTRVAL ONE",
-    "place: whole=place [COMMA] BUT [NOT] [DET] value=ATTRVAL ONE",
-    cost=0.2,
-)
+@construction("place: whole=place but_not [DET] value=ATTRVAL ONE", cost=0.2)
 def except_those_of_a_kind(whole: PlaceMeaning, value: Lex) -> list[PlaceMeaning] | None:
     """Compose "row 3 except the yellow ones"."""
     if not _may_leave_out(whole):
@@ -255,10 +261,8 @@ def except_those_of_a_kind(whole: PlaceMeaning, value: Lex) -> list[PlaceMeaning
 
 
 @construction(
-    "place: whole=place [COMMA] EXCEPT [FOR] [DET] out=positions [TREE] in_ row=rows",
-    "place: whole=place [COMMA] BUT [NOT] [DET] out=positions [TREE] in_ row=rows",
-    "place: whole=place [COMMA] EXCEPT [FOR] [DET] out=position ONE in_ row=rows",
-    "place: whole=place [COMMA] BUT [NOT] [DET] out=position ONE in_ row=rows",
+    "place: whole=place but_not [DET] out=positions [TREE] in_ row=rows",
+    "place: whole=place but_not [DET] out=position ONE in_ row=rows",
     cost=0.2,
 )
 def except_positions(whole: PlaceMeaning, out: tuple[int, int], row: s.Selector) -> PlaceMeaning | None:
@@ -289,9 +293,7 @@ def except_numbers(inner: Nominal, trees: tuple[str, ...]) -> PlaceMeaning | Non
     return PlaceMeaning(s.Excluding(places=parts[0] if len(parts) == 1 else s.UnionOf(parts=parts)), "several")
 
 
-@construction(
-    "place: whole=place [COMMA] EXCEPT [FOR] part=place", "place: whole=place BUT part=place", cost=0.3, given=("site",)
-)
+@construction("place: whole=place except part=place", "place: whole=place BUT part=place", cost=0.3, given=("site",))
 def except_for(whole: PlaceMeaning, part: PlaceMeaning, site: Site) -> PlaceMeaning | None:
     """Compose "all trees except the yellow trees"."""
     if (

@@ -33,7 +33,7 @@ def trees_of_rows(trees: tuple[str, ...], rows: s.Selector, site: Site) -> list[
     return [PlaceMeaning(one, shape, count=count) for one in numbered(trees, rows, site)]
 
 
-@construction("place: whole=place [COMMA] EXCEPT [DET] trees=tree_ids", cost=0.2, given=("site",))
+@construction("place: whole=place except [DET] trees=tree_ids", cost=0.2, given=("site",))
 def except_trees_of_rows(whole: PlaceMeaning, trees: tuple[str, ...], site: Site) -> list[PlaceMeaning] | None:
     """Compose "the trees of row 3 except tree 5"."""
     if whole.shape not in ("several", "area") or whole.count is not None or whole.per is not None:

@@ -74,7 +74,7 @@ def tree_with_id(word: Lex, number: Lex) -> PlaceMeaning | None:
     return PlaceMeaning(s.TreeIs(tree=name_of(number)), "one")
 
 
-@construction("place: whole=place [COMMA] EXCEPT [FOR] [DET] TREE word=NUMBERED [HASH] number=NUM", cost=0.1)
+@construction("place: whole=place except [DET] TREE word=NUMBERED [HASH] number=NUM", cost=0.1)
 def except_tree_with_id(whole: PlaceMeaning, word: Lex, number: Lex) -> PlaceMeaning | None:
     """Compose "every tree in the same row except the tree with id 12"."""
     left_out = tree_with_id(word, number)

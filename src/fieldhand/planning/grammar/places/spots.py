@@ -153,12 +153,7 @@ def corners_of_side(side: Lex, noun: Lex, n: int | None = None) -> Nominal | Non
     return Nominal(s.Corners(which=which), plural=True, complete=2)
 
 
-@construction(
-    "place: whole=place [COMMA] EXCEPT [DET] side=DIR ONE",
-    "place: whole=place [COMMA] BUT NOT [DET] side=DIR ONE",
-    "place: whole=place [COMMA] BUT [DET] side=DIR ONE",
-    cost=0.2,
-)
+@construction("place: whole=place but_not [DET] side=DIR ONE", cost=0.2)
 def corners_except(whole: PlaceMeaning, side: Lex) -> PlaceMeaning | None:
     """Compose "each corner except the north-west one"."""
     if whole.selector != s.Corners() or side.value not in CORNERS:
