@@ -125,12 +125,14 @@ class DriveCommand:
         begins: True if the work begins there.
         returns: True if the robot comes back there.
         along: Direction along a row, if the robot drives along it.
+        picks: True if the places are only chosen ("take three trees").
     """
 
     place: PlaceMeaning
     used: int
     begins: bool = False
     returns: bool = False
+    picks: bool = False
     along: Along = ""
 
 

@@ -100,6 +100,7 @@ def composed(
     found = readings(request, site, robot, language)
     if not found:
         return None
+    found = _without_lost_words(found, request, site, robot)
     best, *others = found
     meant = _meant(best, request)
     if any(other.cost < best.cost + _MARGIN and not _same(_meant(other, request), meant) for other in others):
@@ -114,6 +115,17 @@ def composed(
     ):
         return None
     return outcome
+
+
+def _without_lost_words(
+    found: list[RequestReading], request: str, site: Site, robot: RobotProfile
+) -> list[RequestReading]:
+    """Return readings without the first ones, as far as they skip words that ask for something; all if all do."""
+    for number, reading in enumerate(found):
+        outcome = _outcome_of(_meant(reading, request), request, site, robot)
+        if not isinstance(outcome, Planned) or not _leaves_words(outcome, reading.remarks):
+            return found[number:]
+    return found
 
 
 def planned_clauses(

@@ -73,7 +73,7 @@ def topic(place: PlaceMeaning, things: tuple[Thing, ...], used: int) -> CaptureC
 @construction("capture: things=things place=here", cost=1.2)
 def there_without_verb(things: tuple[Thing, ...], place: PlaceMeaning, used: int) -> CaptureCommand | None:
     """Compose "canopy temperature and CO2 at each of them"."""
-    return CaptureCommand(things, place, used) if place.shape == "those" else None
+    return CaptureCommand(things, place, used) if place.shape in ("here", "those") else None
 
 
 @construction("capture: things=things PER TREE", "capture: verb things=things PER TREE", cost=0.8)
@@ -110,6 +110,12 @@ def with_camera(
     if verb is not None and verb.value.actions[0] != things[0].action:
         return None
     return CaptureCommand(tuple(replace(one, count=None) for one in things), place, used)
+
+
+@construction("capture: TAKE place=place WITH things=things", cost=0.6)
+def do_with_camera(place: PlaceMeaning, things: tuple[Thing, ...], used: int) -> CaptureCommand | None:
+    """Compose "do rows 1 and 3 with the thermal camera"."""
+    return topic(place, tuple(replace(one, count=None) for one in things), used)
 
 
 @construction("capture: place=place SHOULD verb=ACTV", "capture: place=place IS verb=ACTV", cost=0.4)
@@ -379,6 +385,22 @@ def of_trees_apart(things: tuple[Thing, ...], inner: Nominal, dist: float, used:
         return None
     place = PlaceMeaning(s.Apart(apart_m=dist, count=count, of=inner.selector), "several", count=count)
     return CaptureCommand(things, place, used)
+
+
+@construction("capture: relation place=place times=COUNT", cost=1.0)
+def elsewhere_so_often(place: PlaceMeaning, times: Lex, used: int) -> CaptureCommand | None:
+    """Compose "at tree 6 twice" behind "at tree 5 three times"."""
+    if place.shape not in ("one", "several"):
+        return None
+    return CaptureCommand((Thing(LAST_THING),), place, used, times=times.value)
+
+
+@construction("capture: ASMANY [DET] inner=nominal ASCAN verb=ACTV", cost=0.3)
+def as_many_as_it_can(inner: Nominal, verb: Lex, used: int) -> CaptureCommand | None:
+    """Compose "as many of the yellow trees as it can photograph"."""
+    if inner.single or not inner.plural:
+        return None
+    return act_on(verb, PlaceMeaning(inner.selector, "several", optional=True), used)
 
 
 @construction("capture: MAXIMISE NUMBEROF inner=nominal verb=ACTV", cost=0.2)

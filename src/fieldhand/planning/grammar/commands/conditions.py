@@ -284,6 +284,12 @@ def failing(used: int) -> Failing:
     return Failing(used)
 
 
+@construction("when: IF test=predicate", cost=0.8)
+def when_so(test: Test, used: int) -> When:
+    """Compose "if hot"."""
+    return When(AllTests((test,)), used)
+
+
 @construction("when: IFSO", cost=0.2)
 def if_so(used: int) -> When:
     """Compose "if so"."""

@@ -31,7 +31,7 @@ construction = GRAMMAR.construction
 @construction("drive: TAKE place=place", cost=1.5)
 def pick(place: PlaceMeaning, used: int) -> DriveCommand | None:
     """Compose "take three trees"."""
-    return DriveCommand(place, used) if place.shape == "several" else None
+    return DriveCommand(place, used, picks=True) if place.shape == "several" else None
 
 
 @construction(
@@ -61,6 +61,12 @@ def drive_to(place: PlaceMeaning, used: int, verb: Lex | None = None) -> DriveCo
 def towards() -> str:
     """Compose "to"."""
     return "to"
+
+
+@construction("drive: STARTING place=marker", "drive: STARTING [AT] place=marker", cost=0.2)
+def starting_from(place: s.Selector, used: int) -> DriveCommand:
+    """Compose "starting from the barn"."""
+    return DriveCommand(PlaceMeaning(place, "one"), used, begins=True)
 
 
 @construction("drive: GO WITH place=place", cost=0.5)
@@ -116,7 +122,13 @@ def from_best_to_worst(first: tuple[str, bool], last: tuple[str, bool]) -> tuple
     return ("attribute", first[0], not first[1])
 
 
-@construction("ordered: [GOING] FROM [DET] first=MOST AT [DET] last=MOST", cost=0.1)
+@construction(
+    "ordered: [GOING] FROM [DET] first=DIR FINISH AT [DET] last=DIR",
+    "ordered: [GOING] FROM [DET] first=DIR FINISH AT [DET] last=DIR FINISH",
+    "ordered: [GOING] FROM [DET] first=DIR SIDE AT [DET] last=DIR [SIDE]",
+    "ordered: [GOING] FROM [DET] first=MOST AT [DET] last=MOST",
+    cost=0.1,
+)
 def from_side_to_side(first: Lex, last: Lex) -> tuple[str, str, bool] | None:
     """Compose "from the most northerly to the most southerly"."""
     by = f"{first.value}_to_{last.value}"

@@ -290,9 +290,16 @@ def capture_elided(setting: Setting, state: DialogueState) -> DialogueState:
     things = state.things
     if lead.place.shape != "area":
         things = tuple(replace(thing, count=None) for thing in things)
-    elif lead.relation in ("of", "") or (state.where is not None and state.where.shape != "area"):
+    elif not _are_of_each(things) and (
+        lead.relation in ("of", "") or (state.where is not None and state.where.shape != "area")
+    ):
         raise NotComposed("every tree, or how many?")
     return capture(setting, replace(state, lead=None), CaptureCommand(things, lead.place, lead.used))
+
+
+def _are_of_each(things: tuple[Thing, ...]) -> bool:
+    """Return True for captures in the plural without a number, which are made at each tree of an area."""
+    return bool(things) and all(thing.plural and thing.count is None for thing in things)
 
 
 def capture_again(setting: Setting, state: DialogueState, command: Again) -> DialogueState:

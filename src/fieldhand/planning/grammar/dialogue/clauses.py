@@ -133,6 +133,8 @@ def _read(
                 raise NotComposed("what is done with it?")
             return capture(setting, state, command)
         case DriveCommand():
+            if command.picks and not any(isinstance(one.command, CaptureCommand | CaptureWhere) for one in following):
+                raise NotComposed("what is done with those?")
             return drive(setting, state, command)
         case Lead():
             if joint is not None and not (joint.full or joint.then or joint.both):
@@ -159,6 +161,8 @@ def _read(
         case Again():
             return capture_again(setting, state, command)
         case InAnOrder():
+            if not any(isinstance(clause.command, CaptureCommand) for clause in _rest_of_sentence(following)):
+                state = capture_elided(setting, state)  # "pictures of row 1 from ... and of row 2 from ..."
             return put_in_order(setting, state, command)
         case After():
             return _after(setting, state, command)

@@ -17,6 +17,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
     is_conditional,
     is_inside,
     node_at,
+    walk,
     with_node,
 )
 from fieldhand.planning.grammar.dialogue.state import (
@@ -77,6 +78,8 @@ def when(setting: Setting, state: DialogueState, command: When, following: Seque
     vague = [test for test in command.tests.tests if not test.quantity and not test.attribute]
     if vague and len([thing for thing in state.things if robot.action[thing.action].measures]) > 1:
         raise NotComposed("which reading is tested?")
+    if not decides_last:
+        state = _measured_here(setting, state, command)
     if decides_last:
         return _decide_last(state, command, said, robot)
     if state.awaits_command:
@@ -120,6 +123,27 @@ def captured_where(setting: Setting, state: DialogueState, command: CaptureWhere
     state = capture(setting, state, command.capture)
     done = state.commands_in_sentence + 1
     return replace(state, scope=scope, loop=loop, choice=None, decided=None, commands_in_sentence=done)
+
+
+def _measured_here(setting: Setting, state: DialogueState, command: When) -> DialogueState:
+    """Return the state after the reading that a condition names was taken where the robot was sent, if it was not yet.
+
+    "Go to tree 5. If the CO2 is high, ..." takes it at tree 5.
+    """
+    tests = command.tests.tests
+    quantities = {test.quantity for test in tests}
+    action = setting.action_measuring(next(iter(quantities))) if len(quantities) == 1 else None
+    steps = state.block.steps
+    if action is None or command.measured_at is not None or command.tests.of_last or not steps:
+        return state
+    if not steps[-1].only_drives or any(_measures(node, action) for _, node in walk(state.plan)):
+        return state
+    return capture(setting, state, CaptureCommand((Thing(action),), None, command.used))
+
+
+def _measures(node: p.Node, action: str) -> bool:
+    """Return True for a capture by an action."""
+    return node.act is not None and node.act.action == action
 
 
 def _of_quantity(setting: Setting, tests: AllTests) -> AllTests:

@@ -29,10 +29,10 @@ _COMPASS = frozenset({"north", "east", "south", "west"})
 def drive(setting: Setting, state: DialogueState, command: DriveCommand) -> DialogueState:
     """Return the state after a drive to one or several places, or into an area of which more is said."""
     said, place = setting.spans_of(command.used), command.place
-    if command.begins and state.plan.steps:
-        raise NotComposed("where to begin is said too late")
     if command.begins and place.selector == s.Marker(name="start"):
         return with_joints(state, said)  # every mission begins there
+    if command.begins and state.plan.steps:
+        raise NotComposed("where to begin is said too late")
     area, leads = state.area, False
     if state.lead is not None and state.lead.place.shape == "one" and place.shape in ("one", "step"):
         leads = True

@@ -217,6 +217,12 @@ def places_of_area(where: s.Selector, inner: PlaceMeaning) -> PlaceMeaning | Non
     return replace(inner, selector=over(inner.selector, where))
 
 
+@construction("place: WHOLEOF where=region", cost=0.2)
+def whole_area(where: s.Selector) -> PlaceMeaning:
+    """Compose "the whole of row 4"."""
+    return PlaceMeaning(where, "several", each=True)
+
+
 @construction("place: where=region", cost=0.4)
 def area(where: s.Selector) -> PlaceMeaning:
     """Compose "the northern half" as a place."""

@@ -66,6 +66,8 @@ def any_of_them(word: Lex, inner: Nominal) -> PlaceMeaning | None:
     """Compose "any tree of row 4" and "whichever tree is farthest to the west"."""
     if inner.single and "free_choice" in word.features:
         return PlaceMeaning(inner.selector, "one")
+    if inner.tested and not inner.plural:
+        return PlaceMeaning(inner.selector, "several", each=True)  # "any tree that is older than 8 years"
     if inner.single or is_by_attribute(inner.selector):
         return None  # "any yellow tree": one, or each that there is?
     return PlaceMeaning(s.Take(count=1, of=inner.selector), "one")

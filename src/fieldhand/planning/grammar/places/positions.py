@@ -383,6 +383,14 @@ def first_and_last(
     return PlaceMeaning(s.UnionOf(parts=(s.First(), s.Last())), "several", count=2)
 
 
+@construction("place: n=count inner=nominal EVENLYALONG rows=rows", cost=0.2)
+def evenly_along(n: int, inner: Nominal, rows: s.Selector) -> PlaceMeaning | None:
+    """Compose "ten trees spread evenly along row 4"."""
+    if inner.single or inner.complete or n < 2 or not is_one_row(rows) or not chooses_from_trees(inner.selector):
+        return None
+    return PlaceMeaning(s.Evenly(count=n, of=over(inner.selector, rows)), "several", count=n)
+
+
 @construction("place: [DET] n=count OF EACH m=count inner=nominal", cost=0.2)
 def some_of_every(n: int, m: int, inner: Nominal) -> PlaceMeaning | None:
     """Compose "3 of every 5 trees"."""

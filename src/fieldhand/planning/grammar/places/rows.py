@@ -317,6 +317,15 @@ def rows_of_block(rows: s.Selector, block: s.Selector) -> s.Selector | None:
     return over(rows, block)
 
 
+@construction("rows_of_block: rows=rows in_ EACH noun=PLOT", cost=0.1, given=("site",))
+def rows_of_each_block(rows: s.Selector, noun: Lex, site: Site) -> s.Selector | None:
+    """Compose "row 12 of both blocks"."""
+    blocks = site.planting.blocks
+    if "block" not in noun.features or len(blocks) < 2 or any(isinstance(part, s.InBlock) for part in rows.walk()):
+        return None
+    return s.UnionOf(parts=tuple(over(rows, s.InBlock(block=block.name)) for block in blocks))
+
+
 @construction("rows: rows=rows_of_block", cost=0.0)
 def rows_with_block(rows: s.Selector) -> s.Selector:
     """Compose "row 10 of the north block" as rows."""
