@@ -23,8 +23,10 @@ from support.requests import english, rows
 ROBOTS = {name: load_robot(name) for name in ("husky", "amiga")}
 KNOWN = [case[:3] for case in (*english.PLANNED, *rows.PLANNED)]
 #: Plans that do the same: with conditions in another order, without the name of a reading that nothing uses, or with the
-#: drive to a tree as part of what is done there.
+#: drive to a tree as part of what is done there, or with places in turn as visits in the order given.
 SAME = {
+    "Photograph the corners going northwest, northeast, southeast and southwest.": "for UnionOf(Corners(nw)+Corners(ne)+Corners(se)+Corners(sw)) given: [picture]",
+    "CO2 readings at the corners: first the south-west corner, then the north-west, then the north-east and the south-east last.": "for UnionOf(Corners(sw)+Corners(nw)+Corners(ne)+Corners(se)) given: [co2]",
     "can you check whether the CO2 at tree 4 is below 400 ppm?": "co2 @ TreeIs(4)",
     "take a picture of every yellow tree older than 8 years that is within 50 m of the charger": "for Within(50, Marker(charger), of Where(age_years, gt, 8, of Where(leaf_color, eq, yellow))): [picture]",
 }

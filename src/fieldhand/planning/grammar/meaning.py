@@ -54,6 +54,21 @@ class Nominal:
 
 
 @dataclass(frozen=True, slots=True)
+class Likewise:
+    """A side that is named by one named before it: "the other half", "the southern one"; or the best of those ranked.
+
+    Attributes:
+        kind: Half, quarter or corner, or ``ranked``; empty if it is of the kind of the one before.
+        side: Side of the compass; empty for the opposite side.
+        holds: True if the places are inside it.
+    """
+
+    kind: Literal["", "half", "quarter", "corner", "ranked"]
+    side: str = ""
+    holds: bool = False
+
+
+@dataclass(frozen=True, slots=True)
 class PlaceMeaning:
     """A place phrase.
 
@@ -65,6 +80,7 @@ class PlaceMeaning:
         optional: True for "as many as you can".
         at_most: Maximum number of visits ("up to 6").
         in_order: True if the places are visited in the order in which they are named.
+        like: Side that the places are on, or which they are, by one named before.
         itself: True for "the tree itself", and no other place that was spoken of.
         there: True if the phrase says that they are in the area spoken of ("every tree there").
         per: Rows of each of which the selector says something by itself ("the oldest tree of each row").
@@ -79,6 +95,7 @@ class PlaceMeaning:
     in_order: bool = False
     there: bool = False
     itself: bool = False
+    like: Likewise | None = None
     per: s.Selector | None = None
 
 
@@ -146,17 +163,28 @@ class Lead:
 
 
 @dataclass(frozen=True, slots=True)
+class Ranking:
+    """Trees that are ranked by an attribute, of which a later command names the best."""
+
+    trees: PlaceMeaning
+    attribute: str
+    used: int
+
+
+@dataclass(frozen=True, slots=True)
 class Home:
     """A return at the end of the mission: to a marker, or to the usual one of the site.
 
     Attributes:
         then: Where to.
         used: Tokens of the phrase.
+        to_it: True if it is to a marker that was named before.
         when_done: True if the phrase says that nothing follows ("when you are done").
     """
 
     then: Literal["return_to_start", "return_to_end"] | None
     used: int
+    to_it: bool = False
     when_done: bool = False
 
 
@@ -273,10 +301,11 @@ class VisitLimit:
 
 @dataclass(frozen=True, slots=True)
 class Again:
-    """A command to do what was done at the last place again, at another place or there."""
+    """A command to do what was done at the last place again, at another place or there; with ``times`` that often."""
 
     place: PlaceMeaning | None
     used: int
+    times: int = 1
 
 
 @dataclass(frozen=True, slots=True)
@@ -353,6 +382,7 @@ Command = (
     | Allowed
     | UntilCondition
     | VisitLimit
+    | Ranking
     | Again
     | InAnOrder
     | After

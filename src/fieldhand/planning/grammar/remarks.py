@@ -107,8 +107,7 @@ def _label(words: Sequence[Word], sentence: Sequence[int], kinds: Sequence[set[s
 def _wish(sentence: Sequence[int], kinds: Sequence[set[str]]) -> Sequence[int]:
     """Return the words that say who wants it ("My professor wants ..."); empty if there are none."""
     begin = next((at for at, k in enumerate(sentence) if "WANTS" in kinds[k]), 0)
-    who = sentence[:begin]
-    if all(kinds[k] for k in who) or any(kinds[k] - {"DET", "TELLS"} for k in who):
+    if begin != 2 or "DET" not in kinds[sentence[0]] or kinds[sentence[1]]:
         return ()
     end = next((at for at in range(begin, len(sentence)) if "WANTS" not in kinds[sentence[at]]), 0)
     return sentence[:end]

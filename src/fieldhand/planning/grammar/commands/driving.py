@@ -17,6 +17,7 @@ from fieldhand.planning.grammar.meaning import (
     Lead,
     Nominal,
     PlaceMeaning,
+    Ranking,
     StopCommand,
 )
 from fieldhand.planning.grammar.places.compass import AWAY_FROM
@@ -141,6 +142,18 @@ def best_first(rank: tuple[str, bool]) -> tuple[str, str, bool] | None:
     return ("attribute", rank[0], not rank[1]) if rank[0] else None
 
 
+@construction(
+    "ranked_first: SORT trees=place BY [DET] attribute=ATTR",
+    "ranked_first: SORT trees=place BY [DET] attribute=ATTR [COMMA] HIGHTOLOW",
+    cost=0.2,
+)
+def ranked_first(trees: PlaceMeaning, attribute: Lex, used: int) -> list[Ranking] | None:
+    """Compose "rank the trees by yield, high to low"."""
+    if trees.shape != "several" or trees.count is not None or trees.per is not None:
+        return None
+    return [Ranking(trees, name, used) for name in attribute.value]
+
+
 @construction("order: order=ordered", "order: GO order=ordered", cost=0.2)
 def in_an_order(order: tuple[str, str, bool], used: int) -> InAnOrder:
     """Compose "visit them from west to east"."""
@@ -200,6 +213,12 @@ def home_in_the_end(way: Home, word: Lex, used: int) -> Home | None:
     return Home(way.then, used, when_done=True) if "when_done" in word.features else None
 
 
+@construction("home: RETURN AT it=IT", cost=0.5)
+def return_to_it(it: Lex, used: int) -> Home | None:
+    """Compose "come back to it", of a marker that was named before."""
+    return None if "of_several" in it.features else Home(None, used, to_it=True)
+
+
 @construction("halt: noun=FINISH", cost=0.6)
 def finish(noun: Lex, used: int) -> StopCommand | None:
     """Compose "finish"."""
@@ -216,6 +235,24 @@ def halt(used: int) -> StopCommand:
 def again(used: int, place: PlaceMeaning | None = None) -> Again:
     """Compose "do the same at tree 9"."""
     return Again(place, used)
+
+
+@construction(
+    "more_times: ANOTHER times=COUNT",
+    "more_times: times=COUNT MORE",
+    "more_times: ANOTHER n=count TIMES",
+    "more_times: n=count MORE TIMES",
+    cost=0.1,
+)
+def more_times(times: Lex | None = None, n: int = 1) -> int:
+    """Compose "another two times" and "twice more"."""
+    return n if times is None else int(times.value)
+
+
+@construction("again: REPEAT times=more_times", cost=0.2)
+def again_so_often(times: int, used: int) -> Again:
+    """Compose "do it another two times"."""
+    return Again(None, used, times=times)
 
 
 @construction("drive: WHICHONE inner=nominal [IS] NEAREST [AT] to=place", cost=0.3)

@@ -19,6 +19,7 @@ from fieldhand.planning.grammar.meaning import (
     LimitClause,
     LinkedCommand,
     Otherwise,
+    Ranking,
     ReadingQuestion,
     Said,
     StopCommand,
@@ -46,6 +47,7 @@ _LEADS_ON = When | Otherwise | Lead | LimitClause | Allowed | InAnOrder | Failin
     "command: one=allow",
     "command: one=until",
     "command: one=visit_limit",
+    "command: one=ranked_first",
     "command: one=again",
     "command: one=order",
     "command: one=after",
@@ -196,7 +198,7 @@ def without_joint(before: Said, one: Command) -> Said | None:
     """Compose "take a picture if it is high"."""
     last = before.clauses[-1].command
     match one:
-        case Otherwise() | Again() | CaptureWhere() | ReadingQuestion() | Failing():
+        case Otherwise() | Again() | CaptureWhere() | ReadingQuestion() | Failing() | Ranking():
             return None
         case Lead():
             follows = isinstance(last, Otherwise)

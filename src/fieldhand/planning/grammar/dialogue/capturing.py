@@ -27,7 +27,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
     node_at,
     with_node,
 )
-from fieldhand.planning.grammar.dialogue.repeating import process_again
+from fieldhand.planning.grammar.dialogue.repeating import done_more_times, process_again
 from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
     NotComposed,
@@ -304,6 +304,8 @@ def _are_of_each(things: tuple[Thing, ...]) -> bool:
 
 def capture_again(setting: Setting, state: DialogueState, command: Again) -> DialogueState:
     """Return the state after what was done at the last place was done at another one."""
+    if command.times > 1:
+        return done_more_times(setting, state, command)
     place, steps = command.place, _steps_before(state)
     if place is None or not steps or steps[-1].is_choice:
         return process_again(setting, state, command)

@@ -19,6 +19,7 @@ from fieldhand.planning.grammar.dialogue.driving import (
     without_home,
 )
 from fieldhand.planning.grammar.dialogue.fitting import is_spoken_of
+from fieldhand.planning.grammar.dialogue.likewise import with_known_place
 from fieldhand.planning.grammar.dialogue.plans import EMPTY, as_for_each, walk
 from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
@@ -45,6 +46,7 @@ from fieldhand.planning.grammar.meaning import (
     LinkedCommand,
     Otherwise,
     PlaceMeaning,
+    Ranking,
     ReadingQuestion,
     Said,
     StopCommand,
@@ -88,7 +90,9 @@ def _ended(state: DialogueState) -> DialogueState:
     if state.open or state.awaits_command or state.order is not None:
         raise NotComposed("nothing is done there")
     if state.nominal is None and state.in_case is not None:
-        return replace(state, nominal=state.in_case)
+        cases = state.plan.steps[-1].children if state.plan.steps[-1].is_choice else ()
+        both_drive = len(cases) > 1 and all(case.children and case.children[-1].only_drives for case in cases)
+        return replace(state, nominal="stay" if both_drive else state.in_case)
     if state.nominal is None and state.plan.steps[-1].ends_plan:
         stays = state.plan.steps[-2].only_drives
         return replace(state, nominal="stay" if stays else None, nominal_said=state.plan.steps[-1].said)
@@ -107,7 +111,7 @@ def _read(
     setting: Setting, state: DialogueState, clause: LinkedCommand, following: Sequence[LinkedCommand]
 ) -> DialogueState:
     """Return the state after a clause."""
-    joint, command = clause.before, clause.command
+    joint, command = clause.before, with_known_place(state, clause.command)
     if joint is not None and joint.first:
         return _do_before_last(setting, state, command, joint, following)
     if state.plan.steps and isinstance(command, CaptureCommand | DriveCommand | Lead | When | Again | StopCommand):
@@ -156,6 +160,8 @@ def _read(
             return allowed(setting, state, command, _rest_of_sentence(following), joint)
         case UntilCondition():
             return until(setting, state, command)
+        case Ranking():
+            return replace(state, ranking=command)
         case VisitLimit():
             return limit_visits(setting, state, command)
         case Again():

@@ -138,6 +138,11 @@ def go_home(setting: Setting, state: DialogueState, command: Home) -> DialogueSt
         raise NotComposed("two places for one command")
     if state.home is not None:
         raise NotComposed("two ends")
+    if command.to_it:
+        marker = _marker_spoken_of(state)
+        if marker.name == "charger":
+            return drive(setting, state, DriveCommand(PlaceMeaning(marker, "one"), command.used, returns=True))
+        command = replace(command, then="return_to_start" if marker.name == "start" else "return_to_end")
     if command.then is None:
         markers = setting.site.markers
         if not {"start", "end"} & set(markers):
@@ -151,6 +156,19 @@ def go_home(setting: Setting, state: DialogueState, command: Home) -> DialogueSt
     if state.scope:
         return replace(drive(setting, state, _way_home(command)), in_case=command.then)
     return replace(state, nominal=command.then, nominal_said=said, home=command, open=False)
+
+
+def _marker_spoken_of(state: DialogueState) -> s.Marker:
+    """Return the marker from which the last places were measured ("every tree within 7 m of the start").
+
+    Raises:
+        NotComposed: There is none, or one of the places may be meant.
+    """
+    last = state.where
+    markers = [] if last is None else [part for part in last.selector.walk() if isinstance(part, s.Marker)]
+    if last is None or last.shape != "several" or len(markers) != 1:
+        raise NotComposed("back to what?")
+    return markers[0]
 
 
 def driven_home(setting: Setting, state: DialogueState) -> DialogueState:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 from fieldhand.planning.grammar.dialogue.driving import drive
 from fieldhand.planning.grammar.dialogue.plans import Path, as_choice, block_at, walk, with_node
-from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting
+from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, with_step
 from fieldhand.planning.grammar.meaning import Again, DriveCommand
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
@@ -50,6 +50,23 @@ def process_again(setting: Setting, state: DialogueState, command: Again) -> Dia
         state, plan=plan, readings=names.last, captured=captured[-1], loop=None, choice=None, things=(), open=False,
         commands_in_sentence=state.commands_in_sentence + 1,
     )  # fmt: skip
+
+
+def done_more_times(setting: Setting, state: DialogueState, command: Again) -> DialogueState:
+    """Return the state after all that was done so far, at one place or at each of several, was done some more times.
+
+    Raises:
+        NotComposed: What is repeated is unclear.
+    """
+    steps = state.plan.steps
+    if state.scope or state.awaits_command or state.open or not steps or not _can_be_repeated(steps):
+        raise NotComposed("what is repeated?")
+    if steps[0].selector is None or any(step.selector is not None for step in steps[1:]):
+        raise NotComposed("since which place?")
+    said, names = setting.spans_of(command.used), _Names(state.readings)
+    body = p.InOrder(id="", steps=tuple(_renamed(step, names, said) for step in steps))
+    state = with_step(state, p.Repeat(id="", times=command.times, body=body, said=said))
+    return replace(state, readings=names.last, captured=None, loop=None, choice=None, things=())
 
 
 def _last_place(steps: Sequence[p.Node], end: int) -> int | None:

@@ -16,6 +16,7 @@ from fieldhand.planning.grammar.meaning import (
     Lead,
     LimitClause,
     PlaceMeaning,
+    Ranking,
     Thing,
 )
 from fieldhand.robot.model import RobotProfile
@@ -78,6 +79,7 @@ class DialogueState:
         tested_at: Place and block of the command before the last condition.
         ended_by: Condition that ends the last for-each, until something else is done.
         joints: Spans of the connectives.
+        ranking: Trees that were ranked.
     """
 
     plan: p.InOrder = EMPTY
@@ -107,6 +109,7 @@ class DialogueState:
     tested_at: tuple[PlaceMeaning | None, Path | None] = (None, None)
     ended_by: Condition | None = None
     joints: Spans = ()
+    ranking: Ranking | None = None
 
     @property
     def block(self) -> p.InOrder:

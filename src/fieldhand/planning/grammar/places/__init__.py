@@ -3,8 +3,19 @@
 from __future__ import annotations
 
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.places import areas, groups, nouns, numbered, numbers, positions, rows, spots, steps
+from fieldhand.planning.grammar.places import (
+    areas,
+    groups,
+    likewise,
+    nouns,
+    numbered,
+    numbers,
+    positions,
+    rows,
+    spots,
+    steps,
+)
 
 GRAMMAR = Grammar()
-for _part in (numbers, numbered, nouns, areas, rows, positions, spots, groups, steps):
+for _part in (numbers, numbered, nouns, areas, rows, positions, spots, groups, likewise, steps):
     GRAMMAR.include(_part.GRAMMAR)

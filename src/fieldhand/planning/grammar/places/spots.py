@@ -138,6 +138,32 @@ def middle_of_edge(side: Side) -> PlaceMeaning:
     return PlaceMeaning(s.EdgeMiddle(side=side), "one")
 
 
+@construction("turns: [FIRSTONE] [DET] side=DIR [CORNER]", cost=0.2)
+def first_turn(side: Lex) -> tuple[CornerName, ...] | None:
+    """Compose "first the north-west corner"."""
+    return (side.value,) if side.value in CORNERS else None
+
+
+@construction(
+    "turns: first=turns [COMMA] AND [DET] side=DIR [CORNER] [LAST]",
+    "turns: first=turns COMMA [then] [DET] side=DIR [CORNER]",
+    "turns: first=turns [COMMA] AND then [DET] side=DIR [CORNER]",
+    cost=0.2,
+)
+def next_turn(first: tuple[CornerName, ...], side: Lex) -> tuple[CornerName, ...] | None:
+    """Compose "first the north-west corner, then the north-east"."""
+    return (*first, side.value) if side.value in CORNERS and side.value not in first else None
+
+
+@construction("place: [DET] [n=count] noun=CORNER [COMMA] [GOING] at=turns", cost=0.2)
+def corners_in_turn(noun: Lex, at: tuple[CornerName, ...], n: int | None = None) -> PlaceMeaning | None:
+    """Compose "the corners going north-west, north-east, south-east and south-west"."""
+    if not noun.plural or len(at) < 2 or n not in (None, len(at)):
+        return None
+    each = tuple(s.Corners(which=(corner,)) for corner in at)
+    return PlaceMeaning(s.UnionOf(parts=each), "several", count=len(at), in_order=True)
+
+
 @construction("place: [DET] gate=GATENAME", cost=0.1)
 def gate(gate: Lex) -> PlaceMeaning:
     """Compose "north gate", the name of a gate."""

@@ -1,0 +1,112 @@
+"""Places that are named by others before them: the opposite side, another one of its kind, the best of those ranked."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any, cast
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed
+from fieldhand.planning.grammar.meaning import (
+    Again,
+    CaptureCommand,
+    Command,
+    DriveCommand,
+    Lead,
+    Likewise,
+    PlaceMeaning,
+)
+from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
+from fieldhand.planning.selections import as_some, named_places, over
+from fieldhand.task import plan as p
+
+_OPPOSITE = {"n": "s", "s": "n", "e": "w", "w": "e", "north": "south", "south": "north", "east": "west", "west": "east"}
+#: Commands with a place.
+_WithPlace = CaptureCommand | DriveCommand | Lead | Again
+
+
+def with_known_place(state: DialogueState, command: Command) -> Command:
+    """Return a command with a place that no longer depends on what was named before.
+
+    Raises:
+        NotComposed: What it refers to is unclear.
+    """
+    if not isinstance(command, _WithPlace) or command.place is None:
+        return command
+    place = command.place
+    if isinstance(place.selector, s.Top) and place.like is not None:
+        return _best_of_ranked(state, command, place.selector)
+    return command if place.like is None else replace(command, place=_likewise(state, place, place.like))
+
+
+def _best_of_ranked(state: DialogueState, command: _WithPlace, best: s.Top) -> Command:
+    """Return a command at the best of the trees that were ranked."""
+    ranking = state.ranking
+    if ranking is None or best.attribute not in ("", ranking.attribute) or command.place is None:
+        raise NotComposed("the best by what?")
+    best = replace(best, attribute=ranking.attribute, of=ranking.trees.selector)
+    place = replace(command.place, selector=best, like=None)
+    return replace(command, place=place, used=command.used | ranking.used)
+
+
+def _likewise(state: DialogueState, place: PlaceMeaning, like: Likewise) -> PlaceMeaning:
+    """Return a place on a side that is named by the last one."""
+    last = _last_side(state)
+    if last is None:
+        if like.kind or like.holds or place.shape != "one" or like.side not in SIDES:
+            raise NotComposed("which one is meant?")
+        return replace(place, selector=_of_those(state, like.side), like=None)
+    kind, side = last
+    if not like.kind and kind != "corner" and len(_single_places(state)) > 1:
+        raise NotComposed("one of those, or on the other side?")
+    if like.kind not in ("", kind):
+        raise NotComposed("which one is meant?")
+    side = like.side or _opposite(side)
+    if (side in SIDES) != (kind == "half") or (kind == "corner") != (place.shape == "one" and not like.holds):
+        raise NotComposed("which one is meant?")
+    named: Any = side
+    area: s.Selector = s.Half(side=named)
+    if side in CORNERS:
+        area = s.Corners(which=(named,)) if kind == "corner" else s.Quarter(quarter=named)
+    return replace(place, selector=over(place.selector, area) if like.holds else area, like=None)
+
+
+def _last_side(state: DialogueState) -> tuple[str, str] | None:
+    """Return the kind and the name of the half, quarter or corner that was named last."""
+    for node in reversed(list(p.walk(state.plan))):
+        place = node.selector
+        if place is not None and place.single and as_some(place) is None and not isinstance(place, s.Corners):
+            return None  # "the northernmost tree of the eastern half, then the southern one"
+        for part in () if place is None else place.walk():
+            match part:
+                case s.Half():
+                    return "half", part.side
+                case s.Quarter():
+                    return "quarter", part.quarter
+                case s.Corners() if len(part.which) == 1:
+                    return "corner", part.which[0]
+                case _:
+                    continue
+    return None
+
+
+def _opposite(side: str) -> str:
+    """Return the opposite side, or the diagonally opposite corner."""
+    return _OPPOSITE[side] if side in _OPPOSITE else "".join(_OPPOSITE[one] for one in side)
+
+
+def _of_those(state: DialogueState, side: str) -> s.Selector:
+    """Return the place farthest to a side, of the single places that were named before."""
+    places = _single_places(state)
+    if len(places) < 2:
+        raise NotComposed("which one is meant?")
+    return s.Extreme(side=cast(Any, side), of=s.UnionOf(parts=places))
+
+
+def _single_places(state: DialogueState) -> tuple[s.Selector, ...]:
+    """Return the single places that were named before, if there were no others."""
+    named = [step.selector for step in state.plan.steps if step.selector is not None]
+    places = [place for selector in named for place in named_places(selector) or (selector,)]
+    if not all(place.single and not place.relative for place in places):
+        return ()
+    return tuple(dict.fromkeys(places))

@@ -1,0 +1,64 @@
+"""Constructions of places named by others before them: "the other half", "the southern one", "the best five"."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Literal
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.meaning import Likewise, Nominal, PlaceMeaning
+from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.selections import chooses_from_trees
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+
+@construction(
+    "likewise: DET OTHER half=HALF",
+    "likewise: DET OPPOSITE half=HALF",
+    "likewise: DET OTHER half=SIDE",
+    "likewise: DET OPPOSITE half=SIDE",
+    "likewise: DET OPPOSITE quarter=QUARTER",
+    "likewise: DET OPPOSITE corner=CORNER",
+    "likewise: DET corner=CORNER OPPOSITE",
+    cost=0.2,
+)
+def opposite_side(half: Lex | None = None, quarter: Lex | None = None, corner: Lex | None = None) -> Likewise | None:
+    """Compose "the other half" and "the opposite corner"."""
+    kinds: dict[Literal["", "half", "quarter", "corner"], Lex | None]
+    kinds = {"half": half, "quarter": quarter, "corner": corner}
+    return next((Likewise(kind) for kind, noun in kinds.items() if noun is not None and not noun.plural), None)
+
+
+@construction("likewise: DET side=DIR noun=ONE", cost=0.3)
+def other_of_its_kind(side: Lex, noun: Lex) -> Likewise | None:
+    """Compose "the southern one"."""
+    return None if "plural" in noun.features else Likewise("", side.value)
+
+
+@construction("place: like=likewise", cost=0.3)
+def likewise(like: Likewise) -> list[PlaceMeaning]:
+    """Compose "the southern one" as a place: a single place, or an area."""
+    one, area = (PlaceMeaning(s.Trees(), "one", like=like), PlaceMeaning(s.Trees(), "area", like=like))
+    return [one, area] if not like.kind else [one] if like.kind == "corner" else [area]
+
+
+@construction("place: whole=place in_ like=likewise", cost=0.3)
+def in_likewise(whole: PlaceMeaning, like: Likewise) -> PlaceMeaning | None:
+    """Compose "two trees in the other half"."""
+    if whole.shape not in ("one", "several") or whole.per is not None or whole.like is not None:
+        return None
+    if like.kind == "corner" or not chooses_from_trees(whole.selector):
+        return None
+    return replace(whole, like=replace(like, holds=True))
+
+
+@construction("place: DET rank=ranking n=count", "place: DET rank=ranking n=count inner=nominal", cost=0.5)
+def best_of_ranked(rank: tuple[str, bool], n: int, inner: Nominal | None = None) -> PlaceMeaning | None:
+    """Compose "the best five", of trees that were ranked before."""
+    if inner is not None and (rank[0] or inner.selector != s.Trees()):
+        return None
+    best = s.Top(attribute=rank[0], count=n, lowest=rank[1])
+    return PlaceMeaning(best, "one" if n == 1 else "several", count=n, like=Likewise("ranked"))
