@@ -58,6 +58,21 @@ def are_rows(selector: s.Selector) -> bool:
     return all(isinstance(part, s.Rows | s.RowOf) for part in selector.members)
 
 
+def replaceable_area(selector: s.Selector, area: s.Selector) -> s.Selector | None:
+    """Return the part of a selector that another area of the same kind can take the place of; None if none can."""
+    if are_rows(selector) and are_rows(area):
+        return selector
+    alike = {
+        part
+        for part in selector.walk()
+        if isinstance(part, AREAS) and (are_rows(part) if are_rows(area) else type(part) is type(area))
+    }
+    if len(alike) != 1:
+        return None
+    (part,) = alike
+    return part if {getattr(one, "of", None) for one in area.members} == {getattr(part, "of", None)} else None
+
+
 def is_whole_rows(rows: s.Selector) -> bool:
     """Return True for rows of the whole site, or of a block, that nothing else restricts."""
     return all(isinstance(part.of, s.Trees | s.InBlock) for part in rows_of(rows))

@@ -83,3 +83,41 @@ def test_a_bare_end_is_no_place_and_nothing_follows_it() -> None:
     assert plan_of("Take a picture at tree 4 and finish.") == "picture @ TreeIs(4)"
     assert plan_of("Go to tree 4 and stop.") == "go TreeIs(4) | stay"
     assert plan_of("Take a picture at tree 4, stop, then measure CO2 at tree 5.") is None
+
+
+@pytest.mark.parametrize(
+    ("request_", "plan"),
+    [
+        (
+            "Take a picture of every third tree in row 2. Do the same in row 4.",
+            "for EveryNth(3, of Rows(2, 2)): [picture]; for EveryNth(3, of Rows(4, 4)): [picture]",
+        ),
+        (
+            "Take a picture of the oldest tree in the northern half. Do the same in the southern half.",
+            "picture @ Top(age_years, 1, of Half(north)); picture @ Top(age_years, 1, of Half(south))",
+        ),
+        (
+            "Measure CO2 at the first tree of row 2. If it is low, take a picture. Do the same in row 4.",
+            "co2 @ InRow(1, 1, of Rows(2, 2)) = r1; if r1 low: [picture]; "
+            "co2 @ InRow(1, 1, of Rows(4, 4)) = r2; if r2 low: [picture]",
+        ),
+        (
+            "Measure CO2 at tree 40. Take a picture of the last tree in row 2 and do the same in the next row.",
+            "co2 @ TreeIs(40); picture @ InRow(-1, -1, of Rows(2, 2)); picture @ InRow(-1, -1, of RowOf(1))",
+        ),
+    ],
+)
+def test_the_same_in_another_area_is_done_at_its_corresponding_trees(request_: str, plan: str) -> None:
+    assert plan_of(request_) == plan
+
+
+@pytest.mark.parametrize(
+    "request_",
+    [
+        "Take a picture of tree 4 and do the same in row 3.",  # at every tree?
+        "Take a picture of every tree in rows 2 and 3. Do the same in the next row.",  # next to which?
+        "Take a picture of the first tree in row 2 of the northern half. Do the same in row 4.",  # of that half?
+    ],
+)
+def test_the_same_in_an_area_of_another_kind_is_left_open(request_: str) -> None:
+    assert plan_of(request_) is None

@@ -23,6 +23,7 @@ from fieldhand.planning.grammar.meaning import (
 from fieldhand.planning.grammar.places.compass import AWAY_FROM
 from fieldhand.planning.grammar.places.groups import both
 from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.selections import is_row_of_place
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -253,6 +254,12 @@ def more_times(times: Lex | None = None, n: int = 1) -> int:
 def again_so_often(times: int, used: int) -> Again:
     """Compose "do it another two times"."""
     return Again(None, used, times=times)
+
+
+@construction("again: REPEAT where=rows", cost=0.2)
+def again_in_row(where: s.Selector, used: int) -> Again | None:
+    """Compose "do the same two rows over"."""
+    return Again(PlaceMeaning(where, "area"), used) if is_row_of_place(where) else None
 
 
 @construction("drive: WHICHONE inner=nominal [IS] NEAREST [AT] to=place", cost=0.3)

@@ -188,8 +188,10 @@ def first_command(one: Command) -> Said:
 
 
 @construction("said: before=said joint=joint one=command", cost=0.3)
-def next_command(before: Said, joint: Connective, one: Command) -> Said:
+def next_command(before: Said, joint: Connective, one: Command) -> Said | None:
     """Compose "take a picture and go to tree 4"."""
+    if joint.then and isinstance(one, Lead) and one.relation == "of" and one.place.shape == "area":
+        return None  # "the tree at the end of row 3"
     return Said((*before.clauses, LinkedCommand(joint, one)))
 
 

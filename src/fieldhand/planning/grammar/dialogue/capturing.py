@@ -27,7 +27,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
     node_at,
     with_node,
 )
-from fieldhand.planning.grammar.dialogue.repeating import done_more_times, process_again
+from fieldhand.planning.grammar.dialogue.repeating import done_more_times, process_again, repeated_in
 from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
     NotComposed,
@@ -49,7 +49,6 @@ from fieldhand.planning.grammar.meaning import (
     Thing,
 )
 from fieldhand.planning.selections import (
-    are_rows,
     counts_in_row,
     is_end_of_site,
     is_one_row,
@@ -73,6 +72,9 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
         and is_one_row(state.area.place.selector)
     ):
         state = enter(setting, state, state.area, None)  # "move two rows over and take another"
+    same = any(one.action == LAST_THING and one.count is None for one in command.things)
+    if same and command.place is not None and command.place.shape == "area":
+        raise NotComposed("the same at every tree, or at how many?")
     things = meant_things(state, command.things)
     place, state, before = _place_of(setting, state, command)
     said = (*before, *setting.spans_of(command.used))
@@ -307,15 +309,12 @@ def capture_again(setting: Setting, state: DialogueState, command: Again) -> Dia
     if command.times > 1:
         return done_more_times(setting, state, command)
     place, steps = command.place, _steps_before(state)
+    if place is not None and place.shape == "area" and place.per is None:
+        return repeated_in(setting, state, place.selector, command.used)
     if place is None or not steps or steps[-1].is_choice:
         return process_again(setting, state, command)
     if place.per is not None or steps[-1].is_optional_step or steps[-1].caught:
         raise NotComposed("what is repeated where?")
-    if place.shape == "area":
-        last = as_for_each(steps[-1])
-        if last is None or not are_rows(last.select) or not are_rows(place.selector):
-            raise NotComposed("what is repeated where?")
-        place = replace(place, shape="several")
     if place.shape not in ("one", "several"):
         raise NotComposed("what is repeated where?")
     said = setting.spans_of(command.used)

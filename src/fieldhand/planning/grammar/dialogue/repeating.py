@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
+from fieldhand.places import selectors as s
+from fieldhand.planning.english.onebyone import swapped
 from fieldhand.planning.grammar.dialogue.driving import drive
-from fieldhand.planning.grammar.dialogue.plans import Path, as_choice, block_at, walk, with_node
+from fieldhand.planning.grammar.dialogue.plans import Path, as_choice, as_for_each, block_at, walk, with_node
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, with_step
-from fieldhand.planning.grammar.meaning import Again, DriveCommand
+from fieldhand.planning.grammar.meaning import Again, DriveCommand, PlaceMeaning
+from fieldhand.planning.selections import is_one_row, replaceable_area
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
 
@@ -67,6 +70,65 @@ def done_more_times(setting: Setting, state: DialogueState, command: Again) -> D
     body = p.InOrder(id="", steps=tuple(_renamed(step, names, said) for step in steps))
     state = with_step(state, p.Repeat(id="", times=command.times, body=body, said=said))
     return replace(state, readings=names.last, captured=None, loop=None, choice=None, things=())
+
+
+def repeated_in(setting: Setting, state: DialogueState, area: s.Selector, used: int) -> DialogueState:
+    """Return the state after what was done in the last area was done in another one of its kind ("... in row 4").
+
+    Raises:
+        NotComposed: What is repeated is unclear.
+    """
+    steps = state.plan.steps
+    places = [_place_in(step, area) for step in steps]
+    if state.scope or not steps or state.awaits_command:
+        raise NotComposed("what is repeated where?")
+    old = next((place for place in reversed(places) if place is not None), None)
+    first = len(steps)
+    while first > 0 and (places[first - 1] == old or not _selects(steps[first - 1])):
+        first -= 1
+    while first < len(steps) and places[first] is None:
+        first += 1
+    again = steps[first:]
+    if old is None or not again or not _can_be_repeated(again):
+        raise NotComposed("what is repeated where?")
+    if area.relative and (len(again) > 1 or not is_one_row(old)):
+        raise NotComposed("from which tree?")
+    names, said = _Names(state.readings), setting.spans_of(used)
+    copies = tuple(_renamed(_moved(step, old, area), names, said) for step in again)
+    plan = p.InOrder(id="", steps=(*steps, *copies))
+    captured = [path for path, node in walk(plan) if node.act is not None]
+    visits = as_for_each(copies[-1])
+    return replace(
+        state, plan=plan, readings=names.last, captured=captured[-1], choice=None, open=False, where_scope=(),
+        loop=None if visits is None else (len(plan.steps) - 1, "body"),
+        where=None if visits is None else PlaceMeaning(visits.select, "several"),
+        commands_in_sentence=state.commands_in_sentence + 1,
+    )  # fmt: skip
+
+
+def _selects(step: p.Node) -> bool:
+    """Return True if a step names a place."""
+    return any(node.selector is not None for node in p.walk(step))
+
+
+def _place_in(step: p.Node, area: s.Selector) -> s.Selector | None:
+    """Return the area of a step, if it is of the kind of another one and all places of the step are in it."""
+    found = {replaceable_area(node.selector, area) for node in p.walk(step) if node.selector is not None}
+    return found.pop() if len(found) == 1 else None
+
+
+def _moved(step: p.Node, old: s.Selector, new: s.Selector) -> p.Node:
+    """Return a step with one area in the place of another."""
+    if step.act is not None:
+        return step.act if step.act.at is None else replace(step.act, at=swapped(step.act.at, old, new))
+    match step:
+        case p.ForEach():
+            step = replace(step, select=swapped(step.select, old, new))
+        case p.GoTo():
+            step = replace(step, place=swapped(step.place, old, new))
+        case _:
+            pass
+    return step.with_children([_moved(child, old, new) for child in step.children])
 
 
 def _last_place(steps: Sequence[p.Node], end: int) -> int | None:
