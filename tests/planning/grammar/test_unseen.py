@@ -52,6 +52,15 @@ PLANNED = {
         ("Visit tree 100, then tree 20, then tree 60 and read CO2 at each of them.", "for UnionOf(TreeIs(100)+TreeIs(20)+TreeIs(60)) given: [co2]"),
         ("Give it twenty minutes: as many of the yellow trees as it can photograph in that time.", "for Where(leaf_color, eq, yellow) optional: [picture] | duration_s 1200"),
         ("Photograph tree 5. If hot, take the CO2 too.", "picture @ TreeIs(5) = r1; if r1 high: [co2]"),
+        ("Take CO2 at tree 44 and the two trees next to it.", "for UnionOf(TreeIs(44)+Nearest(TreeIs(44), 2, True)): [co2]"),
+        ("take pictures of every tree in rows 1 to 4 but row 3", "for Excluding(Rows(3, 3), of Rows(1, 4)): [picture]"),
+        ("take pictures of all rows but row 3", "for Excluding(Rows(3, 3), of Rows): [picture]"),
+        ("For every Nonpareil in row 3, one CO2 reading and one thermal picture.", "for Where(variety, eq, Nonpareil, of Rows(3, 3)): [co2; picture]"),
+        ("Any tree in rows 8 to 10 that gave us under 4 kilos needs a CO2 reading, please.", "for Where(yield_kg, lt, 4, of Rows(8, 10)): [co2]"),
+        ("Anything that's twelve years or older should get a thermal image.", "for Where(age_years, ge, 12): [picture]"),
+        ("Every tree in the north half gets its canopy temperature taken.", "for Half(north): [picture]"),
+        ("Only if tree 14 has more than 450 ppm of CO2 do I want pictures of row 1, all trees.", "co2 @ TreeIs(14) = r1; if r1 > 450 ppm: [for Rows(1, 1): [picture]]"),
+        ("tree 19 picture, tree 20 co2, tree 21 picture, home", "picture @ TreeIs(19); co2 @ TreeIs(20); picture @ TreeIs(21) | return_to_start"),
     ],
     "vineyard": [
         ("Take thermal pictures in row 12 of the North block, at the vines with vigor below 0.35.", "for Where(vigor, lt, 0.35, of Rows(12, 12, of InBlock(North))): [picture] | return_to_start"),
@@ -72,6 +81,7 @@ PLANNED = {
         ("Bring me back air temperatures from ten vines spread evenly along row 10 in the South block.", "for Evenly(10, of Rows(10, 10, of InBlock(South))): [air] | return_to_start"),
         ("N12: thermal. If hot, CO2 there and at N13. If not, go to N400 for a CO2.", "picture @ TreeIs(N12) = r1; if r1 high: [co2; co2 @ TreeIs(N13)] else [go TreeIs(N400); co2] | return_to_start"),
         ("Measure air temperature at N1, N312, N13 and N466, strictly in the sequence listed.", "for UnionOf(TreeIs(N1)+TreeIs(N312)+TreeIs(N13)+TreeIs(N466)) given: [air] | return_to_start"),
+        ("An air temperature, taken at the gate, and then, only if it's over 28, thermal pictures of the ten weakest vines in the South block.", "air @ GateIs(gate) = r1; if r1 > 28 degC: [for Top(vigor, 10, True, of InBlock(South)): [picture]] | return_to_start"),
     ],
 }  # fmt: skip
 #: Requests with words that ask for nothing and have to be confirmed.
@@ -86,6 +96,7 @@ NOT_PLANNED = {
     "Measure CO2 at each tree of row 7 and photograph it if it is hot.": "CO2 is not hot",
     "Take a CO2 reading at every tree in row 3 that is hot.": "hot in the air, or in the canopy?",
     "Measure CO2 at tree 5 and photograph those that are high.": "which trees?",
+    "Take CO2 at trees 4 and 5 and the tree next to it.": "next to which?",
     "If the air temperature at the start is above 30 degrees, photograph every tree in row 2; otherwise measure CO2 there.": "there: at the start, or in row 2?",
 }
 

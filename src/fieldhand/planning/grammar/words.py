@@ -120,8 +120,9 @@ def edges_of(words: Sequence[Word], phrases: Phrases) -> Iterator[PhraseEdge]:
             yield from _possessive(phrase, start, end, phrases)
             for entry in phrases.entries(tuple(phrase)):
                 features = phrases.features(tuple(phrase))
+                kind = "CONTRAST" if entry.kind == "AND" and "contrast" in features else entry.kind
                 for value in _values(entry, phrases.lexicon):
-                    yield _edge(entry.kind, start, end, Lex(value, entry.plural, text, features))
+                    yield _edge(kind, start, end, Lex(value, entry.plural, text, features))
 
 
 def _possessive(phrase: Sequence[str], start: int, end: int, phrases: Phrases) -> Iterator[PhraseEdge]:

@@ -42,6 +42,7 @@ def capture_here(things: tuple[Thing, ...], used: int) -> CaptureCommand:
     "capture: things=things SHOULD verb",
     "capture: things=things IS verb relation place=place",
     "capture: things=things verb relation place=place",
+    "capture: things=things COMMA verb relation place=place",
     cost=0.4,
 )
 def passive(things: tuple[Thing, ...], used: int, place: PlaceMeaning | None = None) -> CaptureCommand:
@@ -49,7 +50,7 @@ def passive(things: tuple[Thing, ...], used: int, place: PlaceMeaning | None = N
     return CaptureCommand(things, place, used)
 
 
-@construction("capture: relation place=place things=things", cost=1.0)
+@construction("capture: relation place=place things=things", "capture: FOR place=place COMMA things=things", cost=1.0)
 def topic_at(place: PlaceMeaning, things: tuple[Thing, ...], used: int) -> CaptureCommand | None:
     """Compose "at tree 5 a CO2 reading"."""
     said = topic(place, things, used)
@@ -91,7 +92,7 @@ def comment(things: tuple[Thing, ...], place: PlaceMeaning, used: int) -> Captur
     return topic(place, things, used)
 
 
-@construction("capture: place=place SHOULD things=things", cost=0.5)
+@construction("capture: place=place SHOULD things=things", "capture: place=place SHOULD things=things verb", cost=0.5)
 def needs(place: PlaceMeaning, things: tuple[Thing, ...], used: int) -> CaptureCommand | None:
     """Compose "tree 4 needs a picture"."""
     return topic(place, things, used)

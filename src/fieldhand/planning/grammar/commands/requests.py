@@ -60,15 +60,21 @@ def command(one: Command) -> Command:
     return one
 
 
-@construction("joint: [COMMA] AND COMMA [then] [COMMA]", cost=0.3)
+@construction("and_or_but: word=AND", "and_or_but: word=CONTRAST", cost=0.0)
+def and_or_but(word: Lex) -> Lex:
+    """Compose "and" and "but" between commands; "but" joins no places."""
+    return word
+
+
+@construction("joint: [COMMA] and_or_but COMMA [then] [COMMA]", cost=0.3)
 def joint_with_comma(used: int, then: str = "") -> Connective:
     """Compose ", and, then"."""
     return Connective(False, bool(then), used, both=True)
 
 
 @construction(
-    "joint: [COMMA] [AND] FIRSTLY [COMMA]",
-    "joint: FULLSTOP [AND] FIRSTLY [COMMA]",
+    "joint: [COMMA] [and_or_but] FIRSTLY [COMMA]",
+    "joint: FULLSTOP [and_or_but] FIRSTLY [COMMA]",
     "joint: COMMA BUT FIRSTLY",
     cost=0.2,
 )
@@ -77,19 +83,19 @@ def but_first(used: int) -> Connective:
     return Connective(False, True, used, first=True)
 
 
-@construction("joint: [COMMA] both=AND [then]", "joint: COMMA [then]", "joint: then", cost=0.2)
+@construction("joint: [COMMA] both=and_or_but [then]", "joint: COMMA [then]", "joint: then", cost=0.2)
 def joint(used: int, then: str = "", both: Lex | None = None) -> Connective:
     """Compose "and"."""
     return Connective(False, bool(then), used, both=both is not None)
 
 
-@construction("joint: [COMMA] [AND] then=then [COMMA]", cost=0.1)
+@construction("joint: [COMMA] [and_or_but] then=then [COMMA]", cost=0.1)
 def then_joint(used: int, then: str) -> Connective:
     """Compose "and then"."""
     return Connective(False, True, used, from_here=then == "from here")
 
 
-@construction("joint: FULLSTOP [AND]", cost=0.1)
+@construction("joint: FULLSTOP [and_or_but]", cost=0.1)
 def full_stop(used: int) -> Connective:
     """Compose "."."""
     return Connective(True, False, used)
@@ -101,7 +107,7 @@ def full_stop_opener(used: int) -> Connective:
     return Connective(True, True, used)
 
 
-@construction("joint: FULLSTOP [AND] then=then [COMMA]", cost=0.1)
+@construction("joint: FULLSTOP [and_or_but] then=then [COMMA]", cost=0.1)
 def full_stop_then(used: int, then: str) -> Connective:
     """Compose ". Then"."""
     return Connective(True, True, used, from_here=then == "from here")

@@ -115,6 +115,10 @@ def require_known(state: DialogueState, place: PlaceMeaning | None, site: Site) 
         sides = {part.towards for part in from_here if isinstance(part, s.AlongRow)} & _COMPASS
         if not all(_rows_run_to(side, site) for side in sides):
             raise NotComposed("the rows have no end on that side")
+    after_several = state.where is not None and state.where.shape == "several"
+    beside_it = any(isinstance(part, s.Nearest) and part.adjacent and part.to == s.Here() for part in parts)
+    if beside_it and after_several and not is_inside(state.scope, state.loop or (-1,)):
+        raise NotComposed("next to which of them?")
     refers = not parts or s.Here() in parts
     if refers and state.where is not None and may_be_left_out(state):
         raise NotComposed("where, if what comes before it is left out?")

@@ -7,7 +7,7 @@ from dataclasses import replace
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.onebyone import swapped
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
+from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning, Shape
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
@@ -316,10 +316,10 @@ def except_for(whole: PlaceMeaning, part: PlaceMeaning, site: Site) -> PlaceMean
     return replace(whole, selector=selector, shape="several" if all_of_it else whole.shape)
 
 
-@construction("place: ANY inner=nominal EXCEPT part=place", "place: ANY inner=nominal word=AND part=place", cost=0.2)
-def any_except(inner: Nominal, part: PlaceMeaning, word: Lex | None = None) -> PlaceMeaning | None:
+@construction("place: ANY inner=nominal EXCEPT part=place", "place: ANY inner=nominal CONTRAST part=place", cost=0.2)
+def any_except(inner: Nominal, part: PlaceMeaning) -> PlaceMeaning | None:
     """Compose "any tree except tree 12"."""
-    if (word is not None and "contrast" not in word.features) or inner.single or part.shape not in ("one", "several"):
+    if inner.single or part.shape not in ("one", "several"):
         return None
     return PlaceMeaning(s.Take(count=1, of=s.Excluding(places=part.selector, of=inner.selector)), "one")
 
@@ -331,19 +331,22 @@ def listed_places(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | N
 
 
 @construction(
-    "place: first=place_list [COMMA] word=AND second=place",
-    "place: first=place word=AND second=place",
+    "place: first=place_list [COMMA] AND second=place",
+    "place: first=place AND second=place",
     cost=0.4,
 )
-def both(first: PlaceMeaning, second: PlaceMeaning, word: Lex | None = None) -> PlaceMeaning | None:
+def both(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | None:
     """Compose "tree 12 and the charger"."""
-    if (word is not None and "contrast" in word.features) or first.per is not None or second.per is not None:
+    if first.per is not None or second.per is not None:
         return None
     if second.selector.named_marker and isinstance(first.selector, s.Within | s.Nearest | s.Farthest):
         return None  # "within 20 m of the start and the charger"
-    if first.shape == "one" and second.shape in ("one", "step"):
+    if first.shape == "one" and second.shape in ("one", "step", "several"):
         here = landmark_of(first.selector, second.selector) or first.selector
-        second = replace(second, selector=swapped(second.selector, s.Here(), here), shape="one")
+        shape: Shape = "several" if second.shape == "several" else "one"
+        second = replace(second, selector=swapped(second.selector, s.Here(), here), shape=shape)
+    elif first.shape == "several" and s.Here() in second.selector.walk():
+        return None  # "trees 4 and 5 and the tree next to it": next to which?
     if not {first.shape, second.shape} <= {"one", "several"} or first.optional or second.optional:
         return None
     if first.at_most or second.at_most or isinstance(first.selector, s.Excluding):
