@@ -31,7 +31,7 @@ SAME = {
     "take a picture of every yellow tree older than 8 years that is within 50 m of the charger": "for Within(50, Marker(charger), of Where(age_years, gt, 8, of Where(leaf_color, eq, yellow))): [picture]",
 }
 #: Share of the requests that the rules plan, and the grammar as well.
-LEAST_SHARE = 0.95
+LEAST_SHARE = 0.97
 #: What the rules refuse for a word and the grammar plans.
 MORE = {
     "demo": [

@@ -1268,7 +1268,7 @@ REFUSED = [
     ),
     ("husky", "Take CO2 readings at 3 points in the northern half.", "'3 points': which trees does it refer to?"),
     ("husky", "Take CO2 readings at 3 points in row 4.", "'3 points': which trees does it refer to?"),
-    ("husky", "Photograph the trees of row 4 in reverse order.", "not understood: 'reverse', 'order'"),
+    ("husky", "Photograph the trees of row 4 in reverse order.", "not understood: 'reverse'"),
     (
         "husky",
         "Take pictures of all the trees row by row, starting from the east.",
