@@ -25,6 +25,7 @@ KNOWN = [case[:3] for case in (*english.PLANNED, *rows.PLANNED)]
 #: Plans that do the same: with conditions in another order, without the name of a reading that nothing uses, or with the
 #: drive to a tree as part of what is done there, or with places in turn as visits in the order given.
 SAME = {
+    "In row 6 take soil moisture readings at the first and at the last tree. Then do the same in row 8.": "for UnionOf(InRow(1, 1, of Rows(6, 6))+InRow(-1, -1, of Rows(6, 6))) given: [moisture]; for UnionOf(InRow(1, 1, of Rows(8, 8))+InRow(-1, -1, of Rows(8, 8))) given: [moisture]",
     "Photograph the corners going northwest, northeast, southeast and southwest.": "for UnionOf(Corners(nw)+Corners(ne)+Corners(se)+Corners(sw)) given: [picture]",
     "CO2 readings at the corners: first the south-west corner, then the north-west, then the north-east and the south-east last.": "for UnionOf(Corners(sw)+Corners(nw)+Corners(ne)+Corners(se)) given: [co2]",
     "can you check whether the CO2 at tree 4 is below 400 ppm?": "co2 @ TreeIs(4)",

@@ -57,6 +57,8 @@ def tree_of_row(where: tuple[int, int], inner: Nominal, rows: s.Selector) -> Pla
 @construction(
     "place: [DET] first=position AND second=position inner=nominal in_ rows=rows",
     "place: [DET] first=position AND second=position inner=nominal in_ rows=rows_of_block",
+    "place: DET first=position AND AT DET second=position inner=nominal in_ rows=rows",
+    "place: DET first=position AND OF DET second=position inner=nominal in_ rows=rows",
     cost=0.2,
 )
 def two_trees_of_row(
@@ -369,6 +371,17 @@ def every_nth_from(n: Lex, inner: Nominal, side: Lex, rows: s.Selector) -> Place
         return None
     every = s.EveryNth(nth=n.value, counted_from=side.value, of=over(inner.selector, rows))
     return PlaceMeaning(every, "several", each=True)
+
+
+@construction(
+    "place: DET first=position AND AT DET second=position inner=nominal",
+    "place: DET first=position AND OF DET second=position inner=nominal",
+    cost=0.2,
+)
+def first_and_then_last(first: tuple[int, int], second: tuple[int, int], inner: Nominal) -> PlaceMeaning | None:
+    """Compose "the first and at the last tree", two places one after the other."""
+    found = first_and_last(first, second, inner)
+    return None if found is None else replace(found, in_order=True)
 
 
 @construction("place: [BOTH] [DET] first=position [one=nominal] AND [DET] second=position inner=nominal", cost=0.2)
