@@ -82,6 +82,8 @@ PLANNED = {
         ("N12: thermal. If hot, CO2 there and at N13. If not, go to N400 for a CO2.", "picture @ TreeIs(N12) = r1; if r1 high: [co2; co2 @ TreeIs(N13)] else [go TreeIs(N400); co2] | return_to_start"),
         ("Measure air temperature at N1, N312, N13 and N466, strictly in the sequence listed.", "for UnionOf(TreeIs(N1)+TreeIs(N312)+TreeIs(N13)+TreeIs(N466)) given: [air] | return_to_start"),
         ("An air temperature, taken at the gate, and then, only if it's over 28, thermal pictures of the ten weakest vines in the South block.", "air @ GateIs(gate) = r1; if r1 > 28 degC: [for Top(vigor, 10, True, of InBlock(South)): [picture]] | return_to_start"),
+        ("An air temperature, taken at the gate, and then, only if it's over 28, thermal pictures of the ten weakest vines, South block.", "air @ GateIs(gate) = r1; if r1 > 28 degC: [for Top(vigor, 10, True, of InBlock(South)): [picture]] | return_to_start"),
+        ("Thermal pictures of the ten weakest vines, South block.", "for Top(vigor, 10, True, of InBlock(South)): [picture] | return_to_start"),
     ],
 }  # fmt: skip
 #: Requests with words that ask for nothing and have to be confirmed.
@@ -96,6 +98,7 @@ NOT_PLANNED = {
     "Measure CO2 at each tree of row 7 and photograph it if it is hot.": "CO2 is not hot",
     "Take a CO2 reading at every tree in row 3 that is hot.": "hot in the air, or in the canopy?",
     "Measure CO2 at tree 5 and photograph those that are high.": "which trees?",
+    "Take pictures of the yellow trees in row 4, then in row 6.": "the yellow ones, or all?",
     "Take CO2 at trees 4 and 5 and the tree next to it.": "next to which?",
     "If the air temperature at the start is above 30 degrees, photograph every tree in row 2; otherwise measure CO2 there.": "there: at the start, or in row 2?",
 }

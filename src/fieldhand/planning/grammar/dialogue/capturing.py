@@ -49,6 +49,7 @@ from fieldhand.planning.grammar.meaning import (
     Thing,
 )
 from fieldhand.planning.selections import (
+    AREAS,
     counts_in_row,
     is_end_of_site,
     is_one_row,
@@ -292,11 +293,17 @@ def capture_elided(setting: Setting, state: DialogueState) -> DialogueState:
     things = state.things
     if lead.place.shape != "area":
         things = tuple(replace(thing, count=None) for thing in things)
-    elif not _are_of_each(things) and (
+    elif not (lead.relation and _are_of_each(things) and _is_area(state.where)) and (
         lead.relation in ("of", "") or (state.where is not None and state.where.shape != "area")
     ):
         raise NotComposed("every tree, or how many?")
     return capture(setting, replace(state, lead=None), CaptureCommand(things, lead.place, lead.used))
+
+
+def _is_area(place: PlaceMeaning | None) -> bool:
+    """Return True for all trees of areas; "the yellow trees in row 1, then in row 3" means the yellow ones there."""
+    parts = () if place is None else tuple(place.selector.walk())
+    return bool(parts) and all(isinstance(part, (*AREAS, s.UnionOf, s.Trees, s.Ordered)) for part in parts)
 
 
 def _are_of_each(things: tuple[Thing, ...]) -> bool:

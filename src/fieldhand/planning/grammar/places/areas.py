@@ -21,6 +21,7 @@ from fieldhand.planning.selections import (
     is_whole_rows,
     measures_from_here,
     over,
+    specifies_part,
 )
 from fieldhand.site.model import Site
 
@@ -221,6 +222,14 @@ def places_of_area(where: s.Selector, inner: PlaceMeaning) -> PlaceMeaning | Non
 def whole_area(where: s.Selector) -> PlaceMeaning:
     """Compose "the whole of row 4"."""
     return PlaceMeaning(where, "several", each=True)
+
+
+@construction("place: whole=place COMMA where=block", cost=0.3)
+def in_block_behind(whole: PlaceMeaning, where: s.Selector) -> PlaceMeaning | None:
+    """Compose "the ten weakest vines, south block"."""
+    if whole.shape not in ("one", "several") or whole.per is not None or not specifies_part(whole.selector):
+        return None
+    return replace(whole, selector=over(whole.selector, where))
 
 
 @construction("place: where=region", cost=0.4)
