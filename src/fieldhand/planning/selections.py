@@ -53,6 +53,21 @@ def _rank(selector: s.Selector) -> int | None:
     return _NESTING.get(type(selector))
 
 
+def as_along_row(selector: s.Selector) -> s.AlongRow | None:
+    """Return the selector if it counts trees along a row, None otherwise."""
+    return selector if isinstance(selector, s.AlongRow) else None
+
+
+def as_random(selector: s.Selector) -> s.RandomSample | None:
+    """Return the selector if it draws at random, None otherwise."""
+    return selector if isinstance(selector, s.RandomSample) else None
+
+
+def as_row_of(selector: s.Selector) -> s.RowOf | None:
+    """Return the selector if it is the row of a place or one counted from it, None otherwise."""
+    return selector if isinstance(selector, s.RowOf) else None
+
+
 def are_rows(selector: s.Selector) -> bool:
     """Return True for rows, and for lists of rows."""
     return all(isinstance(part, s.Rows | s.RowOf) for part in selector.members)
@@ -281,6 +296,12 @@ def is_across(selector: s.Selector) -> bool:
 def is_by_attribute(selector: s.Selector) -> bool:
     """Return True if trees are chosen by an attribute ("yellow", "with vigor below 0.4")."""
     return any(isinstance(part, s.Where) for part in selector.walk())
+
+
+def is_description(selector: s.Selector) -> bool:
+    """Return True if trees are chosen by attributes and areas alone ("yellow trees of row 3"), and not all are."""
+    parts = list(selector.walk())
+    return len(parts) > 1 and all(isinstance(part, (s.Where, s.Trees, *AREAS)) for part in parts)
 
 
 def as_where(selector: s.Selector) -> s.Where | None:

@@ -64,7 +64,6 @@ def test_an_area_and_trees_with_a_comma_alone_between_them_are_the_trees_there(f
     inner, area = (second, first) if "tree" in second else (first, second)
     whole = EnglishPlanner().plan(f"take a picture of {inner} of {area}", DEMO, ROBOTS["husky"])
     assert said(outcome) == said(whole)
-    assert any(s.startswith(f"'{first}, {second}' is read as ") for s in outcome.task.command.assumptions)
 
 
 @pytest.mark.parametrize(("robot", "request_", "question"), ASKED, ids=lambda v: str(v)[:60])
@@ -98,4 +97,4 @@ def test_an_assumption_says_which_way_is_counted() -> None:
         "take a picture of tree 20, go to the next row and take another", DEMO, ROBOTS["husky"]
     )
     assert isinstance(outcome, Planned)
-    assert "'the next row' is counted towards higher row numbers (east)." in outcome.task.command.assumptions
+    assert "'go to the next row' is counted towards higher row numbers (east)." in outcome.task.command.assumptions

@@ -11,7 +11,7 @@ import pytest
 from fieldhand.approval.account import unaccounted
 from fieldhand.language import language_of_request, open_language
 from fieldhand.planning.builtin import BuiltinPlanner
-from fieldhand.planning.planner import Planned, Refused
+from fieldhand.planning.planner import Clarify, Planned, Refused
 from fieldhand.request_check import mismatches
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.loader import open_site
@@ -46,8 +46,8 @@ def test_the_requests_of_the_published_experiments_are_planned_as_the_english_on
 
 
 @pytest.mark.parametrize("request_", NOT_PLANNED)
-def test_what_is_open_or_not_possible_is_refused(request_: str) -> None:
-    assert isinstance(BuiltinPlanner().plan(request_, DEMO, HUSKY), Refused)
+def test_what_is_open_or_not_possible_is_asked_or_refused(request_: str) -> None:
+    assert isinstance(BuiltinPlanner().plan(request_, DEMO, HUSKY), Clarify | Refused)
 
 
 @pytest.mark.parametrize(

@@ -52,7 +52,16 @@ def places_of_choices(
         Nothing at all where the choices do not differ in their places: there is nothing to show then.
     """
     said = worded.span(question.said)
-    found = [_places(outcome.task, said, site, robot) if isinstance(outcome, Planned) else () for outcome in outcomes]
+    return different_places(
+        [outcome if isinstance(outcome, Planned) else None for outcome in outcomes], said, site, robot
+    )
+
+
+def different_places(
+    plans: Sequence[Planned | None], said: Span, site: Site, robot: RobotProfile
+) -> tuple[tuple[Place, ...], ...]:
+    """Return for each plan the places that some words of its request mean; nothing if they do not differ."""
+    found = [_places(plan.task, said, site, robot) if plan is not None else () for plan in plans]
     return tuple(found) if len({frozenset(p.id for p in places) for places in found}) > 1 else ()
 
 

@@ -41,16 +41,13 @@ class EnglishPlanner:
     def plan(self, request: str, site: Site, robot: RobotProfile, answers: tuple[Answer, ...] = ()) -> Outcome:
         """Plan a request. Each answer is read in place of the words that its question was about.
 
-        A request that the rules do not understand, or would ask about, is read by the grammar of constructions, which
-        plans it only if it covers every word in one way.
+        The grammar of constructions plans a request if it covers every word. What it does not plan is read by the
+        rules; if they do not plan it either, the grammar's question comes before theirs.
 
         Raises:
             RequestError: The request is empty, too long, or holds characters that no document can hold.
         """
-        outcome = self._by_rules(request, site, robot, answers)
-        if isinstance(outcome, Planned) or answers:
-            return outcome
-        outcome = self._by_grammar(outcome, request, site, robot)
+        outcome = self._plain(request, site, robot, answers)
         if not isinstance(outcome, Refused) or not self._suggests:
             return outcome
         from fieldhand.planning.refusals.helping import helpful
@@ -58,23 +55,22 @@ class EnglishPlanner:
 
         return helpful(outcome, parse_parts(request, site, robot), lambda text: self._plain(text, site, robot))
 
-    def _plain(self, request: str, site: Site, robot: RobotProfile) -> Outcome:
+    def _plain(self, request: str, site: Site, robot: RobotProfile, answers: tuple[Answer, ...] = ()) -> Outcome:
         """Plan a request without help if it is refused."""
-        outcome = self._by_rules(request, site, robot, ())
-        return outcome if isinstance(outcome, Planned) else self._by_grammar(outcome, request, site, robot)
-
-    def _by_grammar(self, by_rules: Refused | Clarify, request: str, site: Site, robot: RobotProfile) -> Outcome:
-        """Return the plan of the grammar for a request that the rules do not plan, or the better of the two answers."""
-        words = words_of(request)
-        if early_wishes(words) or any(missing_blocks(words, site)):
+        check_request(request)
+        found = _by_grammar(request, site, robot, answers)
+        if isinstance(found, Planned):
+            return found
+        by_rules = self._by_rules(request, site, robot, answers)
+        if isinstance(by_rules, Planned) or found is None:
             return by_rules
-        from fieldhand.planning.grammar.reader import composed
-
-        found = composed(request, site, robot)
-        rules_know = isinstance(by_rules, Clarify) or not any(reason.unknown for reason in by_rules.reasons)
-        if isinstance(found, Refused) and rules_know:
+        if answers and isinstance(found, Refused):
+            return found  # the answer is none of the choices
+        if isinstance(by_rules, Refused) and any(reason.final for reason in by_rules.reasons):
+            return by_rules  # the rules know the words, and that nothing helps
+        if isinstance(found, Refused) and not _is_unknown(by_rules):
             return by_rules  # the rules know the words, and say more of what is wrong
-        return found or by_rules
+        return found
 
     def _by_rules(self, request: str, site: Site, robot: RobotProfile, answers: tuple[Answer, ...]) -> Outcome:
         def read(worded: Worded, taken: tuple[Answer, ...]) -> Outcome:
@@ -109,6 +105,21 @@ class EnglishPlanner:
                 if not words:
                     return refused(worded, (_unanswered(question, given, known=words is not None),))
                 worded, taken = worded.with_words(question.said, words), (*taken, given)
+
+
+def _by_grammar(request: str, site: Site, robot: RobotProfile, answers: tuple[Answer, ...]) -> Outcome | None:
+    """Return the outcome of the grammar; None if it does not cover the request, or what is said cannot be done."""
+    words = words_of(request)
+    if early_wishes(words) or any(missing_blocks(words, site)):
+        return None
+    from fieldhand.planning.grammar.reader import composed
+
+    return composed(request, site, robot, answers=answers)
+
+
+def _is_unknown(outcome: Outcome) -> bool:
+    """Return True if a request is refused for words that are not known."""
+    return isinstance(outcome, Refused) and any(reason.unknown for reason in outcome.reasons)
 
 
 def _impossible(outcomes: Sequence[Outcome | None]) -> Refused | None:

@@ -23,7 +23,7 @@ _FILLER_COST = 0.05
 #: Maximum number of successive fillers that are skipped.
 _LONGEST_GAP = 8
 #: Maximum number of combinations of phrases that are tried; requests of everyday length take 500 to 10,000.
-MOST_COMBINATIONS = 20_000
+MOST_COMBINATIONS = 30_000
 
 F = TypeVar("F", bound=Callable[..., Any])
 

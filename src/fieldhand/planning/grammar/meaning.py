@@ -9,8 +9,9 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.english.limits import Amount
 
 #: What a place phrase means: one place, several places, an area whose trees are meant, places just spoken of (``here``,
-#: ``those``), trees around of which another phrase says how many (``nearby``), or a step along the row.
-Shape = Literal["one", "several", "area", "here", "those", "nearby", "step"]
+#: ``those``), trees around of which another phrase says how many (``nearby``), a step along the row, or rows of which
+#: the phrase does not say which (``unknown``).
+Shape = Literal["one", "several", "area", "here", "those", "nearby", "step", "unknown"]
 
 
 #: Tests of a reading or of an attribute.
@@ -24,6 +25,8 @@ OfLast = Literal["", "all", "any", "none"] | int
 
 #: Action of a capture that refers to the last one ("another one").
 LAST_THING = "*"
+#: Action of a capture that is not named ("check tree 4").
+UNSAID_THING = "?"
 #: Quantity of a test of the first reading of the request, whatever it measures.
 FIRST_READING = "^"
 
@@ -118,7 +121,8 @@ class CaptureCommand:
         used: Tokens of the phrase.
         times: Number of repetitions ("twice").
         relation: ``of`` or ``at``, which ties the captures to the place; ``lead`` if the place was
-            named first; ``bare`` for captures without a verb, which only a condition can have.
+            named first; ``bare`` for captures without a verb, which only a condition can have; ``plain`` for those
+            without a verb at the place spoken of, which are not made twice.
         spacing: Distance between the captures along a line, in metres.
         within: Area or rows in which the place is, if the phrase names them by themselves ("in row 3, at the ...").
     """

@@ -7,16 +7,19 @@ from dataclasses import dataclass, replace
 
 from fieldhand.language import message
 from fieldhand.planning.english.faults import Unclear
+from fieldhand.planning.english.leading import different_places
 from fieldhand.planning.english.limits import LimitPhrase
-from fieldhand.planning.english.planned import Meant, planned_as
+from fieldhand.planning.english.planned import NAME, Meant, planned_as
 from fieldhand.planning.english.tokens import Word
+from fieldhand.planning.grammar.ambiguity import PlanQuestion, not_an_answer, question_between
+from fieldhand.planning.grammar.assumptions import assumed_ways
 from fieldhand.planning.grammar.chart import Chart, PhraseEdge, tokens_of
-from fieldhand.planning.grammar.dialogue import DialogueState, NotComposed, Setting, read_clauses, whole_plan
+from fieldhand.planning.grammar.dialogue import DialogueState, Setting, read_in_each_way, whole_plan
 from fieldhand.planning.grammar.english import ENGLISH
 from fieldhand.planning.grammar.language import GrammarLanguage
 from fieldhand.planning.grammar.remarks import without_remarks
 from fieldhand.planning.grammar.words import Phrases, edges_of, fillers_of
-from fieldhand.planning.planner import Outcome, Planned, Refused
+from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Refused
 from fieldhand.planning.selections import is_in_block, rows_of
 from fieldhand.request_check import mismatches
 from fieldhand.robot.model import RobotProfile
@@ -40,6 +43,8 @@ class RequestReading:
         cost: Cost of its parse.
         skipped: Fillers that were skipped.
         remarks: What asks for nothing.
+        labels: Labels of steps, which say an order.
+        assumed: What was assumed, as sentences.
         mended: What was read as another word, as sentences.
     """
 
@@ -47,6 +52,8 @@ class RequestReading:
     cost: float
     skipped: tuple[Span, ...]
     remarks: tuple[Span, ...] = ()
+    labels: tuple[Span, ...] = ()
+    assumed: tuple[str, ...] = ()
     mended: tuple[str, ...] = ()
 
 
@@ -54,10 +61,17 @@ def readings(
     request: str, site: Site, robot: RobotProfile, language: GrammarLanguage = ENGLISH
 ) -> list[RequestReading]:
     """Return the ways to read a request as a whole, cheapest first; empty if the grammar does not cover it."""
+    return read(request, site, robot, language)[0]
+
+
+def read(
+    request: str, site: Site, robot: RobotProfile, language: GrammarLanguage = ENGLISH
+) -> tuple[list[RequestReading], list[str]]:
+    """Return the ways to read a request as a whole, cheapest first, and what readings that lack something ask."""
     words, phrases = language.words_of(request), language.phrases(robot, site)
-    found = _readings_of(words, phrases, site, robot, language)
+    found, asked = _readings_of(request, words, phrases, site, robot, language)
     if found or language.respelt is None:
-        return found
+        return found, asked
     known = {token for edge in edges_of(words, phrases) for token in range(edge.start, edge.end)}
     mended: list[str] = []
     for token, word in enumerate(words):
@@ -65,56 +79,142 @@ def readings(
             (words[token],), notes = language.respelt([word], phrases.lexicon)
             mended += notes
     if not mended:
-        return found
-    found = _readings_of(words, phrases, site, robot, language)
-    return [replace(reading, mended=tuple(mended)) for reading in found]
+        return found, asked
+    found, asked = _readings_of(request, words, phrases, site, robot, language)
+    return [replace(reading, mended=tuple(mended)) for reading in found], asked
 
 
 def _readings_of(
-    words: Sequence[Word], phrases: Phrases, site: Site, robot: RobotProfile, language: GrammarLanguage
-) -> list[RequestReading]:
-    """Return the ways to read words, cheapest first."""
+    request: str, words: Sequence[Word], phrases: Phrases, site: Site, robot: RobotProfile, language: GrammarLanguage
+) -> tuple[list[RequestReading], list[str]]:
+    """Return the ways to read words, cheapest first, and what readings that lack something ask."""
     remarks = without_remarks(words, edges_of(words, phrases))
     words = remarks.words
     chart = Chart(language.grammar(), len(words), fillers_of(words, phrases), given={"site": site}, predicted=PREDICTED)
     chart.parse(edges_of(words, phrases))
-    setting = Setting(robot, site, lambda used: spans(words, used))
+    setting = Setting(robot, site, lambda used: spans(words, used), request)
     found: list[RequestReading] = []
-    for edge in chart.whole("request"):
-        try:
-            state = read_clauses(setting, edge.meaning)
-        except NotComposed:
-            continue
-        found.append(RequestReading(state=state, cost=edge.cost, skipped=_skipped(words, edge), remarks=remarks.spans))
-    return found
+    asked: list[str] = []
+    sides = [(words[one.start].start, words[one.end - 1].end) for one in chart.of_category("DIR")]
+    edges = chart.whole("request")
+    for edge in edges:
+        states, questions = read_in_each_way(setting, edge.meaning)
+        if edge.cost < edges[0].cost + _MARGIN:
+            asked += [question.question for question in questions]
+        found += [
+            RequestReading(
+                state=state,
+                cost=edge.cost,
+                skipped=_skipped(words, edge),
+                remarks=remarks.spans,
+                labels=remarks.labels,
+                assumed=tuple(assumed_ways(state.plan, request, sides, site)),
+            )
+            for state in states
+        ]
+    return found, asked
 
 
 def composed(
-    request: str, site: Site, robot: RobotProfile, language: GrammarLanguage = ENGLISH
-) -> Planned | Refused | None:
-    """Return the plan of a request that the grammar covers as a whole and in one way; None otherwise.
+    request: str,
+    site: Site,
+    robot: RobotProfile,
+    language: GrammarLanguage = ENGLISH,
+    answers: tuple[Answer, ...] = (),
+) -> Outcome | None:
+    """Return the plan of a request that the grammar covers as a whole, or a question if there are several.
 
     A plan that says something else than the request, or leaves a word of it out, is none. A request that is understood
     and names a place that the site does not have is refused.
+
+    Args:
+        request: Request as typed.
+        site, robot: Site and robot of the mission.
+        language: Language of the request.
+        answers: Answers to questions about it.
+
+    Returns:
+        None if the grammar does not cover the request.
     """
-    found = readings(request, site, robot, language)
+    found, asked = read(request, site, robot, language)
     if not found:
-        return None
+        return Clarify(question=asked[0], planner=NAME) if asked else None
     found = _without_lost_words(found, request, site, robot)
-    best, *others = found
-    meant = _meant(best, request)
-    if any(other.cost < best.cost + _MARGIN and not _same(_meant(other, request), meant) for other in others):
+    likely: list[RequestReading] = []
+    for reading in found:
+        meant = _meant(reading, request)
+        if reading.cost < found[0].cost + _MARGIN and not any(_same(_meant(one, request), meant) for one in likely):
+            likely.append(reading)
+    outcomes = [_outcome_of(_meant(reading, request), request, site, robot) for reading in likely]
+    if len(likely) == 1:
+        outcome = outcomes[0]
+        whole = isinstance(outcome, Planned) and _is_whole(outcome, found[0].remarks, site, robot)
+        return outcome if whole or isinstance(outcome, Refused) else None
+    if any(outcome is None for outcome in outcomes):
         return None
-    outcome = _outcome_of(meant, request, site, robot)
-    if isinstance(outcome, Refused):
-        return outcome
-    if (
-        not isinstance(outcome, Planned)
-        or _leaves_words(outcome, best.remarks)
-        or mismatches(outcome.task, site, robot)
-    ):
-        return None
-    return outcome
+    plans = [outcome for outcome in outcomes if isinstance(outcome, Planned)]
+    return _chosen(plans, found[0].remarks, request, site, robot, answers) if plans else outcomes[0]
+
+
+def _chosen(
+    plans: Sequence[Planned],
+    remarks: Sequence[Span],
+    request: str,
+    site: Site,
+    robot: RobotProfile,
+    answers: tuple[Answer, ...],
+) -> Outcome | None:
+    """Return the plan that the answers choose, or the question that tells plans apart."""
+    taken: tuple[tuple[Answer, Span], ...] = ()
+    while len(plans) > 1 and (question := question_between(plans, request, site, robot)) is not None:
+        given = next((answer for answer in answers if answer.question == question.question), None)
+        if given is None:
+            left = _whole_answers(question, taken, remarks, site, robot)
+            if len(left) < len(question.plans):
+                return None
+            places = different_places(list(left.values()), question.said, site, robot)
+            return Clarify(question=question.question, choices=tuple(left), places=places, planner=NAME)
+        chosen = next((answer for answer in question.plans if answer.lower() == given.answer.strip().lower()), None)
+        if chosen is None:
+            return Refused(reasons=(not_an_answer(given, tuple(question.plans)),), planner=NAME)
+        plans, taken = question.plans[chosen], (*taken, (given, question.said))
+    plan = _answered(plans[0], taken)
+    return plan if _is_whole(plan, remarks, site, robot) else None
+
+
+def _whole_answers(
+    question: PlanQuestion,
+    taken: Sequence[tuple[Answer, Span]],
+    remarks: Sequence[Span],
+    site: Site,
+    robot: RobotProfile,
+) -> dict[str, Planned]:
+    """Return the answers to a question with the first plan of each that says all of the request."""
+    left: dict[str, Planned] = {}
+    for text, plans in question.plans.items():
+        answer = (Answer(question=question.question, answer=text), question.said)
+        whole = (plan for plan in plans if _is_whole(_answered(plan, (*taken, answer)), remarks, site, robot))
+        if (first := next(whole, None)) is not None:
+            left[text] = first
+    return left
+
+
+def _answered(plan: Planned, taken: Sequence[tuple[Answer, Span]]) -> Planned:
+    """Return a plan with the answers that chose it; its request is read with them in place of the words in question."""
+    if not taken:
+        return plan
+    command = plan.task.command
+    read_as, before = command.request, len(command.request)
+    for answer, (start, end) in sorted(taken, key=lambda one: one[1], reverse=True):
+        read_as = f"{read_as[:start]}{answer.answer.rstrip('.')}{read_as[min(end, before) :]}"
+        before = start
+    assumptions = (*(answer.sentence() for answer, _ in taken), *command.assumptions)
+    return replace(plan, task=replace(plan.task, command=replace(command, read_as=read_as, assumptions=assumptions)))
+
+
+def _is_whole(plan: Planned, remarks: Sequence[Span], site: Site, robot: RobotProfile) -> bool:
+    """Return True if a plan leaves no word of its request out, and does not contradict it."""
+    return not _leaves_words(plan, remarks) and not mismatches(plan.task, site, robot)
 
 
 def _without_lost_words(
@@ -139,10 +239,10 @@ def planned_clauses(
         request: Request as typed.
         site, robot: Site and robot of the mission.
     """
-    try:
-        state = read_clauses(Setting(robot, site, lambda used: spans(words, used)), phrase.meaning)
-    except NotComposed:
+    states, _ = read_in_each_way(Setting(robot, site, lambda used: spans(words, used), request), phrase.meaning)
+    if len(states) != 1:
         return None
+    (state,) = states
     meant = _meant(RequestReading(state=state, cost=phrase.cost, skipped=()), request)
     outcome = _outcome_of(meant, request, site, robot)
     return outcome if isinstance(outcome, Planned) else None
@@ -171,10 +271,11 @@ def _leaves_words(outcome: Planned, remarks: Sequence[Span]) -> bool:
 def _meant(reading: RequestReading, request: str) -> Meant:
     state = reading.state
     plan, no_part = whole_plan(state.plan), [*reading.skipped, *reading.remarks]
+    joints = (*reading.labels, *state.joints)
     if plan.is_series:
-        plan = replace(plan, said=state.joints)
+        plan = replace(plan, said=joints)
     else:
-        no_part += state.joints
+        no_part += joints
     limits = tuple(
         LimitPhrase(amount=one.amount.number, unit=one.amount.unit, keep=one.keep, said=(said[0][0], said[-1][1]))
         for one, said in zip(state.limits, state.limits_said, strict=True)
@@ -193,7 +294,7 @@ def _meant(reading: RequestReading, request: str) -> Meant:
         nominal=state.nominal,
         nominal_said=state.nominal_said,
         no_part=tuple(no_part),
-        assumptions=(*reading.mended, *remarked),
+        assumptions=(*reading.mended, *reading.assumed, *remarked),
     )
 
 

@@ -35,10 +35,12 @@ class Remarks:
     Attributes:
         words: Words that are left.
         spans: Character ranges of the remarks.
+        labels: Character ranges of the labels of steps ("Step 2:"), which ask for nothing but an order.
     """
 
     words: tuple[Word, ...]
     spans: tuple[Span, ...]
+    labels: tuple[Span, ...] = ()
 
 
 def without_remarks(words: Sequence[Word], edges: Iterable[PhraseEdge]) -> Remarks:
@@ -58,11 +60,11 @@ def without_remarks(words: Sequence[Word], edges: Iterable[PhraseEdge]) -> Remar
             reasons.add(edge.start)
         if edge.category == "ASIDE" and _stands_apart(words, edge):
             asides.update(range(edge.start, edge.end))
-    left_out = asides
+    left_out, labels = asides, set[int]()
     for sentence in _parts(words, {"stop"}):
         said = [k for k in sentence if words[k].kind != "comma"]
         label = _label(words, sentence, kinds)
-        left_out.update(label)
+        labels.update(label)
         left_out.update(_wish(sentence, kinds))
         if said and _tells(said, kinds):
             left_out.update(sentence)
@@ -72,10 +74,16 @@ def without_remarks(words: Sequence[Word], edges: Iterable[PhraseEdge]) -> Remar
             if aside and len(aside) < len(said):
                 left_out.update(aside)
     left_out |= {k for k, word in enumerate(words) if word.kind == "comma" and _sets_off(words, k, left_out)}
-    if len(left_out) == len(words):
-        left_out = set()
-    spans = tuple((words[part[0]].start, words[part[-1]].end) for part in _runs(sorted(left_out)))
-    return Remarks(words=tuple(word for k, word in enumerate(words) if k not in left_out), spans=spans)
+    left_out -= labels
+    if len(left_out | labels) == len(words):
+        left_out, labels = set(), set()
+    left = tuple(word for k, word in enumerate(words) if k not in left_out | labels)
+    return Remarks(words=left, spans=_spans(words, left_out), labels=_spans(words, labels))
+
+
+def _spans(words: Sequence[Word], chosen: set[int]) -> tuple[Span, ...]:
+    """Return the character ranges of some words, neighbours joined."""
+    return tuple((words[part[0]].start, words[part[-1]].end) for part in _runs(sorted(chosen)))
 
 
 def _sets_off(words: Sequence[Word], comma: int, left_out: set[int]) -> bool:

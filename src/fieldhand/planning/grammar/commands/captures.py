@@ -8,7 +8,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.english.limits import Amount
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import LAST_THING, CaptureCommand, Nominal, PlaceMeaning, Thing
+from fieldhand.planning.grammar.meaning import LAST_THING, UNSAID_THING, CaptureCommand, Nominal, PlaceMeaning, Thing
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_every_nth, as_zone, is_across, specifies_part
 
@@ -74,7 +74,7 @@ def topic(place: PlaceMeaning, things: tuple[Thing, ...], used: int) -> CaptureC
 @construction("capture: things=things place=here", cost=1.2)
 def there_without_verb(things: tuple[Thing, ...], place: PlaceMeaning, used: int) -> CaptureCommand | None:
     """Compose "canopy temperature and CO2 at each of them"."""
-    return CaptureCommand(things, place, used) if place.shape in ("here", "those") else None
+    return CaptureCommand(things, place, used, relation="plain") if place.shape in ("here", "those") else None
 
 
 @construction("capture: things=things PER TREE", "capture: verb things=things PER TREE", cost=0.8)
@@ -339,7 +339,7 @@ def at_spacing(
     things: tuple[Thing, ...] = (),
     place: PlaceMeaning | None = None,
     verb: Lex | None = None,
-) -> CaptureCommand | None:
+) -> CaptureCommand | list[CaptureCommand] | None:
     """Compose "take a picture every 10 m along row 3"."""
     if verb is not None:
         naming: Naming = verb.value
@@ -348,11 +348,38 @@ def at_spacing(
         return None
     if dist[1] and all(one.count in (None, 1) for one in things):
         dist = (dist[0], False)
-    if not dist[1] and any(one.count is not None and one.count > 1 for one in things):
-        return None  # "three pictures every 10 m": three stops, or three at each stop?
-    if not dist[1]:
-        things = tuple(replace(one, count=None) for one in things)
-    return CaptureCommand(things, place, used, spacing=dist[0])
+    if dist[1]:
+        return CaptureCommand(things, place, used, spacing=dist[0])
+    once = CaptureCommand(tuple(replace(one, count=None) for one in things), place, used, spacing=dist[0])
+    if all(one.count in (None, 1) for one in things):
+        return once
+    counted = replace(once, things=things)
+    if len(things) > 1 or things[0].count is None or place is None:
+        return None
+    return [counted, replace(once, times=things[0].count)]  # three stops, or three at every stop?
+
+
+@construction("capture: MEASURE place=place", "capture: MEASURE AT place=place", cost=4.0)
+def check_place(place: PlaceMeaning, used: int) -> CaptureCommand | None:
+    """Compose "check tree 4", which does not say what is measured there."""
+    if place.shape not in ("one", "several", "area"):
+        return None
+    return CaptureCommand((Thing(UNSAID_THING, plural=place.shape == "area"),), place, used)
+
+
+@construction(
+    "capture: verb things=things OF site",
+    "capture: verb=ACTV site",
+    "capture: MEASURE site",
+    cost=1.5,
+)
+def of_site(used: int, things: tuple[Thing, ...] = (), verb: Lex | None = None) -> CaptureCommand:
+    """Compose "take a picture of the orchard"."""
+    if verb is not None:
+        naming: Naming = verb.value
+        things = (Thing(naming.actions[0]),)
+    unsaid = (Thing(UNSAID_THING, plural=True),)
+    return CaptureCommand(things or unsaid, PlaceMeaning(s.Trees(), "area"), used, relation="of")
 
 
 @construction("capture: VISIT place=place AND verb things=things", cost=0.6)
@@ -370,7 +397,7 @@ def visit_and(place: PlaceMeaning, things: tuple[Thing, ...], used: int) -> Capt
 )
 def repeated_at_spacing(
     things: tuple[Thing, ...], times: Lex, dist: float, used: int, place: PlaceMeaning | None = None
-) -> CaptureCommand | None:
+) -> CaptureCommand | list[CaptureCommand] | None:
     """Compose "measure CO2 three times, 15 m apart"."""
     if any(one.count is not None for one in things):
         return None

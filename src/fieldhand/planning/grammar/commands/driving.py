@@ -23,7 +23,7 @@ from fieldhand.planning.grammar.meaning import (
 from fieldhand.planning.grammar.places.compass import AWAY_FROM
 from fieldhand.planning.grammar.places.groups import both
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import is_row_of_place
+from fieldhand.planning.selections import as_some, is_row_of_place
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -44,19 +44,36 @@ def pick(place: PlaceMeaning, used: int) -> DriveCommand | None:
 def stops(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | None:
     """Compose "tree 4, then tree 9" behind "go to"."""
     found = both(first, second)
-    return None if found is None else replace(found, in_order=True)
+    return replace(found, in_order=True) if isinstance(found, PlaceMeaning) else None
 
 
 @construction(
-    "drive: verb=GO [towards] place=place",
+    "drive: verb=GO [AT] place=place",
+    "drive: verb=GO along=ALONG place=place",
     "drive: VISIT place=place",
     "drive: GO [towards] place=stops",
     "drive: VISIT place=stops",
     cost=0.3,
 )
-def drive_to(place: PlaceMeaning, used: int, verb: Lex | None = None) -> DriveCommand:
+def drive_to(place: PlaceMeaning, used: int, verb: Lex | None = None, along: Lex | None = None) -> DriveCommand | None:
     """Compose "go to tree 4"."""
+    if along is not None and place.shape == "several" and as_some(place.selector) is not None:
+        return None  # "along 5 trees": those follow each other
     return DriveCommand(place, used, begins=verb is not None and "begins" in verb.features)
+
+
+@construction("drive: verb=MEASURE place=place", "drive: verb=TAKE place=place", cost=2.0)
+def look_at(place: PlaceMeaning, verb: Lex, used: int) -> DriveCommand | None:
+    """Compose "inspect row 4" before what is done there."""
+    return DriveCommand(place, used) if place.shape == "area" and "goes_there" in verb.features else None
+
+
+@construction("drive: GO ALONG n=count inner=nominal", cost=0.1)
+def along_so_many(n: int, inner: Nominal, used: int) -> DriveCommand | None:
+    """Compose "drive along 5 trees", which follow each other in a row."""
+    if inner.single or inner.complete or n < 2:
+        return None
+    return DriveCommand(PlaceMeaning(s.Successive(count=n, of=inner.selector), "several", count=n), used)
 
 
 @construction("towards: AT", "towards: ALONG", cost=0.0)

@@ -89,10 +89,11 @@ def joint(used: int, then: str = "", both: Lex | None = None) -> Connective:
     return Connective(False, bool(then), used, both=both is not None)
 
 
-@construction("joint: [COMMA] [and_or_but] then=then [COMMA]", cost=0.1)
-def then_joint(used: int, then: str) -> Connective:
-    """Compose "and then"."""
-    return Connective(False, True, used, from_here=then == "from here")
+@construction("joint: [before=COMMA] [both=and_or_but] then=then [COMMA]", cost=0.1)
+def then_joint(used: int, then: str, before: Lex | None = None, both: Lex | None = None) -> Connective:
+    """Compose "and then"; "from there" alone begins a sentence."""
+    from_here = then == "from here"
+    return Connective(from_here and before is None and both is None, True, used, from_here=from_here)
 
 
 @construction("joint: FULLSTOP [and_or_but]", cost=0.1)

@@ -11,12 +11,16 @@ The rules:
 ``clauses`` reads clause by clause (:func:`read_clauses`) and leaves each kind of command to ``capturing``, ``driving``,
 ``conditions`` or ``allowances``. ``state`` and ``plans`` have the state and what is done with the plan in it;
 ``fitting`` decides how many visits and captures a place means, and ``tested`` which reading a test is about.
+
+Where a request leaves open what is meant ("a picture of row 3": of each tree, or of one?), a function takes the way
+that :meth:`Setting.either` returns; :func:`read_in_each_way` reads the clauses once for each way, and the plans that
+come of them are the answers that a person can choose from.
 """
 
 from __future__ import annotations
 
-from fieldhand.planning.grammar.dialogue.clauses import read_clauses
+from fieldhand.planning.grammar.dialogue.clauses import read_clauses, read_in_each_way
 from fieldhand.planning.grammar.dialogue.plans import whole_plan
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting
 
-__all__ = ["DialogueState", "NotComposed", "Setting", "read_clauses", "whole_plan"]
+__all__ = ["DialogueState", "NotComposed", "Setting", "read_clauses", "read_in_each_way", "whole_plan"]

@@ -38,7 +38,8 @@ def allowed(
         raise NotComposed("it may be left out already")
     after_and = joint is None or joint.both or joint.then or joint.full
     if following and state.commands_in_sentence and not after_and:
-        raise NotComposed("what is left out if the budget is short?")
+        of_last = setting.either("what is left out if the budget is short?", command.used, (True, False))
+        following = () if of_last else following
     loop: Path | None = None
     next_command = following[0].command if following else None
     if state.loop is not None and isinstance(next_command, CaptureCommand) and is_spoken_of(next_command.place):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.onebyone import swapped
 from fieldhand.planning.grammar.dialogue.driving import drive, enter, may_be_left_out, ordered, require_known, visits
@@ -31,6 +32,7 @@ from fieldhand.planning.grammar.dialogue.repeating import done_more_times, proce
 from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
     NotComposed,
+    OpenQuestion,
     Path,
     Setting,
     Spans,
@@ -41,6 +43,7 @@ from fieldhand.planning.grammar.dialogue.state import (
 )
 from fieldhand.planning.grammar.meaning import (
     LAST_THING,
+    UNSAID_THING,
     Again,
     CaptureCommand,
     DriveCommand,
@@ -50,6 +53,7 @@ from fieldhand.planning.grammar.meaning import (
 )
 from fieldhand.planning.selections import (
     AREAS,
+    are_rows,
     counts_in_row,
     is_end_of_site,
     is_one_row,
@@ -72,27 +76,27 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
         and _is_one_more(command)
         and is_one_row(state.area.place.selector)
     ):
-        state = enter(setting, state, state.area, None)  # "move two rows over and take another"
+        state = enter(setting, state, state.area)  # "move two rows over and take another"
     same = any(one.action == LAST_THING and one.count is None for one in command.things)
     if same and command.place is not None and command.place.shape == "area":
         raise NotComposed("the same at every tree, or at how many?")
-    things = meant_things(state, command.things)
+    things = meant_things(state, said_things(setting, command))
     place, state, before = _place_of(setting, state, command)
     said = (*before, *setting.spans_of(command.used))
     if command.spacing is not None:
         if place is not None and place.shape == "several":
-            line, once = spaced(None, things, command.spacing, setting.site)
+            line, once = spaced(setting, None, things, command.spacing, command.used)
             return _lines_at_each(state, replace(command, things=once), place, line, said)
-        place, things = spaced(place, things, command.spacing, setting.site)
+        place, things = spaced(setting, place, things, command.spacing, command.used)
     place = _those_again(state, place)
     if place is not None and place.shape == "those" and (place.count or place.at_most):
         return _at_some_of_those(state, replace(command, things=things), place, said)
-    require_known(state, place, setting.site)
+    require_known(setting, state, place, command.used)
     if place is None or place.shape in ("here", "those"):
-        return _at_the_same_place(state, replace(command, things=things, place=place), said)
+        return _at_the_same_place(setting, state, replace(command, things=things, place=place), said)
     if place.selector == s.Trees() and place.shape == "several" and state.plan.steps and not place.optional:
         raise NotComposed("each of those, or each tree of the site?")
-    place, things = fitted(place, things, command.relation, setting.site)
+    place, things = fitted(setting, place, things, command.relation, command.used)
     if place.shape == "one":
         return capture_once(state, replace(command, things=things), place, said)
     return _capture_at_each(setting, replace(state, loop=None), replace(command, things=things), place, said)
@@ -152,6 +156,14 @@ def _act(thing: Thing, times: int, said: Spans) -> p.Act:
     return p.Act(id="", action=thing.action, count=(thing.count or 1) * times, said=said)
 
 
+def said_things(setting: Setting, command: CaptureCommand) -> tuple[Thing, ...]:
+    """Return the captures of a command; one that it does not name can be each that the robot is able to."""
+    if not any(thing.action == UNSAID_THING for thing in command.things):
+        return command.things
+    action = setting.either("what is taken?", command.used, [action.name for action in setting.robot.actions])
+    return tuple(replace(thing, action=action) for thing in command.things)
+
+
 def meant_things(state: DialogueState, things: tuple[Thing, ...]) -> tuple[Thing, ...]:
     """Return captures, those that refer to the last ones resolved.
 
@@ -190,7 +202,7 @@ def _place_of(
         if further is not None:
             return further, state, said
     if first.shape == "area" and first.per is None:
-        return in_area(before, place), replace(state, within=first.selector), said
+        return in_area(setting, before, place), replace(state, within=first.selector), said
     if first.per is not None and place is not None and place.per is None and place.shape in ("one", "several"):
         if first.shape != "area":
             raise NotComposed("two places for one command")
@@ -228,10 +240,11 @@ def _at_some_of_those(state: DialogueState, command: CaptureCommand, place: Plac
     return replace(state, things=command.things, commands_in_sentence=state.commands_in_sentence + 1)
 
 
-def _at_the_same_place(state: DialogueState, command: CaptureCommand, said: Spans) -> DialogueState:
+def _at_the_same_place(setting: Setting, state: DialogueState, command: CaptureCommand, said: Spans) -> DialogueState:
     """Return the state after captures where the last command was: at each of its places if it went to several."""
     if command.place is None and not state.plan.steps:
-        raise NotComposed("at which tree?")
+        asked = message("'{said}': at which tree or trees?", context="question", said=setting.quoted(command.used))
+        raise OpenQuestion(asked)
     if command.place is not None and state.where is None:
         raise NotComposed("which place is meant?")
     if command.place is not None and not command.place.itself and _is_of_other_case(state):
@@ -249,7 +262,8 @@ def _at_the_same_place(state: DialogueState, command: CaptureCommand, said: Span
     if command.relation == "each" and actions <= done and state.loop is not None:
         loop = for_each_at(state.plan, state.loop[:-1])  # "from three trees, one sample per tree"
         return replace(state, plan=with_node(state.plan, state.loop[:-1], replace(loop, said=(*loop.said, *said))))
-    if command.place is not None and command.place.shape == "those" and actions <= done:
+    here = state.captured is not None and scope == state.captured[:-1] and command.relation == "plain"
+    if command.place is not None and (command.place.shape == "those" or here) and actions <= done:
         raise NotComposed("once more, or the same said twice?")
     state = _with_captures(state, command.things, command.times, said, scope)
     return replace(state, things=command.things, commands_in_sentence=state.commands_in_sentence + 1)
@@ -294,10 +308,12 @@ def capture_elided(setting: Setting, state: DialogueState) -> DialogueState:
     if lead.place.shape != "area":
         things = tuple(replace(thing, count=None) for thing in things)
     elif not (lead.relation and _are_of_each(things) and _is_area(state.where)) and (
-        lead.relation in ("of", "") or (state.where is not None and state.where.shape != "area")
+        lead.relation == "" or not (state.where is None or _is_area(state.where) or are_rows(state.where.selector))
     ):
         raise NotComposed("every tree, or how many?")
-    return capture(setting, replace(state, lead=None), CaptureCommand(things, lead.place, lead.used))
+    of_each = lead.place.shape == "area" and state.where is not None and state.where.shape == "several"
+    again = CaptureCommand(things, lead.place, lead.used, relation="of" if of_each else lead.relation)
+    return capture(setting, replace(state, lead=None), again)
 
 
 def _is_area(place: PlaceMeaning | None) -> bool:

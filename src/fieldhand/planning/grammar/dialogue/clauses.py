@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import replace
 
 from fieldhand.places import selectors as s
@@ -14,10 +14,12 @@ from fieldhand.planning.grammar.dialogue.driving import (
     driven_home,
     enter,
     go_home,
+    is_there,
     limit_visits,
     put_in_order,
     without_home,
 )
+from fieldhand.planning.grammar.dialogue.faults import Fork, OpenQuestion
 from fieldhand.planning.grammar.dialogue.fitting import is_spoken_of
 from fieldhand.planning.grammar.dialogue.likewise import with_known_place
 from fieldhand.planning.grammar.dialogue.plans import EMPTY, as_for_each, walk
@@ -57,12 +59,36 @@ from fieldhand.planning.grammar.meaning import (
 from fieldhand.planning.selections import AREAS, specifies_part
 from fieldhand.task import plan as p
 
+#: Maximum number of ways in which one parse is continued; a request that leaves more open is not composed.
+_MOST_WAYS = 32
+
+
+def read_in_each_way(setting: Setting, said: Said) -> tuple[list[DialogueState], list[OpenQuestion]]:
+    """Return the state after all clauses for each way to continue them, and the questions of ways that lack more."""
+    states: list[DialogueState] = []
+    questions: list[OpenQuestion] = []
+    waiting: list[Mapping[Hashable, int]] = [{}]
+    while waiting:
+        chosen = waiting.pop(0)
+        try:
+            states.append(read_clauses(replace(setting, chosen=chosen), said))
+        except Fork as fork:
+            waiting += [{**chosen, fork.key: way} for way in range(fork.count)]
+            if len(states) + len(waiting) > _MOST_WAYS:
+                return [], []
+        except OpenQuestion as question:
+            questions.append(question)
+        except NotComposed:
+            continue
+    return states, questions
+
 
 def read_clauses(setting: Setting, said: Said) -> DialogueState:
     """Return the state after all clauses.
 
     Raises:
         NotComposed: The clauses do not fit together.
+        Fork: They can be continued in several ways, and ``setting`` does not say in which.
     """
     state = DialogueState()
     for k, clause in enumerate(said.clauses):
@@ -201,8 +227,9 @@ def _new_sentence(setting: Setting, state: DialogueState, command: Command) -> D
     state = capture_elided(setting, state)
     if state.open or state.lead is not None:
         raise NotComposed("a sentence ends before it says what to do")
-    if state.area is not None:
-        state = enter(setting, state, state.area, command.place if isinstance(command, CaptureCommand) else None)
+    place = command.place if isinstance(command, CaptureCommand) else None
+    if state.area is not None and not is_there(setting, state.area, place):
+        state = enter(setting, state, state.area)
     scope = state.scope if isinstance(command, Otherwise) else ()
     return replace(state, scope=scope, commands_in_sentence=0, within=None)
 

@@ -76,8 +76,7 @@ def when(setting: Setting, state: DialogueState, command: When, following: Seque
     command = replace(command, tests=_for_each_place(state, command.tests, following))
     said, robot = setting.spans_of(command.used), setting.robot
     vague = [test for test in command.tests.tests if not test.quantity and not test.attribute]
-    if vague and len([thing for thing in state.things if robot.action[thing.action].measures]) > 1:
-        raise NotComposed("which reading is tested?")
+    state = _with_tested_thing(setting, state, command) if vague else state
     if not decides_last:
         state = _measured_here(setting, state, command)
     if decides_last:
@@ -88,7 +87,11 @@ def when(setting: Setting, state: DialogueState, command: When, following: Seque
         return otherwise(setting, state, said)
     inner = state.captured is not None and is_conditional(state.captured)
     if inner and state.decided is not None and any(not test.unit for test in vague):
-        raise NotComposed("which reading is tested?")
+        before = _capture_of_choice(state)
+        ways = [state.captured, before] if before is not None else []
+        if not ways:
+            raise NotComposed("which reading is tested?")
+        state = replace(state, captured=setting.either("which reading is tested?", command.used, ways))
     return _choice(state, command.tests, said, robot)
 
 
@@ -204,6 +207,29 @@ def _decide_last_at_each(state: DialogueState, command: When, said: Spans, robot
     plan = with_node(state.plan, body, p.InOrder(id="", steps=(*steps[:-number], choice)))
     path = (*body, len(steps) - number)
     return replace(state, plan=plan, choice=path, decided=command.tests, tested_at=(state.where, state.where_scope))
+
+
+def _with_tested_thing(setting: Setting, state: DialogueState, command: When) -> DialogueState:
+    """Return the state in which "it" is the chosen one of several readings that were taken at once."""
+    measured = [thing for thing in state.things if setting.robot.action[thing.action].measures]
+    if len(measured) < 2:
+        return state
+    thing = setting.either("which reading is tested?", command.used, measured)
+    taken = [
+        path
+        for path, node in walk(state.plan)
+        if node.act is not None and node.act.action == thing.action and path[:-1] == (state.captured or ())[:-1]
+    ]
+    if not taken:
+        raise NotComposed("which reading is tested?")
+    return replace(state, captured=taken[-1])
+
+
+def _capture_of_choice(state: DialogueState) -> Path | None:
+    """Return the path of the capture that the last condition tests."""
+    choice = None if state.choice is None else as_choice(node_at(state.plan, state.choice))
+    reading = "" if choice is None else getattr(choice.condition, "reading", "")
+    return next((path for path, node in walk(state.plan) if node.act and reading and node.act.reading == reading), None)
 
 
 def _for_each_place(state: DialogueState, tests: AllTests, following: Sequence[LinkedCommand]) -> AllTests:

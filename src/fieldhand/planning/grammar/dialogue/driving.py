@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import cast
 
+from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.places.picks.ordered import Order
 from fieldhand.planning.grammar.dialogue.fitting import in_area
@@ -12,6 +13,7 @@ from fieldhand.planning.grammar.dialogue.plans import EMPTY, for_each_at, is_con
 from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
     NotComposed,
+    OpenQuestion,
     Setting,
     Spans,
     done_at,
@@ -40,11 +42,14 @@ def drive(setting: Setting, state: DialogueState, command: DriveCommand) -> Dial
         state = drive(setting, replace(state, lead=None), DriveCommand(before.place, before.used))
     if area is not None and place.shape == "one" and not place.selector.relative and not area.along:
         leads = True  # "Go to row 3, then go to tree 5."
-        state = enter(setting, state, area, place)
+        if is_there(setting, area, place):
+            state, place = replace(state, area=None), in_area(setting, area, place)
+        else:
+            state = enter(setting, state, area)
     if area is not None and place.shape == "several" and chooses_from_trees(place.selector):
-        state, place = replace(state, area=None), in_area(area, place)  # "drive down row 3, visit every tree"
+        state, place = replace(state, area=None), in_area(setting, area, place)  # "drive down row 3, visit every tree"
         said = (*setting.spans_of(area.used), *said)
-    require_known(state, place, setting.site)
+    require_known(setting, state, place, command.used)
     if state.awaits_command:
         raise NotComposed("two places for one command")
     if not leads and _stands_idle(state) and not place.selector.relative and not command.returns:
@@ -64,20 +69,15 @@ def drive(setting: Setting, state: DialogueState, command: DriveCommand) -> Dial
     raise NotComposed("where to?")
 
 
-def enter(setting: Setting, state: DialogueState, area: DriveCommand, following: PlaceMeaning | None) -> DialogueState:
-    """Return the state after a drive to any tree of the area that the robot was sent to.
+def is_there(setting: Setting, area: DriveCommand, place: PlaceMeaning | None) -> bool:
+    """Return True if the next place is one of the area that the robot was sent to, which both readings may be."""
+    if place is None or not chooses_from_trees(place.selector):
+        return False
+    return setting.either("of that area, or of the whole site?", area.used, (True, False))
 
-    Args:
-        setting: Robot and site that the request is read for.
-        state: State before it.
-        area: Drive into the area.
-        following: Place of the command behind it.
 
-    Raises:
-        NotComposed: The next place may be one of that area.
-    """
-    if following is not None and chooses_from_trees(following.selector):
-        raise NotComposed("of that area, or of the whole site?")
+def enter(setting: Setting, state: DialogueState, area: DriveCommand) -> DialogueState:
+    """Return the state after a drive to any tree of the area that the robot was sent to."""
     one = PlaceMeaning(s.Take(count=1, of=area.place.selector), "one")
     return drive(setting, replace(state, area=None), DriveCommand(one, area.used))
 
@@ -101,19 +101,24 @@ def visits(place: PlaceMeaning, said: Spans) -> p.ForEach:
     )
 
 
-def require_known(state: DialogueState, place: PlaceMeaning | None, site: Site) -> None:
+def require_known(setting: Setting, state: DialogueState, place: PlaceMeaning | None, used: int) -> None:
     """Refuse places that refer to one which is not known, or which an optional step may leave out.
 
     Raises:
         NotComposed: The place is not known.
     """
+    if place is not None and place.shape == "unknown":
+        said = setting.quoted(used)
+        several = message("'{said}': which rows?", context="question", said=said)
+        raise OpenQuestion(several if place.count else message("'{said}': which row?", context="question", said=said))
     parts = [] if place is None or place.shape in ("here", "those") else list(place.selector.walk())
     from_here = [part for part in parts if starts_here(part)]
     if from_here:
         if state.where is None or (state.where.shape != "one" and not is_inside(state.scope, state.loop or (-1,))):
-            raise NotComposed("from which tree?")
+            asked = message("'{said}': from which tree?", context="question", said=setting.quoted(used))
+            raise OpenQuestion(asked)
         sides = {part.towards for part in from_here if isinstance(part, s.AlongRow)} & _COMPASS
-        if not all(_rows_run_to(side, site) for side in sides):
+        if not all(_rows_run_to(side, setting.site) for side in sides):
             raise NotComposed("the rows have no end on that side")
     after_several = state.where is not None and state.where.shape == "several"
     beside_it = any(isinstance(part, s.Nearest) and part.adjacent and part.to == s.Here() for part in parts)
@@ -121,7 +126,9 @@ def require_known(state: DialogueState, place: PlaceMeaning | None, site: Site) 
         raise NotComposed("next to which of them?")
     refers = not parts or s.Here() in parts
     if refers and state.where is not None and may_be_left_out(state):
-        raise NotComposed("where, if what comes before it is left out?")
+        said = setting.quoted(used)
+        asked = message("'{said}': where, if what comes before it is left out?", context="question", said=said)
+        raise OpenQuestion(asked)
 
 
 def may_be_left_out(state: DialogueState) -> bool:

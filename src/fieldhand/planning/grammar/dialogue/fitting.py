@@ -2,15 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any, cast
 
+from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.onebyone import MOST_ONE_BY_ONE, one_by_one, swapped
-from fieldhand.planning.grammar.dialogue.faults import NotComposed
+from fieldhand.planning.grammar.dialogue.state import NotComposed, OpenQuestion, Setting
 from fieldhand.planning.grammar.meaning import DriveCommand, Lead, PlaceMeaning, Thing
-from fieldhand.planning.selections import are_rows, are_several_rows, as_some, chooses_from_trees, counts_in_row, over
-from fieldhand.site.model import Site
+from fieldhand.planning.grammar.places.numbered import ids_of
+from fieldhand.planning.selections import (
+    are_rows,
+    are_several_rows,
+    as_along_row,
+    as_some,
+    chooses_from_trees,
+    counts_in_row,
+    is_one_row,
+    over,
+)
 
 
 def is_spoken_of(place: PlaceMeaning | None) -> bool:
@@ -27,7 +38,7 @@ def within_area(place: PlaceMeaning | None, area: s.Selector | None) -> PlaceMea
     return replace(place, selector=over(place.selector, area))
 
 
-def in_area(before: Lead | DriveCommand, place: PlaceMeaning | None) -> PlaceMeaning:
+def in_area(setting: Setting, before: Lead | DriveCommand, place: PlaceMeaning | None) -> PlaceMeaning:
     """Return the place of a command in an area that was named before it ("along row 3, ... at every other tree").
 
     Raises:
@@ -37,7 +48,9 @@ def in_area(before: Lead | DriveCommand, place: PlaceMeaning | None) -> PlaceMea
     if before.place.each and is_spoken_of(place):
         return PlaceMeaning(area, "several", each=True)
     if place is None and isinstance(before, DriveCommand) and are_several_rows(area):
-        raise NotComposed("at every tree, or at how many?")
+        each = PlaceMeaning(area, "several", each=True)
+        ways = (each, _one_of_each(one_by_one(area, setting.site)))
+        return setting.either("at every tree, or at how many?", before.used, ways)
     if place is None or place.shape in ("here", "those"):
         if place is None or not place.each:
             return PlaceMeaning(area, "area")
@@ -86,7 +99,7 @@ def in_each_row(rows: s.Selector, place: PlaceMeaning) -> PlaceMeaning:
 
 
 def spaced(
-    place: PlaceMeaning | None, things: tuple[Thing, ...], spacing: float, site: Site
+    setting: Setting, place: PlaceMeaning | None, things: tuple[Thing, ...], spacing: float, used: int
 ) -> tuple[PlaceMeaning, tuple[Thing, ...]]:
     """Return the free points of captures at a spacing, and the captures at each.
 
@@ -100,14 +113,21 @@ def spaced(
     once = _once(things)
     if place is None or place.shape != "area":
         if count < 2:
-            raise NotComposed("along which row?")
+            asked = message("'{said}': how many, or along which row?", context="question", said=setting.quoted(used))
+            raise OpenQuestion(asked)
         return PlaceMeaning(s.Spaced(apart_m=spacing, count=count), "several"), once
     area = place.selector if place.per is None else place.per
-    rows = one_by_one(area, site) if are_rows(area) else ()
+    rows = one_by_one(area, setting.site) if are_rows(area) else ()
     if not rows:
         raise NotComposed("along which row?")
     if count and len(rows) > 1 and place.per is None:
-        raise NotComposed("so many in each row, or in all?")
+        asked = message(
+            "'{said}': {count} along each row, or {count} in all?",
+            context="question",
+            said=setting.quoted(used),
+            count=count,
+        )
+        raise OpenQuestion(asked)
     if len(rows) == 1:
         return PlaceMeaning(s.Spaced(apart_m=spacing, count=count, of=area), "several"), once
     parts = tuple(s.Spaced(apart_m=spacing, count=count, of=row) for row in rows)
@@ -115,9 +135,16 @@ def spaced(
 
 
 def fitted(
-    place: PlaceMeaning, things: tuple[Thing, ...], relation: str, site: Site
+    setting: Setting, place: PlaceMeaning, things: tuple[Thing, ...], relation: str, used: int
 ) -> tuple[PlaceMeaning, tuple[Thing, ...]]:
     """Return a place of one or several visits, and the captures at each.
+
+    Args:
+        setting: Robot and site that the request is read for.
+        place: Place that the phrase names.
+        things: Captures.
+        relation: What ties them to the place.
+        used: Tokens of the command.
 
     Raises:
         NotComposed: How many visits are meant is unclear.
@@ -129,25 +156,23 @@ def fitted(
         raise NotComposed("different numbers of captures")
     count = next(iter(counts)) if len(counts) == 1 else None
     if place.shape == "step":
-        if relation == "of":
-            raise NotComposed("the tree so far along, or so many trees?")
-        return replace(place, shape="one"), things
+        return setting.either("the tree so far along, or so many trees?", used, _along(place, relation)), things
     if place.shape == "nearby":
-        return _nearby(place, things, count), _once(things)
+        return _nearby(setting, place, things, count, used), _once(things)
     if place.per is not None:
-        return _of_rows(place, place.per, things, count, relation, site), _once(things)
+        return _of_rows(setting, place, place.per, things, count, relation, used), _once(things)
     if place.shape == "one":
         some = as_some(place.selector)
         if some is not None and some.count == 1 and are_several_rows(some.of):
-            raise NotComposed("one in each of them, or one in all?")
+            return _one_in_each_or_in_all(setting, some.of, used), things
         return place, things
     if place.shape == "area":
-        return _of_area(place, things, count, relation), _once(things)
+        return _of_area(setting, place, things, count, relation, used), _once(things)
     if place.each or count is None:
         return place, things
     if count == 1 or count == place.count:
         return place, _once(things)
-    raise NotComposed("so many at each place, or in all?")
+    return setting.either("so many at each place, or in all?", used, _at_each_or_in_all(setting, place, things, count))
 
 
 def _once(things: tuple[Thing, ...]) -> tuple[Thing, ...]:
@@ -160,24 +185,73 @@ def _are_plural(things: tuple[Thing, ...]) -> bool:
     return all(thing.plural for thing in things)
 
 
-def _nearby(place: PlaceMeaning, things: tuple[Thing, ...], count: int | None) -> PlaceMeaning:
+def _along(place: PlaceMeaning, relation: str) -> tuple[PlaceMeaning, ...]:
+    """Return the meanings of "5 trees down the row": the tree that is so far along, and for "of" the trees up to it."""
+    far = replace(place, shape="one")
+    last = as_along_row(place.selector)
+    if relation != "of" or last is None or last.trees < 2:
+        return (far,)
+    steps = tuple(replace(last, trees=number) for number in range(1, last.trees + 1))
+    return (far, PlaceMeaning(s.UnionOf(parts=steps), "several", count=len(steps)))
+
+
+def _at_each_or_in_all(
+    setting: Setting, place: PlaceMeaning, things: tuple[Thing, ...], count: int
+) -> tuple[tuple[PlaceMeaning, tuple[Thing, ...]], ...]:
+    """Return the meanings of "2 pictures at the corners": so many at each place, and so many in all."""
+    ways = [(place, things)]
+    places = place.count or len(ids_of(place.selector, setting.site) or ())
+    if 0 < count < places:
+        some = PlaceMeaning(s.Take(count=count, of=place.selector), "one" if count == 1 else "several", count=count)
+        ways.append((some, _once(things)))
+    elif places and count > places and count % places == 0:
+        ways.append((place, tuple(replace(thing, count=count // places) for thing in things)))
+    if len(ways) == 1:
+        raise NotComposed("so many at each place, or in all?")
+    return tuple(ways)
+
+
+def _one_in_each_or_in_all(setting: Setting, rows: s.Selector, used: int) -> PlaceMeaning:
+    """Return one tree of each of several rows, or one of all of them."""
+    named = rows.members
+    ones = named if len(named) > 1 and all(is_one_row(row) for row in named) else one_by_one(rows, setting.site)
+    if not 1 < len(ones) <= MOST_ONE_BY_ONE:
+        raise NotComposed("one in each of them, or one in all?")
+    each = _one_of_each(ones)
+    return setting.either(
+        "one in each of them, or one in all?", used, (each, PlaceMeaning(s.Take(count=1, of=rows), "one"))
+    )
+
+
+def _one_of_each(rows: Sequence[s.Selector]) -> PlaceMeaning:
+    """Return one tree of each row."""
+    return PlaceMeaning(s.UnionOf(parts=tuple(s.Take(count=1, of=row) for row in rows)), "several", count=len(rows))
+
+
+def _nearby(
+    setting: Setting, place: PlaceMeaning, things: tuple[Thing, ...], count: int | None, used: int
+) -> PlaceMeaning:
     """Return trees around the robot, as many as there are captures."""
-    number = count or (2 if _are_plural(things) else 1)
-    if count is None and number > 1:
-        raise NotComposed("how many trees?")
+    number = count or (setting.either("how many trees?", used, (2, 3, 4)) if _are_plural(things) else 1)
     selector: s.Selector = replace(cast(Any, place.selector), count=number)
     return PlaceMeaning(selector, "one" if number == 1 else "several", count=number)
 
 
 def _of_rows(
-    place: PlaceMeaning, rows: s.Selector, things: tuple[Thing, ...], count: int | None, relation: str, site: Site
+    setting: Setting,
+    place: PlaceMeaning,
+    rows: s.Selector,
+    things: tuple[Thing, ...],
+    count: int | None,
+    relation: str,
+    used: int,
 ) -> PlaceMeaning:
     """Return what is said of each of several rows."""
     if place.shape == "area" and count is None and not things[0].count and _are_plural(things):
         return PlaceMeaning(rows, "several")
-    if place.shape == "area" and relation == "of":
-        raise NotComposed("every tree, or how many?")
-    single = one_by_one(rows, site)
+    if place.shape == "area" and relation == "of" and setting.either("every tree, or how many?", used, (True, False)):
+        return PlaceMeaning(rows, "several")
+    single = one_by_one(rows, setting.site)
     if not single or len(single) > MOST_ONE_BY_ONE:
         raise NotComposed("rows one by one")
     selector = s.Take(count=count or 1, of=s.Trees()) if place.shape == "area" else place.selector
@@ -185,13 +259,15 @@ def _of_rows(
     return PlaceMeaning(parts[0] if len(parts) == 1 else s.UnionOf(parts=parts), "several")
 
 
-def _of_area(place: PlaceMeaning, things: tuple[Thing, ...], count: int | None, relation: str) -> PlaceMeaning:
+def _of_area(
+    setting: Setting, place: PlaceMeaning, things: tuple[Thing, ...], count: int | None, relation: str, used: int
+) -> PlaceMeaning:
     """Return the trees of an area: all of them, or as many as there are captures."""
     if count is None and _are_plural(things):
         return replace(place, shape="several")
-    if relation == "of" and count in (None, 1):
-        raise NotComposed("every tree, or how many?")
+    if relation == "of" and count in (None, 1) and setting.either("every tree, or how many?", used, (True, False)):
+        return replace(place, shape="several")
     if count in (None, 1) and are_several_rows(place.selector):
-        raise NotComposed("one in each of them, or one in all?")
+        return _one_in_each_or_in_all(setting, place.selector, used)
     number = count or 1
     return PlaceMeaning(s.Take(count=number, of=place.selector), "one" if number == 1 else "several", count=number)

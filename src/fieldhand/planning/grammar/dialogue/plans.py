@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import count
 from typing import Any, cast
 
 from fieldhand.places import selectors as s
+from fieldhand.planning.english.onebyone import swapped
 from fieldhand.planning.grammar.dialogue.faults import NotComposed
+from fieldhand.planning.selections import as_random
 from fieldhand.task import plan as p
 
 #: Steps from the plan's root to a node: indices of steps, and the names of the fields that hold the inner nodes.
@@ -125,7 +128,21 @@ def whole_plan(plan: p.InOrder) -> p.Node:
     steps = plan.steps
     while len(steps) > 1 and steps[-1].ends_plan:
         steps = steps[:-1]
-    return finished(replace(plan, steps=steps))
+    return with_seeds(finished(replace(plan, steps=steps)), count())
+
+
+def with_seeds(node: p.Node, seeds: Iterator[int]) -> p.Node:
+    """Return a plan in which each draw at random has a seed of its own, so that two draws are independent."""
+    selector = node.selector
+    if selector is not None:
+        drawn = selector
+        for part in selector.walk():
+            if (sample := as_random(part)) is not None:
+                drawn = swapped(drawn, sample, replace(sample, seed=next(seeds)))
+        changed: Any = node
+        names = [name for name in node.__dataclass_fields__ if getattr(node, name) is selector]
+        node = replace(changed, **dict.fromkeys(names, drawn))
+    return node.with_children([with_seeds(child, seeds) for child in node.children])
 
 
 def finished(node: p.Node) -> p.Node:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Hashable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import TypeVar
 
 from fieldhand.places import selectors as s
-from fieldhand.planning.grammar.dialogue.faults import NotComposed
+from fieldhand.planning.grammar.dialogue.faults import Fork, NotComposed, OpenQuestion
 from fieldhand.planning.grammar.dialogue.plans import EMPTY, Path, block_at, with_node
 from fieldhand.planning.grammar.meaning import (
     AllTests,
@@ -26,6 +27,7 @@ from fieldhand.task.conditions import Condition
 from fieldhand.task.frames import Then
 
 Spans = tuple[p.Span, ...]
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -36,11 +38,38 @@ class Setting:
         robot: Robot profile.
         site: Site, whose rows are named where something is said of each of them.
         spans_of: Returns the character ranges of a bit mask of tokens.
+        request: The request as typed, which questions quote.
+        chosen: Number of the way that was chosen at each fork.
     """
 
     robot: RobotProfile
     site: Site
     spans_of: Callable[[int], Spans]
+    request: str = ""
+    chosen: Mapping[Hashable, int] = field(default_factory=dict)
+
+    def either(self, what: str, used: int, ways: Sequence[T]) -> T:
+        """Return the chosen one of several ways to continue.
+
+        Args:
+            what: What has to be chosen.
+            used: Tokens that leave it open; with ``what`` they name the fork.
+            ways: Ways to continue, at least one.
+
+        Raises:
+            Fork: None of them has been chosen.
+        """
+        if len(ways) == 1:
+            return ways[0]
+        key = (what, used)
+        if key not in self.chosen:
+            raise Fork(key, len(ways))
+        return ways[self.chosen[key]]
+
+    def quoted(self, used: int) -> str:
+        """Return the words of the request from the first to the last of some tokens."""
+        said = self.spans_of(used)
+        return self.request[said[0][0] : said[-1][1]] if said else ""
 
     def action_measuring(self, quantity: str) -> str | None:
         """Return the name of the first action that measures a quantity."""
@@ -158,6 +187,6 @@ def done_at(state: DialogueState, place: PlaceMeaning) -> DialogueState:
 
 
 __all__ = [
-    "DialogueState", "NotComposed", "Path", "Setting", "Spans", "done_at", "with_capture", "with_joints",
-    "with_last_step", "with_step",
+    "DialogueState", "NotComposed", "OpenQuestion", "Path", "Setting", "Spans", "done_at", "with_capture",
+    "with_joints", "with_last_step", "with_step",
 ]  # fmt: skip

@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from dataclasses import replace
 from itertools import combinations
 
+from fieldhand.language import message, named
+from fieldhand.language.words import say_name
 from fieldhand.planning.grammar.dialogue.plans import (
     Path,
     as_for_each,
@@ -16,7 +18,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
     walk,
     with_node,
 )
-from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed
+from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, OpenQuestion
 from fieldhand.planning.grammar.meaning import FIRST_READING, AllTests, Check, Test
 from fieldhand.planning.selections import named_places
 from fieldhand.robot.model import RobotProfile
@@ -129,7 +131,13 @@ def _checked(test: Test, reading: str, quantity: str, robot: RobotProfile) -> c.
     unit = robot.quantity[quantity].unit
     if test.check == "level":
         if test.value not in robot.quantity[quantity].levels:
-            raise NotComposed("the robot knows no such level")
+            what = message(
+                "what is a {level} {quantity}? {name} does not define that level",
+                level=named(test.value, "level"),
+                quantity=say_name(quantity),
+                name=robot.name,
+            )
+            raise OpenQuestion(message("{what}; say a threshold in {unit}", context="question", what=what, unit=unit))
         return c.Level(reading=reading, quantity=quantity, level=test.value)
     if test.check == "between":
         low, high = test.value

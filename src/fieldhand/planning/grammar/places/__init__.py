@@ -5,6 +5,7 @@ from __future__ import annotations
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.places import (
     areas,
+    choices,
     groups,
     likewise,
     nouns,
@@ -17,5 +18,5 @@ from fieldhand.planning.grammar.places import (
 )
 
 GRAMMAR = Grammar()
-for _part in (numbers, numbered, nouns, areas, rows, positions, spots, groups, likewise, steps):
+for _part in (numbers, numbered, nouns, areas, rows, positions, spots, groups, likewise, steps, choices):
     GRAMMAR.include(_part.GRAMMAR)

@@ -12,9 +12,9 @@ from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
     are_rows,
+    as_in_row,
     as_some,
     chooses_from_trees,
-    counts_in_row,
     is_by_attribute,
     is_end_of_site,
     landmark_of,
@@ -325,7 +325,7 @@ def any_except(inner: Nominal, part: PlaceMeaning) -> PlaceMeaning | None:
 
 
 @construction("place_list: first=place COMMA second=place", "place_list: first=place_list COMMA second=place", cost=0.4)
-def listed_places(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | None:
+def listed_places(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | list[PlaceMeaning] | None:
     """Compose "tree 12, tree 15"."""
     return both(first, second)
 
@@ -335,7 +335,7 @@ def listed_places(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | N
     "place: first=place AND second=place",
     cost=0.4,
 )
-def both(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | None:
+def both(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | list[PlaceMeaning] | None:
     """Compose "tree 12 and the charger"."""
     if first.per is not None or second.per is not None:
         return None
@@ -352,11 +352,15 @@ def both(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | None:
     if first.at_most or second.at_most or isinstance(first.selector, s.Excluding):
         return None  # "all trees except tree 4 and tree 7": both are left out
     parts = tuple(part for one in (first, second) for part in one.selector.members)
-    if any(is_end_of_site(part) for part in parts) and any(counts_in_row(part) for part in parts):
-        return None  # "the first tree and the last tree of row 4": is the first that of the row, too?
     counts = [1 if one.shape == "one" else one.count for one in (first, second)]
     count = None if None in counts else sum(c for c in counts if c is not None)
-    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=count)
+    whole = PlaceMeaning(s.UnionOf(parts=parts), "several", count=count)
+    counted = next((one for part in parts if (one := as_in_row(part)) is not None), None)
+    if counted is None or not any(is_end_of_site(part) for part in parts):
+        return whole
+    # "The first tree and the last tree of row 4": is the first that of the row, too?
+    in_row = tuple(over(part, counted.of) if is_end_of_site(part) else part for part in parts)
+    return [whole, replace(whole, selector=s.UnionOf(parts=in_row))]
 
 
 @construction("place: INEACH", cost=0.9)

@@ -22,7 +22,7 @@ construction = GRAMMAR.construction
 @construction(
     "place: [DET] trees=tree_ids in_ rows=rows",
     "place: [DET] trees=tree_ids in_ rows=rows_of_block",
-    "place: rows=rows trees=tree_ids",
+    "place: rows=rows [COMMA] trees=tree_ids",
     cost=0.1,
     given=("site",),
 )
@@ -38,12 +38,12 @@ def except_trees_of_rows(whole: PlaceMeaning, trees: tuple[str, ...], site: Site
     """Compose "the trees of row 3 except tree 5"."""
     if whole.shape not in ("several", "area") or whole.count is not None or whole.per is not None:
         return None
-    if whole.selector == s.Trees() or (whole.selector.relative and all(name.isdigit() for name in trees)):
+    if whole.selector == s.Trees():
         return None
-    return [
-        replace(whole, selector=s.Excluding(places=one, of=whole.selector))
-        for one in numbered(trees, whole.selector, site)
-    ]
+    ways = numbered(trees, whole.selector, site)
+    if whole.selector.relative and all(name.isdigit() for name in trees):
+        ways.append(_all_of([s.TreeIs(tree=name) for name in trees]))
+    return [replace(whole, selector=s.Excluding(places=one, of=whole.selector)) for one in ways]
 
 
 def numbered(trees: Sequence[str], rows: s.Selector, site: Site) -> list[s.Selector]:

@@ -44,10 +44,15 @@ def last_position() -> tuple[int, int]:
     "place: [DET] where=position inner=nominal in_ rows=rows",
     "place: [DET] where=position inner=nominal in_ rows=each_row",
     "place: [DET] where=position inner=nominal in_ rows=rows_of_block",
+    "place: [DET] where=position inner=nominal in_ rows=rows AND in_ more=rows",
     cost=0.2,
 )
-def tree_of_row(where: tuple[int, int], inner: Nominal, rows: s.Selector) -> PlaceMeaning | None:
+def tree_of_row(
+    where: tuple[int, int], inner: Nominal, rows: s.Selector, more: s.Selector | None = None
+) -> PlaceMeaning | None:
     """Compose "the third tree in row 4"."""
+    if more is not None:
+        rows = s.UnionOf(parts=(*rows.members, *more.members))
     if inner.plural or inner.single or not chooses_from_trees(inner.selector):
         return None
     selector = s.InRow(first=where[0], last=where[1], of=over(inner.selector, rows))

@@ -18,9 +18,15 @@ GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
 
+@construction("row_name: name=NUM", "row_name: name=ROWNAME", cost=0.0)
+def row_name(name: Lex) -> Lex:
+    """Compose "3" and "A12" behind "row"."""
+    return name
+
+
 @construction(
     "rows: first=position AND second=position ROW",
-    "rows: DET first=position AND second=position ROW",
+    "rows: DET first=position AND [DET] second=position ROW",
     cost=0.1,
 )
 def two_rows(first: tuple[int, int], second: tuple[int, int]) -> s.Selector:
@@ -50,7 +56,7 @@ def this_row(word: Lex, noun: Lex) -> s.Selector | None:
     return s.RowOf() if not noun.plural and "definite" in word.features else None
 
 
-@construction("rows: [DET] ROW [NUMBERED] [HASH] number=NUM", "rows: [DET] ROW number=ROWNAME", cost=0.1)
+@construction("rows: [DET] ROW [NUMBERED] [HASH] number=row_name", cost=0.1)
 def row_by_number(number: Lex) -> s.Selector:
     """Compose "row 4"."""
     name = name_of(number)
@@ -58,9 +64,9 @@ def row_by_number(number: Lex) -> s.Selector:
 
 
 @construction(
-    "rows: [DET] ROW first=NUM range_to [ROW] last=NUM",
-    "rows: [DET] ROW BETWEEN first=NUM AND last=NUM",
-    "rows: BETWEEN ROW first=NUM AND [ROW] last=NUM",
+    "rows: [DET] ROW first=row_name range_to [ROW] last=row_name",
+    "rows: [DET] ROW BETWEEN first=row_name AND last=row_name",
+    "rows: BETWEEN ROW first=row_name AND [ROW] last=row_name",
     cost=0.2,
 )
 def rows_from_to(first: Lex, last: Lex) -> s.Selector:
@@ -68,19 +74,19 @@ def rows_from_to(first: Lex, last: Lex) -> s.Selector:
     return s.Rows(first=name_of(first), last=name_of(last))
 
 
-@construction("row_list: [DET] noun=ROW first=NUM", cost=0.0)
+@construction("row_list: [DET] noun=ROW first=row_name", cost=0.0)
 def row_list(noun: Lex, first: Lex) -> tuple[str, ...] | None:
     """Compose "rows 3", the beginning of "rows 3, 5 and 7"."""
     return (name_of(first),) if noun.plural else None
 
 
-@construction("row_list: ROW first=NUM [COMMA] [AND] ROW number=NUM", cost=0.0)
+@construction("row_list: ROW first=row_name [COMMA] [AND] ROW number=row_name", cost=0.0)
 def two_in_row_list(first: Lex, number: Lex) -> tuple[str, ...]:
     """Compose "row 3 and row 5", the beginning of "row 3, row 5 and row 7"."""
     return (name_of(first), name_of(number))
 
 
-@construction("row_list: rows=row_list [COMMA] [AND] [ROW] number=NUM", cost=0.1)
+@construction("row_list: rows=row_list [COMMA] [AND] [ROW] number=row_name", cost=0.1)
 def longer_row_list(rows: tuple[str, ...], number: Lex) -> tuple[str, ...]:
     """Compose "rows 3, 5 and 7"."""
     return (*rows, name_of(number))
@@ -175,8 +181,8 @@ def odd_rows(noun: Lex, each: Lex | None = None) -> s.Selector | None:
 
 
 @construction(
-    "rows: [DET] ODD noun=ROW [FROM] first=NUM range_to last=NUM",
-    "rows: [DET] ODD noun=ROW BETWEEN first=NUM AND last=NUM",
+    "rows: [DET] ODD noun=ROW [FROM] first=row_name range_to last=row_name",
+    "rows: [DET] ODD noun=ROW BETWEEN first=row_name AND last=row_name",
     cost=0.1,
 )
 def odd_rows_between(noun: Lex, first: Lex, last: Lex) -> s.Selector | None:
@@ -191,8 +197,8 @@ def even_rows(noun: Lex, each: Lex | None = None) -> s.Selector | None:
 
 
 @construction(
-    "rows: [DET] EVEN noun=ROW [FROM] first=NUM range_to last=NUM",
-    "rows: [DET] EVEN noun=ROW BETWEEN first=NUM AND last=NUM",
+    "rows: [DET] EVEN noun=ROW [FROM] first=row_name range_to last=row_name",
+    "rows: [DET] EVEN noun=ROW BETWEEN first=row_name AND last=row_name",
     cost=0.1,
 )
 def even_rows_between(noun: Lex, first: Lex, last: Lex) -> s.Selector | None:
@@ -339,9 +345,9 @@ def row_like(tree: PlaceMeaning) -> s.Selector | None:
 
 
 @construction(
-    "rows: EACH n=ORD ROW [OF] [TREE] [COMMA] STARTING ROW number=NUM",
+    "rows: EACH n=ORD ROW [OF] [TREE] [COMMA] STARTING ROW number=row_name",
     "rows: EACH n=ORD ROW [OF] [TREE] [COMMA] STARTING DET rank=ORD ROW",
-    "rows: EACH OTHER ROW [COMMA] STARTING ROW number=NUM",
+    "rows: EACH OTHER ROW [COMMA] STARTING ROW number=row_name",
     "rows: EACH OTHER ROW [COMMA] STARTING DET rank=ORD ROW",
     cost=0.1,
 )
@@ -358,7 +364,7 @@ def rows_of_trees(rows: s.Selector) -> s.Selector:
     return rows
 
 
-@construction("rows: [DET] ROW first=NUM range_to last=NUM [COMMA] AND [ROW] number=NUM", cost=0.1)
+@construction("rows: [DET] ROW first=row_name range_to last=row_name [COMMA] AND [ROW] number=row_name", cost=0.1)
 def rows_from_to_and(first: Lex, last: Lex, number: Lex) -> s.Selector:
     """Compose "rows 1 to 3 and 7"."""
     name = name_of(number)

@@ -203,7 +203,7 @@ def nearest(inner: Nominal, to: PlaceMeaning, n: int | None = None, near: Lex | 
     if near is not None and "nearest" not in near.features:
         return None
     number = n or (None if inner.plural else 1)
-    if number is None or inner.single or inner.complete or inner.kind != "tree" or to.shape not in ("one", "area"):
+    if number is None or inner.single or number >= (inner.complete or number + 1) or to.shape not in ("one", "area"):
         return None
     origin = to.selector
     if to.shape == "area" and as_zone(origin) is None:
@@ -340,10 +340,15 @@ def nth_along_row(rank: Lex, way: Towards, to: PlaceMeaning | None = None) -> Pl
     return PlaceMeaning(s.AlongRow(trees=rank.value, towards=way, origin=origin), "one")
 
 
-@construction("place: DET NEXTONE n=count inner=nominal", "place: DET NEXTONE n=count inner=nominal way=way", cost=0.2)
-def next_trees(n: int, inner: Nominal, way: Towards = "down") -> PlaceMeaning | None:
+@construction(
+    "place: DET NEXTONE n=count inner=nominal",
+    "place: DET NEXTONE n=count inner=nominal way=way",
+    "place: DET NEXTONE n=count inner=nominal in_ rows=rows",
+    cost=0.2,
+)
+def next_trees(n: int, inner: Nominal, way: Towards = "down", rows: s.Selector | None = None) -> PlaceMeaning | None:
     """Compose "the next three trees"."""
-    if inner.single or inner.selector != s.Trees() or n < 2:
+    if inner.single or inner.selector != s.Trees() or n < 2 or rows not in (None, s.RowOf()):
         return None
     return PlaceMeaning(
         s.UnionOf(parts=tuple(s.AlongRow(trees=k, towards=way) for k in range(1, n + 1))), "several", count=n

@@ -8,7 +8,7 @@ from fieldhand.planning.english.planner import check_request
 from fieldhand.planning.grammar.reader import composed
 from fieldhand.planning.grammar.refusals import refusal_reasons
 from fieldhand.planning.grammar.spanish import SPANISH
-from fieldhand.planning.planner import Answer, Outcome, Planned, Refused
+from fieldhand.planning.planner import Answer, Outcome, Refused
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 
@@ -18,23 +18,18 @@ NAME = "spanish"
 class SpanishPlanner:
     """A planner with the grammar of constructions in Spanish.
 
-    It plans a request if the grammar covers every word in one way, and refuses it otherwise; it asks no questions.
+    It plans a request if the grammar covers every word, asks if it can be planned in several ways, and refuses it
+    otherwise.
     """
 
-    def plan(
-        self,
-        request: str,
-        site: Site,
-        robot: RobotProfile,
-        answers: tuple[Answer, ...] = (),  # noqa: ARG002  it asks nothing
-    ) -> Outcome:
+    def plan(self, request: str, site: Site, robot: RobotProfile, answers: tuple[Answer, ...] = ()) -> Outcome:
         """Plan a request.
 
         Raises:
             RequestError: The request is empty, too long, or contains characters that no document can contain.
         """
         check_request(request)
-        outcome = composed(request, site, robot, SPANISH)
-        if isinstance(outcome, Planned | Refused):
+        outcome = composed(request, site, robot, SPANISH, answers)
+        if outcome is not None:
             return replace(outcome, planner=NAME)
         return Refused(reasons=refusal_reasons(request, site, robot, SPANISH), planner=NAME)

@@ -1,0 +1,83 @@
+"""The question of a request that can be planned in several ways: where the plans differ, and what each would do."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from fieldhand.language import joined, message
+from fieldhand.planning.planner import Answer, Planned, Reason
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
+from fieldhand.task.plan import Node, Span, walk
+from fieldhand.wording.steps import ReadBackLine, write_lines
+
+#: Maximum number of answers to choose from; plans that differ in more ways are told apart one step at a time.
+_MOST_ANSWERS = 5
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlanQuestion:
+    """A question that tells plans of one request apart.
+
+    Attributes:
+        question: The question, as a sentence.
+        said: Character range of the request that it is about.
+        plans: For each answer the plans that it leaves, most likely first.
+    """
+
+    question: str
+    said: Span
+    plans: Mapping[str, tuple[Planned, ...]]
+
+
+def question_between(plans: Sequence[Planned], request: str, site: Site, robot: RobotProfile) -> PlanQuestion | None:
+    """Return the question between plans; None if their read-backs do not differ.
+
+    Args:
+        plans: Plans of the request, most likely first.
+        request: Request as typed.
+        site, robot: Site and robot of the mission.
+    """
+    written = [write_lines(plan.task, site, robot, {}) for plan in plans]
+    texts = [[line.text for line in lines] for lines in written]
+    first = next((k for k in range(min(map(len, texts))) if len({text[k] for text in texts}) > 1), None)
+    if first is None:
+        return None
+    last = 0
+    while all(len(text) > first + 1 + last for text in texts) and len({text[-1 - last] for text in texts}) == 1:
+        last += 1
+    while last and any(text[-1 - last].endswith(":") for text in texts):
+        last -= 1  # what a condition decides is told with it
+    answers: list[str] = [joined(" ", text[first : len(text) - last]) for text in texts]
+    if len(set(answers)) > _MOST_ANSWERS:
+        answers = [text[first] for text in texts]
+    left: dict[str, tuple[Planned, ...]] = {}
+    for answer, plan in zip(answers, plans, strict=True):
+        left[answer] = (*left.get(answer, ()), plan)
+    start, end = _said(plans, [lines[first] for lines in written], request)
+    asked = message("'{said}': which is meant?", context="question", said=request[start:end])
+    return PlanQuestion(question=asked, said=(start, end), plans=left)
+
+
+def _said(plans: Sequence[Planned], lines: Sequence[ReadBackLine], request: str) -> Span:
+    """Return the range of the request from which the lines come at which the plans differ."""
+    spans: list[Span] = []
+    for plan, line in zip(plans, lines, strict=True):
+        nodes = {node.id: node for node in walk(plan.task.composition.plan)}
+        for name in (line.node, *line.also):
+            spans += _words_of(nodes[name]) if name in nodes else ()
+    if not spans:
+        return (0, len(request.rstrip()))
+    return (min(start for start, _ in spans), max(end for _, end in spans))
+
+
+def _words_of(node: Node) -> tuple[Span, ...]:
+    return (*node.said, *node.at_said)
+
+
+def not_an_answer(given: Answer, choices: Sequence[str]) -> Reason:
+    """Return the reason why words do not answer a question."""
+    what = message("'{answer}' does not answer '{question}'", answer=given.answer, question=given.question)
+    quoted = joined(", ", (message("'{said}'", said=choice) for choice in choices))
+    return Reason(what=what, advice=message("choose: {choices}", choices=quoted))

@@ -1,0 +1,47 @@
+"""What is assumed where a request leaves out a detail that the plan has."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from fieldhand.language import message
+from fieldhand.planning.selections import as_row_of
+from fieldhand.site.model import Site
+from fieldhand.task.plan import Node, Span, walk
+
+
+def assumed_ways(plan: Node, request: str, sides: Sequence[Span], site: Site) -> Iterator[str]:
+    """Yield for each row that is counted from another one, without a side, which way it is counted.
+
+    Args:
+        plan: Plan of the request.
+        request: Request as typed.
+        sides: Ranges of the request that name sides.
+        site: Site of the mission.
+    """
+    ways = {block.runs_east_west for block in site.planting.blocks}
+    for node in walk(plan):
+        rows = [
+            row for part in (node.selector.walk() if node.selector else ()) if (row := as_row_of(part)) and row.over
+        ]
+        if not rows or not node.said or any(node.said[0][0] <= start < node.said[-1][1] for start, _ in sides):
+            continue
+        said = request[node.said[0][0] : node.said[-1][1]]
+        higher = rows[0].over > 0
+        compass = " or ".join(
+            sorted(("south" if way else "east") if higher else ("north" if way else "west") for way in ways)
+        )
+        if higher:
+            yield message(
+                "'{said}' is counted towards higher row numbers ({compass}).",
+                context="assumption",
+                said=said,
+                compass=compass,
+            )
+        else:
+            yield message(
+                "'{said}' is counted towards lower row numbers ({compass}).",
+                context="assumption",
+                said=said,
+                compass=compass,
+            )

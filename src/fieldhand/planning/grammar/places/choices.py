@@ -1,0 +1,135 @@
+"""Constructions of places that leave open which are meant: each returns its meanings, and the plans differ in them."""
+
+from __future__ import annotations
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
+from fieldhand.planning.grammar.places.compass import CORNERS
+from fieldhand.planning.grammar.places.numbered import ids_of
+from fieldhand.planning.grammar.places.numbers import name_of
+from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.selections import chooses_from_trees, is_by_attribute, is_description, is_one_row
+from fieldhand.site.model import Site
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+
+@construction("place: word=DET inner=nominal", "place: word=DET n=count inner=nominal", cost=0.4, given=("site",))
+def those_there(word: Lex, inner: Nominal, site: Site, n: int | None = None) -> list[PlaceMeaning] | None:
+    """Compose "the yellow tree" and "the three yellow trees": all of them, or any so many if there are more."""
+    if inner.single or inner.complete or inner.pronoun or "definite" not in word.features:
+        return None
+    if (n is None and inner.plural) or inner.kind != "tree" or not is_description(inner.selector):
+        return None
+    return _so_many(n or 1, inner.selector, site)
+
+
+@construction("place: word=EACH n=count inner=nominal", cost=0.3, given=("site",))
+def all_so_many_there(word: Lex, n: int, inner: Nominal, site: Site) -> list[PlaceMeaning] | None:
+    """Compose "all 12 yellow trees" where there are others, too."""
+    if "all_of" not in word.features or inner.single or inner.complete or not inner.plural:
+        return None
+    ways = _so_many(n, inner.selector, site)
+    return ways if ways is not None and len(ways) > 1 else None
+
+
+def _so_many(n: int, selector: s.Selector, site: Site) -> list[PlaceMeaning] | None:
+    """Return the meanings of so many trees of a selection: all of them if there are as many."""
+    there = ids_of(selector, site)
+    if there is None or len(there) < n:
+        return None
+    every = PlaceMeaning(selector, "several")
+    if len(there) == n:
+        return [PlaceMeaning(s.Take(count=1, of=selector), "one") if n == 1 else every]
+    some = PlaceMeaning(s.Take(count=n, of=selector), "one" if n == 1 else "several", count=n)
+    return [every, some]
+
+
+@construction("place: first=place OR second=place", "place: ANY first=place OR second=place", cost=0.4)
+def one_or_the_other(first: PlaceMeaning, second: PlaceMeaning) -> list[PlaceMeaning] | None:
+    """Compose "tree 5 or tree 6"."""
+    if first.shape != second.shape or first.shape not in ("one", "several", "area") or first.per or second.per:
+        return None
+    return [first, second]
+
+
+@construction("rows: first=rows OR second=rows", cost=0.4)
+def one_row_or_the_other(first: s.Selector, second: s.Selector) -> list[s.Selector]:
+    """Compose "row 3 or row 4"."""
+    return [first, second]
+
+
+@construction("place: [DET] first=tree_ids OR n=NUM", cost=0.4)
+def one_number_or_the_other(first: tuple[str, ...], n: Lex) -> list[PlaceMeaning] | None:
+    """Compose "tree 5 or 6"."""
+    if len(first) != 1:
+        return None
+    return [PlaceMeaning(s.TreeIs(tree=name), "one") for name in (*first, name_of(n))]
+
+
+@construction("place: word=DET noun=CORNER [TREE]", cost=0.4)
+def some_corner(word: Lex, noun: Lex) -> list[PlaceMeaning] | None:
+    """Compose "the corner"."""
+    if noun.plural or "definite" not in word.features:
+        return None
+    return [PlaceMeaning(s.Corners(which=(corner,)), "one") for corner in CORNERS]
+
+
+@construction(
+    "place: ANY noun=FINISH in_ rows=rows",
+    "place: ANY FINISH TREE in_ rows=rows",
+    "place: [DET] TREE AT DET noun=CORNER in_ rows=rows",
+    "place: DET noun=CORNER in_ rows=rows",
+    cost=0.3,
+)
+def either_end(rows: s.Selector, noun: Lex | None = None) -> list[PlaceMeaning] | None:
+    """Compose "either end of row 3" and "the corner of row 3"."""
+    if (noun is not None and noun.plural) or not is_one_row(rows):
+        return None
+    return [PlaceMeaning(s.InRow(first=at, last=at, of=rows), "one") for at in (1, -1)]
+
+
+@construction("place: ANY n=count inner=nominal", "place: ANY inner=nominal", cost=0.4, given=("site",))
+def any_described(inner: Nominal, site: Site, n: int | None = None) -> list[PlaceMeaning] | None:
+    """Compose "any yellow tree": one of them, or each that there is?"""
+    if inner.single or inner.complete or inner.tested or n is not None or not is_by_attribute(inner.selector):
+        return None
+    return _so_many(1, inner.selector, site)
+
+
+@construction(
+    "place: word=DET [ODD] noun=ROW",
+    "place: word=DET EVEN noun=ROW",
+    "place: word=DET OTHER noun=ROW",
+    "place: whole=place in_ word=DET noun=ROW",
+    "place: whole=place in_ word=DET ODD noun=ROW",
+    "place: whole=place in_ word=DET EVEN noun=ROW",
+    "place: whole=place in_ word=DET OTHER noun=ROW",
+    "place: n=count noun=ROW",
+    "place: whole=place in_ n=count noun=ROW",
+    cost=0.5,
+)
+def unknown_rows(
+    noun: Lex, word: Lex | None = None, n: int | None = None, whole: PlaceMeaning | None = None
+) -> PlaceMeaning | None:
+    """Compose "every tree in a row", which does not say in which."""
+    if word is not None and ("indefinite" not in word.features or noun.plural):
+        return None
+    if whole is not None and (whole.shape not in ("one", "several") or not chooses_from_trees(whole.selector)):
+        return None
+    return PlaceMeaning(s.Rows(), "unknown", count=n)
+
+
+@construction("rows: DET MIDDLE noun=ROW", "rows: DET MIDDLE n=count noun=ROW", cost=0.2, given=("site",))
+def middle_rows(noun: Lex, site: Site, n: int | None = None) -> list[s.Selector] | None:
+    """Compose "the middle row": of an even number of rows there are two."""
+    names = [row.name for row in site.planting.rows]
+    if noun.plural != (n is not None) or len(site.planting.blocks) != 1 or n not in (None, 2):
+        return None
+    half = len(names) // 2
+    if n == 2:
+        return [s.Rows(first=names[half - 1], last=names[half])] if len(names) % 2 == 0 else None
+    middle = names[half : half + 1] if len(names) % 2 else names[half - 1 : half + 1]
+    return [s.Rows(first=name, last=name) for name in middle]
