@@ -58,7 +58,9 @@ def in_area(setting: Setting, before: Lead | DriveCommand, place: PlaceMeaning |
             return PlaceMeaning(s.Trees(), "area", each=True, per=area)
         return PlaceMeaning(area, "several", each=True)
     if place.per is None and place.shape in ("one", "several") and chooses_from_trees(place.selector):
-        return replace(place, selector=over(place.selector, area))
+        selector = over(place.selector, area)
+        of_each_row = are_several_rows(area) and all(counts_in_row(part) for part in selector.members)
+        return replace(place, selector=selector, shape="several" if of_each_row else place.shape)
     of_the_row = swapped(place.selector, s.RowOf(), s.Trees())
     if are_rows(area) and of_the_row != place.selector and chooses_from_trees(of_the_row):
         return in_each_row(area, replace(place, selector=of_the_row))
