@@ -102,10 +102,10 @@ def test_a_planner_that_never_stops_asking_is_stopped() -> None:
 def test_the_commands_take_answers_and_without_them_end_with_the_question() -> None:
     words = ("plan", "take a picture of row 3", "--site", "demo", "--planner", "english")
     asked = fieldhand(*words)
-    assert (asked.status, "2. at 4 trees" in asked.err) == (2, True)
+    assert (asked.status, "2. At the nearest of the trees of row 3: take a thermal picture." in asked.err) == (2, True)
     done = fieldhand(*words, "--answer", "2", "--json")
     assert done.status == 0
-    assert any('Answered: "at 4 trees".' in line for line in json.loads(done.out)["read_back"])
+    assert any('Answered: "At the nearest of the trees of row 3' in line for line in json.loads(done.out)["read_back"])
     wrong = fieldhand(*words, "--answer", "perhaps")
     assert wrong.status == 2
     assert wrong.err.count("\n") == 1

@@ -76,8 +76,8 @@ def test_ranges_behind_an_answer_are_those_of_the_typed_words() -> None:
     planned = answered(request, "each of the trees")
     assert isinstance(planned, Planned)
     loop, _, co2 = [node for node in walk(planned.task.composition.plan) if isinstance(node, ForEach | Act)]
-    assert [request[a:b] for a, b in loop.said] == ["take a picture of row 3"]
-    assert [request[a:b] for a, b in co2.said] == ["measure CO2 at tree 9"]
+    assert [request[a:b] for a, b in loop.said] == ["row 3"]
+    assert [request[a:b] for a, b in (*co2.said, *co2.at_said)] == ["measure CO2 at", "tree 9"]
 
 
 def test_a_range_of_the_new_words_is_the_whole_of_what_they_replaced() -> None:

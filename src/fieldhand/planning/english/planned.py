@@ -62,12 +62,12 @@ def planned(
             nominal_said=tuple(told.nominal_said),
             no_part=tuple(told.no_part),
             assumptions=tuple(told.assumptions),
+            warnings=warnings,
         ),
         request,
         site,
         robot,
         read_as=read_as,
-        warnings=warnings,
     )
 
 
@@ -82,6 +82,7 @@ class Meant:
         nominal_said: Spans of the request that say it.
         no_part: Spans of the request that ask for nothing.
         assumptions: What was assumed, as sentences.
+        warnings: What has to be confirmed before the Task is approved, as sentences.
     """
 
     plan: p.Node
@@ -90,11 +91,10 @@ class Meant:
     nominal_said: tuple[p.Span, ...] = ()
     no_part: tuple[p.Span, ...] = ()
     assumptions: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
 
 
-def planned_as(
-    meant: Meant, request: str, site: Site, robot: RobotProfile, *, read_as: str = "", warnings: tuple[str, ...] = ()
-) -> Outcome:
+def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile, *, read_as: str = "") -> Outcome:
     """Return the Task of what a request means, or a refusal that names the places which the site does not have.
 
     Raises:
@@ -116,7 +116,7 @@ def planned_as(
         faulted=faulted_exits(nominal),
         read_as=read_as,
         assumptions=tuple(dict.fromkeys(meant.assumptions)),
-        warnings=warnings,
+        warnings=meant.warnings,
     )
     problems = tuple(_impossible(task.composition.plan, site))
     if problems:

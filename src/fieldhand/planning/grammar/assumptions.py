@@ -45,3 +45,19 @@ def assumed_ways(plan: Node, request: str, sides: Sequence[Span], site: Site) ->
                 said=said,
                 compass=compass,
             )
+
+
+def assumed_wholes(plan: Node, request: str) -> Iterator[str]:
+    """Yield for each optional step with several places that all of it is done, or nothing.
+
+    Args:
+        plan: Plan of the request.
+        request: Request as typed.
+    """
+    for node in walk(plan):
+        if node.is_optional_step and node.said and any(inner.visits_each for inner in walk(node)):
+            yield message(
+                "'{said}' applies to the whole: all of it is done, or all of it is left out.",
+                context="assumption",
+                said=request[node.said[0][0] : node.said[-1][1]],
+            )

@@ -27,6 +27,7 @@ MOST_COMBINATIONS = 30_000
 
 F = TypeVar("F", bound=Callable[..., Any])
 
+
 _SYMBOL = re.compile(r"(\[)?(?:(\w+)=)?(\w+)(\])?")
 
 
@@ -271,7 +272,9 @@ class Chart:
         named |= {name: self.given[name] for name in construction.given}
         composed = construction.compose(**named)
         for meaning in composed if isinstance(composed, list) else () if composed is None else (composed,):
-            self._add(PhraseEdge(construction.result, partial.start, edge.end, meaning, cost, used))
+            located = getattr(meaning, "with_tokens", None)  # a meaning that knows the tokens of its phrase
+            said = meaning if located is None else located(used)
+            self._add(PhraseEdge(construction.result, partial.start, edge.end, said, cost, used))
 
 
 def tokens_of(used: int) -> Sequence[int]:

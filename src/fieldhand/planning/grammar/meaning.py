@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 from fieldhand.places import selectors as s
@@ -87,6 +87,7 @@ class PlaceMeaning:
         itself: True for "the tree itself", and no other place that was spoken of.
         there: True if the phrase says that they are in the area spoken of ("every tree there").
         per: Rows of each of which the selector says something by itself ("the oldest tree of each row").
+        tokens: Tokens of the phrase, as a bit mask; they do not tell two meanings apart.
     """
 
     selector: s.Selector
@@ -100,6 +101,11 @@ class PlaceMeaning:
     itself: bool = False
     like: Likewise | None = None
     per: s.Selector | None = None
+    tokens: int = field(default=0, compare=False)
+
+    def with_tokens(self, used: int) -> PlaceMeaning:
+        """Return the meaning of a phrase of these tokens."""
+        return replace(self, tokens=used)
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,7 @@ from fieldhand.planning.english.limits import LimitPhrase
 from fieldhand.planning.english.planned import NAME, Meant, planned_as
 from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.grammar.ambiguity import PlanQuestion, not_an_answer, question_between
-from fieldhand.planning.grammar.assumptions import assumed_ways
+from fieldhand.planning.grammar.assumptions import assumed_ways, assumed_wholes
 from fieldhand.planning.grammar.chart import Chart, PhraseEdge, tokens_of
 from fieldhand.planning.grammar.dialogue import DialogueState, Setting, read_in_each_way, whole_plan
 from fieldhand.planning.grammar.english import ENGLISH
@@ -108,7 +108,7 @@ def _readings_of(
                 skipped=_skipped(words, edge),
                 remarks=remarks.spans,
                 labels=remarks.labels,
-                assumed=tuple(assumed_ways(state.plan, request, sides, site)),
+                assumed=(*assumed_ways(state.plan, request, sides, site), *assumed_wholes(state.plan, request)),
             )
             for state in states
         ]
@@ -294,7 +294,8 @@ def _meant(reading: RequestReading, request: str) -> Meant:
         nominal=state.nominal,
         nominal_said=state.nominal_said,
         no_part=tuple(no_part),
-        assumptions=(*reading.mended, *reading.assumed, *remarked),
+        assumptions=(*reading.assumed, *remarked),
+        warnings=reading.mended,
     )
 
 

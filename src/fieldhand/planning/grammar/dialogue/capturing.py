@@ -82,24 +82,28 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
         raise NotComposed("the same at every tree, or at how many?")
     things = meant_things(state, said_things(setting, command))
     place, state, before = _place_of(setting, state, command)
-    said = (*before, *setting.spans_of(command.used))
+    tokens = 0 if command.place is None else command.place.tokens & command.used
+    at_said = (*before, *setting.spans_of(tokens or command.used))
+    said = setting.spans_of(command.used & ~tokens or command.used)
+    whole = (*before, *setting.spans_of(command.used))
     if command.spacing is not None:
         if place is not None and place.shape == "several":
             line, once = spaced(setting, None, things, command.spacing, command.used)
-            return _lines_at_each(state, replace(command, things=once), place, line, said)
+            return _lines_at_each(state, replace(command, things=once), place, line, whole)
         place, things = spaced(setting, place, things, command.spacing, command.used)
     place = _those_again(state, place)
     if place is not None and place.shape == "those" and (place.count or place.at_most):
-        return _at_some_of_those(state, replace(command, things=things), place, said)
+        return _at_some_of_those(state, replace(command, things=things), place, whole)
     require_known(setting, state, place, command.used)
     if place is None or place.shape in ("here", "those"):
-        return _at_the_same_place(setting, state, replace(command, things=things, place=place), said)
+        return _at_the_same_place(setting, state, replace(command, things=things, place=place), whole)
     if place.selector == s.Trees() and place.shape == "several" and state.plan.steps and not place.optional:
         raise NotComposed("each of those, or each tree of the site?")
     place, things = fitted(setting, place, things, command.relation, command.used)
     if place.shape == "one":
-        return capture_once(state, replace(command, things=things), place, said)
-    return _capture_at_each(setting, replace(state, loop=None), replace(command, things=things), place, said)
+        return capture_once(state, replace(command, things=things), place, said, at_said)
+    state = replace(state, loop=None)
+    return _capture_at_each(setting, state, replace(command, things=things), place, said, at_said)
 
 
 def _is_one_more(command: CaptureCommand) -> bool:
@@ -117,22 +121,36 @@ def _those_again(state: DialogueState, place: PlaceMeaning | None) -> PlaceMeani
     return replace(last, each=place.each)
 
 
-def capture_once(state: DialogueState, command: CaptureCommand, place: PlaceMeaning, said: Spans) -> DialogueState:
-    """Return the state after captures at one place."""
+def capture_once(
+    state: DialogueState, command: CaptureCommand, place: PlaceMeaning, said: Spans, at_said: Spans
+) -> DialogueState:
+    """Return the state after captures at one place.
+
+    Args:
+        state: State before them.
+        command: Captures.
+        place: Place.
+        said, at_said: Words of the captures, and of the place.
+    """
     state = replace(state, loop=None)
     for number, thing in enumerate(command.things):
         act = _act(thing, command.times, said)
         if number == 0:
-            act = replace(act, at=place.selector, at_said=said)
+            act = replace(act, at=place.selector, at_said=at_said)
         state = with_capture(state, act, state.scope)
     return done_at(replace(state, things=command.things), place)
 
 
 def _capture_at_each(
-    setting: Setting, state: DialogueState, command: CaptureCommand, place: PlaceMeaning, said: Spans
+    setting: Setting,
+    state: DialogueState,
+    command: CaptureCommand,
+    place: PlaceMeaning,
+    said: Spans,
+    at_said: Spans,
 ) -> DialogueState:
     """Return the state after captures at each of several places."""
-    loop = visits(place, said)
+    loop = visits(place, at_said)
     if state.order is not None:
         loop = ordered(loop, state.order, setting.spans_of(state.order.used))
         state = replace(state, order=None)

@@ -369,4 +369,5 @@ def _measured(setting: Setting, state: DialogueState, quantity: str, place: Plac
     action = setting.action_measuring(quantity)
     if action is None or place.shape != "one":
         raise NotComposed("what is measured where?")
-    return capture_once(state, CaptureCommand((Thing(action),), place, used), place, setting.spans_of(used))
+    said = setting.spans_of(used)
+    return capture_once(state, CaptureCommand((Thing(action),), place, used), place, said, said)
