@@ -152,7 +152,12 @@ def composed(
         return outcome if whole or isinstance(outcome, Refused) else None
     if any(outcome is None for outcome in outcomes):
         return None
-    plans = [outcome for outcome in outcomes if isinstance(outcome, Planned)]
+    plans = [
+        outcome
+        for reading, outcome in zip(likely, outcomes, strict=True)
+        if isinstance(outcome, Planned)
+        and (reading.cost == likely[0].cost or _is_whole(outcome, found[0].remarks, site, robot))
+    ]
     return _chosen(plans, found[0].remarks, request, site, robot, answers) if plans else outcomes[0]
 
 
@@ -170,14 +175,17 @@ def _chosen(
         given = next((answer for answer in answers if answer.question == question.question), None)
         if given is None:
             left = _whole_answers(question, taken, remarks, site, robot)
-            if len(left) < len(question.plans):
-                return None
+            if len(left) < 2:  # the others contradict the request
+                plans = list(left.values())
+                break
             places = different_places(list(left.values()), question.said, site, robot)
             return Clarify(question=question.question, choices=tuple(left), places=places, planner=NAME)
         chosen = next((answer for answer in question.plans if answer.lower() == given.answer.strip().lower()), None)
         if chosen is None:
             return Refused(reasons=(not_an_answer(given, tuple(question.plans)),), planner=NAME)
         plans, taken = question.plans[chosen], (*taken, (given, question.said))
+    if not plans:
+        return None
     plan = _answered(plans[0], taken)
     return plan if _is_whole(plan, remarks, site, robot) else None
 

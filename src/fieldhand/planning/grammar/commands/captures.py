@@ -281,6 +281,12 @@ def so_often(act: CaptureCommand, times: Lex, used: int) -> CaptureCommand | Non
     return replace(act, times=times.value, used=used) if act.times == 1 else None
 
 
+@construction("capture: act=capture AGAIN", cost=0.2)
+def once_more(act: CaptureCommand, used: int) -> CaptureCommand | None:
+    """Compose "sample CO2 again", where the robot is."""
+    return replace(act, used=used) if act.place is None and act.relation == "at" else None
+
+
 @construction("every: EACH far=amount", cost=0.1)
 def every_so_far(far: Amount) -> float | None:
     """Compose "every 10 m"."""
@@ -357,6 +363,18 @@ def at_spacing(
     if len(things) > 1 or things[0].count is None or place is None:
         return None
     return [counted, replace(once, times=things[0].count)]  # three stops, or three at every stop?
+
+
+@construction("capture: MEASURE place=place [COMMA] BY act=capture", cost=0.3)
+def measure_by(place: PlaceMeaning, act: CaptureCommand, used: int) -> CaptureCommand | None:
+    """Compose "measure another tree by taking a picture"."""
+    return replace(act, place=place, used=used, relation="at") if act.place is None and act.spacing is None else None
+
+
+@construction("capture: MEASURE IT place=here", cost=0.4)
+def measure_it(place: PlaceMeaning, used: int) -> CaptureCommand:
+    """Compose "measure it there"."""
+    return CaptureCommand((Thing(LAST_THING),), place, used)
 
 
 @construction("capture: MEASURE place=place", "capture: MEASURE AT place=place", cost=4.0)

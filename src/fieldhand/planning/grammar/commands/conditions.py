@@ -45,6 +45,18 @@ def anything() -> str:
     return ""
 
 
+@construction("subject: word=DET", cost=0.3)
+def that(word: Lex) -> str | None:
+    """Compose "that" alone."""
+    return "" if "demonstrative" in word.features else None
+
+
+@construction("subject: ITS AVERAGEWORD noun=NOUN", cost=0.0)
+def its_average(noun: Lex) -> list[str] | None:
+    """Compose "its average temperature", of which one capture is an average."""
+    return named_quantity(noun)
+
+
 @construction("subject: DET rank=ORD READING", cost=0.0)
 def first_reading(rank: Lex) -> str | None:
     """Compose "the first reading"."""
@@ -84,7 +96,7 @@ def when_measured(one: tuple[PlaceMeaning, Test], used: int) -> When:
 def named_quantity(noun: Lex) -> list[str] | None:
     """Compose "the temperature"."""
     naming: Naming = noun.value
-    return list(naming.quantities) or None
+    return list(naming.quantities or naming.actions[:1]) or None
 
 
 @construction("threshold: value=amount", cost=0.0)
@@ -136,7 +148,7 @@ def bounded(value: tuple[float, str], bound: Lex) -> Test | None:
     return None if bound.value[1] else Test("", bound.value[0], value[0], value[1])
 
 
-@construction("predicate: level=LEVEL", cost=0.1)
+@construction("predicate: level=LEVEL", "predicate: level=LEVEL READING", cost=0.1)
 def at_level(level: Lex) -> Test:
     """Compose "high"; "hot" is said of a temperature only, and "dry" of moisture."""
     return Test("", "level", level.value, next((unit for name, unit in _SAID_OF.items() if name in level.features), ""))

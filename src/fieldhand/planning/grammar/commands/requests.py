@@ -108,6 +108,12 @@ def full_stop_opener(used: int) -> Connective:
     return Connective(True, True, used)
 
 
+@construction("joint: FULLSTOP word=THEN COMMA", cost=0.3)
+def full_stop_after(word: Lex, used: int) -> Connective | None:
+    """Compose ". After," at the beginning of a sentence."""
+    return Connective(True, True, used) if "after_doing" in word.features else None
+
+
 @construction("joint: FULLSTOP [and_or_but] then=then [COMMA]", cost=0.1)
 def full_stop_then(used: int, then: str) -> Connective:
     """Compose ". Then"."""

@@ -62,8 +62,8 @@ def when(setting: Setting, state: DialogueState, command: When, following: Seque
         NotComposed: What is tested, or what depends on it, is unclear.
     """
     decides_last = state.commands_in_sentence > 0 and (not following or isinstance(following[0].command, Otherwise))
+    command = replace(command, tests=_of_quantity(setting, command.tests))
     if (place := command.measured_at) is not None:
-        command = replace(command, tests=_of_quantity(setting, command.tests))
         if decides_last:
             raise NotComposed("what is decided?")
         state = _at_tested_place(setting, state, command, place)

@@ -39,7 +39,11 @@ def drive(setting: Setting, state: DialogueState, command: DriveCommand) -> Dial
     if state.lead is not None and state.lead.place.shape == "one" and place.shape in ("one", "step"):
         leads = True
         before = state.lead  # "From tree 4 drive to tree 9."
-        state = drive(setting, replace(state, lead=None), DriveCommand(before.place, before.used))
+        state = replace(state, lead=None)
+        if before.place.selector == s.Marker(name="start") and not state.plan.steps:
+            state = with_joints(state, setting.spans_of(before.used))  # every mission begins there
+        else:
+            state = drive(setting, state, DriveCommand(before.place, before.used))
     if area is not None and place.shape == "one" and not place.selector.relative and not area.along:
         leads = True  # "Go to row 3, then go to tree 5."
         if is_there(setting, area, place):

@@ -61,7 +61,7 @@ def namely(inner: Nominal, exact: Nominal, word: Lex | None = None) -> PlaceMean
     return PlaceMeaning(exact.selector, "one") if vague and exact.single and exact.pronoun else None
 
 
-@construction("place: word=ANY inner=nominal", cost=0.3)
+@construction("place: word=ANY inner=nominal", "place: word=ANY DET inner=nominal", cost=0.3)
 def any_of_them(word: Lex, inner: Nominal) -> PlaceMeaning | None:
     """Compose "any tree of row 4" and "whichever tree is farthest to the west"."""
     if inner.single and "free_choice" in word.features:
@@ -361,6 +361,15 @@ def both(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | list[Place
     # "The first tree and the last tree of row 4": is the first that of the row, too?
     in_row = tuple(over(part, counted.of) if is_end_of_site(part) else part for part in parts)
     return [whole, replace(whole, selector=s.UnionOf(parts=in_row))]
+
+
+@construction("place: first=place COMMA word=DET OTHER ONE", cost=0.2)
+def said_again(first: PlaceMeaning, word: Lex) -> PlaceMeaning | None:
+    """Compose "another tree, a different one"."""
+    some = as_some(first.selector)
+    if "indefinite" not in word.features or first.shape != "one" or some is None or some.of != s.NotVisited():
+        return None
+    return first
 
 
 @construction("place: INEACH", cost=0.9)

@@ -191,14 +191,16 @@ def end_of_row(side: Lex, rows: s.Selector) -> PlaceMeaning | None:
     "place: noun=FINISH in_ rows=rows",
     "place: EACH noun=FINISH in_ rows=rows",
     "place: EACH noun=FINISH in_ rows=each_row",
+    "place: [DET] n=count noun=FINISH in_ rows=rows",
+    "place: [DET] n=count noun=FINISH in_ rows=each_row",
     "place: DET noun=FINISH in_ rows=rows",
     "place: TREE AT EACH noun=FINISH in_ rows=rows",
     "place: DET TREE AT EACH noun=FINISH in_ rows=rows",
     cost=0.1,
 )
-def both_ends(noun: Lex, rows: s.Selector) -> PlaceMeaning | None:
+def both_ends(noun: Lex, rows: s.Selector, n: int = 2) -> PlaceMeaning | None:
     """Compose "both ends of row 4"."""
-    if not noun.plural:
+    if not noun.plural or n != 2:
         return None
     parts = (s.InRow(first=1, last=1, of=rows), s.InRow(first=-1, last=-1, of=rows))
     return PlaceMeaning(s.UnionOf(parts=parts), "several", count=2 if is_one_row(rows) else None)

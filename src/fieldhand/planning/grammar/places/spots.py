@@ -170,6 +170,39 @@ def gate(gate: Lex) -> PlaceMeaning:
     return PlaceMeaning(s.GateIs(gate=gate.value), "one")
 
 
+@construction("corner_list: [DET] side=DIR", cost=0.0)
+def corner_list(side: Lex) -> tuple[tuple[CornerName, ...], bool] | None:
+    """Compose "the north-west", the beginning of "the north-west and the south-east corner"."""
+    return ((side.value,), False) if side.value in CORNERS else None
+
+
+@construction(
+    "corner_list: first=corner_list COMMA [DET] side=DIR",
+    "corner_list: first=corner_list [COMMA] AND [DET] side=DIR",
+    "corner_list: first=corner_list [COMMA] [AND] then=then [DET] side=DIR",
+    cost=0.1,
+)
+def longer_corner_list(
+    first: tuple[tuple[CornerName, ...], bool], side: Lex, then: str = ""
+) -> tuple[tuple[CornerName, ...], bool] | None:
+    """Compose "the north-west, then the north-east", of corners that are visited in this order."""
+    if side.value not in CORNERS or side.value in first[0]:
+        return None
+    return ((*first[0], side.value), first[1] or bool(then))
+
+
+@construction(
+    "place: corners=corner_list CORNER [TREE] [in_] [site]", "place: corners=corner_list CORNER OF site", cost=0.2
+)
+def corners_listed(corners: tuple[tuple[CornerName, ...], bool]) -> PlaceMeaning | None:
+    """Compose "the north-west and the south-east corner"."""
+    names, in_order = corners
+    if len(names) < 2:
+        return None
+    parts = tuple(s.Corners(which=(name,)) for name in names)
+    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=len(parts), in_order=in_order)
+
+
 @construction("nominal: [n=count] side=DIR noun=CORNER", cost=0.1)
 def corners_of_side(side: Lex, noun: Lex, n: int | None = None) -> Nominal | None:
     """Compose "two northern corners"."""

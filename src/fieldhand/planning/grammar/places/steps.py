@@ -160,6 +160,8 @@ def along_row(step: tuple[int, Towards]) -> PlaceMeaning:
     "place: DET TREE step=stride",
     "place: DET TREE WHICH IS step=stride",
     "place: DET ONE step=stride",
+    "place: ANOTHER [RANDOM] TREE step=stride",
+    "place: ANOTHER [RANDOM] POINT step=stride",
     cost=0.3,
 )
 def tree_along_row(step: tuple[int, Towards]) -> PlaceMeaning:
@@ -167,7 +169,12 @@ def tree_along_row(step: tuple[int, Towards]) -> PlaceMeaning:
     return PlaceMeaning(s.AlongRow(trees=step[0], towards=step[1]), "one")
 
 
-@construction("place: [DET] TREE step=stride FROM to=place", "place: step=stride FROM to=place", cost=0.2)
+@construction(
+    "place: [DET] TREE step=stride FROM to=place",
+    "place: [DET] TREE step=stride OF to=place",
+    "place: step=stride FROM to=place",
+    cost=0.2,
+)
 def along_row_from(step: tuple[int, Towards], to: PlaceMeaning) -> PlaceMeaning | None:
     """Compose "two trees down the row from tree 12"."""
     if to.shape not in ("one", "here"):
