@@ -241,6 +241,11 @@ def as_zone(selector: s.Selector) -> s.InZone | None:
     return selector if isinstance(selector, s.InZone) else None
 
 
+def as_half(selector: s.Selector) -> s.Half | None:
+    """Return the selector if it is a half of the site, None otherwise."""
+    return selector if isinstance(selector, s.Half) else None
+
+
 def as_edge(selector: s.Selector) -> s.Edge | None:
     """Return the selector if it is an edge, None otherwise."""
     return selector if isinstance(selector, s.Edge) else None
@@ -259,6 +264,34 @@ def as_every_nth(selector: s.Selector) -> s.EveryNth | None:
 def as_some(selector: s.Selector) -> s.Take | None:
     """Return the selector if it takes some trees, whichever, None otherwise."""
     return selector if isinstance(selector, s.Take) else None
+
+
+def is_next_to_here(selector: s.Selector) -> bool:
+    """Return True for trees that stand next to where the robot is."""
+    return isinstance(selector, s.Nearest) and selector.adjacent and selector.to == s.Here()
+
+
+def measures_distance(selector: s.Selector) -> bool:
+    """Return True for trees that are chosen by their distance to a place."""
+    return isinstance(selector, s.Within | s.Nearest | s.Farthest)
+
+
+def are_unvisited(selector: s.Selector) -> bool:
+    """Return True for trees that the robot has not visited."""
+    return isinstance(selector, s.NotVisited)
+
+
+def side_named(selector: s.Selector) -> tuple[str, str] | None:
+    """Return the kind and the name of a half, a quarter or one corner; None for another selector."""
+    match selector:
+        case s.Half():
+            return "half", selector.side
+        case s.Quarter():
+            return "quarter", selector.quarter
+        case s.Corners() if len(selector.which) == 1:
+            return "corner", selector.which[0]
+        case _:
+            return None
 
 
 def as_nearest(selector: s.Selector) -> s.Nearest | None:

@@ -96,3 +96,20 @@ def test_two_draws_at_random_have_seeds_of_their_own() -> None:
     outcome = BuiltinPlanner().plan("Photograph 4 random trees. Measure CO2 at 4 random trees.", SITE, HUSKY)
     assert isinstance(outcome, Planned)
     assert outline(outcome.task) == "for RandomSample(4): [picture]; for RandomSample(4, 1): [co2]"
+
+
+@pytest.mark.parametrize(
+    ("answer", "plan"),
+    [
+        ("north-west", "picture @ Corners(nw)"),
+        ("SOUTH-EAST corner", "picture @ Corners(se)"),
+        ("corner", None),
+        ("", None),
+    ],
+)
+def test_words_that_only_one_choice_contains_are_an_answer(answer: str, plan: str | None) -> None:
+    request = "Take a picture at the corner."
+    given = Answer(question=asked(request).question, answer=answer)
+    outcome = BuiltinPlanner().plan(request, SITE, HUSKY, (given,))
+    assert isinstance(outcome, Refused if plan is None else Planned)
+    assert plan is None or (isinstance(outcome, Planned) and outline(outcome.task) == plan)

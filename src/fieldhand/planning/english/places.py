@@ -35,7 +35,7 @@ from fieldhand.planning.english.rows import rows_meant, some_block, speaks_of_ro
 from fieldhand.planning.english.sets import Group
 from fieldhand.planning.english.syntax import Chain, PlacePhrase, Places
 from fieldhand.planning.english.tokens import Term
-from fieldhand.planning.selections import are_meant_each, as_zone, measures_from_here
+from fieldhand.planning.selections import are_meant_each, as_half, as_zone, measures_from_here
 from fieldhand.site.model import Site
 from fieldhand.terms import AnySide
 
@@ -350,8 +350,8 @@ def _describe(
         raise unclear([relation, *inner.phrase.terms], message("it does not say what this refers to"))
     sided = bag.has("MIDDLE") and inner.bag.has("SIDE")
     behind = _read(inner, (), site)
-    if sided and isinstance(behind.selector, s.Half):  # "the middle of the north side" is on the edge
-        behind = replace(behind, selector=s.Edge(side=behind.selector.side, of=behind.selector.of))
+    if sided and (half := as_half(behind.selector)) is not None:  # "the middle of the north side" is on the edge
+        behind = replace(behind, selector=s.Edge(side=half.side, of=half.of))
     if behind.object_only or behind.optional or behind.at_most is not None:
         raise unclear([relation, *inner.phrase.terms], message("a place was expected"))
     if speaks_of_rows(bag) and not (behind.region or behind.here):

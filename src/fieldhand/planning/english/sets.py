@@ -12,7 +12,7 @@ from fieldhand.places.selector import FromGroup
 from fieldhand.planning.english.faults import unclear
 from fieldhand.planning.english.found import FoundPlace
 from fieldhand.planning.english.syntax import PlacePhrase
-from fieldhand.planning.selections import as_edge, as_zone
+from fieldhand.planning.selections import as_edge, as_half, as_zone
 from fieldhand.terms import AnySide
 
 #: Selectors that keep a tree or not by itself, whatever the others are: their order does not matter.
@@ -175,7 +175,7 @@ def check_sides(selector: s.Selector, phrase: PlacePhrase) -> None:
     outer = selector
     while (of := getattr(outer, "of", None)) is not None:
         sides = _line_of(outer), _line_of(of) if as_edge(of) is not None or isinstance(of, s.EdgeMiddle) else ""
-        halved = as_edge(outer) or (outer if isinstance(outer, s.Half) else None)
+        halved = as_edge(outer) or as_half(outer)
         if halved is not None and sides[0] == sides[1]:
             advice = message("an edge has two halves along its length")
             raise unclear(phrase.terms, message("that edge has no {side} part", side=SIDES[halved.side]), advice)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -74,6 +75,15 @@ def _said(plans: Sequence[Planned], lines: Sequence[ReadBackLine], request: str)
 
 def _words_of(node: Node) -> tuple[Span, ...]:
     return (*node.said, *node.at_said)
+
+
+def chosen_answer(given: str, choices: Sequence[str]) -> str | None:
+    """Return the choice that an answer names: as a whole, or by words that only this one contains."""
+    said = given.strip().lower()
+    whole = [choice for choice in choices if choice.lower() == said]
+    part = [choice for choice in choices if said and re.search(rf"(?<!\w){re.escape(said)}(?!\w)", choice.lower())]
+    named = whole or part
+    return named[0] if len(named) == 1 else None
 
 
 def not_an_answer(given: Answer, choices: Sequence[str]) -> Reason:

@@ -11,7 +11,7 @@ from fieldhand.planning.english.leading import different_places
 from fieldhand.planning.english.limits import LimitPhrase
 from fieldhand.planning.english.planned import NAME, Meant, planned_as
 from fieldhand.planning.english.tokens import Word
-from fieldhand.planning.grammar.ambiguity import PlanQuestion, not_an_answer, question_between
+from fieldhand.planning.grammar.ambiguity import PlanQuestion, chosen_answer, not_an_answer, question_between
 from fieldhand.planning.grammar.assumptions import assumed_ways, assumed_wholes
 from fieldhand.planning.grammar.chart import Chart, PhraseEdge, tokens_of
 from fieldhand.planning.grammar.dialogue import DialogueState, Setting, read_in_each_way, whole_plan
@@ -180,10 +180,10 @@ def _chosen(
                 break
             places = different_places(list(left.values()), question.said, site, robot)
             return Clarify(question=question.question, choices=tuple(left), places=places, planner=NAME)
-        chosen = next((answer for answer in question.plans if answer.lower() == given.answer.strip().lower()), None)
+        chosen = chosen_answer(given.answer, tuple(question.plans))
         if chosen is None:
             return Refused(reasons=(not_an_answer(given, tuple(question.plans)),), planner=NAME)
-        plans, taken = question.plans[chosen], (*taken, (given, question.said))
+        plans, taken = question.plans[chosen], (*taken, (replace(given, answer=chosen), question.said))
     if not plans:
         return None
     plan = _answered(plans[0], taken)

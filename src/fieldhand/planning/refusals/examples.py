@@ -10,7 +10,6 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import islice
 
 from fieldhand.language.words import article
-from fieldhand.places.selectors import Marker
 from fieldhand.planning.english.naming import name_words
 from fieldhand.planning.english.wishes import Offers
 from fieldhand.planning.planner import Outcome, Planned
@@ -91,7 +90,7 @@ def _places_of(part: UnderstoodPart, noun: str) -> Iterator[str]:
     if part.place is not None and part.place.shape == "area":
         yield f"every {noun} {text}" if text.lower().startswith("between") else f"every {noun} in {text}"
         yield f"every {noun} in {text}"
-    if part.place is not None and not isinstance(part.place.selector, Marker):
+    if part.place is not None and not part.place.selector.named_marker:
         bare = text.removeprefix("the ")
         yield text if " " in bare or re.search(r"[0-9]", bare) else f"the {bare} {noun}s"
     else:

@@ -97,7 +97,7 @@ def begin_with(place: PlaceMeaning, used: int) -> DriveCommand | None:
 @construction("drive: RETURN AT place=place", cost=0.5)
 def come_back_to(place: PlaceMeaning, used: int) -> DriveCommand | None:
     """Compose "come back to tree 4"."""
-    if isinstance(place.selector, s.Marker) and place.selector.name != "charger":
+    if place.selector.named_marker not in ("", "charger"):
         return None  # the end of the mission
     return DriveCommand(place, used, returns=True) if place.shape == "one" else None
 
@@ -220,9 +220,9 @@ def go_home(word: Lex, used: int, site: Site) -> Home | None:
 @construction("home: RETURN AT marker=marker", "home: RETURN marker=marker", cost=0.2)
 def return_to(marker: s.Selector, used: int) -> Home | None:
     """Compose "return to the start"."""
-    if not isinstance(marker, s.Marker) or marker.name == "charger":
+    if marker.named_marker in ("", "charger"):
         return None
-    return Home("return_to_start" if marker.name == "start" else "return_to_end", used)
+    return Home("return_to_start" if marker.named_marker == "start" else "return_to_end", used)
 
 
 @construction("home: way=home [COMMA] word=THEN", cost=0.2)

@@ -56,7 +56,7 @@ from fieldhand.planning.grammar.meaning import (
     VisitLimit,
     When,
 )
-from fieldhand.planning.selections import AREAS, specifies_part
+from fieldhand.planning.selections import AREAS, are_unvisited, specifies_part
 from fieldhand.task import plan as p
 
 #: Maximum number of ways in which one parse is continued; a request that leaves more open is not composed.
@@ -130,7 +130,7 @@ def _ended(state: DialogueState) -> DialogueState:
 def _visits_open_number(loop: p.ForEach) -> bool:
     """Return True for visits of "different trees" of which nothing says how many."""
     unbounded = not loop.optional and loop.at_most is None and loop.until is None
-    return unbounded and isinstance(loop.select, s.NotVisited)
+    return unbounded and are_unvisited(loop.select)
 
 
 def _read(

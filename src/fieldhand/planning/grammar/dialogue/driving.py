@@ -21,7 +21,7 @@ from fieldhand.planning.grammar.dialogue.state import (
     with_step,
 )
 from fieldhand.planning.grammar.meaning import DriveCommand, Home, InAnOrder, Lead, PlaceMeaning, VisitLimit
-from fieldhand.planning.selections import as_every_nth, chooses_from_trees, starts_here
+from fieldhand.planning.selections import as_every_nth, chooses_from_trees, is_next_to_here, starts_here
 from fieldhand.site.model import Site
 from fieldhand.task import plan as p
 
@@ -48,6 +48,7 @@ def drive(setting: Setting, state: DialogueState, command: DriveCommand) -> Dial
         leads = True  # "Go to row 3, then go to tree 5."
         if is_there(setting, area, place):
             state, place = replace(state, area=None), in_area(setting, area, place)
+            said = (*setting.spans_of(area.used), *said)
         else:
             state = enter(setting, state, area)
     if area is not None and place.shape == "several" and chooses_from_trees(place.selector):
@@ -125,7 +126,7 @@ def require_known(setting: Setting, state: DialogueState, place: PlaceMeaning | 
         if not all(_rows_run_to(side, setting.site) for side in sides):
             raise NotComposed("the rows have no end on that side")
     after_several = state.where is not None and state.where.shape == "several"
-    beside_it = any(isinstance(part, s.Nearest) and part.adjacent and part.to == s.Here() for part in parts)
+    beside_it = any(is_next_to_here(part) for part in parts)
     if beside_it and after_several and not is_inside(state.scope, state.loop or (-1,)):
         raise NotComposed("next to which of them?")
     refers = not parts or s.Here() in parts
@@ -155,9 +156,9 @@ def go_home(setting: Setting, state: DialogueState, command: Home) -> DialogueSt
         raise NotComposed("two ends")
     if command.to_it:
         marker = _marker_spoken_of(state)
-        if marker.name == "charger":
+        if marker.named_marker == "charger":
             return drive(setting, state, DriveCommand(PlaceMeaning(marker, "one"), command.used, returns=True))
-        command = replace(command, then="return_to_start" if marker.name == "start" else "return_to_end")
+        command = replace(command, then="return_to_start" if marker.named_marker == "start" else "return_to_end")
     if command.then is None:
         markers = setting.site.markers
         if not {"start", "end"} & set(markers):
@@ -173,14 +174,14 @@ def go_home(setting: Setting, state: DialogueState, command: Home) -> DialogueSt
     return replace(state, nominal=command.then, nominal_said=said, home=command, open=False)
 
 
-def _marker_spoken_of(state: DialogueState) -> s.Marker:
+def _marker_spoken_of(state: DialogueState) -> s.Selector:
     """Return the marker from which the last places were measured ("every tree within 7 m of the start").
 
     Raises:
         NotComposed: There is none, or one of the places may be meant.
     """
     last = state.where
-    markers = [] if last is None else [part for part in last.selector.walk() if isinstance(part, s.Marker)]
+    markers = [] if last is None else [part for part in last.selector.walk() if part.named_marker]
     if last is None or last.shape != "several" or len(markers) != 1:
         raise NotComposed("back to what?")
     return markers[0]

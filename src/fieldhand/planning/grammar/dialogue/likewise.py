@@ -17,7 +17,7 @@ from fieldhand.planning.grammar.meaning import (
     PlaceMeaning,
 )
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
-from fieldhand.planning.selections import as_some, named_places, over
+from fieldhand.planning.selections import as_some, named_places, over, side_named
 from fieldhand.task import plan as p
 
 _OPPOSITE = {"n": "s", "s": "n", "e": "w", "w": "e", "north": "south", "south": "north", "east": "west", "west": "east"}
@@ -75,18 +75,11 @@ def _last_side(state: DialogueState) -> tuple[str, str] | None:
     """Return the kind and the name of the half, quarter or corner that was named last."""
     for node in reversed(list(p.walk(state.plan))):
         place = node.selector
-        if place is not None and place.single and as_some(place) is None and not isinstance(place, s.Corners):
+        if place is not None and place.single and as_some(place) is None and side_named(place) is None:
             return None  # "the northernmost tree of the eastern half, then the southern one"
         for part in () if place is None else place.walk():
-            match part:
-                case s.Half():
-                    return "half", part.side
-                case s.Quarter():
-                    return "quarter", part.quarter
-                case s.Corners() if len(part.which) == 1:
-                    return "corner", part.which[0]
-                case _:
-                    continue
+            if (named := side_named(part)) is not None:
+                return named
     return None
 
 

@@ -131,6 +131,14 @@ def whole_plan(plan: p.InOrder) -> p.Node:
     return with_seeds(finished(replace(plan, steps=steps)), count())
 
 
+def with_selector(node: p.Node, selector: s.Selector) -> p.Node:
+    """Return a step with another place."""
+    changed: Any = node
+    names = [name for name in node.__dataclass_fields__ if getattr(node, name) is node.selector]
+    made: p.Node = replace(changed, **dict.fromkeys(names, selector))
+    return made
+
+
 def with_seeds(node: p.Node, seeds: Iterator[int]) -> p.Node:
     """Return a plan in which each draw at random has a seed of its own, so that two draws are independent."""
     selector = node.selector
@@ -139,9 +147,7 @@ def with_seeds(node: p.Node, seeds: Iterator[int]) -> p.Node:
         for part in selector.walk():
             if (sample := as_random(part)) is not None:
                 drawn = swapped(drawn, sample, replace(sample, seed=next(seeds)))
-        changed: Any = node
-        names = [name for name in node.__dataclass_fields__ if getattr(node, name) is selector]
-        node = replace(changed, **dict.fromkeys(names, drawn))
+        node = with_selector(node, drawn)
     return node.with_children([with_seeds(child, seeds) for child in node.children])
 
 

@@ -8,7 +8,15 @@ from dataclasses import dataclass, field, replace
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.onebyone import swapped
 from fieldhand.planning.grammar.dialogue.driving import drive
-from fieldhand.planning.grammar.dialogue.plans import Path, as_choice, as_for_each, block_at, walk, with_node
+from fieldhand.planning.grammar.dialogue.plans import (
+    Path,
+    as_choice,
+    as_for_each,
+    block_at,
+    walk,
+    with_node,
+    with_selector,
+)
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, with_step
 from fieldhand.planning.grammar.meaning import Again, DriveCommand, PlaceMeaning
 from fieldhand.planning.selections import is_one_row, replaceable_area
@@ -121,13 +129,8 @@ def _moved(step: p.Node, old: s.Selector, new: s.Selector) -> p.Node:
     """Return a step with one area in the place of another."""
     if step.act is not None:
         return step.act if step.act.at is None else replace(step.act, at=swapped(step.act.at, old, new))
-    match step:
-        case p.ForEach():
-            step = replace(step, select=swapped(step.select, old, new))
-        case p.GoTo():
-            step = replace(step, place=swapped(step.place, old, new))
-        case _:
-            pass
+    if step.selector is not None:
+        step = with_selector(step, swapped(step.selector, old, new))
     return step.with_children([_moved(child, old, new) for child in step.children])
 
 

@@ -18,6 +18,7 @@ from fieldhand.planning.selections import (
     is_by_attribute,
     is_end_of_site,
     landmark_of,
+    measures_distance,
     over,
 )
 from fieldhand.site.model import Site
@@ -339,7 +340,7 @@ def both(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | list[Place
     """Compose "tree 12 and the charger"."""
     if first.per is not None or second.per is not None:
         return None
-    if second.selector.named_marker and isinstance(first.selector, s.Within | s.Nearest | s.Farthest):
+    if second.selector.named_marker and measures_distance(first.selector):
         return None  # "within 20 m of the start and the charger"
     if first.shape == "one" and second.shape in ("one", "step", "several"):
         here = landmark_of(first.selector, second.selector) or first.selector

@@ -309,7 +309,7 @@ def nth_nearest(rank: Lex, inner: Nominal, to: PlaceMeaning) -> PlaceMeaning | N
 def nearest_in(near: PlaceMeaning, where: s.Selector) -> PlaceMeaning | None:
     """Compose "the 3 trees nearest to the charger in the northern half"."""
     nearest = as_nearest(near.selector)
-    if nearest is None or nearest.of != s.Trees() or not isinstance(nearest.to, s.Marker) or nearest.adjacent:
+    if nearest is None or nearest.of != s.Trees() or not nearest.to.named_marker or nearest.adjacent:
         return None
     return replace(near, selector=replace(nearest, of=where))
 
