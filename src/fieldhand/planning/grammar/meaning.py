@@ -173,7 +173,7 @@ class Lead:
 
 
 @dataclass(frozen=True, slots=True)
-class Ranking:
+class RankCommand:
     """Trees that are ranked by an attribute, of which a later command names the best."""
 
     trees: PlaceMeaning
@@ -392,7 +392,7 @@ Command = (
     | Allowed
     | UntilCondition
     | VisitLimit
-    | Ranking
+    | RankCommand
     | Again
     | InAnOrder
     | After

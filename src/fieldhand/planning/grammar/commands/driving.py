@@ -17,7 +17,7 @@ from fieldhand.planning.grammar.meaning import (
     Lead,
     Nominal,
     PlaceMeaning,
-    Ranking,
+    RankCommand,
     StopCommand,
 )
 from fieldhand.planning.grammar.places.compass import AWAY_FROM
@@ -165,11 +165,11 @@ def best_first(rank: tuple[str, bool]) -> tuple[str, str, bool] | None:
     "ranked_first: SORT trees=place BY [DET] attribute=ATTR [COMMA] HIGHTOLOW",
     cost=0.2,
 )
-def ranked_first(trees: PlaceMeaning, attribute: Lex, used: int) -> list[Ranking] | None:
+def ranked_first(trees: PlaceMeaning, attribute: Lex, used: int) -> list[RankCommand] | None:
     """Compose "rank the trees by yield, high to low"."""
     if trees.shape != "several" or trees.count is not None or trees.per is not None:
         return None
-    return [Ranking(trees, name, used) for name in attribute.value]
+    return [RankCommand(trees, name, used) for name in attribute.value]
 
 
 @construction("order: order=ordered", "order: GO order=ordered", cost=0.2)

@@ -19,7 +19,7 @@ from fieldhand.planning.grammar.meaning import (
     LimitClause,
     LinkedCommand,
     Otherwise,
-    Ranking,
+    RankCommand,
     ReadingQuestion,
     Said,
     StopCommand,
@@ -213,7 +213,7 @@ def without_joint(before: Said, one: Command) -> Said | None:
     """Compose "take a picture if it is high"."""
     last = before.clauses[-1].command
     match one:
-        case Otherwise() | Again() | CaptureWhere() | ReadingQuestion() | Failing() | Ranking():
+        case Otherwise() | Again() | CaptureWhere() | ReadingQuestion() | Failing() | RankCommand():
             return None
         case Lead():
             follows = isinstance(last, Otherwise)

@@ -48,7 +48,7 @@ from fieldhand.planning.grammar.meaning import (
     LinkedCommand,
     Otherwise,
     PlaceMeaning,
-    Ranking,
+    RankCommand,
     ReadingQuestion,
     Said,
     StopCommand,
@@ -186,7 +186,7 @@ def _read(
             return allowed(setting, state, command, _rest_of_sentence(following), joint)
         case UntilCondition():
             return until(setting, state, command)
-        case Ranking():
+        case RankCommand():
             return replace(state, ranking=command)
         case VisitLimit():
             return limit_visits(setting, state, command)

@@ -17,7 +17,7 @@ from fieldhand.planning.grammar.meaning import (
     Lead,
     LimitClause,
     PlaceMeaning,
-    Ranking,
+    RankCommand,
     Thing,
 )
 from fieldhand.robot.model import RobotProfile
@@ -138,7 +138,7 @@ class DialogueState:
     tested_at: tuple[PlaceMeaning | None, Path | None] = (None, None)
     ended_by: Condition | None = None
     joints: Spans = ()
-    ranking: Ranking | None = None
+    ranking: RankCommand | None = None
 
     @property
     def block(self) -> p.InOrder:

@@ -91,10 +91,10 @@ def either_end(rows: s.Selector, noun: Lex | None = None) -> list[PlaceMeaning] 
     return [PlaceMeaning(s.InRow(first=at, last=at, of=rows), "one") for at in (1, -1)]
 
 
-@construction("place: ANY n=count inner=nominal", "place: ANY inner=nominal", cost=0.4, given=("site",))
-def any_described(inner: Nominal, site: Site, n: int | None = None) -> list[PlaceMeaning] | None:
+@construction("place: ANY inner=nominal", cost=0.4, given=("site",))
+def any_described(inner: Nominal, site: Site) -> list[PlaceMeaning] | None:
     """Compose "any yellow tree": one of them, or each that there is?"""
-    if inner.single or inner.complete or inner.tested or n is not None or not is_by_attribute(inner.selector):
+    if inner.single or inner.complete or inner.tested or not is_by_attribute(inner.selector):
         return None
     return _so_many(1, inner.selector, site)
 
