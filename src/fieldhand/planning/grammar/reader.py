@@ -13,14 +13,23 @@ from fieldhand.planning.english.planned import NAME, Meant, planned_as
 from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.grammar.ambiguity import PlanQuestion, chosen_answer, not_an_answer, question_between
 from fieldhand.planning.grammar.assumptions import assumed_ways, assumed_wholes
+from fieldhand.planning.grammar.blocks import in_each_block
 from fieldhand.planning.grammar.chart import Chart, PhraseEdge, tokens_of
-from fieldhand.planning.grammar.dialogue import DialogueState, Setting, read_in_each_way, whole_plan
+from fieldhand.planning.grammar.dialogue import (
+    DialogueState,
+    NotComposed,
+    OpenQuestion,
+    Setting,
+    read_in_each_way,
+    whole_plan,
+)
 from fieldhand.planning.grammar.english import ENGLISH
 from fieldhand.planning.grammar.language import GrammarLanguage
+from fieldhand.planning.grammar.refusals import lost_reasons, unread_reasons
 from fieldhand.planning.grammar.remarks import without_remarks
 from fieldhand.planning.grammar.words import Phrases, edges_of, fillers_of
-from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Refused
-from fieldhand.planning.selections import is_in_block, rows_of
+from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Reason, Refused
+from fieldhand.planning.selections import rows_of
 from fieldhand.request_check import mismatches
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -57,21 +66,27 @@ class RequestReading:
     mended: tuple[str, ...] = ()
 
 
-def readings(
-    request: str, site: Site, robot: RobotProfile, language: GrammarLanguage = ENGLISH
-) -> list[RequestReading]:
-    """Return the ways to read a request as a whole, cheapest first; empty if the grammar does not cover it."""
-    return read(request, site, robot, language)[0]
+@dataclass(frozen=True, kw_only=True)
+class ReadRequest:
+    """What the grammar makes of a request.
+
+    Attributes:
+        readings: Ways to read it as a whole, cheapest first; empty if the grammar does not cover it.
+        faults: What stopped the reading of clauses that the grammar covers.
+        unread: The reasons for which it has no reading, if it has none.
+    """
+
+    readings: Sequence[RequestReading]
+    faults: Sequence[NotComposed] = ()
+    unread: tuple[Reason, ...] = ()
 
 
-def read(
-    request: str, site: Site, robot: RobotProfile, language: GrammarLanguage = ENGLISH
-) -> tuple[list[RequestReading], list[str]]:
-    """Return the ways to read a request as a whole, cheapest first, and what readings that lack something ask."""
+def read(request: str, site: Site, robot: RobotProfile, language: GrammarLanguage = ENGLISH) -> ReadRequest:
+    """Return the ways to read a request as a whole; misspelt words are mended if it is not read as it is."""
     words, phrases = language.words_of(request), language.phrases(robot, site)
-    found, asked = _readings_of(request, words, phrases, site, robot, language)
-    if found or language.respelt is None:
-        return found, asked
+    found = _read_words(request, words, phrases, site, robot, language)
+    if found.readings or language.respelt is None:
+        return found
     known = {token for edge in edges_of(words, phrases) for token in range(edge.start, edge.end)}
     mended: list[str] = []
     for token, word in enumerate(words):
@@ -79,28 +94,31 @@ def read(
             (words[token],), notes = language.respelt([word], phrases.lexicon)
             mended += notes
     if not mended:
-        return found, asked
-    found, asked = _readings_of(request, words, phrases, site, robot, language)
-    return [replace(reading, mended=tuple(mended)) for reading in found], asked
+        return found
+    respelt = _read_words(request, words, phrases, site, robot, language)
+    if not respelt.readings:
+        return found
+    return replace(respelt, readings=[replace(reading, mended=tuple(mended)) for reading in respelt.readings])
 
 
-def _readings_of(
+def _read_words(
     request: str, words: Sequence[Word], phrases: Phrases, site: Site, robot: RobotProfile, language: GrammarLanguage
-) -> tuple[list[RequestReading], list[str]]:
-    """Return the ways to read words, cheapest first, and what readings that lack something ask."""
+) -> ReadRequest:
+    """Return the ways to read words."""
     remarks = without_remarks(words, edges_of(words, phrases))
     words = remarks.words
+    edges = list(edges_of(words, phrases))
     chart = Chart(language.grammar(), len(words), fillers_of(words, phrases), given={"site": site}, predicted=PREDICTED)
-    chart.parse(edges_of(words, phrases))
+    chart.parse(edges)
     setting = Setting(robot, site, lambda used: spans(words, used), request)
     found: list[RequestReading] = []
-    asked: list[str] = []
+    faults: list[NotComposed] = []
     sides = [(words[one.start].start, words[one.end - 1].end) for one in chart.of_category("DIR")]
-    edges = chart.whole("request")
-    for edge in edges:
-        states, questions = read_in_each_way(setting, edge.meaning)
-        if edge.cost < edges[0].cost + _MARGIN:
-            asked += [question.question for question in questions]
+    whole = chart.whole("request")
+    for edge in whole:
+        states, stopped = read_in_each_way(setting, edge.meaning)
+        if edge.cost < whole[0].cost + _MARGIN:
+            faults += stopped
         found += [
             RequestReading(
                 state=state,
@@ -112,7 +130,28 @@ def _readings_of(
             )
             for state in states
         ]
-    return found, asked
+    unread = () if found else unread_reasons(request, words, edges, chart, faults, site)
+    return ReadRequest(readings=found, faults=faults, unread=unread)
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Candidate:
+    """A reading with its plan.
+
+    Attributes:
+        reading: The reading.
+        outcome: Its plan, or the reasons why it has none.
+        lost: Ranges of the words that have no part in the plan.
+    """
+
+    reading: RequestReading
+    outcome: Outcome
+    lost: tuple[Span, ...]
+
+    @property
+    def plan(self) -> Planned | None:
+        """The plan of the reading, if it has one."""
+        return self.outcome if isinstance(self.outcome, Planned) else None
 
 
 def composed(
@@ -121,44 +160,64 @@ def composed(
     robot: RobotProfile,
     language: GrammarLanguage = ENGLISH,
     answers: tuple[Answer, ...] = (),
-) -> Outcome | None:
+) -> Outcome:
     """Return the plan of a request that the grammar covers as a whole, or a question if there are several.
 
-    A plan that says something else than the request, or leaves a word of it out, is none. A request that is understood
-    and names a place that the site does not have is refused.
+    A plan that says something else than the request, or leaves a word of it out, is none: the request is refused.
 
     Args:
         request: Request as typed.
         site, robot: Site and robot of the mission.
         language: Language of the request.
         answers: Answers to questions about it.
-
-    Returns:
-        None if the grammar does not cover the request.
     """
-    found, asked = read(request, site, robot, language)
-    if not found:
-        return Clarify(question=asked[0], planner=NAME) if asked else None
-    found = _without_lost_words(found, request, site, robot)
-    likely: list[RequestReading] = []
-    for reading in found:
-        meant = _meant(reading, request)
-        if reading.cost < found[0].cost + _MARGIN and not any(_same(_meant(one, request), meant) for one in likely):
-            likely.append(reading)
-    outcomes = [_outcome_of(_meant(reading, request), request, site, robot) for reading in likely]
-    if len(likely) == 1:
-        outcome = outcomes[0]
-        whole = isinstance(outcome, Planned) and _is_whole(outcome, found[0].remarks, site, robot)
-        return outcome if whole or isinstance(outcome, Refused) else None
-    if any(outcome is None for outcome in outcomes):
-        return None
+    found = read(request, site, robot, language)
+    if not found.readings:
+        asked = next((fault.what for fault in found.faults if isinstance(fault, OpenQuestion)), None)
+        if asked is not None:
+            return Clarify(question=asked, planner=NAME)
+        return Refused(reasons=found.unread, planner=NAME)
+    likely = _likely(found.readings, request, site, robot)
+    remarks = found.readings[0].remarks
     plans = [
-        outcome
-        for reading, outcome in zip(likely, outcomes, strict=True)
-        if isinstance(outcome, Planned)
-        and (reading.cost == likely[0].cost or _is_whole(outcome, found[0].remarks, site, robot))
+        plan
+        for candidate in likely
+        if (plan := candidate.plan) is not None
+        and (candidate.reading.cost == likely[0].reading.cost or _is_whole(plan, remarks, site, robot))
     ]
-    return _chosen(plans, found[0].remarks, request, site, robot, answers) if plans else outcomes[0]
+    return _chosen(plans, remarks, request, site, robot, answers) if plans else likely[0].outcome
+
+
+def _likely(found: Sequence[RequestReading], request: str, site: Site, robot: RobotProfile) -> Sequence[_Candidate]:
+    """Return readings of different meaning that cost little more than the first one whose plan leaves no word out.
+
+    If the plans of all readings leave words out, they are those that cost little more than the first one.
+    """
+    lossy: list[_Candidate] = []
+    whole: list[_Candidate] = []
+    known: list[Meant] = []
+    for reading in found:
+        if whole and reading.cost >= whole[0].reading.cost + _MARGIN:
+            break
+        meant = _meant(reading, request)
+        if any(_same(one, meant) for one in known):
+            continue
+        known.append(meant)
+        for candidate in _candidates(reading, meant, request, site, robot):
+            (lossy if candidate.lost and not whole else whole).append(candidate)
+    return whole or [one for one in lossy if one.reading.cost < lossy[0].reading.cost + _MARGIN]
+
+
+def _candidates(
+    reading: RequestReading, meant: Meant, request: str, site: Site, robot: RobotProfile
+) -> Sequence[_Candidate]:
+    """Return a reading with its plan; with several plans if its rows may be those of several blocks."""
+    found: list[_Candidate] = []
+    for plan in in_each_block(meant.plan, site):
+        outcome = _outcome_of(replace(meant, plan=plan), request, site, robot)
+        lost = _lost_words(outcome, reading.remarks) if isinstance(outcome, Planned) else ()
+        found.append(_Candidate(reading=reading, outcome=outcome, lost=lost))
+    return [one for one in found if one.plan is not None] or found[:1]
 
 
 def _chosen(
@@ -168,9 +227,10 @@ def _chosen(
     site: Site,
     robot: RobotProfile,
     answers: tuple[Answer, ...],
-) -> Outcome | None:
+) -> Outcome:
     """Return the plan that the answers choose, or the question that tells plans apart."""
     taken: tuple[tuple[Answer, Span], ...] = ()
+    first = plans[0]
     while len(plans) > 1 and (question := question_between(plans, request, site, robot)) is not None:
         given = next((answer for answer in answers if answer.question == question.question), None)
         if given is None:
@@ -184,10 +244,11 @@ def _chosen(
         if chosen is None:
             return Refused(reasons=(not_an_answer(given, tuple(question.plans)),), planner=NAME)
         plans, taken = question.plans[chosen], (*taken, (replace(given, answer=chosen), question.said))
-    if not plans:
-        return None
-    plan = _answered(plans[0], taken)
-    return plan if _is_whole(plan, remarks, site, robot) else None
+    plan = _answered(plans[0] if plans else first, taken)
+    if _is_whole(plan, remarks, site, robot):
+        return plan
+    lost = _lost_words(plan, remarks)
+    return Refused(reasons=lost_reasons(plan, lost, request, site, robot), planner=NAME)
 
 
 def _whole_answers(
@@ -222,18 +283,7 @@ def _answered(plan: Planned, taken: Sequence[tuple[Answer, Span]]) -> Planned:
 
 def _is_whole(plan: Planned, remarks: Sequence[Span], site: Site, robot: RobotProfile) -> bool:
     """Return True if a plan leaves no word of its request out, and does not contradict it."""
-    return not _leaves_words(plan, remarks) and not mismatches(plan.task, site, robot)
-
-
-def _without_lost_words(
-    found: list[RequestReading], request: str, site: Site, robot: RobotProfile
-) -> list[RequestReading]:
-    """Return readings without the first ones, as far as they skip words that ask for something; all if all do."""
-    for number, reading in enumerate(found):
-        outcome = _outcome_of(_meant(reading, request), request, site, robot)
-        if not isinstance(outcome, Planned) or not _leaves_words(outcome, reading.remarks):
-            return found[number:]
-    return found
+    return not _lost_words(plan, remarks) and not mismatches(plan.task, site, robot)
 
 
 def planned_clauses(
@@ -256,24 +306,25 @@ def planned_clauses(
     return outcome if isinstance(outcome, Planned) else None
 
 
-def _outcome_of(meant: Meant, request: str, site: Site, robot: RobotProfile) -> Outcome | None:
-    """Return the plan of a meaning, or its refusal; None if a row or a limit is left open."""
-    if _leaves_block_open(meant.plan, site) or _counts_unnumbered_rows(meant.plan, site):
-        return None
+def _outcome_of(meant: Meant, request: str, site: Site, robot: RobotProfile) -> Outcome:
+    """Return the plan of a meaning, or its refusal."""
+    if (odd := _odd_rows(meant.plan, site)) is not None:
+        return Refused(reasons=(odd,), planner=NAME)
     try:
         return planned_as(meant, request, site, robot)
-    except Unclear:
-        return None
+    except Unclear as unclear:
+        return Refused(reasons=(unclear.reason,), planner=NAME)
 
 
-def _leaves_words(outcome: Planned, remarks: Sequence[Span]) -> bool:
-    """Return True if a word of the request has no counterpart in the plan and is no remark."""
+def _lost_words(plan: Planned, remarks: Sequence[Span]) -> tuple[Span, ...]:
+    """Return the ranges of the request that have no counterpart in its plan and are no remarks."""
+    found: list[Span] = []
     at = 0
-    for piece in request_pieces(outcome.task):
+    for piece in request_pieces(plan.task):
         start, at = at, at + len(piece.text)
         if piece.role == "nothing" and not any(first <= start and at <= last for first, last in remarks):
-            return True
-    return False
+            found.append((start, at))
+    return tuple(found)
 
 
 def _meant(reading: RequestReading, request: str) -> Meant:
@@ -323,23 +374,19 @@ def _unsaid(node: p.Node) -> p.Node:
     return bare.with_children([_unsaid(child) for child in node.children])
 
 
-def _leaves_block_open(plan: p.Node, site: Site) -> bool:
-    """Return True if a row is named on a site of several blocks without its block."""
-    if len(site.planting.blocks) < 2:
-        return False
-    for node in p.walk(plan):
-        for rows in () if node.selector is None else rows_of(node.selector):
-            if not is_in_block(rows.of):
-                return True
-    return False
-
-
-def _counts_unnumbered_rows(plan: p.Node, site: Site) -> bool:
-    """Return True if even or odd rows are named where the rows are not numbered one after the other."""
+def _odd_rows(plan: p.Node, site: Site) -> Reason | None:
+    """Return the reason why even or odd rows mean nothing where the rows are not numbered one after the other."""
     if all(row.name == str(row.number) for row in site.planting.rows):
-        return False
-    named = [rows for node in p.walk(plan) if node.selector is not None for rows in rows_of(node.selector)]
-    return any(rows.every > 1 and rows.first != "" for rows in named)
+        return None
+    for node in p.walk(plan):
+        if node.selector is not None and any(rows.every > 1 and rows.first != "" for rows in rows_of(node.selector)):
+            return Reason(
+                what=message("the rows here are not numbered one after the other"),
+                said=node.said,
+                advice=message("name the rows"),
+                final=True,
+            )
+    return None
 
 
 def spans(words: Sequence[Word], used: int) -> tuple[Span, ...]:

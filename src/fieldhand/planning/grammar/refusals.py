@@ -1,62 +1,163 @@
-"""The reasons for which the grammar does not plan a request, for languages that have no other planner."""
+"""The reasons for which the grammar does not plan a request."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
-from fieldhand.language import joined, message
+from fieldhand.language import message, named
 from fieldhand.language.words import some_names
 from fieldhand.planning.english.faults import PLAINLY
 from fieldhand.planning.english.tokens import Word
-from fieldhand.planning.grammar.chart import Chart
-from fieldhand.planning.grammar.language import GrammarLanguage
-from fieldhand.planning.grammar.reader import PREDICTED, readings
-from fieldhand.planning.grammar.words import edges_of, fillers_of
-from fieldhand.planning.planner import Reason
+from fieldhand.planning.english.unknown import not_understood
+from fieldhand.planning.grammar.chart import Chart, PhraseEdge, tokens_of
+from fieldhand.planning.grammar.dialogue import NotComposed
+from fieldhand.planning.planner import Planned, Reason
+from fieldhand.request_check import mismatches
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
+from fieldhand.task.plan import Span
 
-#: Maximum number of words that a reason quotes.
-_MOST_QUOTED = 12
+#: Kind of the words that are known, and that no plan can express yet.
+_NOT_YET = "NOTYET"
+#: Maximum number of words of a reason that are quoted, and of characters of a sentence.
+_MOST_WORDS, _MOST_CHARACTERS = 4, 120
+_SHORTER = message("say it in shorter sentences, one thing after the other")
 
 
-def refusal_reasons(request: str, site: Site, robot: RobotProfile, language: GrammarLanguage) -> tuple[Reason, ...]:
-    """Return the reasons for which a request has no plan: unknown words, else the words at which the parse ends."""
-    words = language.words_of(request)
-    phrases = language.phrases(robot, site)
-    edges = list(edges_of(words, phrases))
-    fillers = fillers_of(words, phrases)
+def unread_reasons(
+    request: str,
+    words: Sequence[Word],
+    edges: Sequence[PhraseEdge],
+    chart: Chart,
+    faults: Sequence[NotComposed],
+    site: Site,
+) -> tuple[Reason, ...]:
+    """Return the reasons for which a request has no reading, the plainest ones only.
+
+    Args:
+        request: Request as typed.
+        words: Its words.
+        edges: What the words are by themselves.
+        chart: Phrases over the words.
+        faults: What stopped the reading of its clauses, most likely reading first.
+        site: Site of the mission.
+    """
+    found = (*_not_yet(words, edges), *_unknown(words, edges, chart.fillers, site))
+    if found:
+        return found
+    if faults:
+        return (_fault(faults[0], words, request),)
+    return (_stuck(words, chart, request),)
+
+
+def _not_yet(words: Sequence[Word], edges: Sequence[PhraseEdge]) -> Iterator[Reason]:
+    """Yield a reason for each phrase that no plan can express yet, if its words are nothing else."""
+    other = {k for edge in edges if edge.category != _NOT_YET for k in range(edge.start, edge.end)}
+    for edge in edges:
+        if edge.category != _NOT_YET or other >= set(range(edge.start, edge.end)):
+            continue
+        said = " ".join(word.text for word in words[edge.start : edge.end])
+        yield Reason(
+            what=message("'{said}' is not possible yet", said=said),
+            said=((words[edge.start].start, words[edge.end - 1].end),),
+            advice=named(str(edge.meaning.value), "advice"),
+            final=True,
+        )
+
+
+def _unknown(
+    words: Sequence[Word], edges: Sequence[PhraseEdge], fillers: frozenset[int], site: Site
+) -> Iterator[Reason]:
+    """Yield reasons for words that are not known: rows and blocks that the site lacks, and the others together."""
     known = {k for edge in edges for k in range(edge.start, edge.end)} | fillers
-    if unknown := [word for k, word in enumerate(words) if k not in known]:
-        return (_unknown(unknown),)
-    chart = Chart(language.grammar(), len(words), fillers, given={"site": site}, predicted=PREDICTED)
-    chart.parse(edges)
-    if not chart.whole("request"):
-        return (_stuck(request, words, chart.furthest("said")),)
-    if not readings(request, site, robot, language):
-        what = message("every word is known, but not what the sentences mean together")
-        return (Reason(what=what, said=((0, len(request)),), advice=_COMPLETELY, unknown=True),)
-    what = message("the request can be read in more than one way")
-    return (Reason(what=what, said=((0, len(request)),), advice=_COMPLETELY, unknown=True),)
+    rows = {edge.end for edge in edges if edge.category == "ROW"}
+    strange: list[Word] = []
+    for k, word in enumerate(words):
+        if k in known or word.kind == "stop":
+            continue
+        block = k > 0 and words[k - 1].norm in ("block", "blocks")
+        if k in rows or block:
+            yield _no_such(word, site, block=block)
+        else:
+            strange.append(word)
+    if strange:
+        yield not_understood(strange)
 
 
-_COMPLETELY = message("say what to take or measure, at which trees and how many, in short sentences")
-
-
-def _unknown(words: Sequence[Word]) -> Reason:
-    """Return a reason for words that the language does not have."""
-    quoted = some_names([message("'{said}'", said=word.text) for word in words], _MOST_QUOTED)
+def _no_such(word: Word, site: Site, *, block: bool) -> Reason:
+    """Return the reason for a row or a block that the site does not have."""
+    planting = site.planting
+    names = list(dict.fromkeys(one.name for one in (planting.blocks if block else planting.rows)))
+    there = some_names(names, 6)
+    if block:
+        what = message("there is no block '{said}'", said=word.text)
+        has = message("this site has block {there}", there=there)
+    else:
+        what = message("there is no row '{said}'", said=word.text)
+        has = message("this site has row {there}", there=there)
     return Reason(
-        what=message("not understood: {words}", words=quoted),
-        said=tuple((word.start, word.end) for word in words),
-        advice=PLAINLY,
-        unknown=True,
+        what=what,
+        said=((word.start, word.end),),
+        advice=has if names else message("no rows were found on this site"),
+        final=True,
+        instead=names[0] if names else "",
     )
 
 
-def _stuck(request: str, words: Sequence[Word], at: int) -> Reason:
-    """Return a reason for the words from which on the request could not be parsed."""
+def _fault(fault: NotComposed, words: Sequence[Word], request: str) -> Reason:
+    """Return the reason for clauses that do not fit together."""
+    used = tokens_of(fault.used)
+    start, end = (words[used[0]].start, words[used[-1]].end) if used else (0, len(request.rstrip()))
+    said = request[start:end].rstrip(" .")
+    return Reason(
+        what=message("'{said}': {what}", said=_short(said), what=fault.what), said=((start, end),), advice=PLAINLY
+    )
+
+
+def _stuck(words: Sequence[Word], chart: Chart, request: str) -> Reason:
+    """Return the reason for the words from which on a request could not be parsed."""
+    at = chart.furthest("said")
     rest = [word for word in words[at:] if word.kind not in ("comma", "stop")] or words[-1:]
-    start, end = rest[0].start, rest[: _MOST_QUOTED // 3][-1].end
-    what = message("not understood: {words}", words=joined("", [message("'{said}'", said=request[start:end])]))
-    return Reason(what=what, said=((start, end),), advice=_COMPLETELY, unknown=True)
+    said = rest[:_MOST_WORDS]
+    start, end = said[0].start, said[-1].end
+    sentence = _sentence(words, start, request)
+    if at == 0 or request[start:end] == sentence:
+        what = message("each word is known, but not what they say together")
+        return Reason(what=what, said=((start, end),), advice=_SHORTER)
+    what = message("'{said}' does not fit at this point in '{short}'", said=request[start:end], short=_short(sentence))
+    return Reason(what=what, said=((start, end),), advice=_SHORTER)
+
+
+def _sentence(words: Sequence[Word], at: int, request: str) -> str:
+    """Return the sentence around a character."""
+    stops = [word for word in words if word.kind == "stop"]
+    start = max((word.end for word in stops if word.end <= at), default=0)
+    end = min((word.start for word in stops if word.start > at), default=len(request))
+    return request[start:end].strip()
+
+
+def _short(said: str) -> str:
+    return said if len(said) <= _MOST_CHARACTERS else f"{said[: _MOST_CHARACTERS - 3]}..."
+
+
+def lost_reasons(
+    plan: Planned, lost: Sequence[Span], request: str, site: Site, robot: RobotProfile
+) -> tuple[Reason, ...]:
+    """Return the reasons why a plan is not what its request says: words without a part in it, and contradictions.
+
+    Args:
+        plan: Plan of the request.
+        lost: Ranges of the words that have no part in it.
+        request: Request as typed.
+        site, robot: Site and robot of the mission.
+    """
+    parts = [
+        Reason(
+            what=message("'{said}' has no part in the plan", said=request[start:end]),
+            said=((start, end),),
+            advice=PLAINLY,
+        )
+        for start, end in lost
+    ]
+    wrong = [Reason(what=one.what, advice=PLAINLY) for one in mismatches(plan.task, site, robot)]
+    return (*parts, *wrong)

@@ -21,6 +21,6 @@ from __future__ import annotations
 
 from fieldhand.planning.grammar.dialogue.clauses import read_clauses, read_in_each_way
 from fieldhand.planning.grammar.dialogue.plans import whole_plan
-from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting
+from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, OpenQuestion, Setting
 
-__all__ = ["DialogueState", "NotComposed", "Setting", "read_clauses", "read_in_each_way", "whole_plan"]
+__all__ = ["DialogueState", "NotComposed", "OpenQuestion", "Setting", "read_clauses", "read_in_each_way", "whole_plan"]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from fieldhand.language import message
 from fieldhand.planning.grammar.dialogue.fitting import is_spoken_of
 from fieldhand.planning.grammar.dialogue.plans import EMPTY, Path
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, with_last_step, with_step
@@ -33,9 +34,9 @@ def allowed(
     """
     said, steps = setting.spans_of(command.used), state.block.steps
     if state.awaits_command:
-        raise NotComposed("all these places together, or each of them?")
+        raise NotComposed(message("does it apply to all these places together, or to each of them?", context="fault"))
     if state.commands_in_sentence and any(step.visits_each and step.is_optional for step in steps[-1:]):
-        raise NotComposed("it may be left out already")
+        raise NotComposed(message("what it applies to may already be left out", context="fault"))
     after_and = joint is None or joint.both or joint.then or joint.full
     if following and state.commands_in_sentence and not after_and:
         of_last = setting.either("what is left out if the budget is short?", command.used, (True, False))
@@ -51,7 +52,7 @@ def allowed(
         return replace(state, scope=inside, open=True, loop=loop)
     own_place = bool(steps) and (steps[-1].visits_each or (steps[-1].act is not None and steps[-1].act.at is not None))
     if not steps or not state.commands_in_sentence or (state.commands_in_sentence > 1 and not own_place):
-        raise NotComposed("what is left out if the budget is short?")
+        raise NotComposed(message("it is not clear what is left out if the budget is short", context="fault"))
     body = p.InOrder(id="", steps=steps[-1:])
     return replace(with_last_step(state, p.OptionalStep(id="", body=body, said=said)), loop=None, captured=None)
 
@@ -60,7 +61,7 @@ def failing(setting: Setting, state: DialogueState, command: Failing) -> Dialogu
     """Return the state in which the next commands are done if the last one fails."""
     steps = state.block.steps
     if not steps:
-        raise NotComposed("what fails?")
+        raise NotComposed(message("it is not clear what may fail", context="fault"))
     inside = (*state.scope, len(steps) - 1, "otherwise")
     body = p.InOrder(id="", steps=steps[-1:])
     state = with_last_step(state, p.Try(id="", body=body, otherwise=EMPTY, said=setting.spans_of(command.used)))

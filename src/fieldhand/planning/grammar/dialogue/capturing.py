@@ -79,7 +79,7 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
         state = enter(setting, state, state.area)  # "move two rows over and take another"
     same = any(one.action == LAST_THING and one.count is None for one in command.things)
     if same and command.place is not None and command.place.shape == "area":
-        raise NotComposed("the same at every tree, or at how many?")
+        raise NotComposed(message("at every tree, or at how many?", context="fault"))
     things = meant_things(state, said_things(setting, command))
     place, state, before = _place_of(setting, state, command)
     tokens = 0 if command.place is None else command.place.tokens & command.used
@@ -98,7 +98,9 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
     if place is None or place.shape in ("here", "those"):
         return _at_the_same_place(setting, state, replace(command, things=things, place=place), whole)
     if place.selector == s.Trees() and place.shape == "several" and state.plan.steps and not place.optional:
-        raise NotComposed("each of those, or each tree of the site?")
+        raise NotComposed(
+            message("it is not clear whether each of those is meant, or each tree of the site", context="fault")
+        )
     place, things = fitted(setting, place, things, command.relation, command.used)
     if place.shape == "one":
         return capture_once(state, replace(command, things=things), place, said, at_said)
@@ -191,9 +193,9 @@ def meant_things(state: DialogueState, things: tuple[Thing, ...]) -> tuple[Thing
     if not any(thing.action == LAST_THING for thing in things):
         return things
     if len(things) != 1 or len(state.things) != 1:
-        raise NotComposed("another what?")
+        raise NotComposed(message("it is not clear what another one is meant", context="fault"))
     if may_be_left_out(state):
-        raise NotComposed("another of what may be left out?")
+        raise NotComposed(message("it is not clear whether that may be left out too", context="fault"))
     return (replace(things[0], action=state.things[0].action),)
 
 
@@ -204,12 +206,12 @@ def _place_of(
     place, before = command.place, state.lead or state.area
     if command.within is not None:
         if before is not None:
-            raise NotComposed("two places for one command")
+            raise NotComposed(message("it is not clear at which of two places this is done", context="fault"))
         before = Lead(command.within, 0)
     if place is not None and place.there:
         area = state.within if before is None and state.within is not None else None
         if area is None and (before is None or before.place.shape != "area"):
-            raise NotComposed("where is that?")
+            raise NotComposed(message("it is not clear where that is", context="fault"))
         place = replace(place, there=False)
     if before is None:
         return within_area(place, state.within), state, ()
@@ -223,14 +225,14 @@ def _place_of(
         return in_area(setting, before, place), replace(state, within=first.selector), said
     if first.per is not None and place is not None and place.per is None and place.shape in ("one", "several"):
         if first.shape != "area":
-            raise NotComposed("two places for one command")
+            raise NotComposed(message("it is not clear at which of two places this is done", context="fault"))
         return in_each_row(first.per, place), state, said
     if first.shape == "one" and (place is None or place.shape in ("here", "nearby", "step")):
         moves = place is not None and place.shape != "here"
         return place if moves else None, drive(setting, state, DriveCommand(first, before.used)), ()
     if first.shape in ("several", "nearby") and is_spoken_of(place):
         return first, state, said
-    raise NotComposed("two places for one command")
+    raise NotComposed(message("it is not clear at which of two places this is done", context="fault"))
 
 
 def _lines_at_each(
@@ -251,7 +253,7 @@ def _at_some_of_those(state: DialogueState, command: CaptureCommand, place: Plac
     steps = state.block.steps
     loop = as_for_each(steps[-1]) if steps else None
     if loop is None or loop.body != EMPTY or loop.optional or loop.at_most is not None:
-        raise NotComposed("which of them?")
+        raise NotComposed(message("it is not clear which of them", context="fault"))
     some = loop.select if place.count is None else some_of(loop.select, place.count)
     state = with_last_step(state, replace(loop, select=some, at_most=place.at_most))
     state = _with_captures(state, command.things, command.times, said, (*state.scope, len(steps) - 1, "body"))
@@ -264,25 +266,27 @@ def _at_the_same_place(setting: Setting, state: DialogueState, command: CaptureC
         asked = message("'{said}': at which tree or trees?", context="question", said=setting.quoted(command.used))
         raise OpenQuestion(asked)
     if command.place is not None and state.where is None:
-        raise NotComposed("which place is meant?")
+        raise NotComposed(message("which place is meant?", context="fault"))
     if command.place is not None and not command.place.itself and _is_of_other_case(state):
-        raise NotComposed("where it was tested, or where the other case goes?")
+        raise NotComposed(message("it is not clear at which of two places this is done", context="fault"))
     if command.place is None and state.where is not None and state.where.in_order and _nothing_done_there(state):
-        raise NotComposed("at each of them, or at the last?")  # "go to tree 4, then tree 9 and take a picture"
+        raise NotComposed(
+            message("it is not clear whether this is done at each of them, or at the last", context="fault")
+        )  # "go to tree 4, then tree 9 and take a picture"
     scope = state.scope
     if state.ended_by is not None and state.loop is not None:
         state, scope = _where_it_ended(state, state.loop, state.ended_by)
     elif state.loop is not None and not is_inside(scope, state.loop):
         scope = state.loop
     elif command.place is not None and command.place.shape == "those" and state.loop is None:
-        raise NotComposed("which places are meant?")
+        raise NotComposed(message("which places are meant?", context="fault"))
     actions, done = {thing.action for thing in command.things}, {thing.action for thing in state.things}
     if command.relation == "each" and actions <= done and state.loop is not None:
         loop = for_each_at(state.plan, state.loop[:-1])  # "from three trees, one sample per tree"
         return replace(state, plan=with_node(state.plan, state.loop[:-1], replace(loop, said=(*loop.said, *said))))
     here = state.captured is not None and scope == state.captured[:-1] and command.relation == "plain"
     if command.place is not None and (command.place.shape == "those" or here) and actions <= done:
-        raise NotComposed("once more, or the same said twice?")
+        raise NotComposed(message("it is not clear whether this is done once more", context="fault"))
     state = _with_captures(state, command.things, command.times, said, scope)
     return replace(state, things=command.things, commands_in_sentence=state.commands_in_sentence + 1)
 
@@ -317,9 +321,9 @@ def capture_elided(setting: Setting, state: DialogueState) -> DialogueState:
     if lead is None or not state.things or lead.place.shape not in ("one", "several", "area"):
         return state
     if lead.relation == "" and lead.place.selector.named_marker:
-        raise NotComposed("another place, or another place to measure from?")
+        raise NotComposed(message("it is not clear from which place that is measured", context="fault"))
     if state.where is not None and is_end_of_site(state.where.selector) and counts_in_row(lead.place.selector):
-        raise NotComposed("the first of the row, or of the site?")
+        raise NotComposed(message("the first or last of which trees?", context="fault"))
     if state.where is not None and (mark := landmark_of(state.where.selector, lead.place.selector)) is not None:
         lead = replace(lead, place=replace(lead.place, selector=swapped(lead.place.selector, s.Here(), mark)))
     things = state.things
@@ -328,7 +332,7 @@ def capture_elided(setting: Setting, state: DialogueState) -> DialogueState:
     elif not (lead.relation and _are_of_each(things) and _is_area(state.where)) and (
         lead.relation == "" or not (state.where is None or _is_area(state.where) or are_rows(state.where.selector))
     ):
-        raise NotComposed("every tree, or how many?")
+        raise NotComposed(message("at every tree, or at how many?", context="fault"))
     of_each = lead.place.shape == "area" and state.where is not None and state.where.shape == "several"
     again = CaptureCommand(things, lead.place, lead.used, relation="of" if of_each else lead.relation)
     return capture(setting, replace(state, lead=None), again)
@@ -355,13 +359,13 @@ def capture_again(setting: Setting, state: DialogueState, command: Again) -> Dia
     if place is None or not steps or steps[-1].is_choice:
         return process_again(setting, state, command)
     if place.per is not None or steps[-1].is_optional_step or steps[-1].caught:
-        raise NotComposed("what is repeated where?")
+        raise NotComposed(message("it is not clear what is repeated, and where", context="fault"))
     if place.shape not in ("one", "several"):
-        raise NotComposed("what is repeated where?")
+        raise NotComposed(message("it is not clear what is repeated, and where", context="fault"))
     said = setting.spans_of(command.used)
     captures = [replace(act, at=None, at_said=(), reading="", said=said) for act in captures_at_last_place(steps)]
     if not captures:
-        raise NotComposed("what is repeated?")
+        raise NotComposed(message("it is not clear what is repeated", context="fault"))
     if place.shape == "one":
         state, inside = drive(setting, state, DriveCommand(place, command.used)), state.scope
     else:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import replace
 
+from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.allowances import allowed, failing
 from fieldhand.planning.grammar.dialogue.capturing import capture, capture_again, capture_elided, meant_things
@@ -19,7 +20,7 @@ from fieldhand.planning.grammar.dialogue.driving import (
     put_in_order,
     without_home,
 )
-from fieldhand.planning.grammar.dialogue.faults import Fork, OpenQuestion
+from fieldhand.planning.grammar.dialogue.faults import Fork
 from fieldhand.planning.grammar.dialogue.fitting import is_spoken_of
 from fieldhand.planning.grammar.dialogue.likewise import with_known_place
 from fieldhand.planning.grammar.dialogue.plans import EMPTY, as_for_each, walk
@@ -63,10 +64,10 @@ from fieldhand.task import plan as p
 _MOST_WAYS = 32
 
 
-def read_in_each_way(setting: Setting, said: Said) -> tuple[list[DialogueState], list[OpenQuestion]]:
-    """Return the state after all clauses for each way to continue them, and the questions of ways that lack more."""
+def read_in_each_way(setting: Setting, said: Said) -> tuple[list[DialogueState], list[NotComposed]]:
+    """Return the state after all clauses for each way to continue them, and the faults of ways that lead nowhere."""
     states: list[DialogueState] = []
-    questions: list[OpenQuestion] = []
+    faults: list[NotComposed] = []
     waiting: list[Mapping[Hashable, int]] = [{}]
     while waiting:
         chosen = waiting.pop(0)
@@ -76,11 +77,9 @@ def read_in_each_way(setting: Setting, said: Said) -> tuple[list[DialogueState],
             waiting += [{**chosen, fork.key: way} for way in range(fork.count)]
             if len(states) + len(waiting) > _MOST_WAYS:
                 return [], []
-        except OpenQuestion as question:
-            questions.append(question)
-        except NotComposed:
-            continue
-    return states, questions
+        except NotComposed as fault:
+            faults.append(fault)
+    return states, faults
 
 
 def read_clauses(setting: Setting, said: Said) -> DialogueState:
@@ -92,7 +91,10 @@ def read_clauses(setting: Setting, said: Said) -> DialogueState:
     """
     state = DialogueState()
     for k, clause in enumerate(said.clauses):
-        state = _read(setting, state, clause, said.clauses[k + 1 :])
+        try:
+            state = _read(setting, state, clause, said.clauses[k + 1 :])
+        except NotComposed as fault:
+            raise fault.about(clause.command.used) from None
     return _ended(capture_elided(setting, state))
 
 
@@ -103,18 +105,18 @@ def _ended(state: DialogueState) -> DialogueState:
         NotComposed: Something is missing.
     """
     if all(step.ends_plan for step in state.plan.steps):
-        raise NotComposed("nothing is done")
+        raise NotComposed(message("it asks for nothing to be done", context="fault"))
     for _, node in walk(state.plan):
         if (loop := as_for_each(node)) is not None and _visits_open_number(loop):
-            raise NotComposed("how many different ones?")
+            raise NotComposed(message("how many of the others?", context="fault"))
         if node.is_series and any(step.ends_plan for step in node.children[:-1]):
-            raise NotComposed("what follows the end?")
+            raise NotComposed(message("something follows the end of the mission", context="fault"))
         if node.is_choice and EMPTY in node.children:
-            raise NotComposed("nothing is done in one case")
+            raise NotComposed(message("nothing is said to be done in one of the cases", context="fault"))
         if node.is_optional_step and not any(one.act for one in p.walk(node)):
-            raise NotComposed("what may be left out?")
+            raise NotComposed(message("it does not say what may be left out", context="fault"))
     if state.open or state.awaits_command or state.order is not None:
-        raise NotComposed("nothing is done there")
+        raise NotComposed(message("it does not say what to do there", context="fault"))
     if state.nominal is None and state.in_case is not None:
         cases = state.plan.steps[-1].children if state.plan.steps[-1].is_choice else ()
         both_drive = len(cases) > 1 and all(case.children and case.children[-1].only_drives for case in cases)
@@ -157,14 +159,18 @@ def _read(
     match command:
         case CaptureCommand():
             if state.lead is not None and not state.lead.relation and (joint is None or joint.both):
-                raise NotComposed("an announcement, or a command?")  # "two trees get a picture"
+                raise NotComposed(
+                    message(
+                        "it is not clear whether this announces what follows, or is a step of its own", context="fault"
+                    )
+                )  # "two trees get a picture"
             again = any(thing.action == LAST_THING for thing in command.things)
             if command.relation == "bare" and (not state.open or (again and state.choice is None)):
-                raise NotComposed("what is done with it?")
+                raise NotComposed(message("it does not say what to do with it", context="fault"))
             return capture(setting, state, command)
         case DriveCommand():
             if command.picks and not any(isinstance(one.command, CaptureCommand | CaptureWhere) for one in following):
-                raise NotComposed("what is done with those?")
+                raise NotComposed(message("it does not say what to do with them", context="fault"))
             return drive(setting, state, command)
         case Lead():
             if joint is not None and not (joint.full or joint.then or joint.both):
@@ -226,7 +232,7 @@ def _new_sentence(setting: Setting, state: DialogueState, command: Command) -> D
     """Return the state at the beginning of a sentence whose first command is known."""
     state = capture_elided(setting, state)
     if state.open or state.lead is not None:
-        raise NotComposed("a sentence ends before it says what to do")
+        raise NotComposed(message("it does not say what to do there", context="fault"))
     place = command.place if isinstance(command, CaptureCommand) else None
     if state.area is not None and not is_there(setting, state.area, place):
         state = enter(setting, state, state.area)
@@ -238,7 +244,7 @@ def _lead(setting: Setting, state: DialogueState, command: Lead) -> DialogueStat
     """Return the state in which the next command is done at a place."""
     state = capture_elided(setting, state)
     if state.awaits_command:
-        raise NotComposed("two places for one command")
+        raise NotComposed(message("it is not clear at which of two places this is done", context="fault"))
     return replace(state, lead=command)
 
 
@@ -251,7 +257,9 @@ def _require_other_places(state: DialogueState, place: PlaceMeaning) -> None:
     last = state.where
     areas = last is not None and last.shape == "several" and any(isinstance(one, AREAS) for one in last.selector.walk())
     if areas and specifies_part(place.selector):
-        raise NotComposed("some of those, or others?")
+        raise NotComposed(
+            message("it is not clear whether these are some of the places before, or others", context="fault")
+        )
 
 
 def _limit(setting: Setting, state: DialogueState, command: LimitClause) -> DialogueState:
@@ -267,10 +275,10 @@ def _do_before_last(
     """Return the state after a capture that is done before the command that was read last ("..., but first ...")."""
     steps = state.plan.steps
     if state.scope or not steps or following or not isinstance(command, CaptureCommand):
-        raise NotComposed("before what?")
+        raise NotComposed(message("it is not clear before what", context="fault"))
     last = steps[-1]
     if not last.visits_each and (last.act is None or last.act.at is None):
-        raise NotComposed("before what?")
+        raise NotComposed(message("it is not clear before what", context="fault"))
     state = capture(setting, replace(state, plan=EMPTY, loop=None, captured=None, where=None), command)
     plan = p.InOrder(id="", steps=(*steps[:-1], *state.plan.steps, last))
     return replace(with_joints(state, setting.spans_of(joint.used)), plan=plan, captured=None, loop=None)
@@ -280,10 +288,10 @@ def _done_after(setting: Setting, state: DialogueState, command: After) -> Dialo
     """Return the state after a command that is done before the only other one ("go to the charger after ...")."""
     steps = state.plan.steps
     if state.scope or state.commands_in_sentence > 1 or not steps or state.awaits_command or state.open:
-        raise NotComposed("after what?")
+        raise NotComposed(message("it is not clear after what", context="fault"))
     last = steps[-1]
     if not last.only_drives and not last.visits_each and (last.act is None or last.act.at is None):
-        raise NotComposed("after what?")
+        raise NotComposed(message("it is not clear after what", context="fault"))
     rest = replace(state.plan, steps=steps[:-1])
     done = _after(setting, replace(state, plan=rest, commands_in_sentence=0, loop=None, returned=False), command)
     plan = replace(done.plan, steps=(*done.plan.steps, last))
@@ -298,7 +306,7 @@ def _after(setting: Setting, state: DialogueState, command: After) -> DialogueSt
     if isinstance(done, CaptureCommand) and is_spoken_of(done.place):
         if {thing.action for thing in meant_things(state, done.things)} <= {thing.action for thing in state.things}:
             return with_joints(state, setting.spans_of(command.used))
-        raise NotComposed("after what?")
+        raise NotComposed(message("it is not clear after what", context="fault"))
     if state.commands_in_sentence and home is None:
         return _done_after(setting, state, command)
     state = without_home(state) if home is not None else state

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.capturing import capture, capture_once
 from fieldhand.planning.grammar.dialogue.driving import drive
@@ -65,14 +66,14 @@ def when(setting: Setting, state: DialogueState, command: When, following: Seque
     command = replace(command, tests=_of_quantity(setting, command.tests))
     if (place := command.measured_at) is not None:
         if decides_last:
-            raise NotComposed("what is decided?")
+            raise NotComposed(message("it does not say what depends on it", context="fault"))
         state = _at_tested_place(setting, state, command, place)
     if not command.tests.tests:
         if state.asked is None:
-            raise NotComposed("if what is so?")
+            raise NotComposed(message("it is not clear what has to be so", context="fault"))
         command = replace(command, tests=state.asked)
     if command.among == "visited" and state.loop is None:
-        raise NotComposed("which of them?")
+        raise NotComposed(message("it is not clear which of them", context="fault"))
     command = replace(command, tests=_for_each_place(state, command.tests, following))
     said, robot = setting.spans_of(command.used), setting.robot
     vague = [test for test in command.tests.tests if not test.quantity and not test.attribute]
@@ -90,7 +91,7 @@ def when(setting: Setting, state: DialogueState, command: When, following: Seque
         before = _capture_of_choice(state)
         ways = [state.captured, before] if before is not None else []
         if not ways:
-            raise NotComposed("which reading is tested?")
+            raise NotComposed(message("nothing before it measures that", context="fault"))
         state = replace(state, captured=setting.either("which reading is tested?", command.used, ways))
     return _choice(state, command.tests, said, robot)
 
@@ -99,9 +100,9 @@ def _only_some(state: DialogueState, command: When) -> DialogueState:
     """Return the state in which only some trees of the area are meant ("along row 3, wherever a tree is yellow")."""
     before, test = state.area or state.lead, command.tests.tests[0]
     if command.among != "area" or before is None or before.place.shape != "area" or before.place.per is not None:
-        raise NotComposed("a condition before what is done there")
+        raise NotComposed(message("the condition comes before what is done there", context="fault"))
     if len(command.tests.tests) > 1 or not test.attribute or (test.negated and test.check != "eq"):
-        raise NotComposed("a condition before what is done there")
+        raise NotComposed(message("the condition comes before what is done there", context="fault"))
     check = "ne" if test.negated else TREE_TESTS[test.check]
     some = s.Where(attribute=test.attribute, test=check, value=test.value, of=before.place.selector)
     place = PlaceMeaning(some, "several", each=True)
@@ -115,11 +116,11 @@ def captured_where(setting: Setting, state: DialogueState, command: CaptureWhere
         NotComposed: No reading was taken at several places.
     """
     if state.ended_by is not None or state.order is not None:
-        raise NotComposed("which of those?")
+        raise NotComposed(message("it is not clear which of those", context="fault"))
     command = replace(command, tests=_of_quantity(setting, command.tests))
     state = _measured_at_each(setting, state, command)
     if state.loop is None or state.captured is None or not is_inside(state.captured, state.loop):
-        raise NotComposed("which of those?")
+        raise NotComposed(message("it is not clear which of those", context="fault"))
     scope, loop = state.scope, state.loop
     clause = LinkedCommand(None, command.capture)
     state = when(setting, replace(state, commands_in_sentence=0), When(command.tests, 0), (clause,))
@@ -159,7 +160,7 @@ def _of_quantity(setting: Setting, tests: AllTests) -> AllTests:
     for test in tests.tests:
         action = setting.robot.action.get(test.quantity)
         if action is not None and len(action.measures) != 1:
-            raise NotComposed("which reading is tested?")
+            raise NotComposed(message("nothing before it measures that", context="fault"))
         made.append(test if action is None else replace(test, quantity=action.measures[0]))
     return replace(tests, tests=tuple(made))
 
@@ -182,7 +183,7 @@ def _measured_at_each(setting: Setting, state: DialogueState, command: CaptureWh
         return state
     action = setting.action_measuring(command.tests.tests[0].quantity)
     if action is None or (area is not None and state.awaits_command):
-        raise NotComposed("what is measured where?")
+        raise NotComposed(message("it is not clear what is measured, and where", context="fault"))
     place = area if area is not None else PlaceMeaning(s.Trees(), "several", each=True)
     return capture(setting, state, CaptureCommand((Thing(action, plural=True),), place, command.used))
 
@@ -201,7 +202,7 @@ def _decide_last_at_each(state: DialogueState, command: When, said: Spans, robot
     tested = (*body, len(steps) - number - 1)
     condition, state = condition_of(replace(state, captured=tested), command.tests, robot)
     if state.captured != tested:
-        raise NotComposed("which reading is tested?")
+        raise NotComposed(message("nothing before it measures that", context="fault"))
     steps = block_at(state.plan, body).steps
     choice = p.If(id="", condition=condition, then=p.InOrder(id="", steps=steps[-number:]), said=said)
     plan = with_node(state.plan, body, p.InOrder(id="", steps=(*steps[:-number], choice)))
@@ -221,7 +222,7 @@ def _with_tested_thing(setting: Setting, state: DialogueState, command: When) ->
         if node.act is not None and node.act.action == thing.action and path[:-1] == (state.captured or ())[:-1]
     ]
     if not taken:
-        raise NotComposed("which reading is tested?")
+        raise NotComposed(message("nothing before it measures that", context="fault"))
     return replace(state, captured=taken[-1])
 
 
@@ -262,7 +263,7 @@ def _decide_last(state: DialogueState, command: When, said: Spans, robot: RobotP
     """Return the state in which a condition decides the last command."""
     steps = state.block.steps
     if not steps:
-        raise NotComposed("nothing depends on the condition")
+        raise NotComposed(message("nothing depends on the condition", context="fault"))
     inside = (*state.scope, len(steps) - 1)
     if (at_each := _decide_last_at_each(state, command, said, robot)) is not None:
         return at_each
@@ -271,7 +272,7 @@ def _decide_last(state: DialogueState, command: When, said: Spans, robot: RobotP
     if all(test.attribute for test in command.tests.tests):
         return _decide_last_at_tree(state, condition, said)
     if state.captured is None or is_inside(state.captured, inside):
-        raise NotComposed("which reading is tested?")
+        raise NotComposed(message("nothing before it measures that", context="fault"))
     last = p.InOrder(id="", steps=state.block.steps[-1:])
     state = with_last_step(state, p.If(id="", condition=condition, then=last, said=said))
     return replace(state, choice=inside, decided=command.tests, loop=None, tested_at=(state.where, state.where_scope))
@@ -290,7 +291,7 @@ def _decide_last_at_tree(state: DialogueState, condition: c.Condition, said: Spa
         steps = (*rest, p.GoTo(id="", place=last.act.at, said=last.act.at_said), choice)
         path = (*state.scope, len(rest) + 1)
     else:
-        raise NotComposed("which tree is tested?")
+        raise NotComposed(message("it is not clear which tree is meant", context="fault"))
     plan = with_node(state.plan, state.scope, p.InOrder(id="", steps=steps))
     return replace(state, plan=plan, choice=path, decided=None, loop=None, captured=None)
 
@@ -313,10 +314,10 @@ def otherwise(setting: Setting, state: DialogueState, said: Spans) -> DialogueSt
         return when(setting, with_joints(replace(state, asked=None), said), When(opposite, 0), ())
     choice = None if state.choice is None else as_choice(node_at(state.plan, state.choice))
     if state.choice is None or choice is None or choice.otherwise is not None:
-        raise NotComposed("otherwise than what?")
+        raise NotComposed(message("to which 'if' does it belong?", context="fault"))
     steps, number = block_at(state.plan, state.choice[:-1]).steps, state.choice[-1]
     if isinstance(number, int) and number > 0 and steps[number - 1].is_choice:
-        raise NotComposed("otherwise than which of them?")
+        raise NotComposed(message("to which 'if' does it belong?", context="fault"))
     both = replace(choice, otherwise=EMPTY, said=(*choice.said, *said))
     plan = with_node(state.plan, state.choice, both)
     where, where_scope = state.tested_at  # the robot stands where it was when the condition was tested
@@ -339,7 +340,7 @@ def _loop_around(state: DialogueState) -> Path | None:
 def until(setting: Setting, state: DialogueState, command: UntilCondition) -> DialogueState:
     """Return the state in which a reading taken in the last for-each ends it."""
     if state.loop is None or state.captured is None or not is_inside(state.captured, state.loop):
-        raise NotComposed("what ends?")
+        raise NotComposed(message("it is not clear what ends then", context="fault"))
     path = state.loop[:-1]
     condition, state = condition_of(state, command.tests, setting.robot)
     loop = for_each_at(state.plan, path)
@@ -352,7 +353,7 @@ def question(setting: Setting, state: DialogueState, command: ReadingQuestion) -
     """Return the state after the reading that a question is about; "if so" tests it."""
     action = setting.action_measuring(command.tests.tests[0].quantity)
     if action is None:
-        raise NotComposed("what is measured?")
+        raise NotComposed(message("it is not clear what is measured", context="fault"))
     state = capture(setting, state, CaptureCommand((Thing(action),), command.place, command.used))
     return replace(state, asked=command.tests)
 
@@ -368,6 +369,6 @@ def _measured(setting: Setting, state: DialogueState, quantity: str, place: Plac
     """Return the state after the reading that a condition asks for, at a place of its own."""
     action = setting.action_measuring(quantity)
     if action is None or place.shape != "one":
-        raise NotComposed("what is measured where?")
+        raise NotComposed(message("it is not clear what is measured, and where", context="fault"))
     said = setting.spans_of(used)
     return capture_once(state, CaptureCommand((Thing(action),), place, used), place, said, said)

@@ -34,7 +34,7 @@ def drive(setting: Setting, state: DialogueState, command: DriveCommand) -> Dial
     if command.begins and place.selector == s.Marker(name="start"):
         return with_joints(state, said)  # every mission begins there
     if command.begins and state.plan.steps:
-        raise NotComposed("where to begin is said too late")
+        raise NotComposed(message("where to begin has to be said before the work", context="fault"))
     area, leads = state.area, False
     if state.lead is not None and state.lead.place.shape == "one" and place.shape in ("one", "step"):
         leads = True
@@ -56,9 +56,9 @@ def drive(setting: Setting, state: DialogueState, command: DriveCommand) -> Dial
         said = (*setting.spans_of(area.used), *said)
     require_known(setting, state, place, command.used)
     if state.awaits_command:
-        raise NotComposed("two places for one command")
+        raise NotComposed(message("it is not clear at which of two places this is done", context="fault"))
     if not leads and _stands_idle(state) and not place.selector.relative and not command.returns:
-        raise NotComposed("what is done at the place before?")
+        raise NotComposed(message("it does not say what to do at the place before", context="fault"))
     if place.shape in ("one", "step"):
         state = with_step(replace(state, loop=None), p.GoTo(id="", place=place.selector, said=said))
         return done_at(replace(state, returned=command.returns), place)
@@ -71,7 +71,7 @@ def drive(setting: Setting, state: DialogueState, command: DriveCommand) -> Dial
         inside = (*state.next_step, "body")
         state = with_step(state, visits(place, said))
         return replace(done_at(state, place), loop=inside)
-    raise NotComposed("where to?")
+    raise NotComposed(message("it is not clear where to", context="fault"))
 
 
 def is_there(setting: Setting, area: DriveCommand, place: PlaceMeaning | None) -> bool:
@@ -124,11 +124,11 @@ def require_known(setting: Setting, state: DialogueState, place: PlaceMeaning | 
             raise OpenQuestion(asked)
         sides = {part.towards for part in from_here if isinstance(part, s.AlongRow)} & _COMPASS
         if not all(_rows_run_to(side, setting.site) for side in sides):
-            raise NotComposed("the rows have no end on that side")
+            raise NotComposed(message("the rows have no end on that side", context="fault"))
     after_several = state.where is not None and state.where.shape == "several"
     beside_it = any(is_next_to_here(part) for part in parts)
     if beside_it and after_several and not is_inside(state.scope, state.loop or (-1,)):
-        raise NotComposed("next to which of them?")
+        raise NotComposed(message("it is not clear next to which of them", context="fault"))
     refers = not parts or s.Here() in parts
     if refers and state.where is not None and may_be_left_out(state):
         said = setting.quoted(used)
@@ -151,9 +151,9 @@ def go_home(setting: Setting, state: DialogueState, command: Home) -> DialogueSt
     """Return the state after the end of the mission was said: a drive if it is the end in one case only."""
     said = setting.spans_of(command.used)
     if state.awaits_command:
-        raise NotComposed("two places for one command")
+        raise NotComposed(message("it is not clear at which of two places this is done", context="fault"))
     if state.home is not None:
-        raise NotComposed("two ends")
+        raise NotComposed(message("the mission cannot end in two ways", context="fault"))
     if command.to_it:
         marker = _marker_spoken_of(state)
         if marker.named_marker == "charger":
@@ -162,7 +162,7 @@ def go_home(setting: Setting, state: DialogueState, command: Home) -> DialogueSt
     if command.then is None:
         markers = setting.site.markers
         if not {"start", "end"} & set(markers):
-            raise NotComposed("where is home?")
+            raise NotComposed(message("it is not clear where that is", context="fault"))
         command = replace(command, then="return_to_start" if "start" in markers else "return_to_end")
     steps = state.block.steps
     if steps and steps[-1].ends_plan:
@@ -183,7 +183,7 @@ def _marker_spoken_of(state: DialogueState) -> s.Selector:
     last = state.where
     markers = [] if last is None else [part for part in last.selector.walk() if part.named_marker]
     if last is None or last.shape != "several" or len(markers) != 1:
-        raise NotComposed("back to what?")
+        raise NotComposed(message("it is not clear what to return to", context="fault"))
     return markers[0]
 
 
@@ -193,7 +193,7 @@ def driven_home(setting: Setting, state: DialogueState) -> DialogueState:
     if home is None:
         return state
     if home.when_done:
-        raise NotComposed("what follows the end?")
+        raise NotComposed(message("something follows the end of the mission", context="fault"))
     return drive(setting, replace(without_home(state), scope=()), _way_home(home))
 
 
@@ -216,13 +216,13 @@ def put_in_order(setting: Setting, state: DialogueState, command: InAnOrder) -> 
         return replace(state, area=replace(state.area, place=place, used=state.area.used | command.used))
     if state.loop is None:
         if command.by in ("", "any") or state.order is not None or state.commands_in_sentence:
-            raise NotComposed("an order of what?")
+            raise NotComposed(message("an order needs several places", context="fault"))
         return replace(state, order=command)
     path = state.loop[:-1]
     loop = for_each_at(state.plan, path)
     if command.by == "any":
         if loop.order != "best":
-            raise NotComposed("two orders")
+            raise NotComposed(message("the places cannot have two different orders", context="fault"))
         return replace(state, plan=with_node(state.plan, path, replace(loop, said=(*loop.said, *said))))
     return replace(state, plan=with_node(state.plan, path, ordered(loop, command, said)))
 
@@ -236,12 +236,14 @@ def ordered(loop: p.ForEach, command: InAnOrder, said: Spans) -> p.ForEach:
     if command.by == "each":
         return replace(loop, said=(*loop.said, *said))
     if loop.order == "given" or loop.optional or loop.at_most is not None:
-        raise NotComposed("an order of a choice")
+        raise NotComposed(message("an order of places cannot be combined with a choice of how many", context="fault"))
     said = (*loop.said, *said)
     if not command.by:
         return replace(loop, order="given", said=said)
     if any(as_every_nth(part) is not None for part in loop.select.walk()) and command.by not in ("attribute", "rows"):
-        raise NotComposed("counted or visited from there?")
+        raise NotComposed(
+            message("it is not clear whether the trees are counted or visited from there", context="fault")
+        )
     by = cast(Order, command.by)
     select = s.Ordered(by=by, attribute=command.attribute, descending=command.descending, of=loop.select)
     return replace(loop, select=select, order="given", said=said)
@@ -254,10 +256,10 @@ def limit_visits(setting: Setting, state: DialogueState, command: VisitLimit) ->
         NotComposed: It has one, or visits a number of places that was named.
     """
     if state.loop is None:
-        raise NotComposed("so many of what?")
+        raise NotComposed(message("it is not clear of what so many are meant", context="fault"))
     path = state.loop[:-1]
     loop = for_each_at(state.plan, path)
     if loop.optional or loop.at_most is not None or (state.where is not None and state.where.count is not None):
-        raise NotComposed("so many, or at most so many?")
+        raise NotComposed(message("it is not clear whether so many are meant, or at most so many", context="fault"))
     said = (*loop.said, *setting.spans_of(command.used))
     return replace(state, plan=with_node(state.plan, path, replace(loop, at_most=command.count, said=said)))

@@ -6,19 +6,28 @@ from collections.abc import Hashable
 
 
 class NotComposed(Exception):
-    """The clauses cannot be put together."""
+    """The clauses cannot be put together.
+
+    Attributes:
+        what: What does not fit, or is left open, as part of a sentence about the clause.
+        used: Tokens of the clause; 0 for the request as a whole.
+    """
+
+    def __init__(self, what: str, used: int = 0) -> None:
+        self.what, self.used = what, used
+        super().__init__(what)
+
+    def about(self, used: int) -> NotComposed:
+        """Return the fault as that of a clause, unless it is known to be another one's."""
+        return self if self.used else type(self)(self.what, used)
 
 
 class OpenQuestion(NotComposed):
     """The clauses leave out what only the person can say, and there are no readings to choose from.
 
     Attributes:
-        question: The question, as a sentence.
+        what: The question, as a sentence.
     """
-
-    def __init__(self, question: str) -> None:
-        self.question = question
-        super().__init__(question)
 
 
 class Fork(Exception):

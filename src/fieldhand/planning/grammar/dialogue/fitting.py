@@ -64,7 +64,7 @@ def in_area(setting: Setting, before: Lead | DriveCommand, place: PlaceMeaning |
     of_the_row = swapped(place.selector, s.RowOf(), s.Trees())
     if are_rows(area) and of_the_row != place.selector and chooses_from_trees(of_the_row):
         return in_each_row(area, replace(place, selector=of_the_row))
-    raise NotComposed("two places for one command")
+    raise NotComposed(message("it is not clear at which of two places this is done", context="fault"))
 
 
 def along_row(before: DriveCommand, place: PlaceMeaning) -> PlaceMeaning | None:
@@ -81,7 +81,7 @@ def along_row(before: DriveCommand, place: PlaceMeaning) -> PlaceMeaning | None:
     ):
         return None
     if {part.towards for part in parts} != {"down"}:
-        raise NotComposed("up or down the row?")
+        raise NotComposed(message("it is not clear in which direction along the row", context="fault"))
     made = tuple(replace(part, towards=before.along) for part in parts)
     return replace(place, selector=made[0] if len(made) == 1 else s.UnionOf(parts=made))
 
@@ -93,7 +93,7 @@ def in_each_row(rows: s.Selector, place: PlaceMeaning) -> PlaceMeaning:
         NotComposed: The place is none of a row.
     """
     if not chooses_from_trees(place.selector):
-        raise NotComposed("two places for one command")
+        raise NotComposed(message("it is not clear at which of two places this is done", context="fault"))
     by_number = all(counts_in_row(part) for part in over(place.selector, s.Rows()).members)
     if by_number or (place.shape == "several" and place.count is None):
         return replace(place, selector=over(place.selector, rows), shape="several")
@@ -110,7 +110,7 @@ def spaced(
     """
     counts = {thing.count for thing in things}
     if len(counts) > 1:
-        raise NotComposed("different numbers of captures")
+        raise NotComposed(message("it gives two different numbers", context="fault"))
     count = counts.pop() or 0
     once = _once(things)
     if place is None or place.shape != "area":
@@ -121,7 +121,7 @@ def spaced(
     area = place.selector if place.per is None else place.per
     rows = one_by_one(area, setting.site) if are_rows(area) else ()
     if not rows:
-        raise NotComposed("along which row?")
+        raise NotComposed(message("it is not clear along which row", context="fault"))
     if count and len(rows) > 1 and place.per is None:
         asked = message(
             "'{said}': {count} along each row, or {count} in all?",
@@ -155,7 +155,7 @@ def fitted(
         return place, things
     counts = {thing.count for thing in things}
     if len(counts) > 1 and place.shape not in ("one", "step"):
-        raise NotComposed("different numbers of captures")
+        raise NotComposed(message("it gives two different numbers", context="fault"))
     count = next(iter(counts)) if len(counts) == 1 else None
     if place.shape == "step":
         return setting.either("the tree so far along, or so many trees?", used, _along(place, relation)), things
@@ -209,7 +209,9 @@ def _at_each_or_in_all(
     elif places and count > places and count % places == 0:
         ways.append((place, tuple(replace(thing, count=count // places) for thing in things)))
     if len(ways) == 1:
-        raise NotComposed("so many at each place, or in all?")
+        raise NotComposed(
+            message("it is not clear whether so many are meant at each place, or in all", context="fault")
+        )
     return tuple(ways)
 
 
@@ -218,7 +220,9 @@ def _one_in_each_or_in_all(setting: Setting, rows: s.Selector, used: int) -> Pla
     named = rows.members
     ones = named if len(named) > 1 and all(is_one_row(row) for row in named) else one_by_one(rows, setting.site)
     if not 1 < len(ones) <= MOST_ONE_BY_ONE:
-        raise NotComposed("one in each of them, or one in all?")
+        raise NotComposed(
+            message("it is not clear whether one in each of them is meant, or one in all", context="fault")
+        )
     each = _one_of_each(ones)
     return setting.either(
         "one in each of them, or one in all?", used, (each, PlaceMeaning(s.Take(count=1, of=rows), "one"))
@@ -255,7 +259,7 @@ def _of_rows(
         return PlaceMeaning(rows, "several")
     single = one_by_one(rows, setting.site)
     if not single or len(single) > MOST_ONE_BY_ONE:
-        raise NotComposed("rows one by one")
+        raise NotComposed(message("rows are visited one after the other here only if they are named", context="fault"))
     selector = s.Take(count=count or 1, of=s.Trees()) if place.shape == "area" else place.selector
     parts = tuple(over(selector, row) for row in single)
     return PlaceMeaning(parts[0] if len(parts) == 1 else s.UnionOf(parts=parts), "several")

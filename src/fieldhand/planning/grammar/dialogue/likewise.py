@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any, cast
 
+from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed
 from fieldhand.planning.grammar.meaning import (
@@ -43,7 +44,7 @@ def _best_of_ranked(state: DialogueState, command: _WithPlace, best: s.Top) -> C
     """Return a command at the best of the trees that were ranked."""
     ranking = state.ranking
     if ranking is None or best.attribute not in ("", ranking.attribute) or command.place is None:
-        raise NotComposed("the best by what?")
+        raise NotComposed(message("it is not clear by what they are ranked", context="fault"))
     best = replace(best, attribute=ranking.attribute, of=ranking.trees.selector)
     place = replace(command.place, selector=best, like=None)
     return replace(command, place=place, used=command.used | ranking.used)
@@ -54,16 +55,16 @@ def _likewise(state: DialogueState, place: PlaceMeaning, like: Likewise) -> Plac
     last = _last_side(state)
     if last is None:
         if like.kind or like.holds or place.shape != "one" or like.side not in SIDES:
-            raise NotComposed("which one is meant?")
+            raise NotComposed(message("it is not clear which one is meant", context="fault"))
         return replace(place, selector=_of_those(state, like.side), like=None)
     kind, side = last
     if not like.kind and kind != "corner" and len(_single_places(state)) > 1:
-        raise NotComposed("one of those, or on the other side?")
+        raise NotComposed(message("it is not clear which one is meant", context="fault"))
     if like.kind not in ("", kind):
-        raise NotComposed("which one is meant?")
+        raise NotComposed(message("it is not clear which one is meant", context="fault"))
     side = like.side or _opposite(side)
     if (side in SIDES) != (kind == "half") or (kind == "corner") != (place.shape == "one" and not like.holds):
-        raise NotComposed("which one is meant?")
+        raise NotComposed(message("it is not clear which one is meant", context="fault"))
     named: Any = side
     area: s.Selector = s.Half(side=named)
     if side in CORNERS:
@@ -92,7 +93,7 @@ def _of_those(state: DialogueState, side: str) -> s.Selector:
     """Return the place farthest to a side, of the single places that were named before."""
     places = _single_places(state)
     if len(places) < 2:
-        raise NotComposed("which one is meant?")
+        raise NotComposed(message("it is not clear which one is meant", context="fault"))
     return s.Extreme(side=cast(Any, side), of=s.UnionOf(parts=places))
 
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 from itertools import count
 from typing import Any, cast
 
+from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.onebyone import swapped
 from fieldhand.planning.grammar.dialogue.faults import NotComposed
@@ -36,7 +37,7 @@ def block_at(plan: p.InOrder, path: Path) -> p.InOrder:
     """
     block = node_at(plan, path)
     if not isinstance(block, p.InOrder):
-        raise NotComposed("no block of steps")
+        raise NotComposed(message("it is not clear to which steps this belongs", context="fault"))
     return block
 
 
@@ -48,7 +49,7 @@ def for_each_at(plan: p.InOrder, path: Path) -> p.ForEach:
     """
     loop = as_for_each(node_at(plan, path))
     if loop is None:
-        raise NotComposed("no places that are visited one after the other")
+        raise NotComposed(message("it is not clear to which places this belongs", context="fault"))
     return loop
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
+from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.onebyone import swapped
 from fieldhand.planning.grammar.dialogue.driving import drive
@@ -35,19 +36,19 @@ def process_again(setting: Setting, state: DialogueState, command: Again) -> Dia
     """
     if command.place is not None:
         if command.place.shape != "one":
-            raise NotComposed("what is repeated where?")
+            raise NotComposed(message("it is not clear what is repeated, and where", context="fault"))
         state = drive(setting, state, DriveCommand(command.place, command.used))
     if state.awaits_command or state.open:
-        raise NotComposed("what is repeated where?")
+        raise NotComposed(message("it is not clear what is repeated, and where", context="fault"))
     steps = state.block.steps
     here = _last_place(steps, len(steps))
     if here is None:
-        raise NotComposed("repeated where?")
+        raise NotComposed(message("it is not clear where it is repeated", context="fault"))
     process = _process_before(state.plan, state.scope, here)
     done = [step for step in steps[here:] if not step.only_drives]
     rest = _not_done(process, done)
     if not rest or not _can_be_repeated(process):
-        raise NotComposed("what is repeated?")
+        raise NotComposed(message("it is not clear what is repeated", context="fault"))
     names = _Names(state.readings)
     made = _named(done, process, names)
     first = len(steps) - len(done)
@@ -71,9 +72,9 @@ def done_more_times(setting: Setting, state: DialogueState, command: Again) -> D
     """
     steps = state.plan.steps
     if state.scope or state.awaits_command or state.open or not steps or not _can_be_repeated(steps):
-        raise NotComposed("what is repeated?")
+        raise NotComposed(message("it is not clear what is repeated", context="fault"))
     if steps[0].selector is None or any(step.selector is not None for step in steps[1:]):
-        raise NotComposed("since which place?")
+        raise NotComposed(message("it is not clear from which place on", context="fault"))
     said, names = setting.spans_of(command.used), _Names(state.readings)
     body = p.InOrder(id="", steps=tuple(_renamed(step, names, said) for step in steps))
     state = with_step(state, p.Repeat(id="", times=command.times, body=body, said=said))
@@ -89,7 +90,7 @@ def repeated_in(setting: Setting, state: DialogueState, area: s.Selector, used: 
     steps = state.plan.steps
     places = [_place_in(step, area) for step in steps]
     if state.scope or not steps or state.awaits_command:
-        raise NotComposed("what is repeated where?")
+        raise NotComposed(message("it is not clear what is repeated, and where", context="fault"))
     old = next((place for place in reversed(places) if place is not None), None)
     first = len(steps)
     while first > 0 and (places[first - 1] == old or not _selects(steps[first - 1])):
@@ -98,9 +99,9 @@ def repeated_in(setting: Setting, state: DialogueState, area: s.Selector, used: 
         first += 1
     again = steps[first:]
     if old is None or not again or not _can_be_repeated(again):
-        raise NotComposed("what is repeated where?")
+        raise NotComposed(message("it is not clear what is repeated, and where", context="fault"))
     if area.relative and (len(again) > 1 or not is_one_row(old)):
-        raise NotComposed("from which tree?")
+        raise NotComposed(message("it is not clear from which tree", context="fault"))
     names, said = _Names(state.readings), setting.spans_of(used)
     copies = tuple(_renamed(_moved(step, old, area), names, said) for step in again)
     plan = p.InOrder(id="", steps=(*steps, *copies))
@@ -141,7 +142,7 @@ def _last_place(steps: Sequence[p.Node], end: int) -> int | None:
         if step.only_drives or (step.act is not None and step.act.at is not None):
             return number
         if step.visits_each:
-            raise NotComposed("repeated at each of them?")
+            raise NotComposed(message("it is not clear whether it is repeated at each of them", context="fault"))
     return None
 
 
@@ -160,7 +161,7 @@ def _process_before(plan: p.InOrder, scope: Path, end: int) -> tuple[p.Node, ...
         outer = block_at(plan, scope).steps
         choice = as_choice(outer[number])
         if branch != "then" or choice is None or choice.otherwise is not None:
-            raise NotComposed("what is repeated?")
+            raise NotComposed(message("it is not clear what is repeated", context="fault"))
         inner = (replace(choice, then=p.InOrder(id="", steps=tuple(steps))),) if steps else ()
         steps = (*outer[:number], *inner)
         begin = _last_place(outer, number)
@@ -176,10 +177,10 @@ def _block_around(scope: Path) -> tuple[Path, int, str]:
         NotComposed: The block is the plan itself.
     """
     if len(scope) < 2:
-        raise NotComposed("what is repeated?")
+        raise NotComposed(message("it is not clear what is repeated", context="fault"))
     *outer, number, branch = scope
     if not isinstance(number, int) or not isinstance(branch, str):
-        raise NotComposed("what is repeated?")
+        raise NotComposed(message("it is not clear what is repeated", context="fault"))
     return tuple(outer), number, branch
 
 
@@ -191,9 +192,9 @@ def _not_done(process: Sequence[p.Node], done: Sequence[p.Node]) -> Sequence[p.N
     """
     for old, new in zip(process, done, strict=False):
         if old.act is None or new.act is None or (old.act.action, old.act.count) != (new.act.action, new.act.count):
-            raise NotComposed("what is repeated?")
+            raise NotComposed(message("it is not clear what is repeated", context="fault"))
     if len(done) > len(process):
-        raise NotComposed("what is repeated?")
+        raise NotComposed(message("it is not clear what is repeated", context="fault"))
     return process[len(done) :]
 
 

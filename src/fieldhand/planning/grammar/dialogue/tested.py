@@ -58,7 +58,7 @@ def of_several(state: DialogueState, tests: AllTests, robot: RobotProfile) -> tu
     """
     state, paths = _last_readings(state, tests.tests[0], robot)
     if len(paths) < 2 or (tests.of_last == 1 or tests.of_last in range(len(paths) + 1, 100)):
-        raise NotComposed("which readings are tested?")
+        raise NotComposed(message("it is not clear which readings are tested", context="fault"))
     made: list[c.Condition] = []
     for path in paths:
         one, state = _of_reading(replace(state, captured=path), tests.tests[0], robot)
@@ -76,7 +76,7 @@ def _last_readings(state: DialogueState, test: Test, robot: RobotProfile) -> tup
     if loop is not None:
         acts, places = captures_at_last_place(steps), named_places(loop.select)
         if loop.optional or loop.at_most is not None or not acts or not all(place.single for place in places):
-            raise NotComposed("which readings are tested?")
+            raise NotComposed(message("it is not clear which readings are tested", context="fault"))
         each = [
             replace(act, at=place, at_said=loop.said) if number == 0 else act
             for place in places
@@ -97,7 +97,7 @@ def _last_readings(state: DialogueState, test: Test, robot: RobotProfile) -> tup
 def _of_tree(state: DialogueState, test: Test) -> c.Condition:
     """Return the condition on an attribute of the current tree."""
     if state.where is None and state.loop is None:
-        raise NotComposed("which tree is tested?")
+        raise NotComposed(message("it is not clear which tree is meant", context="fault"))
     condition = c.TreeHas(attribute=test.attribute, test=TREE_TESTS[test.check], value=test.value)
     return c.Not(condition=condition) if test.negated else condition
 
@@ -107,14 +107,14 @@ def _of_reading(state: DialogueState, test: Test, robot: RobotProfile) -> tuple[
     path = _tested_capture(state, test, robot)
     act = None if path is None else node_at(state.plan, path).act
     if path is None or act is None:
-        raise NotComposed("which reading is tested?")
+        raise NotComposed(message("nothing before it measures that", context="fault"))
     measures = robot.action[act.action].measures
     quantity = test.quantity.replace(FIRST_READING, "") or (measures[0] if measures else "")
     if quantity not in measures:
-        raise NotComposed("it measures no such quantity")
+        raise NotComposed(message("the reading before it measures something else", context="fault"))
     unit = robot.quantity[quantity].unit
     if test.unit and test.unit != unit:
-        raise NotComposed("another unit")
+        raise NotComposed(message("the reading before it is in another unit", context="fault"))
     if not act.reading:
         act = replace(act, reading=f"r{state.readings + 1}")
         state = replace(state, readings=state.readings + 1, plan=with_node(state.plan, path, act))

@@ -6,9 +6,8 @@ from dataclasses import replace
 
 from fieldhand.planning.english.planner import check_request
 from fieldhand.planning.grammar.reader import composed
-from fieldhand.planning.grammar.refusals import refusal_reasons
 from fieldhand.planning.grammar.spanish import SPANISH
-from fieldhand.planning.planner import Answer, Outcome, Refused
+from fieldhand.planning.planner import Answer, Outcome
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 
@@ -29,7 +28,4 @@ class SpanishPlanner:
             RequestError: The request is empty, too long, or contains characters that no document can contain.
         """
         check_request(request)
-        outcome = composed(request, site, robot, SPANISH, answers)
-        if outcome is not None:
-            return replace(outcome, planner=NAME)
-        return Refused(reasons=refusal_reasons(request, site, robot, SPANISH), planner=NAME)
+        return replace(composed(request, site, robot, SPANISH, answers), planner=NAME)
