@@ -53,6 +53,22 @@ def _rank(selector: s.Selector) -> int | None:
     return _NESTING.get(type(selector))
 
 
+def swapped(selector: s.Selector, old: s.Selector, new: s.Selector) -> s.Selector:
+    """Return a selector with one part in the place of another."""
+    if selector == old:
+        return new
+    changed: dict[str, object] = {}
+    for name in selector.__dataclass_fields__:
+        value = getattr(selector, name)
+        if isinstance(value, s.Selector):
+            changed[name] = swapped(value, old, new)
+        elif isinstance(value, tuple) and any(isinstance(item, s.Selector) for item in value):
+            changed[name] = tuple(swapped(item, old, new) for item in value)
+    outer: Any = selector
+    made: s.Selector = replace(outer, **changed)
+    return made
+
+
 def as_along_row(selector: s.Selector) -> s.AlongRow | None:
     """Return the selector if it counts trees along a row, None otherwise."""
     return selector if isinstance(selector, s.AlongRow) else None

@@ -6,7 +6,6 @@ import pytest
 
 from fieldhand.approval.account import unaccounted
 from fieldhand.planning.english.planner import EnglishPlanner
-from fieldhand.planning.english.rewording import Worded
 from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Refused
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.loader import open_site
@@ -78,13 +77,6 @@ def test_ranges_behind_an_answer_are_those_of_the_typed_words() -> None:
     loop, _, co2 = [node for node in walk(planned.task.composition.plan) if isinstance(node, ForEach | Act)]
     assert [request[a:b] for a, b in loop.said] == ["row 3"]
     assert [request[a:b] for a, b in (*co2.said, *co2.at_said)] == ["measure CO2 at", "tree 9"]
-
-
-def test_a_range_of_the_new_words_is_the_whole_of_what_they_replaced() -> None:
-    worded = Worded.typed("abc the corner xyz").with_words((8, 14), "north-west corner")
-    assert worded.text == "abc the north-west corner xyz"
-    assert worded.spans([(8, 18), (26, 29), (0, 3)]) == ((8, 14), (15, 18), (0, 3))
-    assert worded.with_words((29, 29), " again").spans([(29, 35)]) == ()
 
 
 def test_an_answer_that_is_no_choice_is_refused_with_the_choices() -> None:

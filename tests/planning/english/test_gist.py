@@ -7,19 +7,12 @@ from __future__ import annotations
 import itertools
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
-from fieldhand.planning.english.draft import shape
 from fieldhand.planning.english.planner import EnglishPlanner
-from fieldhand.planning.english.tokens import words_of
-from fieldhand.planning.english.triggers import may_match
-from fieldhand.planning.english.wording import _compiled, _rules, _text
 from fieldhand.planning.planner import Clarify, Planned, Refused
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.loader import open_site
 from planning.english.outlines import outline
-from support.requests.english import PLANNED
 
 DEMO = open_site("demo")
 HUSKY, AMIGA = load_robot("husky"), load_robot("amiga")
@@ -124,22 +117,3 @@ def test_steps_are_read_clause_by_clause(request_: str, plan: str) -> None:
 )
 def test_what_nobody_means_is_asked_about(request_: str, why: str) -> None:
     assert why in plan_of(request_)
-
-
-@given(st.sampled_from([request for _, request, _ in PLANNED]))
-@settings(max_examples=15, deadline=None)
-def test_a_rule_that_is_passed_over_would_not_have_matched(request_: str) -> None:
-    text = _text(words_of(request_))
-    for needed, written, _ in _rules():
-        if not may_match(needed, text):
-            assert _compiled(written).search(text) is None, written
-
-
-def test_a_plan_has_the_same_shape_however_it_is_said() -> None:
-    from fieldhand.places import selectors as s
-    from fieldhand.planning.english import draft as d
-
-    at = d.DraftBlock(steps=[d.DraftCapture(action="read_co2", at=s.TreeIs(tree="4"), said=((0, 4),))])
-    gone = d.DraftBlock(steps=[d.Go(place=s.TreeIs(tree="4")), d.DraftCapture(action="read_co2", said=((9, 12),))])
-    assert shape(at) == shape(gone)
-    assert shape(at) != shape(d.DraftBlock(steps=[d.DraftCapture(action="read_co2", at=s.TreeIs(tree="5"))]))

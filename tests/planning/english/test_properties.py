@@ -8,11 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fieldhand.errors import RequestError
-from fieldhand.planning.english.arrange import arrange, without_filler
-from fieldhand.planning.english.faults import Question, Unclear
-from fieldhand.planning.english.lexicon import lexicon_for
 from fieldhand.planning.english.planner import EnglishPlanner
-from fieldhand.planning.english.tokens import words_of
 from fieldhand.planning.english.vocabulary import vocabulary
 from fieldhand.planning.planner import Clarify, Planned, Refused
 from fieldhand.robot.capabilities import capabilities_of
@@ -20,6 +16,7 @@ from fieldhand.robot.loader import load_robot
 from fieldhand.site.loader import open_site
 from fieldhand.task.codec import encode
 from fieldhand.task.references import references
+from fieldhand.task.request_coverage import request_pieces
 from fieldhand.task.schema import validate
 from support.examples import examples
 from support.requests import rows as row_requests
@@ -27,7 +24,6 @@ from support.requests.english import PLANNED
 
 SITE, HUSKY = open_site("demo"), load_robot("husky")
 CAPABILITIES = capabilities_of(HUSKY)
-LEXICON = lexicon_for(HUSKY, SITE)
 TABLES = ("verbs", "nouns", "words", "sides", "levels")
 WORDS = sorted({w for table in TABLES for phrases in vocabulary()[table].values() for w in phrases})
 MORE = ["picture", "CO2 reading", "tree 4", "5", "33 °C", "400 ppm", "yellow", "wet corner", ",", ".", "and", "below"]
@@ -66,16 +62,17 @@ def test_a_request_with_a_word_left_out_or_doubled_never_breaks_it(
     try_to_plan(" ".join([*words[:at], words[at], *words[at:]]))
 
 
-@settings(max_examples=150, deadline=None)
-@given(st.lists(st.sampled_from(WORDS + MORE * 20), min_size=1, max_size=14))
-def test_every_word_is_in_a_sentence_or_known_to_mean_nothing(words: list[str]) -> None:
-    request = " ".join(words)
-    terms = LEXICON.terms(words_of(request))
-    with contextlib.suppress(Unclear, Question):
-        arranged = arrange(without_filler(terms, request))
-        spans = [*arranged.filler, *(t.span for sentence in arranged.sentences for t in sentence.terms)]
-        for word in words_of(request):
-            assert any(start <= word.start and word.end <= end for start, end in spans), word
+@settings(max_examples=examples(60, thorough=150), deadline=None)
+@given(st.sampled_from(PLANNED + row_requests.PLANNED), st.data())
+def test_every_word_of_a_planned_request_has_a_part_in_it_or_is_reported(
+    case: tuple[str, str, str], data: st.DataObject
+) -> None:
+    words = case[1].split()
+    at, word = data.draw(st.integers(0, len(words))), data.draw(st.sampled_from(WORDS + MORE * 20))
+    with contextlib.suppress(RequestError):
+        outcome = EnglishPlanner(suggests=False).plan(" ".join([*words[:at], word, *words[at:]]), SITE, HUSKY)
+        if isinstance(outcome, Planned):
+            assert not any(piece.role == "nothing" for piece in request_pieces(outcome.task))
 
 
 def test_a_word_that_is_not_known_is_named() -> None:

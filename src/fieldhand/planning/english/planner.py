@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from fieldhand.errors import RequestError
 from fieldhand.language import Number, message
 from fieldhand.planning.english.missing_blocks import missing_blocks
-from fieldhand.planning.english.planned import NAME
 from fieldhand.planning.english.tokens import Word, words_of
 from fieldhand.planning.english.wishes import early_wishes
+from fieldhand.planning.grammar.planned import NAME
 from fieldhand.planning.planner import Answer, Outcome, Refused
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site

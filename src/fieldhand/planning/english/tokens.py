@@ -1,13 +1,10 @@
-"""Words of a request with where they stand, and the terms that the lexicon makes of them."""
+"""Words of a request with where they stand."""
 
 from __future__ import annotations
 
 import re
 import unicodedata
 from dataclasses import dataclass
-from typing import Any
-
-from fieldhand.task.plan import Span
 
 _TOKEN = re.compile(
     r"(?P<rank>\d+(?:st|nd|rd|th)\b)"
@@ -40,29 +37,6 @@ class Word:
     norm: str
     start: int
     end: int
-
-
-@dataclass(frozen=True, kw_only=True)
-class Term:
-    """One or more words with what they mean to the grammar.
-
-    Attributes:
-        kind: Name of the grammar's terminal.
-        value: What the lexicon knows of it.
-        plural: A noun in the plural.
-    """
-
-    kind: str
-    text: str
-    start: int
-    end: int
-    value: Any = None
-    plural: bool = False
-
-    @property
-    def span(self) -> Span:
-        """Where it stands in the request."""
-        return (self.start, self.end)
 
 
 def words_of(request: str) -> list[Word]:

@@ -6,7 +6,6 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 from fieldhand.places import selectors as s
-from fieldhand.planning.english.limits import Amount
 
 #: What a place phrase means: one place, several places, an area whose trees are meant, places just spoken of (``here``,
 #: ``those``), trees around of which another phrase says how many (``nearby``), a step along the row, or rows of which
@@ -29,6 +28,14 @@ LAST_THING = "*"
 UNSAID_THING = "?"
 #: Quantity of a test of the first reading of the request, whatever it measures.
 FIRST_READING = "^"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Amount:
+    """A number with a unit, converted to metres, seconds, degC, ppm, percent, years or kg."""
+
+    number: float
+    unit: str
 
 
 @dataclass(frozen=True, slots=True)

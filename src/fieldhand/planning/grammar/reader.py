@@ -6,12 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from fieldhand.language import message
-from fieldhand.planning.english.faults import Unclear
-from fieldhand.planning.english.leading import different_places
-from fieldhand.planning.english.limits import LimitPhrase
-from fieldhand.planning.english.planned import NAME, Meant, planned_as
 from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.grammar.ambiguity import PlanQuestion, chosen_answer, not_an_answer, question_between
+from fieldhand.planning.grammar.answer_places import different_places
 from fieldhand.planning.grammar.assumptions import assumed_ways, assumed_wholes
 from fieldhand.planning.grammar.blocks import in_each_block
 from fieldhand.planning.grammar.chart import Chart, PhraseEdge, tokens_of
@@ -25,6 +22,7 @@ from fieldhand.planning.grammar.dialogue import (
 )
 from fieldhand.planning.grammar.english import ENGLISH
 from fieldhand.planning.grammar.language import GrammarLanguage
+from fieldhand.planning.grammar.planned import NAME, LimitPhrase, Meant, planned_as
 from fieldhand.planning.grammar.refusals import lost_reasons, unread_reasons
 from fieldhand.planning.grammar.remarks import without_remarks
 from fieldhand.planning.grammar.words import Phrases, edges_of, fillers_of
@@ -310,10 +308,7 @@ def _outcome_of(meant: Meant, request: str, site: Site, robot: RobotProfile) -> 
     """Return the plan of a meaning, or its refusal."""
     if (odd := _odd_rows(meant.plan, site)) is not None:
         return Refused(reasons=(odd,), planner=NAME)
-    try:
-        return planned_as(meant, request, site, robot)
-    except Unclear as unclear:
-        return Refused(reasons=(unclear.reason,), planner=NAME)
+    return planned_as(meant, request, site, robot)
 
 
 def _lost_words(plan: Planned, remarks: Sequence[Span]) -> tuple[Span, ...]:

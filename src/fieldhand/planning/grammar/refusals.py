@@ -6,9 +6,8 @@ from collections.abc import Iterator, Sequence
 
 from fieldhand.language import message, named
 from fieldhand.language.words import some_names
-from fieldhand.planning.english.faults import PLAINLY
+from fieldhand.planning.english.languages import language_of
 from fieldhand.planning.english.tokens import Word
-from fieldhand.planning.english.unknown import not_understood
 from fieldhand.planning.grammar.chart import Chart, PhraseEdge, tokens_of
 from fieldhand.planning.grammar.dialogue import NotComposed
 from fieldhand.planning.planner import Planned, Reason
@@ -17,6 +16,8 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.plan import Span
 
+#: Advice where nothing better is known.
+PLAINLY = message("say it in other words")
 #: Kind of the words that are known, and that no plan can express yet.
 _NOT_YET = "NOTYET"
 #: Maximum number of words of a reason that are quoted, and of characters of a sentence.
@@ -84,6 +85,29 @@ def _unknown(
         yield not_understood(strange)
 
 
+def not_understood(words: Sequence[Word], advice: str = PLAINLY) -> Reason:
+    """Return a reason for unknown words, which names their language if it is another one.
+
+    Args:
+        words: Unknown words, at least one.
+        advice: What to do if they are English.
+    """
+    texts = [word.text for word in words]
+    if language := language_of(texts):
+        advice = message(
+            "this seems to be {language}, and only English and Spanish are understood: say it in English, or plan it"
+            " with a language model (--planner llm)",
+            language=named(language, "language"),
+        )
+    quoted = some_names([message("'{said}'", said=text) for text in texts], 12)
+    return Reason(
+        what=message("not understood: {words}", words=quoted),
+        said=tuple((word.start, word.end) for word in words),
+        advice=advice,
+        unknown=True,
+    )
+
+
 def _no_such(word: Word, site: Site, *, block: bool) -> Reason:
     """Return the reason for a row or a block that the site does not have."""
     planting = site.planting
@@ -119,6 +143,9 @@ def _stuck(words: Sequence[Word], chart: Chart, request: str) -> Reason:
     at = chart.furthest("said")
     rest = [word for word in words[at:] if word.kind not in ("comma", "stop")] or words[-1:]
     said = rest[:_MOST_WORDS]
+    if not said:
+        what = message("the request asks for nothing to be done")
+        return Reason(what=what, advice=message("say what to take or measure, and at which trees"))
     start, end = said[0].start, said[-1].end
     sentence = _sentence(words, start, request)
     if at == 0 or request[start:end] == sentence:

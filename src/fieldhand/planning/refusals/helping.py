@@ -7,10 +7,10 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 
 from fieldhand.language import message
-from fieldhand.planning.english.faults import PLAINLY
 from fieldhand.planning.english.lexicon import lexicon_for
-from fieldhand.planning.english.tokens import Term, Word
+from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.english.wishes import Wish, wishes
+from fieldhand.planning.grammar.refusals import PLAINLY
 from fieldhand.planning.planner import Reason, Refused
 from fieldhand.planning.refusals.examples import Plan, examples, first_planned, tidy
 from fieldhand.planning.refusals.offers import say_offers
@@ -28,7 +28,7 @@ _LOOSE = (
     re.compile(r"(?:\s|,|:|\b(?:and|then|but|or)\b)+(?=\s*(?:[.;!?]|$))", re.IGNORECASE),
     re.compile(r",(?=\s*,)"),
 )
-#: Terms with which a further command begins.
+#: Categories of words with which a further command begins.
 _COMMANDS = frozenset({"TAKE", "MEASURE", "ACTV", "GO", "VISIT", "RETURN", "GOHOME"})
 
 
@@ -41,17 +41,17 @@ def helpful(refused: Refused, parsed: ParsedRequest, plan: Plan) -> Refused:
         plan: Plans another request on the same site with the same robot.
     """
     words, lexicon = parsed.words, lexicon_for(parsed.robot, parsed.site)
-    terms = lexicon.terms(list(words))
+    commands = parsed.begins(_COMMANDS)
     known = wishes(words, lexicon)
     early = [wish for wish in known if wish.kind.early]
     reasons = (*refused.reasons, *(_reasons_besides(early, parsed, plan) if early else ()))
     unsettled = {k for reason in reasons if not reason.final for k in _words_in(reason, words)}
     # A reason that says what to do is left as it is, whatever the words look like.
-    wished = [wish for wish in known if wish.kind.early or unsettled & _owned(wish, words, terms)]
-    owned = {k for wish in wished for k in _owned(wish, words, terms)}
+    wished = [wish for wish in known if wish.kind.early or unsettled & _owned(wish, words, commands)]
+    owned = {k for wish in wished for k in _owned(wish, words, commands)}
     strange = {k for reason in reasons if reason.unknown for k in _words_in(reason, words)}
     numbers = tuple(sorted(strange - owned - parsed.known()))
-    unknown = UnknownWords(numbers=numbers, parsed=parsed, lexicon=lexicon, terms=tuple(terms))
+    unknown = UnknownWords(numbers=numbers, parsed=parsed, lexicon=lexicon)
     fixed = None if wished else corrected(unknown, plan)
     parts = understood_parts(parsed, {*_blocked(wished, words), *numbers})
     topic = next((wish.kind.offers for wish in known if wish.kind.offers), unknown.topic)
@@ -150,15 +150,14 @@ def wish_reasons(
     return reasons
 
 
-def _owned(wish: Wish, words: Sequence[Word], terms: Sequence[Term]) -> set[int]:
+def _owned(wish: Wish, words: Sequence[Word], commands: Collection[int]) -> set[int]:
     """Return the numbers of the words that a wish explains: its own, and those of its clause that belong to it."""
     found = set(range(wish.first, wish.last))
     if wish.kind.rest:
         found |= set(range(wish.last, _end_of_clause(wish.last, words)))
     if wish.kind.clause:
-        commands = {term.start for term in terms if term.kind in _COMMANDS}
         for step, at in ((1, wish.last), (-1, wish.first - 1)):
-            while 0 <= at < len(words) and words[at].kind not in _ENDS and words[at].start not in commands:
+            while 0 <= at < len(words) and words[at].kind not in _ENDS and at not in commands:
                 found.add(at)
                 at += step
     return found

@@ -56,6 +56,14 @@ class ParsedRequest:
     site: Site
     robot: RobotProfile
 
+    def begins(self, categories: Collection[str]) -> set[int]:
+        """Return the numbers of the words with which a phrase of one of some categories begins."""
+        return {edge.start for edge in self.chart.all_edges() if edge.category in categories}
+
+    def ends(self, categories: Collection[str]) -> set[int]:
+        """Return the numbers of the words with which a phrase of one of some categories ends."""
+        return {edge.end - 1 for edge in self.chart.all_edges() if edge.category in categories}
+
     def known(self) -> set[int]:
         """Return the numbers of the words that are part of a phrase."""
         return {k for edge in self.chart.all_edges() for k in tokens_of(edge.used)}

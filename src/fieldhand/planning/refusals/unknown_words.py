@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from fieldhand.language import joined, message
 from fieldhand.planning.english.languages import language_of
 from fieldhand.planning.english.lexicon import Lexicon
-from fieldhand.planning.english.tokens import Term, Word
-from fieldhand.planning.english.unknown import not_understood
+from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.english.wishes import Offers
+from fieldhand.planning.grammar.refusals import not_understood
 from fieldhand.planning.planner import Clarify, Planned, Reason
 from fieldhand.planning.refusals.examples import Plan
 from fieldhand.planning.refusals.offers import say_offers
@@ -19,10 +19,14 @@ from fieldhand.planning.refusals.understood import ParsedRequest
 
 #: A request with more unknown words is not one with misspellings.
 _MOST_MISSPELT = 3
-#: Terms behind which a place is named.
+#: Categories of words behind which a place is named.
 _TO_A_PLACE = frozenset({"AT", "NEAR", "NEXTTO", "INSIDE", "OUTSIDE", "ALONG", "FROM", "GO", "VISIT"})
-#: Terms that may stand between these and the name.
-_BEFORE_A_NAME = frozenset({"DET", "EACH", "ANY", "UNKNOWN"})
+#: Categories of words that may stand between these and the name.
+_BEFORE_A_NAME = frozenset({"DET", "EACH", "ANY"})
+#: Categories of words behind which trees are described.
+_OF_TREES = frozenset({"OF", "NUM", "RANDOM"})
+#: Categories of words at which a name ends.
+_ENDS = frozenset({"FULLSTOP", "COMMA", "AND", "THEN", "PLOT", "ZONE"})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,7 +36,6 @@ class UnknownWords:
     numbers: tuple[int, ...]
     parsed: ParsedRequest
     lexicon: Lexicon
-    terms: tuple[Term, ...]
 
     @property
     def words(self) -> list[Word]:
@@ -42,7 +45,7 @@ class UnknownWords:
     @property
     def topic(self) -> Offers:
         """Name the kind of thing that the site has instead of most of them."""
-        kinds = [_lacking(word, self.terms) for word in self.words]
+        kinds = [_lacking(number, self) for number in self.numbers]
         return next((kind for kind in kinds if kind), "")
 
 
@@ -95,8 +98,9 @@ def reasons_of_unknown(unknown: UnknownWords, correction: Correction | None) -> 
         return
     foreign = language_of(word.text for word in unknown.words)
     strange: list[Word] = []
-    for word in unknown.words:
-        lacking = "" if foreign else _lacking(word, unknown.terms)
+    for number in unknown.numbers:
+        word = unknown.parsed.words[number]
+        lacking = "" if foreign else _lacking(number, unknown)
         span = (word.start, word.end)
         if lacking == "properties":
             what = message("'{said}': the site's file does not say this of the trees", context="wish", said=word.text)
@@ -112,19 +116,20 @@ def reasons_of_unknown(unknown: UnknownWords, correction: Correction | None) -> 
         yield not_understood(strange)
 
 
-def _lacking(word: Word, terms: Sequence[Term]) -> Offers:
+def _lacking(number: int, unknown: UnknownWords) -> Offers:
     """Return what the site lacks if a word names a property ("the Zinfandel vines") or a place ("to the winery")."""
-    at = next((k for k, term in enumerate(terms) if term.start == word.start), None)
-    if at is None or terms[at].kind != "UNKNOWN" or not word.norm.isalpha():
+    parsed = unknown.parsed
+    words = parsed.words
+    if not words[number].norm.isalpha():
         return ""
-    after = terms[at + 1].kind if at + 1 < len(terms) else "STOPMARK"
-    before = at - 1
+    articles = parsed.ends(_BEFORE_A_NAME)
+    before = number - 1
     determined = False
-    while before >= 0 and terms[before].kind in _BEFORE_A_NAME:
-        determined = determined or terms[before].kind != "UNKNOWN"
+    while before >= 0 and (before in articles or before in unknown.numbers):
+        determined = determined or before in articles
         before -= 1
-    named_by = terms[before].kind if before >= 0 else ""
-    if after == "TREE" and (determined or named_by in _TO_A_PLACE | {"OF", "NUM", "RANDOM"}):
+    to_a_place = before in parsed.ends(_TO_A_PLACE)
+    if number + 1 in parsed.begins({"TREE"}) and (determined or to_a_place or before in parsed.ends(_OF_TREES)):
         return "properties"
-    ends = after in ("STOPMARK", "COMMA", "AND", "THEN", "PLOT", "ZONE")
-    return "places" if ends and determined and named_by in _TO_A_PLACE else ""
+    ends = number + 1 >= len(words) or number + 1 in parsed.begins(_ENDS)
+    return "places" if ends and determined and to_a_place else ""

@@ -5,10 +5,17 @@ from __future__ import annotations
 from dataclasses import replace
 
 from fieldhand.places import selectors as s
-from fieldhand.planning.english.limits import Amount
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import LAST_THING, UNSAID_THING, CaptureCommand, Nominal, PlaceMeaning, Thing
+from fieldhand.planning.grammar.meaning import (
+    LAST_THING,
+    UNSAID_THING,
+    Amount,
+    CaptureCommand,
+    Nominal,
+    PlaceMeaning,
+    Thing,
+)
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_every_nth, as_zone, is_across, specifies_part
 

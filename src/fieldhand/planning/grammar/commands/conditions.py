@@ -6,13 +6,13 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from fieldhand.places import selectors as s
-from fieldhand.planning.english.limits import Amount
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import (
     FIRST_READING,
     Allowed,
     AllTests,
+    Amount,
     CaptureCommand,
     CaptureWhere,
     Check,

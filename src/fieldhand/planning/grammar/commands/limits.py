@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from fieldhand.planning.english.limits import Amount
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import LimitClause, VisitLimit
+from fieldhand.planning.grammar.meaning import Amount, LimitClause, VisitLimit
 from fieldhand.planning.grammar.words import Lex
 
 GRAMMAR = Grammar()

@@ -6,7 +6,6 @@ from dataclasses import replace
 
 from fieldhand.language import message
 from fieldhand.places import selectors as s
-from fieldhand.planning.english.onebyone import swapped
 from fieldhand.planning.grammar.dialogue.driving import drive, enter, may_be_left_out, ordered, require_known, visits
 from fieldhand.planning.grammar.dialogue.fitting import (
     along_row,
@@ -60,6 +59,7 @@ from fieldhand.planning.selections import (
     is_row_of_place,
     landmark_of,
     some_of,
+    swapped,
 )
 from fieldhand.task import plan as p
 from fieldhand.task.conditions import Condition

@@ -8,7 +8,7 @@ from typing import Any, cast
 
 from fieldhand.language import message
 from fieldhand.places import selectors as s
-from fieldhand.planning.english.onebyone import MOST_ONE_BY_ONE, one_by_one, swapped
+from fieldhand.planning.grammar.dialogue.row_by_row import MOST_ONE_BY_ONE, one_by_one
 from fieldhand.planning.grammar.dialogue.state import NotComposed, OpenQuestion, Setting
 from fieldhand.planning.grammar.meaning import DriveCommand, Lead, PlaceMeaning, Thing
 from fieldhand.planning.grammar.places.numbered import ids_of
@@ -21,6 +21,7 @@ from fieldhand.planning.selections import (
     counts_in_row,
     is_one_row,
     over,
+    swapped,
 )
 
 

@@ -9,9 +9,8 @@ from typing import Any, cast
 
 from fieldhand.language import message
 from fieldhand.places import selectors as s
-from fieldhand.planning.english.onebyone import swapped
 from fieldhand.planning.grammar.dialogue.faults import NotComposed
-from fieldhand.planning.selections import as_random
+from fieldhand.planning.selections import as_random, swapped
 from fieldhand.task import plan as p
 
 #: Steps from the plan's root to a node: indices of steps, and the names of the fields that hold the inner nodes.

@@ -7,7 +7,6 @@ from dataclasses import dataclass, field, replace
 
 from fieldhand.language import message
 from fieldhand.places import selectors as s
-from fieldhand.planning.english.onebyone import swapped
 from fieldhand.planning.grammar.dialogue.driving import drive
 from fieldhand.planning.grammar.dialogue.plans import (
     Path,
@@ -20,7 +19,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
 )
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, with_step
 from fieldhand.planning.grammar.meaning import Again, DriveCommand, PlaceMeaning
-from fieldhand.planning.selections import is_one_row, replaceable_area
+from fieldhand.planning.selections import is_one_row, replaceable_area, swapped
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 from fieldhand.places import selectors as s
-from fieldhand.planning.english.onebyone import swapped
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning, Shape
 from fieldhand.planning.grammar.places.numbered import ids_of
@@ -20,6 +19,7 @@ from fieldhand.planning.selections import (
     landmark_of,
     measures_distance,
     over,
+    swapped,
 )
 from fieldhand.site.model import Site
 

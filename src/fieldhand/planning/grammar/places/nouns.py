@@ -6,9 +6,8 @@ from dataclasses import replace
 from typing import Any, cast
 
 from fieldhand.places import selectors as s
-from fieldhand.planning.english.limits import Amount
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
+from fieldhand.planning.grammar.meaning import Amount, Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.words import Lex, hinted_attributes
 from fieldhand.planning.selections import as_every_nth, chooses_from_trees

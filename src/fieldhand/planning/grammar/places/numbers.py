@@ -6,9 +6,8 @@ import re
 from dataclasses import replace
 
 from fieldhand.places import selectors as s
-from fieldhand.planning.english.limits import Amount
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import PlaceMeaning
+from fieldhand.planning.grammar.meaning import Amount, PlaceMeaning
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.site.model import Site
 

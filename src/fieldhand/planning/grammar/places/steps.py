@@ -5,10 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from fieldhand.places import selectors as s
-from fieldhand.planning.english.limits import Amount
-from fieldhand.planning.english.places import beyond
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
+from fieldhand.planning.grammar.meaning import Amount, Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_nearest, as_zone, chooses_from_trees, is_spot, over
@@ -360,3 +358,8 @@ def next_trees(n: int, inner: Nominal, way: Towards = "down", rows: s.Selector |
     return PlaceMeaning(
         s.UnionOf(parts=tuple(s.AlongRow(trees=k, towards=way) for k in range(1, n + 1))), "several", count=n
     )
+
+
+def beyond(metres: float, of: s.Selector) -> s.Selector:
+    """Return what is left out where trees are at least so far from a place: those nearer to it, and itself."""
+    return s.UnionOf(parts=(of, s.Within(distance_m=metres, to=of)))

@@ -9,11 +9,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 from fieldhand.places import selectors as s
-from fieldhand.planning.english.limits import Amount
 from fieldhand.planning.grammar import commands, places
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands import captures, conditions, driving, limits, things
-from fieldhand.planning.grammar.meaning import LimitClause, Nominal, PlaceMeaning, Thing
+from fieldhand.planning.grammar.meaning import Amount, LimitClause, Nominal, PlaceMeaning, Thing
 from fieldhand.planning.grammar.places import groups, nouns, numbers, positions, rows, spots, steps
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.words import Lex

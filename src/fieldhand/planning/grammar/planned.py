@@ -1,4 +1,4 @@
-"""From what a request says to a Task: its exit, its limits, and whether its places are on this site."""
+"""From the meaning of a request to its Task: its exit, its limits, and whether the site has its places."""
 
 from __future__ import annotations
 
@@ -11,11 +11,6 @@ from fieldhand.errors import PlaceError, TaskError
 from fieldhand.language import Number, message, named
 from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve
-from fieldhand.planning.english.averages import check_averages
-from fieldhand.planning.english.draft import Halt, node_of
-from fieldhand.planning.english.faults import Unclear
-from fieldhand.planning.english.limits import LimitPhrase
-from fieldhand.planning.english.told import Told
 from fieldhand.planning.foreseen import foreseeable
 from fieldhand.planning.homeward import faulted_exits, usual_exit, with_assumed_exit
 from fieldhand.planning.planner import Outcome, Planned, Reason, Refused
@@ -30,45 +25,21 @@ NAME = "english"
 KINDS: dict[str, BudgetKind] = {"metres": "distance_m", "seconds": "duration_s", "percent": "energy_percent"}
 
 
-def planned(
-    request: str, read_as: str, told: Told, site: Site, robot: RobotProfile, *, warnings: tuple[str, ...] = ()
-) -> Outcome:
-    """The Task of what a request says.
+@dataclass(frozen=True, kw_only=True)
+class LimitPhrase:
+    """A limit on a resource.
 
-    Args:
-        read_as: The request with the words of its answers; empty if there were none.
-        warnings: What has to be confirmed before the Task is approved, as sentences.
-
-    Raises:
-        Unclear: A limit that cannot be kept.
+    Attributes:
+        amount: Amount in ``unit``.
+        unit: ``metres``, ``seconds`` or ``percent``.
+        keep: The amount must be left at the end; else it may be used.
+        said: Range of the request that says it.
     """
-    if all(isinstance(step, Halt) for step in told.root.steps):
-        reason = Reason(
-            what=message("the request asks for nothing to be done"),
-            advice=message("say what to take or measure, and at which trees"),
-        )
-        return Refused(reasons=(reason,), planner=NAME)
-    check_averages(told.root, request, robot)
-    plan = node_of(told.root)
-    if plan.is_series:
-        plan = replace(plan, said=tuple(told.joints))
-    else:
-        told.no_part += told.joints  # there is nothing that they could put in order
-    return planned_as(
-        Meant(
-            plan=plan,
-            limits=tuple(told.limits),
-            nominal=told.nominal,
-            nominal_said=tuple(told.nominal_said),
-            no_part=tuple(told.no_part),
-            assumptions=tuple(told.assumptions),
-            warnings=warnings,
-        ),
-        request,
-        site,
-        robot,
-        read_as=read_as,
-    )
+
+    amount: float
+    unit: str
+    keep: bool = False
+    said: p.Span = (0, 0)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -94,12 +65,11 @@ class Meant:
     warnings: tuple[str, ...] = ()
 
 
-def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile, *, read_as: str = "") -> Outcome:
-    """Return the Task of what a request means, or a refusal that names the places which the site does not have.
-
-    Raises:
-        Unclear: A limit cannot be kept.
-    """
+def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> Outcome:
+    """Return the Task of what a request means, or a refusal that names the limits and places that cannot be."""
+    limits = tuple(_impossible_limits(meant.limits))
+    if limits:
+        return Refused(reasons=limits, planner=NAME)
     nominal = usual_exit(site) if meant.nominal is None else meant.nominal
     task = make_task(
         request=request,
@@ -114,7 +84,6 @@ def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile, *, r
         nominal_said=meant.nominal_said,
         no_part=tuple((start, end) for start, end in meant.no_part if re.search(r"\w", request[start:end])),
         faulted=faulted_exits(nominal),
-        read_as=read_as,
         assumptions=tuple(dict.fromkeys(meant.assumptions)),
         warnings=meant.warnings,
     )
@@ -131,7 +100,6 @@ def _constraints(limits: Iterable[LimitPhrase]) -> Constraints:
     reserve: float | None = None
     reserve_said: tuple[p.Span, ...] = ()
     for limit in limits:
-        _check(limit)
         if limit.keep:
             reserve = max(limit.amount, reserve or 0.0)
             reserve_said = (*reserve_said, limit.said)
@@ -142,19 +110,22 @@ def _constraints(limits: Iterable[LimitPhrase]) -> Constraints:
     return Constraints(budgets=tuple(budgets.values()), reserve_percent=reserve, reserve_said=reserve_said)
 
 
-def _check(limit: LimitPhrase) -> None:
-    most = 100.0 if limit.unit == "percent" else math.inf
-    if not 0.0 < limit.amount <= most:
-        what = message(
-            "a limit of {amount} {unit} cannot be kept",
-            amount=Number(f"{limit.amount:g}"),
-            unit=named(limit.unit, "unit"),
-        )
-        raise Unclear(Reason(what=what, advice=message("say a number above 0, at most 100 for percent of the battery")))
+def _impossible_limits(limits: Iterable[LimitPhrase]) -> Iterable[Reason]:
+    """Yield a reason for each limit that cannot be kept."""
+    for limit in limits:
+        most = 100.0 if limit.unit == "percent" else math.inf
+        if not 0.0 < limit.amount <= most:
+            what = message(
+                "a limit of {amount} {unit} cannot be kept",
+                amount=Number(f"{limit.amount:g}"),
+                unit=named(limit.unit, "unit"),
+            )
+            advice = message("say a number above 0, at most 100 for percent of the battery")
+            yield Reason(what=what, said=(limit.said,), advice=advice, final=True)
 
 
 def _impossible(plan: p.Node, site: Site) -> Iterable[Reason]:
-    """Places that this site does not have, as far as it can be told before the robot drives."""
+    """Yield a reason for each place that the site lacks, as far as it can be told before the robot drives."""
     for node in p.walk(plan):
         selector = node.selector
         for part in () if selector is None else foreseeable(selector):
