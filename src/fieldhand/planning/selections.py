@@ -332,9 +332,25 @@ def is_row_of_place(selector: s.Selector) -> bool:
 
 def some_of(of: s.Selector, count: int) -> s.Selector:
     """Return any few of a group: of a run of trees along a row evenly, else those that make a short drive."""
-    if isinstance(of, s.Successive) and 1 < count < of.count:
-        return s.Evenly(count=count, of=of)
-    return s.Take(count=count, of=of)
+    length = of.count if isinstance(of, s.Successive) else trees_ahead(of)
+    return s.Evenly(count=count, of=of) if 1 < count < length else s.Take(count=count, of=of)
+
+
+def trees_ahead(selector: s.Selector) -> int:
+    """Return the number of trees of a run along the row from the place in hand ("the next 5 trees"); 0 for others."""
+    members = selector.members
+    first = as_along_row(members[0])
+    run = first is not None and all(
+        part == replace(first, trees=number) for number, part in enumerate(members, start=1)
+    )
+    return len(members) if run and starts_here(selector.members[0]) else 0
+
+
+def from_nearest_row(selector: s.Selector) -> s.Selector:
+    """Return some of the next trees along the row, where no tree is in hand, as those of the nearest row."""
+    if not isinstance(selector, s.Evenly) or not (length := trees_ahead(selector.of)):
+        return selector
+    return replace(selector, of=s.Successive(count=length))
 
 
 def is_across(selector: s.Selector) -> bool:

@@ -986,6 +986,18 @@ PLANNED = [
         "for Rows(4, 4): [picture]",
     ),
     ("husky", "do rows 1 to 3, photographing every third tree", "for EveryNth(3, of Rows(1, 3)): [picture]"),
+    (
+        "husky",
+        "take a picture of the first three and the last three trees of row 2",
+        "for UnionOf(InRow(1, 3, of Rows(2, 2))+InRow(-3, -1, of Rows(2, 2))): [picture]",
+    ),
+    (
+        "husky",
+        "Take a picture of the neighbours of tree 40 in the same row.",
+        "for Nearest(TreeIs(40), 2, True, of RowOf(TreeIs(40))): [picture]",
+    ),
+    ("husky", "Read CO2 at four evenly spaced trees in row 5.", "for Evenly(4, of Rows(5, 5)): [co2]"),
+    ("husky", "Take a picture of every row's first tree.", "for InRow(1, 1, of Rows): [picture]"),
 ]
 
 ASKED = [
@@ -1170,11 +1182,6 @@ REFUSED = [
     ),
     (
         "husky",
-        "take a picture of the first three and the last three trees of row 2",
-        "'three' does not fit at this point in 'take a picture of the first three and the last three trees of row 2'",
-    ),
-    (
-        "husky",
         "drive down the aisle between rows 3 and 4 and take a picture",
         "'aisle': an aisle is not a place where something can be done",
     ),
@@ -1260,8 +1267,6 @@ REFUSED = [
         "Take a picture of tree 40. Turn around and go 3 trees back.",
         "'Turn around' asks for a way of driving: not possible yet",
     ),
-    ("husky", "Take a picture of the neighbours of tree 40 in the same row.", "not understood: 'neighbours'"),
-    ("husky", "Read CO2 at four evenly spaced trees in row 5.", "not understood: 'evenly'"),
     (
         "husky",
         "Take CO2 readings at even intervals along row 5.",
@@ -1310,7 +1315,6 @@ REFUSED = [
         "Take pictures of all trees in row 3 but the last one.",
         "'the last one': the first or last of which trees?",
     ),
-    ("husky", "Take a picture of every row's first tree.", "each word is known, but not what they say together"),
     ("husky", "drive down row 3 to tree 5 and take a picture", "'to tree 5': it is not clear of which row"),
     (
         "husky",

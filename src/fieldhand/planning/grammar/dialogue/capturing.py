@@ -54,6 +54,7 @@ from fieldhand.planning.selections import (
     AREAS,
     are_rows,
     counts_in_row,
+    from_nearest_row,
     is_end_of_site,
     is_one_row,
     is_row_of_place,
@@ -94,6 +95,8 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
     place = _those_again(state, place)
     if place is not None and place.shape == "those" and (place.count or place.at_most):
         return _at_some_of_those(state, replace(command, things=things), place, whole)
+    if place is not None and state.where is None and not state.plan.steps:
+        place = replace(place, selector=from_nearest_row(place.selector))
     require_known(setting, state, place, command.used)
     if place is None or place.shape in ("here", "those"):
         return _at_the_same_place(setting, state, replace(command, things=things, place=place), whole)
@@ -231,8 +234,25 @@ def _place_of(
         moves = place is not None and place.shape != "here"
         return place if moves else None, drive(setting, state, DriveCommand(first, before.used)), ()
     if first.shape in ("several", "nearby") and is_spoken_of(place):
-        return first, state, said
+        return _some_of_them(first, place), state, said
     raise NotComposed(message("it is not clear at which of two places this is done", context="fault"))
+
+
+def _some_of_them(whole: PlaceMeaning, place: PlaceMeaning | None) -> PlaceMeaning:
+    """Return as many of places as are said of them ("of trees 4 to 9, ... at any two").
+
+    Raises:
+        NotComposed: They are not that many, or it is not known how many they are.
+    """
+    if place is None or (place.count is None and place.at_most is None):
+        return whole
+    if place.count is not None and place.count == whole.count:
+        return whole
+    open_number = whole.shape != "several" or whole.per is not None or whole.optional or whole.at_most is not None
+    if place.count is None or open_number or (whole.count is not None and place.count > whole.count):
+        raise NotComposed(message("it is not clear which of them", context="fault"))
+    some = some_of(whole.selector, place.count)
+    return replace(whole, selector=some, shape="one" if place.count == 1 else "several", count=place.count)
 
 
 def _lines_at_each(

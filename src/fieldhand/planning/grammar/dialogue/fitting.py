@@ -95,7 +95,7 @@ def in_each_row(rows: s.Selector, place: PlaceMeaning) -> PlaceMeaning:
     """
     if not chooses_from_trees(place.selector):
         raise NotComposed(message("it is not clear at which of two places this is done", context="fault"))
-    by_number = all(counts_in_row(part) for part in over(place.selector, s.Rows()).members)
+    by_number = are_rows(rows) and all(counts_in_row(part) for part in over(place.selector, s.Rows()).members)
     if by_number or (place.shape == "several" and place.count is None):
         return replace(place, selector=over(place.selector, rows), shape="several")
     return replace(place, shape="several", per=rows)
@@ -258,7 +258,7 @@ def _of_rows(
         return PlaceMeaning(rows, "several")
     if place.shape == "area" and relation == "of" and setting.either("every tree, or how many?", used, (True, False)):
         return PlaceMeaning(rows, "several")
-    single = one_by_one(rows, setting.site)
+    single = one_by_one(rows, setting.site) if are_rows(rows) else rows.members
     if not single or len(single) > MOST_ONE_BY_ONE:
         raise NotComposed(message("rows are visited one after the other here only if they are named", context="fault"))
     selector = s.Take(count=count or 1, of=s.Trees()) if place.shape == "area" else place.selector

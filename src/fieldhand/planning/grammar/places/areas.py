@@ -13,10 +13,12 @@ from fieldhand.planning.grammar.places.numbers import name_of
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
     AREAS,
+    are_meant_each,
     are_rows,
     as_edge,
     as_zone,
     chooses_from_trees,
+    is_in_block,
     is_row_of_place,
     is_whole_rows,
     measures_from_here,
@@ -27,6 +29,9 @@ from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
+
+#: Maximum number of blocks to choose from.
+_MOST_BLOCKS = 5
 
 
 @construction("region: [DET] side=DIR HALF", "region: [DET] side=DIR SIDE", cost=0.2)
@@ -70,6 +75,86 @@ def zone(zone: Lex) -> s.Selector:
 def block(name: Lex, noun: Lex) -> s.Selector | None:
     """Compose "block 2"."""
     return s.InBlock(block=name_of(name)) if "block" in noun.features else None
+
+
+@construction(
+    "block_list: first=BLOCKNAME AND second=BLOCKNAME",
+    "block_list: first=BLOCKNAME AND DET second=BLOCKNAME",
+    cost=0.0,
+)
+def block_list(first: Lex, second: Lex) -> tuple[s.Selector, ...]:
+    """Compose "A and B" beside "blocks"."""
+    return (s.InBlock(block=name_of(first)), s.InBlock(block=name_of(second)))
+
+
+@construction("block_list: first=BLOCKNAME COMMA more=block_list", cost=0.0)
+def longer_block_list(first: Lex, more: tuple[s.Selector, ...]) -> tuple[s.Selector, ...]:
+    """Compose "A, B and C" beside "blocks"."""
+    return (s.InBlock(block=name_of(first)), *more)
+
+
+@construction("blocks: [DET] noun=PLOT named=block_list", "blocks: [DET] named=block_list noun=PLOT", cost=0.1)
+def named_blocks(noun: Lex, named: tuple[s.Selector, ...]) -> tuple[s.Selector, ...] | None:
+    """Compose "blocks A and B"."""
+    return named if noun.plural and "block" in noun.features and len(set(named)) == len(named) else None
+
+
+@construction("region: blocks=blocks", cost=0.1)
+def blocks_as_region(blocks: tuple[s.Selector, ...]) -> s.Selector:
+    """Compose "the river and home blocks" as an area."""
+    return s.UnionOf(parts=blocks)
+
+
+@construction(
+    "each_block: EACH noun=PLOT", "each_block: EACH OF DET noun=PLOT", "each_block: EACH DET noun=PLOT",
+    cost=0.1, given=("site",),
+)  # fmt: skip
+def each_block(noun: Lex, site: Site) -> tuple[s.Selector, ...] | None:
+    """Compose "each block" and "both blocks"."""
+    if "block" not in noun.features or len(site.planting.blocks) < 2:
+        return None
+    return tuple(s.InBlock(block=block.name) for block in site.planting.blocks)
+
+
+@construction("each_block: EACH OF blocks=blocks", "each_block: EACH blocks=blocks", cost=0.0)
+def each_of_blocks(blocks: tuple[s.Selector, ...]) -> tuple[s.Selector, ...]:
+    """Compose "each of the blocks A and B"."""
+    return blocks
+
+
+@construction("place: blocks=each_block", cost=0.4)
+def at_each_block(blocks: tuple[s.Selector, ...]) -> PlaceMeaning:
+    """Compose "each block" as a place."""
+    return PlaceMeaning(s.Trees(), "area", each=True, per=s.UnionOf(parts=blocks))
+
+
+@construction(
+    "place: one=place in_ blocks=each_block",
+    "place: one=place FOR blocks=each_block",
+    "place: one=place in_ blocks=blocks",
+    cost=0.2,
+)
+def in_each_block(one: PlaceMeaning, blocks: tuple[s.Selector, ...]) -> PlaceMeaning | None:
+    """Compose "two trees in each block" and "the corners of both blocks"."""
+    if one.per is not None or one.shape not in ("one", "several") or one.optional or one.at_most:
+        return None
+    if not chooses_from_trees(one.selector) or is_in_block(one.selector):
+        return None
+    if one.shape == "several" and one.count is None and not are_meant_each(one.selector):
+        return replace(one, selector=over(one.selector, s.UnionOf(parts=blocks)))
+    parts = tuple(over(one.selector, block) for block in blocks)
+    number = 1 if one.shape == "one" else one.count
+    count = None if number is None else number * len(blocks)
+    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=count, each=one.each)
+
+
+@construction("region: word=DET noun=PLOT", cost=0.6, given=("site",))
+def some_block(word: Lex, noun: Lex, site: Site) -> list[s.Selector] | None:
+    """Compose "the block" on a site of several: which of them?"""
+    blocks = site.planting.blocks
+    if noun.plural or "block" not in noun.features or word.features.isdisjoint({"definite", "indefinite"}):
+        return None
+    return [s.InBlock(block=block.name) for block in blocks] if 1 < len(blocks) <= _MOST_BLOCKS else None
 
 
 @construction("bare_block: name=BLOCKNAME", cost=0.7)
@@ -167,6 +252,12 @@ def inside(inner: Nominal, where: s.Selector, way: str) -> Nominal | None:
     """Compose "trees in the northern half" and "trees along the northern edge"."""
     if not chooses_from_trees(inner.selector) or (way == "along" and is_row_of_place(where)):
         return None  # "3 trees down the row": the tree that far along, or trees there?
+    if (
+        (inner.complete or inner.kind == "corner")
+        and len(where.members) > 1
+        and all(is_in_block(part) for part in where.members)
+    ):
+        return None  # "the corners of blocks A and B": of each of them
     if way == "from" and measures_from_here(inner.selector):
         return None  # "the tree farthest from the pond"
     if inner.of_side and are_rows(where):

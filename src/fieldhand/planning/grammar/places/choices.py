@@ -122,14 +122,22 @@ def unknown_rows(
     return PlaceMeaning(s.Rows(), "unknown", count=n)
 
 
-@construction("rows: DET MIDDLE noun=ROW", "rows: DET MIDDLE n=count noun=ROW", cost=0.2, given=("site",))
-def middle_rows(noun: Lex, site: Site, n: int | None = None) -> list[s.Selector] | None:
+@construction(
+    "rows: DET MIDDLE [n=count] noun=ROW",
+    "rows: DET MIDDLE [n=count] noun=ROW in_ where=block",
+    cost=0.2,
+    given=("site",),
+)
+def middle_rows(
+    noun: Lex, site: Site, n: int | None = None, where: s.Selector | None = None
+) -> list[s.Selector] | None:
     """Compose "the middle row": of an even number of rows there are two."""
-    names = [row.name for row in site.planting.rows]
-    if noun.plural != (n is not None) or len(site.planting.blocks) != 1 or n not in (None, 2):
+    blocks = [one for one in site.planting.blocks if where in (None, s.InBlock(block=one.name))]
+    if noun.plural != (n is not None) or len(blocks) != 1 or n not in (None, 2):
         return None
+    names, of = [row.name for row in blocks[0].rows], where or s.Trees()
     half = len(names) // 2
     if n == 2:
-        return [s.Rows(first=names[half - 1], last=names[half])] if len(names) % 2 == 0 else None
+        return [s.Rows(first=names[half - 1], last=names[half], of=of)] if len(names) % 2 == 0 else None
     middle = names[half : half + 1] if len(names) % 2 else names[half - 1 : half + 1]
-    return [s.Rows(first=name, last=name) for name in middle]
+    return [s.Rows(first=name, last=name, of=of) for name in middle]

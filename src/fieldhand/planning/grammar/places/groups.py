@@ -21,6 +21,7 @@ from fieldhand.planning.selections import (
     over,
     swapped,
 )
+from fieldhand.planning.selections import some_of as few_of
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -123,7 +124,7 @@ def some_of(n: int, group: PlaceMeaning) -> PlaceMeaning | None:
         return None
     if group.count is not None and n >= group.count:
         return None
-    return PlaceMeaning(s.Take(count=n, of=group.selector), "one" if n == 1 else "several", count=n)
+    return PlaceMeaning(few_of(group.selector, n), "one" if n == 1 else "several", count=n)
 
 
 @construction("place: n=count POINT SPREAD [DET] zone=ZONE", cost=0.2)
@@ -132,7 +133,15 @@ def points_over(n: int, zone: Lex) -> PlaceMeaning:
     return PlaceMeaning(s.PointsIn(zone=zone.value, count=n), "several", count=n)
 
 
-@construction("place: n=count inner=nominal SPREAD where=region", "place: n=count inner=nominal SPREAD site", cost=0.2)
+@construction(
+    "place: n=count inner=nominal SPREAD where=region",
+    "place: n=count inner=nominal SPREAD site",
+    "place: n=count inner=nominal [COMMA] FARAPART",
+    "place: n=count inner=nominal [COMMA] FARAPART in_ where=region",
+    "place: n=count inner=nominal [COMMA] FARAPART in_ site",
+    "place: n=count FARAPART inner=nominal",
+    cost=0.2,
+)
 def trees_spread(n: int, inner: Nominal, where: s.Selector | None = None) -> PlaceMeaning | None:
     """Compose "five trees spread over the northern half"."""
     if inner.single or not chooses_from_trees(inner.selector):
@@ -433,7 +442,13 @@ def any_of_group(group: PlaceMeaning, n: int) -> PlaceMeaning | None:
     """Compose "any 3 of trees 5, 6, 7 and 8"."""
     if group.shape != "several" or group.count is None or n >= group.count or group.each or group.per is not None:
         return None
-    return PlaceMeaning(s.Take(count=n, of=group.selector), "one" if n == 1 else "several", count=n)
+    return PlaceMeaning(few_of(group.selector, n), "one" if n == 1 else "several", count=n)
+
+
+@construction("place: ANY n=count", cost=0.9)
+def any_of_those(n: int) -> PlaceMeaning:
+    """Compose "any two", of places that were named before."""
+    return PlaceMeaning(s.Here(), "those", count=n)
 
 
 @construction("place: word=DET TREE [same=ITSELF]", cost=0.7)

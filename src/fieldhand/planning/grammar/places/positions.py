@@ -9,7 +9,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning, Shape
 from fieldhand.planning.grammar.places.compass import AWAY_FROM, SIDES
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import as_every_nth, as_in_row, chooses_from_trees, is_one_row, over
+from fieldhand.planning.selections import are_rows, as_every_nth, as_in_row, chooses_from_trees, is_one_row, over
 from fieldhand.terms import Side
 
 GRAMMAR = Grammar()
@@ -59,11 +59,17 @@ def tree_of_row(
     return PlaceMeaning(selector, "one" if is_one_row(rows) else "several", each=not is_one_row(rows))
 
 
+@construction("span: at=position", "span: at=positions", cost=0.0)
+def span(at: tuple[int, int]) -> tuple[int, int]:
+    """Compose "third" or "first three"."""
+    return at
+
+
 @construction(
-    "place: [DET] first=position AND second=position inner=nominal in_ rows=rows",
-    "place: [DET] first=position AND second=position inner=nominal in_ rows=rows_of_block",
-    "place: DET first=position AND AT DET second=position inner=nominal in_ rows=rows",
-    "place: DET first=position AND OF DET second=position inner=nominal in_ rows=rows",
+    "place: [DET] first=span AND [DET] second=span inner=nominal in_ rows=rows",
+    "place: [DET] first=span AND [DET] second=span inner=nominal in_ rows=each_row",
+    "place: DET first=span AND AT DET second=span inner=nominal in_ rows=rows",
+    "place: DET first=span AND OF DET second=span inner=nominal in_ rows=rows",
     cost=0.2,
 )
 def two_trees_of_row(
@@ -74,19 +80,18 @@ def two_trees_of_row(
         return None
     of = over(inner.selector, rows)
     parts = tuple(s.InRow(first=at[0], last=at[1], of=of) for at in (first, second))
-    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=2 if is_one_row(rows) else None)
+    count = sum(at[1] - at[0] + 1 for at in (first, second)) if is_one_row(rows) else None
+    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=count)
 
 
-@construction("place: [DET] first=position one=nominal AND [DET] second=position other=nominal in_ rows=rows", cost=0.2)
+@construction("place: [DET] first=span one=nominal AND [DET] second=span [other=nominal] in_ rows=rows", cost=0.2)
 def two_positions_of_row(
-    first: tuple[int, int], one: Nominal, second: tuple[int, int], other: Nominal, rows: s.Selector
+    first: tuple[int, int], one: Nominal, second: tuple[int, int], rows: s.Selector, other: Nominal | None = None
 ) -> PlaceMeaning | None:
     """Compose "the first tree and the last tree in row 4"."""
-    if one.selector != other.selector or one.plural or not chooses_from_trees(one.selector):
+    if (other is not None and one.selector != other.selector) or one.plural != (first[0] != first[1]):
         return None
-    of = over(one.selector, rows)
-    parts = tuple(s.InRow(first=at[0], last=at[1], of=of) for at in (first, second))
-    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=2 if is_one_row(rows) else None)
+    return two_trees_of_row(first, second, one, rows)
 
 
 @construction("position_list: rank=ORD COMMA other=ORD", "position_list: rank=ORD AND other=ORD", cost=0.1)
@@ -149,31 +154,28 @@ def trees_of_row(where: tuple[int, int], inner: Nominal, rows: s.Selector) -> Pl
 
 
 @construction(
-    "place: [DET] at=position inner=nominal FROM [DET] side=DIR in_ rows=rows",
-    "place: [DET] at=position inner=nominal FROM [DET] side=DIR in_ rows=each_row",
+    "place: [DET] at=span inner=nominal FROM [DET] side=DIR [FINISH] in_ rows=rows",
+    "place: [DET] at=span inner=nominal FROM [DET] side=DIR [FINISH] in_ rows=each_row",
     cost=0.1,
 )
-def tree_from_side(at: tuple[int, int], inner: Nominal, side: Lex, rows: s.Selector) -> PlaceMeaning | None:
-    """Compose "the third tree from the north in row 4"."""
-    if inner.plural or inner.single or inner.selector != s.Trees() or side.value not in SIDES:
+def trees_from_side(at: tuple[int, int], inner: Nominal, side: Lex, rows: s.Selector) -> PlaceMeaning | None:
+    """Compose "the third tree from the north in row 4" and "the first three trees from the south of row 2"."""
+    number = at[1] - at[0] + 1
+    if inner.plural != (number > 1) or inner.single or inner.selector != s.Trees() or side.value not in SIDES:
         return None
-    one: Shape = "one" if is_one_row(rows) else "several"
-    return PlaceMeaning(s.InRow(first=at[0], last=at[1], counted_from=side.value, of=rows), one)
+    selector = s.InRow(first=at[0], last=at[1], counted_from=side.value, of=rows)
+    if not is_one_row(rows):
+        return PlaceMeaning(selector, "several")
+    return PlaceMeaning(selector, "one") if number == 1 else PlaceMeaning(selector, "several", count=number)
 
 
-@construction(
-    "place: [DET] rank=ORD inner=nominal FROM DET FINISH in_ rows=rows",
-    "place: [DET] rank=ORD inner=nominal FROM DET side=DIR FINISH in_ rows=rows",
-    cost=0.1,
-)
-def tree_from_end(rank: Lex, inner: Nominal, rows: s.Selector, side: Lex | None = None) -> PlaceMeaning | None:
+@construction("place: [DET] rank=ORD inner=nominal FROM DET FINISH in_ rows=rows", cost=0.1)
+def tree_from_end(rank: Lex, inner: Nominal, rows: s.Selector) -> PlaceMeaning | None:
     """Compose "the third tree from the end of row 4"."""
     if inner.plural or inner.single or inner.selector != s.Trees():
         return None
     one: Shape = "one" if is_one_row(rows) else "several"
-    if side is None:
-        return PlaceMeaning(s.InRow(first=-rank.value, last=-rank.value, of=rows), one)
-    return PlaceMeaning(s.InRow(first=rank.value, last=rank.value, counted_from=side.value, of=rows), one)
+    return PlaceMeaning(s.InRow(first=-rank.value, last=-rank.value, of=rows), one)
 
 
 @construction("place: [DET] side=DIR FINISH in_ rows=rows", "place: [DET] side=DIR FINISH in_ rows=each_row", cost=0.1)
@@ -356,15 +358,22 @@ def every_so_many(word: Lex, n: int, inner: Nominal) -> PlaceMeaning | None:
 
 
 @construction(
-    "place: one=count inner=nominal OUTOF EACH n=count [TREE]",
-    "place: one=count OUTOF EACH n=count inner=nominal",
+    "place: [DET] n=count inner=nominal OUTOF EACH m=count [TREE]",
+    "place: [DET] n=count inner=nominal OUTOF EACH m=count TREE in_ rows=rows",
+    "place: [DET] n=count OUTOF EACH m=count inner=nominal",
+    "place: [DET] n=count OF EACH m=count inner=nominal",
     cost=0.1,
 )
-def one_out_of(one: int, inner: Nominal, n: int) -> PlaceMeaning | None:
-    """Compose "one tree out of every three"."""
-    if one != 1 or inner.single or inner.complete or n < 2 or inner.kind != "tree":
+def some_of_every(n: int, inner: Nominal, m: int, rows: s.Selector | None = None) -> PlaceMeaning | None:
+    """Compose "one tree out of every three" and "3 of every 5 trees"."""
+    if n >= m or inner.single or inner.complete or inner.kind != "tree":
         return None
-    return PlaceMeaning(s.EveryNth(nth=n, of=inner.selector), "several", each=True)
+    if rows is not None and not chooses_from_trees(inner.selector):
+        return None
+    of = inner.selector if rows is None else over(inner.selector, rows)
+    if n == 1:
+        return PlaceMeaning(s.EveryNth(nth=m, of=of), "several", each=True)
+    return PlaceMeaning(s.Evenly(count=n, out_of=m, of=of), "several")
 
 
 @construction(
@@ -403,17 +412,31 @@ def first_and_last(
     return PlaceMeaning(s.UnionOf(parts=(s.First(), s.Last())), "several", count=2)
 
 
-@construction("place: n=count inner=nominal EVENLYALONG rows=rows", cost=0.2)
-def evenly_along(n: int, inner: Nominal, rows: s.Selector) -> PlaceMeaning | None:
-    """Compose "ten trees spread evenly along row 4"."""
-    if inner.single or inner.complete or n < 2 or not is_one_row(rows) or not chooses_from_trees(inner.selector):
+@construction(
+    "place: n=count inner=nominal EVENLYALONG rows=rows",
+    "place: [DET] n=count EVENLYSPACED inner=nominal",
+    "place: [DET] n=count inner=nominal [COMMA] EVENLYSPACED",
+    "place: [DET] n=count inner=nominal EVENLYSPACED in_ rows=rows",
+    "place: [DET] n=count inner=nominal EVENLYSPACED along rows=rows",
+    cost=0.2,
+)
+def evenly_along(n: int, inner: Nominal, rows: s.Selector | None = None) -> PlaceMeaning | None:
+    """Compose "ten trees spread evenly along row 4" and "four evenly spaced trees in row 5"."""
+    if inner.single or inner.complete or n < 2 or (rows is not None and not chooses_from_trees(inner.selector)):
         return None
-    return PlaceMeaning(s.Evenly(count=n, of=over(inner.selector, rows)), "several", count=n)
+    of = inner.selector if rows is None else over(inner.selector, rows)
+    if len({part for part in of.walk() if are_rows(part)}) != 1 or not any(is_one_row(part) for part in of.walk()):
+        return None  # along which line?
+    return PlaceMeaning(s.Evenly(count=n, of=of), "several", count=n)
 
 
-@construction("place: [DET] n=count OF EACH m=count inner=nominal", cost=0.2)
-def some_of_every(n: int, m: int, inner: Nominal) -> PlaceMeaning | None:
-    """Compose "3 of every 5 trees"."""
-    if n >= m or inner.single or inner.complete or not inner.plural or inner.kind != "tree":
-        return None
-    return PlaceMeaning(s.Evenly(count=n, out_of=m, of=inner.selector), "several")
+@construction("each_rows: EACH ROWPOSS", cost=0.0)
+def each_rows() -> s.Selector:
+    """Compose "every row's"."""
+    return s.Rows()
+
+
+@construction("place: rows=each_rows where=span inner=nominal", cost=0.2)
+def trees_of_each_rows(rows: s.Selector, where: tuple[int, int], inner: Nominal) -> PlaceMeaning | None:
+    """Compose "every row's first tree"."""
+    return None if inner.plural != (where[0] != where[1]) else trees_of_row(where, inner, rows)

@@ -11,6 +11,7 @@ from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.places.numbers import name_of, whole
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import chooses_from_trees, counts_in_row, is_one_row, over
+from fieldhand.site.counting import find_row, rows_from
 from fieldhand.site.model import Site
 from fieldhand.terms import Towards
 
@@ -28,10 +29,11 @@ def row_name(name: Lex) -> Lex:
     "rows: first=position AND second=position ROW",
     "rows: DET first=position AND [DET] second=position ROW",
     cost=0.1,
+    given=("site",),
 )
-def two_rows(first: tuple[int, int], second: tuple[int, int]) -> s.Selector:
+def two_rows(first: tuple[int, int], second: tuple[int, int], site: Site) -> s.Selector:
     """Compose "the first and third rows"."""
-    return s.UnionOf(parts=tuple(s.Rows(first=str(n), last=str(n)) for n in (first[0], second[0])))
+    return s.UnionOf(parts=tuple(_at_position(n, n, site) for n in (first[0], second[0])))
 
 
 @construction("rows: [DET] [n=count] side=MOST noun=ROW", "rows: DET side=MOST n=count noun=ROW", cost=0.1)
@@ -214,10 +216,10 @@ def _parity(noun: Lex, first: Lex, last: Lex, remainder: int) -> s.Selector | No
     return s.Rows(first=str(low + (low % 2 != remainder)), last=str(high), every=2)
 
 
-@construction("rows: [DET] rank=ORD n=count noun=ROW", cost=0.1)
-def first_rows(rank: Lex, n: int, noun: Lex) -> s.Selector | None:
+@construction("rows: [DET] rank=ORD n=count noun=ROW", cost=0.1, given=("site",))
+def first_rows(rank: Lex, n: int, noun: Lex, site: Site) -> s.Selector | None:
     """Compose "the first three rows"."""
-    return s.Rows(first="1", last=str(n)) if noun.plural and rank.value == 1 and n > 1 else None
+    return _at_position(1, n, site) if noun.plural and rank.value == 1 and n > 1 else None
 
 
 @construction("rows: [DET] LAST n=count noun=ROW", cost=0.1)
@@ -232,10 +234,22 @@ def last_row(noun: Lex) -> s.Selector | None:
     return None if noun.plural else s.Rows(first="-1", last="-1")
 
 
-@construction("rows: [DET] rank=ORD noun=ROW", cost=0.2)
-def ranked_row(rank: Lex, noun: Lex) -> s.Selector | None:
-    """Compose "the third row"."""
-    return None if noun.plural else s.Rows(first=str(rank.value), last=str(rank.value))
+@construction("rows: [DET] rank=ORD noun=ROW", cost=0.2, given=("site",))
+def ranked_row(rank: Lex, noun: Lex, site: Site) -> s.Selector | None:
+    """Compose "the third row": where the rows have names, the third from the side where counting begins."""
+    return None if noun.plural else _at_position(rank.value, rank.value, site)
+
+
+def _at_position(first: int, last: int, site: Site) -> s.Rows:
+    """Return rows by their positions: counted from a side where the rows have names, and none is that number."""
+    blocks = site.planting.blocks
+    if len(blocks) != 1 or first < 0:
+        return s.Rows(first=str(first), last=str(last))
+    rows, side = rows_from(site, blocks[0], "usual")
+    known = [find_row(rows, str(number), by_number=False) for number in (first, last)]
+    if None not in known or side not in SIDES:
+        return s.Rows(first=str(first), last=str(last))
+    return s.Rows(first=str(first), last=str(last), counted_from=side)
 
 
 @construction("region: rows=rows", cost=0.0)
@@ -291,15 +305,23 @@ def trees_of_each_row(inner: Nominal, rows: s.Selector, each: Lex | None = None)
     return PlaceMeaning(over(inner.selector, rows), "several") if inner.plural or each is not None else None
 
 
-@construction("place: one=place in_ rows=each_row", "place: one=place FOR rows=each_row", cost=0.2)
+@construction(
+    "place: one=place in_ rows=each_row",
+    "place: one=place FOR rows=each_row",
+    "place: rows=each_rows one=place",
+    cost=0.2,
+)
 def in_each_row(one: PlaceMeaning, rows: s.Selector) -> PlaceMeaning | None:
     """Compose "two trees in each row"."""
     if one.per is not None or one.shape not in ("one", "several") or one.optional or one.at_most:
         return None
     if not chooses_from_trees(one.selector) or counts_in_row(one.selector):
         return None
+    in_rows = over(one.selector, rows)
+    if all(counts_in_row(part) for part in in_rows.members):
+        return replace(one, selector=in_rows, shape="several", count=None)  # "the first and last tree of each row"
     if one.shape == "several" and one.count is None:
-        return replace(one, selector=over(one.selector, rows))
+        return replace(one, selector=in_rows)
     return PlaceMeaning(one.selector, "several", each=True, per=rows)
 
 
@@ -311,7 +333,6 @@ def at_each_row(rows: s.Selector) -> PlaceMeaning:
 
 @construction(
     "rows_of_block: rows=rows in_ block=block",
-    "rows_of_block: rows=each_row in_ block=block",
     "rows_of_block: rows=rows in_ block=bare_block",
     "rows_of_block: rows=rows COMMA block=block",
     cost=0.1,
@@ -323,13 +344,12 @@ def rows_of_block(rows: s.Selector, block: s.Selector) -> s.Selector | None:
     return over(rows, block)
 
 
-@construction("rows_of_block: rows=rows in_ EACH noun=PLOT", cost=0.1, given=("site",))
-def rows_of_each_block(rows: s.Selector, noun: Lex, site: Site) -> s.Selector | None:
+@construction("rows_of_block: rows=rows in_ blocks=blocks", "rows_of_block: rows=rows in_ blocks=each_block", cost=0.1)
+def rows_of_each_block(rows: s.Selector, blocks: tuple[s.Selector, ...]) -> s.Selector | None:
     """Compose "row 12 of both blocks"."""
-    blocks = site.planting.blocks
-    if "block" not in noun.features or len(blocks) < 2 or any(isinstance(part, s.InBlock) for part in rows.walk()):
+    if any(isinstance(part, s.InBlock) for part in rows.walk()):
         return None
-    return s.UnionOf(parts=tuple(over(rows, s.InBlock(block=block.name)) for block in blocks))
+    return s.UnionOf(parts=tuple(over(rows, block) for block in blocks))
 
 
 @construction("rows: rows=rows_of_block", cost=0.0)

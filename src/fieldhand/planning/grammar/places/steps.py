@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Literal
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
@@ -10,7 +11,7 @@ from fieldhand.planning.grammar.meaning import Amount, Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_nearest, as_zone, chooses_from_trees, is_spot, over
-from fieldhand.terms import Towards
+from fieldhand.terms import CountedFrom, Side, Towards
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -91,29 +92,97 @@ def adjoining(n: int, inner: Nominal) -> PlaceMeaning | None:
     "place: [DET] [n=count] inner=nominal BESIDE to=place",
     cost=0.2,
 )
-def next_to(inner: Nominal, to: PlaceMeaning, n: int | None = None) -> PlaceMeaning | None:
+def next_to(
+    inner: Nominal, to: PlaceMeaning, n: int | None = None, side: Side | Literal["any"] = "any"
+) -> PlaceMeaning | None:
     """Compose "the two trees next to tree 12"."""
     number = n or (None if inner.plural else 1)
     if number is None or inner.single or inner.kind != "tree" or to.shape not in ("one", "here"):
         return None
-    selector = s.Nearest(to=to.selector, count=number, adjacent=True, of=inner.selector)
+    selector = s.Nearest(to=to.selector, count=number, adjacent=True, side=side, of=inner.selector)
     return PlaceMeaning(selector, "one" if number == 1 else "several", count=number)
 
 
-@construction("place: [DET] [inner=nominal] OPPOSITE to=place", "place: [DET] inner=nominal OPPOSITE", cost=0.2)
-def opposite(to: PlaceMeaning | None = None, inner: Nominal | None = None) -> PlaceMeaning | None:
-    """Compose "the tree opposite tree 12"."""
+@construction("on_side: AT DET side=DIR [part=SIDE]", cost=0.1)
+def on_side(side: Lex, part: Lex | None = None) -> Side | None:
+    """Compose "on the east" and "to its north"."""
+    return side.value if side.value in SIDES and (part is None or "borders" in part.features) else None
+
+
+@construction(
+    "place: [DET] inner=nominal NEXTTO to=place side=on_side",
+    "place: [DET] inner=nominal BESIDE to=place side=on_side",
+    "place: [DET] inner=nominal NEXTTO to=place TREE side=on_side",
+    "place: DET inner=nominal side=on_side OF to=place",
+    cost=0.2,
+)
+def next_to_on_side(inner: Nominal, to: PlaceMeaning, side: Side) -> PlaceMeaning | None:
+    """Compose "the tree next to it on the east" and "the tree to the north of it"."""
+    return next_to(inner, to, 1, side) if not inner.plural and inner.selector == s.Trees() else None
+
+
+@construction(
+    "place: [DET] [n=count] noun=NEIGHBOUR OF to=place",
+    "place: [DET] [n=count] noun=NEIGHBOUR OF to=place in_ rows=rows",
+    "place: DET [n=count] noun=NEIGHBOUR",
+    "place: DET [n=count] noun=NEIGHBOUR in_ rows=rows",
+    cost=0.2,
+)
+def neighbours(
+    noun: Lex, n: int | None = None, to: PlaceMeaning | None = None, rows: s.Selector | None = None
+) -> PlaceMeaning | list[PlaceMeaning] | None:
+    """Compose "the two neighbours of tree 12" and "its neighbours in the same row"."""
+    plural = "plural" in noun.features
+    if (plural and n == 1) or (n or 1) > (1 if not plural else n or 1):
+        return None
+    of = to or PlaceMeaning(s.Here(), "here")
+    row = s.Trees() if rows is None else s.RowOf(origin=of.selector) if rows == s.RowOf() else rows
+    found = [
+        next_to(Nominal(row, plural=plural), of, number)
+        for number in ((n,) if n is not None or not plural else (2,) if rows is not None else (2, 4))
+    ]
+    return [one for one in found if one is not None]
+
+
+@construction(
+    "place: [DET] side=DIR noun=NEIGHBOUR [OF] to=place",
+    "place: DET side=DIR noun=NEIGHBOUR",
+    "place: [DET] noun=NEIGHBOUR OF to=place beside=on_side",
+    "place: [DET] noun=NEIGHBOUR beside=on_side OF to=place",
+    "place: DET noun=NEIGHBOUR beside=on_side",
+    cost=0.2,
+)
+def neighbour_on_side(
+    noun: Lex, side: Lex | None = None, beside: Side | None = None, to: PlaceMeaning | None = None
+) -> PlaceMeaning | None:
+    """Compose "the southern neighbour of tree 12" and "its neighbour to the east"."""
+    where = beside if side is None else side.value
+    if where is None or where not in SIDES or "plural" in noun.features:
+        return None
+    return next_to(Nominal(s.Trees()), to or PlaceMeaning(s.Here(), "here"), 1, where)
+
+
+@construction(
+    "place: [DET] [inner=nominal] OPPOSITE to=place [side=on_side]",
+    "place: [DET] [inner=nominal] OPPOSITE side=on_side OF to=place",
+    "place: [DET] inner=nominal OPPOSITE [side=on_side]",
+    cost=0.2,
+)
+def opposite(
+    to: PlaceMeaning | None = None, inner: Nominal | None = None, side: CountedFrom = "usual"
+) -> PlaceMeaning | None:
+    """Compose "the tree opposite tree 12" and "the tree across the aisle to the south of tree 12"."""
     if inner is not None and (inner.plural or inner.single or inner.selector != s.Trees()):
         return None
     if to is None:
-        return PlaceMeaning(s.Across(origin=s.Here()), "one")
-    return PlaceMeaning(s.Across(origin=to.selector), "one") if to.shape in ("one", "here") else None
+        return PlaceMeaning(s.Across(origin=s.Here(), side=side), "one")
+    return PlaceMeaning(s.Across(origin=to.selector, side=side), "one") if to.shape in ("one", "here") else None
 
 
-@construction("place: word=OPPOSITE", cost=0.6)
-def across_the_aisle(word: Lex) -> PlaceMeaning | None:
+@construction("place: word=OPPOSITE [side=on_side]", cost=0.6)
+def across_the_aisle(word: Lex, side: CountedFrom = "usual") -> PlaceMeaning | None:
     """Compose "across the aisle"."""
-    return PlaceMeaning(s.Across(origin=s.Here()), "one") if "over_aisle" in word.features else None
+    return PlaceMeaning(s.Across(origin=s.Here(), side=side), "one") if "over_aisle" in word.features else None
 
 
 @construction("way: word=ALONG", "way: word=ALONG DET ROW", "way: word=ALONG THATROW", cost=0.1)
