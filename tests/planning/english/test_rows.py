@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from fieldhand.planning.english.planner import EnglishPlanner
-from fieldhand.planning.planner import Clarify, Outcome, Planned, Refused
+from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Refused
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.loader import open_site
@@ -85,11 +85,15 @@ def test_blocks_names_and_the_way_of_the_rows_matter(site: str, request_: str, e
 def test_a_row_in_several_blocks_is_asked_with_the_blocks_to_choose_from() -> None:
     outcome = EnglishPlanner().plan("take pictures of row 3", SITES["blocks"], ROBOTS["husky"])
     assert isinstance(outcome, Clarify)
-    assert outcome.choices == ("row 3 of block A", "row 3 of block B")
-    for choice in outcome.choices:
-        assert isinstance(
-            EnglishPlanner().plan(f"take pictures of {choice}", SITES["blocks"], ROBOTS["husky"]), Planned
-        )
+    assert [choice.partition(":")[0] for choice in outcome.choices] == [
+        "At each of the trees of row 3 of block A",
+        "At each of the trees of row 3 of block B",
+    ]
+    for choice, block in zip(outcome.choices, "AB", strict=True):
+        answer = Answer(question=outcome.question, answer=choice)
+        answered = EnglishPlanner().plan("take pictures of row 3", SITES["blocks"], ROBOTS["husky"], (answer,))
+        assert isinstance(answered, Planned)
+        assert said(answered) == f"for Rows(3, 3, of InBlock({block})): [picture]"
 
 
 def test_an_assumption_says_which_way_is_counted() -> None:

@@ -1139,6 +1139,12 @@ ASKED = [
         "take a picture of row 3 starting with row 2",
         "'take a picture of row 3': at every tree, or at how many?",
     ),
+    (
+        "husky",
+        "take a picture of every tree in the northern rows",
+        "'take a picture of every tree in the northern rows': which rows?",
+    ),
+    ("husky", "take a picture of the top row", "'take a picture of the top row': which row?"),
 ]
 
 REFUSED = [
@@ -1205,11 +1211,6 @@ REFUSED = [
         "husky",
         "go to tree 50, go 5 trees to the east and take a picture",
         "'5 trees to the east': the rows run north-south: they have no end in the east",
-    ),
-    (
-        "husky",
-        "take a picture of every tree in the northern rows",
-        "'northern' could not be interpreted in 'the northern rows'",
     ),
     (
         "husky",
@@ -1371,7 +1372,6 @@ REFUSED = [
         "'5 trees down' could not be interpreted in 'tree 40 5 trees down'",
     ),
     ("husky", "take a picture of the 2nd row from the 3rd", "'the 3rd': '3rd' could be counted in several ways"),
-    ("husky", "take a picture of the top row", "'top' could not be interpreted in 'the top row'"),
     (
         "husky",
         "take a picture of the left row",
@@ -1414,7 +1414,11 @@ REFUSED = [
 
 #: (site of support/requests/orchards.py, request, what becomes of it)
 ELSEWHERE = [
-    ("blocks", "take a picture of every tree in row 3", "asks 'row 3': of which block?"),
+    (
+        "blocks",
+        "take a picture of every tree in row 3",
+        "asks 'take a picture of every tree in row 3': which is meant?",
+    ),
     ("blocks", "take a picture of tree 4 of row 3 of block B", "picture @ InRow(4, 4, of Rows(3, 3, of InBlock(B)))"),
     ("blocks", "take a picture of every tree in block b", "for InBlock(B): [picture]"),
     ("blocks", "take 3 pictures in block A", "for Take(3, of InBlock(A)): [picture]"),
@@ -1423,12 +1427,12 @@ ELSEWHERE = [
         "take a picture of a tree in each block",
         "for UnionOf(Take(1, of InBlock(A))+Take(1, of InBlock(B))): [picture]",
     ),
-    ("blocks", "take pictures in the block", "asks 'the block': which block?"),
-    ("blocks", "take pictures in block C", "refuses 'block C': nothing on this site has that name"),
+    ("blocks", "take pictures in the block", "asks 'take pictures in the block': which is meant?"),
+    ("blocks", "take pictures in block C", "refuses there is no block 'C'"),
     ("blocks", "take pictures of row B2", "refuses there is no row 'B2'"),
-    ("blocks", "take pictures of the last row", "asks 'the last row': of which block?"),
+    ("blocks", "take pictures of the last row", "asks 'take pictures of the last row': which is meant?"),
     ("blocks", "take pictures of the last row of block A", "for Rows(-1, -1, of InBlock(A)): [picture]"),
-    ("blocks", "take pictures of the westernmost row", "asks 'the westernmost row': of which block?"),
+    ("blocks", "take pictures of the westernmost row", "asks 'take pictures of the westernmost row': which is meant?"),
     ("blocks", "take pictures of every other row of block A", "for Rows(2, of InBlock(A)): [picture]"),
     ("blocks", "take pictures of every other row", "for Rows(2): [picture]"),
     (
@@ -1461,7 +1465,7 @@ ELSEWHERE = [
     (
         "crossed",
         "take pictures of the second row from the west of block river",
-        "refuses 'the second row from the west': the rows run east-west: they are not counted from the west",
+        "refuses rows cannot be counted from the west: the rows of block river run west to east",
     ),
     (
         "crossed",
@@ -1477,7 +1481,7 @@ ELSEWHERE = [
     (
         "crossed",
         "take a picture of the tree 3 trees north of tree T64",
-        "refuses 'the tree 3 trees north': the rows run east-west: they have no end in the north",
+        "refuses north is not a direction along row B1 of block river, which runs west to east",
     ),
     (
         "crossed",
@@ -1487,7 +1491,7 @@ ELSEWHERE = [
     (
         "crossed",
         "take a picture of the tree across the aisle to the south of tree T4",
-        "refuses 'the tree across the aisle to the south': the rows run north-south: no aisle lies to the south",
+        "refuses south is not a side of row A1 of block home, which runs north to south",
     ),
     (
         "crossed",
@@ -1502,7 +1506,7 @@ ELSEWHERE = [
     (
         "crossed",
         "go to tree T64. go one row further east and take a picture",
-        "refuses 'one row further east': the rows of this site run different ways",
+        "refuses 'go one row further east': the rows of this site run different ways",
     ),
     ("crossed", "take pictures in the home block", "for InBlock(home): [picture]"),
     (
@@ -1515,9 +1519,9 @@ ELSEWHERE = [
         "take a picture of each tree in the river and home blocks",
         "for UnionOf(InBlock(river)+InBlock(home)): [picture]",
     ),
-    ("crossed", "take pictures in a block", "asks 'a block': which block?"),
+    ("crossed", "take pictures in a block", "asks 'take pictures in a block': which is meant?"),
     ("blocks", "take pictures in the B block", "for InBlock(B): [picture]"),
-    ("blocks", "take pictures in a block", "asks 'a block': which block?"),
+    ("blocks", "take pictures in a block", "asks 'take pictures in a block': which is meant?"),
     (
         "crossed",
         "take a picture of the northern half of block home",
@@ -1536,18 +1540,18 @@ ELSEWHERE = [
     (
         "crossed",
         "take pictures of the trees in row A1 except tree T64",
-        "refuses 'tree T64': not all of these trees stand in those rows",
+        "refuses 'take pictures of the trees in row A1 except tree T64': not all of these trees stand in those rows",
     ),
     ("crossed", "take a picture of tree T5 in row A1", "picture @ TreeIs(T5)"),
     (
         "crossed",
         "take a picture of tree T64 in row A1",
-        "refuses 'tree T64': not all of these trees stand in those rows",
+        "refuses 'take a picture of tree T64 in row A1': not all of these trees stand in those rows",
     ),
     ("crossed", "take a picture of trees T5, T7 and T64", "for UnionOf(TreeIs(T5)+TreeIs(T7)+TreeIs(T64)): [picture]"),
-    ("blocks", "take pictures of the even rows", "asks 'the even rows': of which block?"),
+    ("blocks", "take pictures of the even rows", "asks 'take pictures of the even rows': which is meant?"),
     ("blocks", "take pictures of the odd rows of block B", "for Rows(1, 2, of InBlock(B)): [picture]"),
-    ("named", "take pictures of the even rows", "refuses 'the even rows': these rows are not numbered one after"),
+    ("named", "take pictures of the even rows", "refuses the rows here are not numbered one after the other"),
     ("named", "take pictures of row A12", "for Rows(A12, A12): [picture]"),
     ("named", "take pictures of rows A12 to A14", "for Rows(A12, A14): [picture]"),
     (
@@ -1567,7 +1571,7 @@ ELSEWHERE = [
     (
         "east-west",
         "take pictures of the second row from the east",
-        "refuses 'the second row from the east': the rows run east-west: they are not counted from the east",
+        "refuses rows cannot be counted from the east: the rows run west to east",
     ),
     (
         "east-west",
@@ -1583,19 +1587,11 @@ ELSEWHERE = [
     (
         "east-west",
         "take a picture of tree 20. go 5 trees to the south and take another.",
-        "refuses '5 trees to the south': the rows run east-west: they have no end in the south",
+        "refuses 'go 5 trees to the south': the rows have no end on that side",
     ),
-    ("scattered", "take a picture of every tree in row 3", "refuses 'row 3': no rows were found on this site"),
-    ("scattered", "take a picture of every third tree", "refuses 'every third tree': no rows were found on this site"),
-    (
-        "scattered",
-        "go to tree 5, then 5 trees down the row",
-        "refuses '5 trees down the row': no rows were found on this site",
-    ),
-    (
-        "scattered",
-        "take a picture of the tree opposite tree 5",
-        "refuses 'the tree opposite': no rows were found on this site",
-    ),
+    ("scattered", "take a picture of every tree in row 3", "refuses this site has no rows"),
+    ("scattered", "take a picture of every third tree", "refuses this site has no rows"),
+    ("scattered", "go to tree 5, then 5 trees down the row", "refuses this site has no rows"),
+    ("scattered", "take a picture of the tree opposite tree 5", "refuses this site has no rows"),
     ("scattered", "take three CO2 readings 15 m apart", "for Spaced(15, 3): [co2]"),
 ]

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from fieldhand.errors import PlaceError
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.plans import with_selector
 from fieldhand.planning.selections import is_in_block, over, rows_of
+from fieldhand.site.counting import find_row, rows_from
 from fieldhand.site.model import Site
 from fieldhand.site.planting import Block
 from fieldhand.task import plan as p
@@ -29,15 +31,26 @@ def in_each_block(plan: p.Node, site: Site) -> Sequence[p.Node]:
     ]
     if not named:
         return [plan]
-    fitting = [block for block in blocks if all(_has(block, rows) for rows in named)]
+    fitting = [block for block in blocks if all(_has(site, block, rows) for rows in named)]
     return [_of_block(plan, block) for block in fitting] if len(fitting) > 1 else [plan]
 
 
-def _has(block: Block, rows: s.Rows) -> bool:
+def leaves_block_open(selector: s.Selector, site: Site) -> bool:
+    """Return True for rows counted from a side without their block, where the rows of some block have no such side."""
+    if len({block.runs_east_west for block in site.planting.blocks}) < 2:
+        return False
+    return any(rows.counted_from != "usual" and not is_in_block(rows.of) for rows in rows_of(selector))
+
+
+def _has(site: Site, block: Block, rows: s.Rows) -> bool:
     """Return True if a block has the rows at the ends of a range."""
+    try:
+        in_order, _ = rows_from(site, block, rows.counted_from)
+    except PlaceError:
+        return False
+    by_number = rows.counted_from != "usual"
     return all(
-        not name or any(name.lower() in (row.name.lower(), str(row.number)) for row in block.rows)
-        for name in (rows.first, rows.last)
+        not name or find_row(in_order, name, by_number=by_number) is not None for name in (rows.first, rows.last)
     )
 
 

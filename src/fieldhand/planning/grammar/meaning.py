@@ -8,9 +8,9 @@ from typing import Any, Literal
 from fieldhand.places import selectors as s
 
 #: What a place phrase means: one place, several places, an area whose trees are meant, places just spoken of (``here``,
-#: ``those``), trees around of which another phrase says how many (``nearby``), a step along the row, or rows of which
-#: the phrase does not say which (``unknown``).
-Shape = Literal["one", "several", "area", "here", "those", "nearby", "step", "unknown"]
+#: ``those``), trees around of which another phrase says how many (``nearby``), a step along the row, rows of which
+#: the phrase does not say which (``unknown``), or what the site cannot have (``nowhere``).
+Shape = Literal["one", "several", "area", "here", "those", "nearby", "step", "unknown", "nowhere"]
 
 
 #: Tests of a reading or of an attribute.
@@ -94,6 +94,7 @@ class PlaceMeaning:
         itself: True for "the tree itself", and no other place that was spoken of.
         there: True if the phrase says that they are in the area spoken of ("every tree there").
         per: Rows of each of which the selector says something by itself ("the oldest tree of each row").
+        fault: Why the site cannot have it, for ``nowhere``.
         tokens: Tokens of the phrase, as a bit mask; they do not tell two meanings apart.
     """
 
@@ -108,6 +109,7 @@ class PlaceMeaning:
     itself: bool = False
     like: Likewise | None = None
     per: s.Selector | None = None
+    fault: str = ""
     tokens: int = field(default=0, compare=False)
 
     def with_tokens(self, used: int) -> PlaceMeaning:

@@ -10,7 +10,7 @@ from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.grammar.ambiguity import PlanQuestion, chosen_answer, not_an_answer, question_between
 from fieldhand.planning.grammar.answer_places import different_places
 from fieldhand.planning.grammar.assumptions import assumed_ways, assumed_wholes
-from fieldhand.planning.grammar.blocks import in_each_block
+from fieldhand.planning.grammar.blocks import in_each_block, leaves_block_open
 from fieldhand.planning.grammar.chart import Chart, PhraseEdge, tokens_of
 from fieldhand.planning.grammar.dialogue import (
     DialogueState,
@@ -308,6 +308,11 @@ def _outcome_of(meant: Meant, request: str, site: Site, robot: RobotProfile) -> 
     """Return the plan of a meaning, or its refusal."""
     if (odd := _odd_rows(meant.plan, site)) is not None:
         return Refused(reasons=(odd,), planner=NAME)
+    for node in p.walk(meant.plan):
+        if node.selector is not None and leaves_block_open(node.selector, site):
+            said = request[node.said[0][0] : node.said[-1][1]] if node.said else request
+            asked = message("'{said}': of which block?", context="question", said=said)
+            return Clarify(question=asked, planner=NAME)
     return planned_as(meant, request, site, robot)
 
 

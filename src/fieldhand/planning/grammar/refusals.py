@@ -46,6 +46,9 @@ def unread_reasons(
     found = (*_not_yet(words, edges), *_unknown(words, edges, chart.fillers, site))
     if found:
         return found
+    missing = _missing_block(words, edges, site)
+    if missing is not None:
+        return (missing,)
     if faults:
         return (_fault(faults[0], words, request),)
     return (_stuck(words, chart, request),)
@@ -106,6 +109,18 @@ def not_understood(words: Sequence[Word], advice: str = PLAINLY) -> Reason:
         advice=advice,
         unknown=True,
     )
+
+
+def _missing_block(words: Sequence[Word], edges: Sequence[PhraseEdge], site: Site) -> Reason | None:
+    """Return the reason for the name of a block that the site lacks, where it is a word that is known otherwise."""
+    named = {k for edge in edges if edge.category == "BLOCKNAME" for k in range(edge.start, edge.end)}
+    for edge in edges:
+        if edge.category != "PLOT" or "block" not in edge.meaning.features or edge.start - 1 in named:
+            continue
+        word = words[edge.end] if edge.end < len(words) and edge.end not in named else None
+        if word is not None and (word.text.isdigit() or (len(word.text) == 1 and word.text.isupper())):
+            return _no_such(word, site, block=True)
+    return None
 
 
 def _no_such(word: Word, site: Site, *, block: bool) -> Reason:

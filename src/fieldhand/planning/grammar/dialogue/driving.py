@@ -116,6 +116,8 @@ def require_known(setting: Setting, state: DialogueState, place: PlaceMeaning | 
         said = setting.quoted(used)
         several = message("'{said}': which rows?", context="question", said=said)
         raise OpenQuestion(several if place.count else message("'{said}': which row?", context="question", said=said))
+    if place is not None and place.shape == "nowhere":
+        raise NotComposed(place.fault)
     parts = [] if place is None or place.shape in ("here", "those") else list(place.selector.walk())
     from_here = [part for part in parts if starts_here(part)]
     if from_here:

@@ -315,9 +315,9 @@ def whole_area(where: s.Selector) -> PlaceMeaning:
     return PlaceMeaning(where, "several", each=True)
 
 
-@construction("place: whole=place COMMA where=block", cost=0.3)
-def in_block_behind(whole: PlaceMeaning, where: s.Selector) -> PlaceMeaning | None:
-    """Compose "the ten weakest vines, south block"."""
+@construction("place: whole=place COMMA where=region", cost=0.3)
+def in_area_behind(whole: PlaceMeaning, where: s.Selector) -> PlaceMeaning | None:
+    """Compose "the ten weakest vines, south block" and "every third tree, rows 2 to 5"."""
     if whole.shape not in ("one", "several") or whole.per is not None or not specifies_part(whole.selector):
         return None
     return replace(whole, selector=over(whole.selector, where))

@@ -111,7 +111,7 @@ def any_described(inner: Nominal, site: Site) -> list[PlaceMeaning] | None:
     "place: whole=place in_ n=count noun=ROW",
     cost=0.5,
 )
-def unknown_rows(
+def unknown_row(
     noun: Lex, word: Lex | None = None, n: int | None = None, whole: PlaceMeaning | None = None
 ) -> PlaceMeaning | None:
     """Compose "every tree in a row", which does not say in which."""
@@ -120,6 +120,20 @@ def unknown_rows(
     if whole is not None and (whole.shape not in ("one", "several") or not chooses_from_trees(whole.selector)):
         return None
     return PlaceMeaning(s.Rows(), "unknown", count=n)
+
+
+@construction(
+    "place: [DET] DIR noun=ROW",
+    "place: [DET] ranking noun=ROW",
+    "place: whole=place in_ [DET] DIR noun=ROW",
+    "place: whole=place in_ [DET] ranking noun=ROW",
+    cost=0.8,
+)
+def vague_rows(noun: Lex, whole: PlaceMeaning | None = None) -> PlaceMeaning | None:
+    """Compose "the northern rows" and "the top row", which do not say which rows."""
+    if whole is not None and (whole.shape not in ("one", "several") or not chooses_from_trees(whole.selector)):
+        return None
+    return PlaceMeaning(s.Rows(), "unknown", count=2 if noun.plural else None)
 
 
 @construction(

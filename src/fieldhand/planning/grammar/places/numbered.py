@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from fieldhand.errors import PlaceError, TaskError
+from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.places.context import Context
 from fieldhand.planning.grammar.chart import Grammar
@@ -30,7 +31,7 @@ def trees_of_rows(trees: tuple[str, ...], rows: s.Selector, site: Site) -> list[
     """Compose "tree 5 of row 3"."""
     count = len(trees) if is_one_row(rows) else None
     shape: Shape = "one" if count == 1 else "several"
-    return [PlaceMeaning(one, shape, count=count) for one in numbered(trees, rows, site)]
+    return [PlaceMeaning(one, shape, count=count) for one in numbered(trees, rows, site)] or [_elsewhere(trees)]
 
 
 @construction("place: whole=place except [DET] trees=tree_ids", cost=0.2, given=("site",))
@@ -43,7 +44,13 @@ def except_trees_of_rows(whole: PlaceMeaning, trees: tuple[str, ...], site: Site
     ways = numbered(trees, whole.selector, site)
     if whole.selector.relative and all(name.isdigit() for name in trees):
         ways.append(_all_of([s.TreeIs(tree=name) for name in trees]))
-    return [replace(whole, selector=s.Excluding(places=one, of=whole.selector)) for one in ways]
+    return [replace(whole, selector=s.Excluding(places=one, of=whole.selector)) for one in ways] or [_elsewhere(trees)]
+
+
+def _elsewhere(trees: Sequence[str]) -> PlaceMeaning:
+    """Return the meaning of trees that do not stand in the rows in which a phrase says they do."""
+    fault = message("not all of these trees stand in those rows", context="fault")
+    return PlaceMeaning(_all_of([s.TreeIs(tree=name) for name in trees]), "nowhere", fault=fault)
 
 
 def numbered(trees: Sequence[str], rows: s.Selector, site: Site) -> list[s.Selector]:

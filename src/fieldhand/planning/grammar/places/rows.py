@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
@@ -154,6 +155,18 @@ def previous_row() -> s.Selector:
 def rows_to_side(n: int, noun: Lex, way: Towards, site: Site) -> s.Selector | None:
     """Compose "three rows further east"."""
     return rows_towards(n, way, site) if noun.plural == (n > 1) else None
+
+
+@construction("place: n=count noun=ROW way=way", cost=0.3, given=("site",))
+def no_rows_to_side(n: int, noun: Lex, way: Towards, site: Site) -> PlaceMeaning | None:
+    """Compose "three rows further north", where the rows are not counted that way."""
+    if noun.plural != (n > 1) or way not in SIDES or rows_towards(n, way, site) is not None:
+        return None
+    if len({block.runs_east_west for block in site.planting.blocks}) > 1:
+        fault = message("the rows of this site run different ways", context="fault")
+    else:
+        fault = message("the rows are not counted to that side", context="fault")
+    return PlaceMeaning(s.RowOf(), "nowhere", fault=fault)
 
 
 @construction("rows: DET noun=ROW to=AT DET side=DIR", cost=0.1, given=("site",))
