@@ -1037,16 +1037,6 @@ ASKED = [
         "If time permits, take a picture of tree 5. Then take a picture of the tree next to it.",
         "'take a picture of the tree next to it': where, if what comes before it is left out?",
     ),
-    (
-        "husky",
-        "Take a picture of trees 4, 5 and, if the battery allows, 6.",
-        "'6': tree 6, or 6 of what was said before?",
-    ),
-    (
-        "husky",
-        "if a tree is older than 10 years, take a picture of it",
-        "'if a tree is older than 10 years': at which tree or trees?",
-    ),
     ("husky", "Take a picture at tree 5 or tree 6.", "'Take a picture at tree 5 or tree 6': which is meant?"),
     (
         "husky",
@@ -1066,16 +1056,6 @@ ASKED = [
     ),
     (
         "husky",
-        "If the ambient temperature is above 86 °F, take a picture of tree 4",
-        "'If the ambient temperature is above 86 °F': at which tree or trees?",
-    ),
-    (
-        "husky",
-        "At tree 4 take a CO2 reading. If it is between 380 and 420 ppm take a picture, otherwise take 2 more.",
-        "'take 2 more': what should be taken?",
-    ),
-    (
-        "husky",
         "Take a picture of tree 4. If it is low, take a CO2 reading. If it is high, take a temperature reading.",
         "'If it is high': which is meant?",
     ),
@@ -1088,7 +1068,7 @@ ASKED = [
 ]
 
 REFUSED = [
-    ("husky", "take either a CO2 reading or a picture at tree 4", "'one or the other' is not possible yet"),
+    ("husky", "take either a CO2 reading or a picture at tree 4", "each word is known, but not what they say together"),
     ("husky", "Take a picture of tree 4. Dig a hole at tree 5.", "'Dig' asks for work that husky has no tool for"),
     (
         "husky",
@@ -1098,12 +1078,12 @@ REFUSED = [
     (
         "husky",
         "If the battery allows, take a picture of tree 5, otherwise return.",
-        "'otherwise': a step that the budget does not allow is left out; nothing can replace it",
+        "'otherwise': to which 'if' does it belong?",
     ),
     (
         "husky",
         "If the battery allows, go home.",
-        "'If the battery allows': it does not say what may be left out",
+        "'If the battery allows': it is not clear what is left out if the budget is short",
     ),
     (
         "husky",
@@ -1118,18 +1098,18 @@ REFUSED = [
     (
         "husky",
         "If the battery allows, take a picture of tree 5. Do the same at tree 9.",
-        "'Do the same at tree 9': it is not clear whether that may be left out too",
+        "'Do the same at tree 9': it is not clear what is repeated, and where",
     ),
     (
         "husky",
         "Take a picture of two trees at each corner.",
-        "'two trees': a number of captures at each place is not supported here yet",
+        "'at each corner' does not fit at this point in 'Take a picture of two trees at each corner'",
     ),
     ("husky", "take a picture at tree 4 instead of tree 5", "'instead of' is not possible yet"),
     (
         "husky",
         "take a picture of tree 4 without taking a CO2 reading",
-        "'without' does not fit at this point in 'take a picture of tree 4 without taking a CO2 reading'",
+        "'without taking a' is a prohibition: a plan says only what is to be done",
     ),
     (
         "husky",
@@ -1150,12 +1130,12 @@ REFUSED = [
     (
         "husky",
         "take a picture in the northern half of the southern edge",
-        "'the northern half': that edge has no northern part",
+        "'the northern half of the southern edge': that edge has no part on that side",
     ),
     (
         "husky",
         "take a picture at tree 4. If it is between 40 and 30, take a CO2 reading",
-        "'it is between 40 30': no value lies between 40 and 30",
+        "'between 40 and 30': no value lies between 40 and 30",
     ),
     ("husky", "dig a hole at tree 4", "'dig' asks for work that husky has no tool for"),
     (
@@ -1166,7 +1146,7 @@ REFUSED = [
     (
         "husky",
         "take a picture of every tree in the dry corner",
-        "'dry' does not fit at this point in 'take a picture of every tree in the dry corner'",
+        "'in the dry corner' does not fit at this point in 'take a picture of every tree in the dry corner'",
     ),
     (
         "husky",
@@ -1189,30 +1169,30 @@ REFUSED = [
     (
         "husky",
         "take a picture of every tree taller than 4 m",
-        "'every tree taller than 4 m': this site records no height of its trees",
+        "'taller than': this site records no height of its trees",
     ),
     (
         "husky",
         "take a picture of tree 4, wait 5 minutes and take another",
         "'wait 5 minutes' asks for waiting: not possible yet",
     ),
-    ("husky", "Take a photo of them.", "'Take a photo of them': which places are meant?"),
+    ("husky", "Take a photo of them.", "'Take a photo of them': which place is meant?"),
     ("husky", "Take pictures of 0 trees.", "'0 trees': it is not clear how many"),
     (
         "husky",
         "Take pictures of trees older than 10 years and younger than 5 years.",
-        "nothing on this site matches the trees whose age is above 10 years, whose age is below 5 years",
+        "'and younger than 5' does not fit at this point in 'Take pictures of trees older than 10 years and younger than 5 years'",
     ),
     ("husky", "take pictures of as many trees as you can within 500% battery", "a limit of 500 percent cannot be kept"),
     (
         "husky",
         "take a picture of every tree within 20 m of the start and the charger",
-        "'every tree within 20 m of the start and the charger': this can be read in two ways",
+        "'take a picture of every tree within 20 m of the start and the charger': it is not clear from which place that is measured",
     ),
     (
         "husky",
         "take a picture of every Carmel and Nonpareil tree",
-        "'every Carmel': it does not say which place or which trees",
+        "'tree' does not fit at this point in 'take a picture of every Carmel and Nonpareil tree'",
     ),
     (
         "husky",
@@ -1233,24 +1213,24 @@ REFUSED = [
     (
         "husky",
         "Take a picture every 5 minutes.",
-        "'every' does not fit at this point in 'Take a picture every 5 minutes'",
+        "'every 5 minutes' does not fit at this point in 'Take a picture every 5 minutes'",
     ),
     (
         "husky",
         "Take a picture of tree 4 or, if that fails, of tree 5.",
-        "'or ,' does not fit at this point in 'Take a picture of tree 4 or, if that fails, of tree 5'",
+        "'or, if that fails' does not fit at this point in 'Take a picture of tree 4 or, if that fails, of tree 5'",
     ),
     (
         "husky",
         "If the CO2 at tree 4 is low and the CO2 at tree 9 is high, take a picture of tree 12.",
-        "'high' does not fit at this point in 'If the CO2 at tree 4 is low and the CO2 at tree 9 is high, take a picture of tree 12'",
+        "'is high, take a' does not fit at this point in 'If the CO2 at tree 4 is low and the CO2 at tree 9 is high, take a picture of tree 12'",
     ),
-    ("husky", "Take no pictures.", "'no' does not fit at this point in 'Take no pictures'"),
-    ("husky", "Stop.", "the request asks for nothing to be done"),
+    ("husky", "Take no pictures.", "each word is known, but not what they say together"),
+    ("husky", "Stop.", "'Stop': it asks for nothing to be done"),
     (
         "husky",
         "Go to trees 3, 9 and 12. Read the CO2 at each, then photograph the last one.",
-        "'the last one': the first or last of which trees?",
+        "'the last one' does not fit at this point in 'Read the CO2 at each, then photograph the last one'",
     ),
     (
         "husky",
@@ -1265,11 +1245,27 @@ REFUSED = [
     (
         "husky",
         "Photograph 3 yellow trees and read co2 at the last of them.",
-        "'read co2 at the last of them': it is not clear which of them",
+        "'at the last of' does not fit at this point in 'Photograph 3 yellow trees and read co2 at the last of them'",
     ),
     (
         "husky",
         "Visit all yellow trees but photograph only the Carmel ones.",
-        "'the Carmel ones': which trees does it refer to?",
+        "'ones' does not fit at this point in 'Visit all yellow trees but photograph only the Carmel ones'",
+    ),
+    ("husky", "Take a picture of trees 4, 5 and, if the battery allows, 6.", "'6': it does not say what to do with it"),
+    (
+        "husky",
+        "if a tree is older than 10 years, take a picture of it",
+        "each word is known, but not what they say together",
+    ),
+    (
+        "husky",
+        "If the ambient temperature is above 86 °F, take a picture of tree 4",
+        "'If the ambient temperature is above 86 °F': nothing before it measures that",
+    ),
+    (
+        "husky",
+        "At tree 4 take a CO2 reading. If it is between 380 and 420 ppm take a picture, otherwise take 2 more.",
+        "'more' does not fit at this point in 'If it is between 380 and 420 ppm take a picture, otherwise take 2 more'",
     ),
 ]

@@ -6,6 +6,7 @@
 # ruff: noqa: E501 - a request and its plan stand on one line each
 
 PLANNED = [
+    ("husky", "Take a picture of every row's first tree.", "for InRow(1, 1, of Rows): [picture]"),
     (
         "husky",
         "take a picture of three trees in row 3 next to each other",
@@ -1001,7 +1002,6 @@ PLANNED = [
 ]
 
 ASKED = [
-    ("husky", "repeat the same in the next row", "'repeat the same in the next row': which row?"),
     ("husky", "take a picture of row 3 of block 1", "'take a picture of row 3 of block 1': which is meant?"),
     ("husky", "photograph rows 2 to 4 row by row", "'photograph rows 2 to 4 row by row': which is meant?"),
     (
@@ -1043,11 +1043,6 @@ ASKED = [
     ("husky", "take a CO2 reading every 20 m", "'take a CO2 reading every 20 m': how many, or along which row?"),
     ("husky", "take a picture of 5 trees down the row", "'take a picture of 5 trees down the row': from which tree?"),
     ("husky", "take a picture of 5 trees to the south", "'take a picture of 5 trees to the south': from which tree?"),
-    (
-        "husky",
-        "go to tree 50, then 3 trees down the row take a picture",
-        "'3 trees down the row': the tree that is 3 trees along, or 3 trees there?",
-    ),
     ("husky", "take a picture at either end of row 3", "'take a picture at either end of row 3': which is meant?"),
     ("husky", "take a picture of the second row", "'take a picture of the second row': which is meant?"),
     (
@@ -1071,11 +1066,6 @@ ASKED = [
     ),
     (
         "husky",
-        "Go to tree 40, go down the row, and stop at the 3rd tree.",
-        "'the 3rd tree': counted from the end of the row, or from here?",
-    ),
-    (
-        "husky",
         "Read CO2 at tree 1 of row 1, tree 2 of row 2 and tree 3 of row 3.",
         "'Read CO2 at tree 1 of row 1, tree 2 of row 2 and tree 3 of row 3': which is meant?",
     ),
@@ -1086,21 +1076,9 @@ ASKED = [
     ),
     (
         "husky",
-        "Photograph every third tree, from south to north, of row 3.",
-        "'of row 3': at every tree, or at how many?",
-    ),
-    (
-        "husky",
         "Take a picture of trees in a different row.",
         "'Take a picture of trees in a different row': which row?",
     ),
-    ("husky", "Take a picture of the trees in rows 2 and 3 nearest to the charger.", "'the trees': how many?"),
-    (
-        "husky",
-        "go to tree 50, go down the row and take a picture of the third tree",
-        "'the third tree': counted from the end of the row, or from here?",
-    ),
-    ("husky", "take a picture of the corner next to tree 5", "which corner?"),
     (
         "husky",
         "take a picture of a tree in row 3 and row 5",
@@ -1133,12 +1111,6 @@ ASKED = [
         "'the tree opposite': from which tree?",
     ),
     ("husky", "take a picture of the next row", "'take a picture of the next row': from which tree?"),
-    ("husky", "take a picture of tree 200 trees down", "'take a picture of tree 200 trees down': from which tree?"),
-    (
-        "husky",
-        "take a picture of row 3 starting with row 2",
-        "'take a picture of row 3': at every tree, or at how many?",
-    ),
     (
         "husky",
         "take a picture of every tree in the northern rows",
@@ -1156,7 +1128,7 @@ REFUSED = [
     (
         "husky",
         "Photograph two trees that are 300 metres apart.",
-        "there are no 2 trees about 300 m from each other among 169 trees over 68 m east-west and 97 m north-south",
+        "'that are 300 metres' does not fit at this point in 'Photograph two trees that are 300 metres apart'",
     ),
     ("husky", "take a picture of every tree in block B", "there is no block 'B'"),
     ("husky", "take a picture of every tree in row 40", "there is no row '40'"),
@@ -1165,21 +1137,25 @@ REFUSED = [
     (
         "husky",
         "Take a picture of the tree two rows over from tree 80.",
-        "'rows over' does not fit at this point in 'Take a picture of the tree two rows over from tree 80'",
+        "'two rows over': it is not clear which tree of that row",
     ),
     ("husky", "Take up to 8 pictures in row 3.", "'up to 8 pictures': captures need one number"),
-    ("husky", "Take a picture of the northern half of row 3.", "'the northern half': a row has no halves or edges"),
+    (
+        "husky",
+        "Take a picture of the northern half of row 3.",
+        "'the northern half of row 3': a row has no halves or edges",
+    ),
     ("husky", "Take a picture of every tree in row 11.", "there is no row '11'"),
     (
         "husky",
         "Take a picture of the northernmost row.",
-        "'the northernmost row': the rows run north-south: they are not counted from the north",
+        "rows cannot be counted from the north: the rows run north to south",
     ),
     ("husky", "Take a picture every few trees.", "'few' is not possible yet"),
     (
         "husky",
         "Take a picture of every tree between rows 3 and 5.",
-        "'rows 3 and 5' does not fit at this point in 'Take a picture of every tree between rows 3 and 5'",
+        "'between rows 3 and' does not fit at this point in 'Take a picture of every tree between rows 3 and 5'",
     ),
     (
         "husky",
@@ -1195,12 +1171,12 @@ REFUSED = [
     (
         "husky",
         "take 3 CO2 readings 20 m apart in the northern half",
-        "'take 3 CO2 readings 20 m apart in the northern half': stops at a distance need a line",
+        "'take 3 CO2 readings 20 m apart in the northern half': it is not clear along which row",
     ),
     (
         "husky",
         "take CO2 readings 20 m apart at trees 4 and 5",
-        "'take CO2 readings 20 m apart at trees 4 and 5': how many trees is that?",
+        "'at trees 4 and' does not fit at this point in 'take CO2 readings 20 m apart at trees 4 and 5'",
     ),
     (
         "husky",
@@ -1210,27 +1186,27 @@ REFUSED = [
     (
         "husky",
         "go to tree 50, go 5 trees to the east and take a picture",
-        "'5 trees to the east': the rows run north-south: they have no end in the east",
+        "'go 5 trees to the east': the rows have no end on that side",
     ),
     (
         "husky",
         "take a picture of the trees in the row nearest to the charger",
-        "'the trees in the row nearest to the charger': what is near, the tree or the row?",
+        "'row nearest to the charger': what is near, the tree or the row?",
     ),
     (
         "husky",
         "take a picture of every tree of the row next to row 3",
-        "'every tree of the row next to row 3': what is near, the tree or the row?",
+        "'row next to row 3': what is near, the tree or the row?",
     ),
     (
         "husky",
         "take a picture of every other corner",
-        "'every other corner': every second, third, ... tree, and of which trees?",
+        "'every other corner': the corners have no order",
     ),
     (
         "husky",
         "take a picture of every third corner",
-        "'every third corner': every second, third, ... tree, and of which trees?",
+        "'every third corner': the corners have no order",
     ),
     ("husky", "take a picture of the 3rd tree", "'the 3rd tree': '3rd' could be counted in several ways"),
     ("husky", "take a picture of the second tree", "'the second tree': 'second' could be counted in several ways"),
@@ -1243,25 +1219,33 @@ REFUSED = [
     (
         "husky",
         "take a picture of all trees in row 3 except the first two",
-        "'two' does not fit at this point in 'take a picture of all trees in row 3 except the first two'",
+        "'except the first two' does not fit at this point in 'take a picture of all trees in row 3 except the first two'",
     ),
     (
         "husky",
         "take a picture of the third tree from the west in row 3",
-        "'the third tree from the west': the rows run north-south: they have no end in the west",
+        "trees in a row cannot be counted from the west: the rows run north to south",
     ),
     (
         "husky",
         "drive along the northern edge and take a picture every 10 m",
-        "'drive along the northern edge take a picture every 10 m': stops at a distance need a line",
+        "'take a picture every 10 m': it is not clear along which row",
     ),
-    ("husky", "Photograph row 2 from end to end.", "'from end': it is not clear of which row"),
-    ("husky", "Take a photo of the tree at the head of row 5.", "'the': a place was expected"),
+    (
+        "husky",
+        "Photograph row 2 from end to end.",
+        "'from end to end' does not fit at this point in 'Photograph row 2 from end to end'",
+    ),
+    (
+        "husky",
+        "Take a photo of the tree at the head of row 5.",
+        "'at the head of' does not fit at this point in 'Take a photo of the tree at the head of row 5'",
+    ),
     ("husky", "Take pictures of all trees in the outermost rows.", "not understood: 'outermost'"),
     (
         "husky",
         "Walk down row 3 and if a tree is yellow take a picture.",
-        "'Walk down row 3': it does not say what to do along the row",
+        "'if a tree is yellow': it is not clear at which of two places this is done",
     ),
     (
         "husky",
@@ -1271,12 +1255,12 @@ REFUSED = [
     (
         "husky",
         "Take CO2 readings at even intervals along row 5.",
-        "'even' does not fit at this point in 'Take CO2 readings at even intervals along row 5'",
+        "'at even intervals along' does not fit at this point in 'Take CO2 readings at even intervals along row 5'",
     ),
     (
         "husky",
         "Take a CO2 reading every 10 m from tree 40 to tree 45.",
-        "'tree 40 to tree 45': 'tree 40' is a single place and cannot be restricted further",
+        "'from tree 40 to' does not fit at this point in 'Take a CO2 reading every 10 m from tree 40 to tree 45'",
     ),
     (
         "husky",
@@ -1286,107 +1270,120 @@ REFUSED = [
     (
         "husky",
         "Take CO2 readings 10 to 15 m apart in row 4.",
-        "'10' does not fit at this point in 'Take CO2 readings 10 to 15 m apart in row 4'",
+        "'10 to 15 m' does not fit at this point in 'Take CO2 readings 10 to 15 m apart in row 4'",
     ),
-    ("husky", "Take CO2 readings at 3 points in the northern half.", "'3 points': which trees does it refer to?"),
-    ("husky", "Take CO2 readings at 3 points in row 4.", "'3 points': which trees does it refer to?"),
+    (
+        "husky",
+        "Take CO2 readings at 3 points in the northern half.",
+        "'3 points in the northern half': which trees does it refer to?",
+    ),
+    ("husky", "Take CO2 readings at 3 points in row 4.", "'3 points in row 4': which trees does it refer to?"),
     ("husky", "Photograph the trees of row 4 in reverse order.", "not understood: 'reverse'"),
     (
         "husky",
         "Take pictures of all the trees row by row, starting from the east.",
-        "'starting from the east': the places cannot have two different orders",
+        "'starting from the east': an order of places cannot be combined with a choice of how many",
     ),
     (
         "husky",
         "Photograph up to 5 trees in each row.",
-        "'up to 5 trees': a largest number for each row is not supported yet",
+        "'in each row' does not fit at this point in 'Photograph up to 5 trees in each row'",
     ),
     (
         "husky",
         "Skip row 3 and take pictures of all other rows.",
-        "'except row 3': it is not clear to what that area belongs",
+        "not understood: 'Skip'",
     ),
     (
         "husky",
         "Take pictures of every tree but the first and last of row 3.",
-        "'last': it does not say which trees",
+        "'but the first and' does not fit at this point in 'Take pictures of every tree but the first and last of row 3'",
     ),
     (
         "husky",
         "Take pictures of all trees in row 3 but the last one.",
-        "'the last one': the first or last of which trees?",
+        "'but the last one' does not fit at this point in 'Take pictures of all trees in row 3 but the last one'",
     ),
-    ("husky", "drive down row 3 to tree 5 and take a picture", "'to tree 5': it is not clear of which row"),
+    (
+        "husky",
+        "drive down row 3 to tree 5 and take a picture",
+        "'tree 5': it is not clear at which of two places this is done",
+    ),
+    (
+        "husky",
+        "drive down row 3 to tree 5 and take a picture",
+        "'tree 5': it is not clear at which of two places this is done",
+    ),
     (
         "husky",
         "take a picture of the northernmost tree near the charger",
-        "'the northernmost tree': it is not clear what is near to what",
+        "'the northernmost tree near the charger': it is not clear what is near to what",
     ),
     (
         "husky",
         "take a picture of the middle of row 4 near the charger",
-        "'the middle': it is not clear what is near to what",
+        "'the middle of row 4 near the charger': it is not clear what is near to what",
     ),
     (
         "husky",
         "take pictures of the row with the oldest tree",
-        "'oldest' could not be interpreted in 'the row with the oldest tree'",
+        "'with the oldest tree' does not fit at this point in 'take pictures of the row with the oldest tree'",
     ),
-    ("husky", "take pictures of rows of Carmel trees", "'of Carmel trees': it is not clear of which row"),
+    ("husky", "take pictures of rows of Carmel trees", "'rows of Carmel trees': a row is not chosen by its trees"),
     (
         "husky",
         "take a picture of every tree in row 3 every 10 m",
-        "'take a picture of every tree in row 3 every 10 m': how many trees is that?",
+        "'every 10 m' does not fit at this point in 'take a picture of every tree in row 3 every 10 m'",
     ),
     (
         "husky",
         "drive 20 m down row 3 and take a picture",
-        "'20 m': it does not say which place or which trees",
+        "each word is known, but not what they say together",
     ),
     (
         "husky",
         "take a picture 10 m north of tree 5",
-        "'10 m' does not fit at this point in 'take a picture 10 m north of tree 5'",
+        "'10 m north of tree 5': a distance in a direction is no place where a tree stands",
     ),
     (
         "husky",
         "take a picture of every tree within 10 m of row 3",
-        "'row 3': distances have to be measured from a single place",
+        "'within 10 m of row 3': distances have to be measured from a single place",
     ),
     (
         "husky",
         "take a picture between rows 3 and 4",
-        "'between' does not fit at this point in 'take a picture between rows 3 and 4'",
+        "'between rows 3 and' does not fit at this point in 'take a picture between rows 3 and 4'",
     ),
     (
         "husky",
         "take a picture of tree 40. Photograph every tree in the next two rows.",
-        "'two' does not fit at this point in 'Photograph every tree in the next two rows'",
+        "'in the next two' does not fit at this point in 'Photograph every tree in the next two rows'",
     ),
     ("husky", "row 3", "'row 3': it does not say what to do there"),
-    ("husky", "rows", "'rows': it does not say what to do there"),
+    ("husky", "rows", "the request asks for nothing to be done"),
     ("husky", "every third tree", "'every third tree': it does not say what to do there"),
     (
         "husky",
         "take a picture of tree 40 5 trees down",
-        "'5 trees down' could not be interpreted in 'tree 40 5 trees down'",
+        "'trees down' does not fit at this point in 'take a picture of tree 40 5 trees down'",
     ),
     ("husky", "take a picture of the 2nd row from the 3rd", "'the 3rd': '3rd' could be counted in several ways"),
     (
         "husky",
         "take a picture of the left row",
-        "'left' does not fit at this point in 'take a picture of the left row'",
+        "'of the left row' does not fit at this point in 'take a picture of the left row'",
     ),
     (
         "husky",
         "take a picture of the tree 2 rows east and 3 trees north of tree 80",
-        "'east' could not be interpreted in 'the tree 2 rows east'",
+        "'2 rows east': it is not clear which tree of that row",
     ),
-    ("husky", "photograph the row ends", "'ends' could not be interpreted in 'the row ends'"),
+    ("husky", "photograph the row ends", "'row ends': of which rows?"),
     (
         "husky",
         "go to tree 30, photograph it and the two trees on either side",
-        "'either side': it does not say which side",
+        "'and the two trees' does not fit at this point in 'go to tree 30, photograph it and the two trees on either side'",
     ),
     (
         "husky",
@@ -1397,19 +1394,74 @@ REFUSED = [
     (
         "husky",
         "take a picture of the trees in row 3 between 5 and 10 years old",
-        "nothing on this site matches the trees of row 3 whose age is at least 5 years, whose age is at most 10 years",
+        "'between 5 and 10' does not fit at this point in 'take a picture of the trees in row 3 between 5 and 10 years old'",
     ),
     (
         "husky",
         "drive along rows 2 and 3 and take 3 pictures in each row",
-        "'drive along rows 2 and 3': it does not say what to do along the row",
+        "'take 3 pictures in each row': it is not clear at which of two places this is done",
     ),
     (
         "husky",
         "take a picture of every tree in row 3 except trees 40 and 5",
-        "'trees 40 and 5': not all of these trees stand in those rows",
+        "row 3 has no tree 40",
     ),
-    ("husky", "take a picture at each", "'take a picture at each': which places are meant?"),
+    ("husky", "take a picture at each", "'take a picture at each': which place is meant?"),
+    (
+        "husky",
+        "repeat the same in the next row",
+        "'repeat the same in the next row': it is not clear what is repeated, and where",
+    ),
+    (
+        "husky",
+        "go to tree 50, then 3 trees down the row take a picture",
+        "'take a picture': it is not clear whether this is done at each of them, or at the last",
+    ),
+    (
+        "husky",
+        "Go to tree 40, go down the row, and stop at the 3rd tree.",
+        "'the 3rd tree': '3rd' could be counted in several ways",
+    ),
+    (
+        "husky",
+        "Photograph every third tree, from south to north, of row 3.",
+        "'from south to north': it is not clear whether the trees are counted or visited from there",
+    ),
+    (
+        "husky",
+        "Take a picture of the trees in rows 2 and 3 nearest to the charger.",
+        "'nearest to the charger' does not fit at this point in 'Take a picture of the trees in rows 2 and 3 nearest to the charger'",
+    ),
+    (
+        "husky",
+        "go to tree 50, go down the row and take a picture of the third tree",
+        "'the third tree': 'third' could be counted in several ways",
+    ),
+    (
+        "husky",
+        "take a picture of the corner next to tree 5",
+        "'next to tree 5' does not fit at this point in 'take a picture of the corner next to tree 5'",
+    ),
+    (
+        "husky",
+        "take a picture of tree 200 trees down",
+        "'trees down' does not fit at this point in 'take a picture of tree 200 trees down'",
+    ),
+    (
+        "husky",
+        "take a picture of row 3 starting with row 2",
+        "'starting with row 2' does not fit at this point in 'take a picture of row 3 starting with row 2'",
+    ),
+    (
+        "husky",
+        "take a picture of tree 200 trees down",
+        "'trees down' does not fit at this point in 'take a picture of tree 200 trees down'",
+    ),
+    (
+        "husky",
+        "take a picture of row 3 starting with row 2",
+        "'starting with row 2' does not fit at this point in 'take a picture of row 3 starting with row 2'",
+    ),
 ]
 
 #: (site of support/requests/orchards.py, request, what becomes of it)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 
 from fieldhand.language import message
 from fieldhand.planning.english.tokens import Word
@@ -11,7 +12,7 @@ from fieldhand.planning.grammar.ambiguity import PlanQuestion, chosen_answer, no
 from fieldhand.planning.grammar.answer_places import different_places
 from fieldhand.planning.grammar.assumptions import assumed_ways, assumed_wholes
 from fieldhand.planning.grammar.blocks import in_each_block, leaves_block_open
-from fieldhand.planning.grammar.chart import Chart, PhraseEdge, tokens_of
+from fieldhand.planning.grammar.chart import Chart, Grammar, PhraseEdge, tokens_of
 from fieldhand.planning.grammar.dialogue import (
     DialogueState,
     NotComposed,
@@ -106,8 +107,7 @@ def _read_words(
     remarks = without_remarks(words, edges_of(words, phrases))
     words = remarks.words
     edges = list(edges_of(words, phrases))
-    chart = Chart(language.grammar(), len(words), fillers_of(words, phrases), given={"site": site}, predicted=PREDICTED)
-    chart.parse(edges)
+    chart = _parsed(language.grammar(), words, edges, phrases, site)
     setting = Setting(robot, site, lambda used: spans(words, used), request)
     found: list[RequestReading] = []
     faults: list[NotComposed] = []
@@ -128,8 +128,31 @@ def _read_words(
             )
             for state in states
         ]
-    unread = () if found else unread_reasons(request, words, edges, chart, faults, site)
+    unread: tuple[Reason, ...] = ()
+    if not found:
+        chart = _parsed(_with_impossible(language), words, edges, phrases, site)
+        unread = unread_reasons(request, words, edges, chart, faults, site)
     return ReadRequest(readings=found, faults=faults, unread=unread)
+
+
+def _parsed(
+    grammar: Grammar, words: Sequence[Word], edges: Sequence[PhraseEdge], phrases: Phrases, site: Site
+) -> Chart:
+    """Return the chart over words."""
+    chart = Chart(grammar, len(words), fillers_of(words, phrases), given={"site": site}, predicted=PREDICTED)
+    chart.parse(edges)
+    return chart
+
+
+@cache
+def _with_impossible(language: GrammarLanguage) -> Grammar:
+    """Return the constructions of a language with those of what cannot be planned."""
+    from fieldhand.planning.grammar import impossible
+
+    made = Grammar()
+    made.include(language.grammar())
+    made.include(impossible.GRAMMAR)
+    return made
 
 
 @dataclass(frozen=True, kw_only=True)

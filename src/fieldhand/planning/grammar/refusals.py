@@ -10,6 +10,8 @@ from fieldhand.planning.english.languages import language_of
 from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.grammar.chart import Chart, PhraseEdge, tokens_of
 from fieldhand.planning.grammar.dialogue import NotComposed
+from fieldhand.planning.grammar.impossible import IMPOSSIBLE
+from fieldhand.planning.grammar.words import LACKING
 from fieldhand.planning.planner import Planned, Reason
 from fieldhand.request_check import mismatches
 from fieldhand.robot.model import RobotProfile
@@ -18,10 +20,15 @@ from fieldhand.task.plan import Span
 
 #: Advice where nothing better is known.
 PLAINLY = message("say it in other words")
+#: Categories of phrases of which a phrase that cannot be planned may be a part.
+_COMPLETE = frozenset({"place", "rows", "region", "said"})
+#: Categories of the words for what is done.
+_COMMANDS = frozenset({"TAKE", "MEASURE", "ACTV", "NOUN", "GO", "VISIT", "RETURN", "GOHOME", "REPEAT", "STOP"})
 #: Kind of the words that are known, and that no plan can express yet.
 _NOT_YET = "NOTYET"
 #: Maximum number of words of a reason that are quoted, and of characters of a sentence.
 _MOST_WORDS, _MOST_CHARACTERS = 4, 120
+_SAY_WHAT = message("say what to take or measure, and at which trees")
 _SHORTER = message("say it in shorter sentences, one thing after the other")
 
 
@@ -39,11 +46,11 @@ def unread_reasons(
         request: Request as typed.
         words: Its words.
         edges: What the words are by themselves.
-        chart: Phrases over the words.
+        chart: Phrases over the words, those that cannot be planned among them.
         faults: What stopped the reading of its clauses, most likely reading first.
         site: Site of the mission.
     """
-    found = (*_not_yet(words, edges), *_unknown(words, edges, chart.fillers, site))
+    found = (*_not_yet(words, edges), *_lacking(words, edges, site), *_unknown(words, edges, chart.fillers, site))
     if found:
         return found
     missing = _missing_block(words, edges, site)
@@ -51,20 +58,65 @@ def unread_reasons(
         return (missing,)
     if faults:
         return (_fault(faults[0], words, request),)
+    if impossible := tuple(_impossible(words, chart, request)):
+        return impossible
+    if not words or not any(edge.category in _COMMANDS for edge in edges):
+        return (_nothing_asked(words),)
     return (_stuck(words, chart, request),)
+
+
+def _nothing_asked(words: Sequence[Word]) -> Reason:
+    """Return the reason for a request without a word for something that is done."""
+    said = ((words[0].start, words[-1].end),) if words else ()
+    what = message("the request asks for nothing to be done")
+    return Reason(what=what, said=said, advice=_SAY_WHAT)
+
+
+def _impossible(words: Sequence[Word], chart: Chart, request: str) -> Iterator[Reason]:
+    """Yield a reason for each phrase that cannot be planned, unless it is part of a longer one that can be."""
+    others = [edge for edge in chart.all_edges() if edge.category in _COMPLETE]
+    phrases = sorted(chart.of_category(IMPOSSIBLE), key=lambda edge: edge.start - edge.end)
+    taken: list[PhraseEdge] = []
+    for edge in phrases:
+        within = [one for one in others if one.start <= edge.start and edge.end <= one.end]
+        if any(one.end - one.start > edge.end - edge.start for one in within):
+            continue
+        if any(one.start < edge.end and edge.start < one.end for one in taken):
+            continue
+        taken.append(edge)
+        said = (words[edge.start].start, words[edge.end - 1].end)
+        quoted = request[said[0] : said[1]]
+        what = message("'{said}': {what}", said=quoted, what=edge.meaning.what)
+        yield Reason(what=what, said=(said,), advice=edge.meaning.advice, final=True)
 
 
 def _not_yet(words: Sequence[Word], edges: Sequence[PhraseEdge]) -> Iterator[Reason]:
     """Yield a reason for each phrase that no plan can express yet, if its words are nothing else."""
-    other = {k for edge in edges if edge.category != _NOT_YET for k in range(edge.start, edge.end)}
+    others = [edge for edge in edges if edge.category != _NOT_YET]
     for edge in edges:
-        if edge.category != _NOT_YET or other >= set(range(edge.start, edge.end)):
+        if edge.category != _NOT_YET or any(one.start <= edge.start and edge.end <= one.end for one in others):
             continue
         said = " ".join(word.text for word in words[edge.start : edge.end])
         yield Reason(
             what=message("'{said}' is not possible yet", said=said),
             said=((words[edge.start].start, words[edge.end - 1].end),),
             advice=named(str(edge.meaning.value), "advice"),
+            final=True,
+        )
+
+
+def _lacking(words: Sequence[Word], edges: Sequence[PhraseEdge], site: Site) -> Iterator[Reason]:
+    """Yield a reason for each phrase that hints at an attribute which the site does not record."""
+    others = [edge for edge in edges if edge.category != LACKING]
+    for edge in edges:
+        if edge.category != LACKING or any(one.start <= edge.start and edge.end <= one.end for one in others):
+            continue
+        what = message("this site records no {hint} of its trees", hint=named(edge.meaning.value, "attribute hint"))
+        recorded = some_names(list(site.attributes), 8) if site.attributes else message("none")
+        yield Reason(
+            what=message("'{said}': {what}", said=edge.meaning.text, what=what),
+            said=((words[edge.start].start, words[edge.end - 1].end),),
+            advice=message("it records: {known}", known=recorded),
             final=True,
         )
 
@@ -149,7 +201,10 @@ def _fault(fault: NotComposed, words: Sequence[Word], request: str) -> Reason:
     start, end = (words[used[0]].start, words[used[-1]].end) if used else (0, len(request.rstrip()))
     said = request[start:end].rstrip(" .")
     return Reason(
-        what=message("'{said}': {what}", said=_short(said), what=fault.what), said=((start, end),), advice=PLAINLY
+        what=message("'{said}': {what}", said=_short(said), what=fault.what),
+        said=((start, end),),
+        advice=fault.advice or (PLAINLY if used else _SAY_WHAT),
+        final=bool(fault.advice),
     )
 
 
@@ -158,9 +213,6 @@ def _stuck(words: Sequence[Word], chart: Chart, request: str) -> Reason:
     at = chart.furthest("said")
     rest = [word for word in words[at:] if word.kind not in ("comma", "stop")] or words[-1:]
     said = rest[:_MOST_WORDS]
-    if not said:
-        what = message("the request asks for nothing to be done")
-        return Reason(what=what, advice=message("say what to take or measure, and at which trees"))
     start, end = said[0].start, said[-1].end
     sentence = _sentence(words, start, request)
     if at == 0 or request[start:end] == sentence:

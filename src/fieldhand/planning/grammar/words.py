@@ -22,6 +22,8 @@ _MARKERS = {"start": "START", "end": "FINISH", "charger": "CHARGER"}
 _SIGNS = {"comma": "COMMA", "dash": "DASH", "sign": "AND", "hash": "HASH", "stop": "FULLSTOP"}
 #: Category of words that always may be skipped.
 _SILENT = "FILLER"
+#: Category of words that hint at an attribute which the site does not record ("taller than").
+LACKING = "LACKING"
 #: Maximum number of words of a filler.
 _LONGEST_FILLER = 7
 
@@ -121,8 +123,11 @@ def edges_of(words: Sequence[Word], phrases: Phrases) -> Iterator[PhraseEdge]:
             for entry in phrases.entries(tuple(phrase)):
                 features = phrases.features(tuple(phrase))
                 kind = "CONTRAST" if entry.kind == "AND" and "contrast" in features else entry.kind
-                for value in _values(entry, phrases.lexicon):
+                values = list(_values(entry, phrases.lexicon))
+                for value in values:
                     yield _edge(kind, start, end, Lex(value, entry.plural, text, features))
+                if not values:
+                    yield _edge(LACKING, start, end, Lex(_hint(entry), entry.plural, text, features))
 
 
 def _possessive(phrase: Sequence[str], start: int, end: int, phrases: Phrases) -> Iterator[PhraseEdge]:
@@ -209,6 +214,12 @@ def _values(entry: NameEntry, lexicon: Lexicon) -> Iterator[Any]:
         yield from ((value[0], name) for name in hinted_attributes(value[1], lexicon.site))
     else:
         yield value
+
+
+def _hint(entry: NameEntry) -> str:
+    """Return the attribute at which a word hints."""
+    value = _hashable(entry.value)
+    return str(value[0] if entry.kind == "SUPER" else value[1])
 
 
 def hinted_attributes(hint: str, site: Site) -> list[str]:

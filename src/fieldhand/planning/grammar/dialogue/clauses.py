@@ -62,6 +62,8 @@ from fieldhand.task import plan as p
 
 #: Maximum number of ways in which one parse is continued; a request that leaves more open is not composed.
 _MOST_WAYS = 32
+_IDLE = message("it does not say what to do there", context="fault")
+_WHAT_THERE = message("say what to take or measure there")
 
 
 def read_in_each_way(setting: Setting, said: Said) -> tuple[list[DialogueState], list[NotComposed]]:
@@ -104,6 +106,8 @@ def _ended(state: DialogueState) -> DialogueState:
     Raises:
         NotComposed: Something is missing.
     """
+    if state.open or state.awaits_command or state.order is not None:
+        raise NotComposed(_IDLE, advice=_WHAT_THERE)
     if all(step.ends_plan for step in state.plan.steps):
         raise NotComposed(message("it asks for nothing to be done", context="fault"))
     for _, node in walk(state.plan):
@@ -115,8 +119,6 @@ def _ended(state: DialogueState) -> DialogueState:
             raise NotComposed(message("nothing is said to be done in one of the cases", context="fault"))
         if node.is_optional_step and not any(one.act for one in p.walk(node)):
             raise NotComposed(message("it does not say what may be left out", context="fault"))
-    if state.open or state.awaits_command or state.order is not None:
-        raise NotComposed(message("it does not say what to do there", context="fault"))
     if state.nominal is None and state.in_case is not None:
         cases = state.plan.steps[-1].children if state.plan.steps[-1].is_choice else ()
         both_drive = len(cases) > 1 and all(case.children and case.children[-1].only_drives for case in cases)
@@ -232,7 +234,7 @@ def _new_sentence(setting: Setting, state: DialogueState, command: Command) -> D
     """Return the state at the beginning of a sentence whose first command is known."""
     state = capture_elided(setting, state)
     if state.open or state.lead is not None:
-        raise NotComposed(message("it does not say what to do there", context="fault"))
+        raise NotComposed(_IDLE, advice=_WHAT_THERE)
     place = command.place if isinstance(command, CaptureCommand) else None
     if state.area is not None and not is_there(setting, state.area, place):
         state = enter(setting, state, state.area)

@@ -11,15 +11,16 @@ class NotComposed(Exception):
     Attributes:
         what: What does not fit, or is left open, as part of a sentence about the clause.
         used: Tokens of the clause; 0 for the request as a whole.
+        advice: What to say instead; empty if other words may help.
     """
 
-    def __init__(self, what: str, used: int = 0) -> None:
-        self.what, self.used = what, used
+    def __init__(self, what: str, used: int = 0, advice: str = "") -> None:
+        self.what, self.used, self.advice = what, used, advice
         super().__init__(what)
 
     def about(self, used: int) -> NotComposed:
         """Return the fault as that of a clause, unless it is known to be another one's."""
-        return self if self.used else type(self)(self.what, used)
+        return self if self.used else type(self)(self.what, used, self.advice)
 
 
 class OpenQuestion(NotComposed):

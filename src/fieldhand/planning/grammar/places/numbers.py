@@ -14,6 +14,8 @@ from fieldhand.site.model import Site
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
+#: Numbers to choose from in place of a vague one.
+_VAGUE = (3, 5, 10)
 #: Id of letters and a number.
 _CODED = re.compile(r"(\D*)([1-9]\d*)")
 
@@ -34,6 +36,12 @@ def amount(number: Lex, unit: Lex) -> Amount:
 def count(number: Lex) -> int | None:
     """Compose "5"."""
     return whole(number.value)
+
+
+@construction("count: VAGUE", cost=0.0)
+def vague_count() -> list[int]:
+    """Compose "a few": a question between numbers."""
+    return list(_VAGUE)
 
 
 def name_of(number: Lex) -> str:

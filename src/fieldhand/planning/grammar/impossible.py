@@ -1,0 +1,198 @@
+"""Constructions of what is understood and cannot be planned: each says why, and what to say instead.
+
+They are looked at only if a request has no reading, and are part of no other construction.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from fieldhand.language import Number, message
+from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.meaning import Amount, Nominal, PlaceMeaning
+from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.selections import measures_distance
+
+GRAMMAR = Grammar()
+
+#: Category of these phrases.
+IMPOSSIBLE = "impossible"
+
+
+@dataclass(frozen=True, slots=True)
+class Impossible:
+    """A phrase that cannot be planned.
+
+    Attributes:
+        what: Why not, as part of a sentence about the phrase.
+        advice: What to say instead.
+    """
+
+    what: str
+    advice: str
+
+
+def construction(*patterns: str) -> Callable[[Callable[..., Impossible | None]], Callable[..., Impossible | None]]:
+    """Register a function that says why the phrases of some patterns cannot be planned."""
+    return GRAMMAR.construction(*(f"{IMPOSSIBLE}: {pattern}" for pattern in patterns))
+
+
+@construction("number=NUM inner=nominal")
+def no_such_number(number: Lex, inner: Nominal) -> Impossible | None:
+    """Compose "0 trees" and "12 corners"."""
+    if inner.complete and number.value > inner.complete:
+        what = message(
+            "there are {count} such corners, not {number}", count=inner.complete, number=Number(f"{number.value:g}")
+        )
+        return Impossible(what, message("say how many"))
+    if number.value >= 1 and number.value == int(number.value):
+        return None
+    return Impossible(message("it is not clear how many"), message("say how many as a whole number above 0"))
+
+
+@construction("BETWEEN low=NUM AND high=NUM", "BETWEEN low=NUM AND high=amount", "BETWEEN low=amount AND high=amount")
+def nothing_between(low: Lex | Amount, high: Lex | Amount) -> Impossible | None:
+    """Compose "between 40 and 30"."""
+    first, last = (one.number if isinstance(one, Amount) else one.value for one in (low, high))
+    if first < last:
+        return None
+    what = message("no value lies between {low} and {high}", low=Number(f"{first:g}"), high=Number(f"{last:g}"))
+    return Impossible(what, message("put the lower number first"))
+
+
+@construction(
+    "[DET] side=DIR HALF in_ rows=rows", "[DET] side=DIR EDGE in_ rows=rows", "[DET] side=DIR QUARTER in_ rows=rows"
+)
+def half_of_rows(side: Lex, rows: s.Selector) -> Impossible:  # noqa: ARG001  any rows
+    """Compose "the northern half of row 3"."""
+    return Impossible(
+        message("a row has no halves or edges"), message("say 'the first 10 trees of row 3', or 'from the north'")
+    )
+
+
+@construction("[DET] side=DIR HALF in_ [DET] edge=DIR EDGE")
+def half_of_edge(side: Lex, edge: Lex) -> Impossible | None:
+    """Compose "the northern half of the southern edge"."""
+    across = {"north", "south"} if side.value in ("north", "south") else {"east", "west"}
+    if edge.value not in across:
+        return None
+    return Impossible(
+        message("that edge has no part on that side"), message("say a side along the edge, or the whole edge")
+    )
+
+
+@construction("EACH n=ORD noun=CORNER", "EACH OTHER noun=CORNER")
+def every_nth_corner(noun: Lex, n: Lex | None = None) -> Impossible:  # noqa: ARG001  any number
+    """Compose "every other corner"."""
+    return Impossible(
+        message("the corners have no order"), message("name them: 'the north-west and the south-east corner'")
+    )
+
+
+@construction("DET rank=ORD [inner=nominal]")
+def counted_somehow(rank: Lex, inner: Nominal | None = None) -> Impossible | None:
+    """Compose "the third tree" of the site, whose trees have no order."""
+    if rank.value == 1 or (inner is not None and (inner.selector != s.Trees() or inner.kind != "tree")):
+        return None
+    what = message("'{said}' could be counted in several ways", said=rank.text)
+    return Impossible(what, message("say of which row and from which end: 'the third tree of row 4 from the north'"))
+
+
+@construction("number=NUM noun=POINT in_ where=region", "number=NUM noun=POINT AT where=region")
+def points_outside_zones(number: Lex, noun: Lex, where: s.Selector) -> Impossible | None:  # noqa: ARG001  any number
+    """Compose "3 points in row 4"."""
+    if any(isinstance(part, s.InZone) for part in where.walk()):
+        return None
+    return Impossible(
+        message("which trees does it refer to?"), message("say 'trees', or name a zone: '4 points in the wet corner'")
+    )
+
+
+@construction("number=NUM RANDOM noun=POINT")
+def points_at_random(number: Lex, noun: Lex) -> Impossible:  # noqa: ARG001  any number
+    """Compose "3 random points"."""
+    return Impossible(
+        message("points are spread evenly over a zone, not at random"),
+        message("say 'at 3 points', or '3 random trees'"),
+    )
+
+
+@construction("ROW NEAREST [AT] to=place", "ROW FARTHEST FROM to=place", "ROW BESIDE to=place", "ROW NEXTTO to=place")
+def row_near_a_place(to: PlaceMeaning) -> Impossible:  # noqa: ARG001  any place
+    """Compose "the row nearest to the charger"."""
+    return Impossible(message("what is near, the tree or the row?"), message("name the row"))
+
+
+@construction("WITHIN far=amount OF rows=rows", "WITHIN far=amount FROM rows=rows", "in_ far=amount OF rows=rows")
+def distance_to_rows(far: Amount, rows: s.Selector) -> Impossible:  # noqa: ARG001  any distance, any rows
+    """Compose "within 10 m of row 3"."""
+    return Impossible(
+        message("distances have to be measured from a single place"), message("name a tree, a corner or a marker")
+    )
+
+
+@construction("far=amount side=DIR OF to=place", "far=amount side=DIR FROM to=place")
+def distance_in_a_direction(far: Amount, side: Lex, to: PlaceMeaning) -> Impossible:  # noqa: ARG001  any of them
+    """Compose "10 m north of tree 5"."""
+    return Impossible(
+        message("a distance in a direction is no place where a tree stands"),
+        message("say 'the nearest tree to the north of tree 5', or count trees: '3 trees north of tree 5'"),
+    )
+
+
+@construction("UPTO number=NUM things=things", "CMP number=NUM things=things")
+def up_to_so_many_captures(number: Lex, things: object) -> Impossible:  # noqa: ARG001  any of them
+    """Compose "up to 8 pictures"."""
+    return Impossible(message("captures need one number"), message("say 'of up to 6 trees'"))
+
+
+@construction("aisle=AISLE")
+def in_an_aisle(aisle: Lex) -> Impossible:  # noqa: ARG001  the word alone
+    """Compose "the aisle"."""
+    return Impossible(
+        message("an aisle is not a place where something can be done"),
+        message("say along which row, or at which trees"),
+    )
+
+
+@construction("first=place near=NEAR to=place", "first=place NEAREST [AT] to=place")
+def single_and_near(first: PlaceMeaning, to: PlaceMeaning, near: Lex | None = None) -> Impossible | None:  # noqa: ARG001
+    """Compose "the northernmost tree near the charger"."""
+    if first.shape != "one" or measures_distance(first.selector):
+        return None
+    return Impossible(message("it is not clear what is near to what"), message("say it in two steps"))
+
+
+@construction("rows=ROW OF inner=nominal")
+def rows_of_a_kind(rows: Lex, inner: Nominal) -> Impossible | None:  # noqa: ARG001  any row
+    """Compose "rows of Carmel trees"."""
+    if inner.selector == s.Trees():
+        return None
+    return Impossible(message("a row is not chosen by its trees"), message("name the rows, or say 'every Carmel tree'"))
+
+
+@construction("[DET] side=DIR noun=ROW")
+def rows_on_a_side(side: Lex, noun: Lex) -> Impossible:  # noqa: ARG001  any of them
+    """Compose "the northern rows"."""
+    return Impossible(
+        message("it is not clear which rows"),
+        message("name them, or count them from a side: 'the first three rows from the west'"),
+    )
+
+
+@construction("number=NUM ROWSOVER", "number=NUM noun=ROW side=DIR", "number=NUM noun=ROW NEAR")
+def rows_over(number: Lex, noun: Lex | None = None, side: Lex | None = None) -> Impossible:  # noqa: ARG001
+    """Compose "two rows over from tree 80"."""
+    return Impossible(
+        message("it is not clear which tree of that row"), message("go to the tree first, then say 'go 2 rows east'")
+    )
+
+
+@construction("noun=ROW ends=FINISH")
+def ends_of_rows(noun: Lex, ends: Lex) -> Impossible | None:
+    """Compose "the row ends"."""
+    if noun.plural or not ends.plural:
+        return None
+    return Impossible(message("of which rows?"), message("say 'both ends of row 3', or 'both ends of every row'"))
