@@ -1,6 +1,5 @@
-"""Plans a request with a grammar and a lexicon: no model, no network, the same answer every time.
+"""English as a language of requests: its words, its names for a robot and a site, and its planner.
 
-The way of a request: ``tokens`` (words with their places) → ``lexicon`` (what each means) → ``arrange`` (sentences;
-what separates and what joins) → ``syntax`` (parts, by grammar.lark) → ``discourse`` (what refers to what, what nests in
-what; ``places``, ``tested`` and ``counting`` read its phrases) → ``draft`` → Task. ``planner`` puts them together.
+``planner`` reads a request with the grammar of :mod:`fieldhand.planning.grammar`, whose words come from ``lexicon``
+(``vocabulary.toml``, inflected, and the names of the robot and the site). ``wishes`` are what no plan can express.
 """
