@@ -42,6 +42,8 @@ def over(selector: s.Selector, base: s.Selector) -> s.Selector:
     of = getattr(selector, "of", None)
     if of is None:
         return selector
+    if isinstance(selector, s.Excluding) and all(is_end_of_site(part) for part in selector.places.members):
+        return s.Excluding(places=over(selector.places, base), of=over(of, base))  # "all but the last tree" of a row
     changed: s.Selector = replace(cast(Any, selector), of=over(of, base))
     return changed
 

@@ -22,6 +22,8 @@ _CHARGER = frozenset({"charger", "dock"})
 _OF_FAULTS = w.words_in("fail fails failed fault error abort aborted wrong stuck problem battery charge budget low")
 _EACH_KIND = frozenset({"each", "every", "all", "per", "both", "different", "any"})
 _NUMBER = re.compile("-?[0-9]{1,9}")
+#: Pattern of the reverse of an order.
+_REVERSED = re.compile(r"\brevers|\bopposite order|\bback to front|\blast( one| tree| vine)?( to( the)?)? first\b")
 #: Pattern of a side that refers to the one mentioned before.
 _OTHER_PART = re.compile(r"\bother (?:half|side|end|edge|corner|quarter)\b")
 #: Pattern of rows without a number for each.
@@ -253,7 +255,7 @@ def _sides(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
                 node=node,
             )
     for by in sorted(orders):
-        if "_to_" in by and not any(side in by for side in said.sides):
+        if "_to_" in by and not any(side in by for side in said.sides) and not _REVERSED.search(said.text):
             yield PlanMismatch(
                 kind="order",
                 what=message(

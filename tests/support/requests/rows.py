@@ -999,6 +999,31 @@ PLANNED = [
     ),
     ("husky", "Read CO2 at four evenly spaced trees in row 5.", "for Evenly(4, of Rows(5, 5)): [co2]"),
     ("husky", "Take a picture of every row's first tree.", "for InRow(1, 1, of Rows): [picture]"),
+    (
+        "husky",
+        "take a picture of all trees in row 3 except the first two",
+        "for Excluding(InRow(1, 2, of Rows(3, 3)), of Rows(3, 3)): [picture]",
+    ),
+    (
+        "husky",
+        "Photograph the trees of row 4 in reverse order.",
+        "for Ordered(south_to_north, of Rows(4, 4)) given: [picture]",
+    ),
+    (
+        "husky",
+        "Take pictures of every tree but the first and last of row 3.",
+        "for Excluding(UnionOf(InRow(1, 1, of Rows(3, 3))+InRow(-1, -1, of Rows(3, 3))), of Rows(3, 3)): [picture]",
+    ),
+    (
+        "husky",
+        "Take pictures of all trees in row 3 but the last one.",
+        "for Excluding(InRow(-1, -1, of Rows(3, 3)), of Rows(3, 3)): [picture]",
+    ),
+    (
+        "husky",
+        "take a picture of tree 40. Photograph every tree in the next two rows.",
+        "picture @ TreeIs(40); for UnionOf(RowOf(1)+RowOf(2)): [picture]",
+    ),
 ]
 
 ASKED = [
@@ -1117,6 +1142,11 @@ ASKED = [
         "'take a picture of every tree in the northern rows': which rows?",
     ),
     ("husky", "take a picture of the top row", "'take a picture of the top row': which row?"),
+    (
+        "husky",
+        "Take a picture of every tree between rows 3 and 5.",
+        "'Take a picture of every tree between rows 3 and 5': which is meant?",
+    ),
 ]
 
 REFUSED = [
@@ -1152,11 +1182,6 @@ REFUSED = [
         "rows cannot be counted from the north: the rows run north to south",
     ),
     ("husky", "Take a picture every few trees.", "'few' is not possible yet"),
-    (
-        "husky",
-        "Take a picture of every tree between rows 3 and 5.",
-        "'between rows 3 and' does not fit at this point in 'Take a picture of every tree between rows 3 and 5'",
-    ),
     (
         "husky",
         "Photograph the third yellow tree of row 4.# hard and negative forms",
@@ -1218,11 +1243,6 @@ REFUSED = [
     ),
     (
         "husky",
-        "take a picture of all trees in row 3 except the first two",
-        "'except the first two' does not fit at this point in 'take a picture of all trees in row 3 except the first two'",
-    ),
-    (
-        "husky",
         "take a picture of the third tree from the west in row 3",
         "trees in a row cannot be counted from the west: the rows run north to south",
     ),
@@ -1278,7 +1298,6 @@ REFUSED = [
         "'3 points in the northern half': which trees does it refer to?",
     ),
     ("husky", "Take CO2 readings at 3 points in row 4.", "'3 points in row 4': which trees does it refer to?"),
-    ("husky", "Photograph the trees of row 4 in reverse order.", "not understood: 'reverse'"),
     (
         "husky",
         "Take pictures of all the trees row by row, starting from the east.",
@@ -1293,16 +1312,6 @@ REFUSED = [
         "husky",
         "Skip row 3 and take pictures of all other rows.",
         "not understood: 'Skip'",
-    ),
-    (
-        "husky",
-        "Take pictures of every tree but the first and last of row 3.",
-        "'but the first and' does not fit at this point in 'Take pictures of every tree but the first and last of row 3'",
-    ),
-    (
-        "husky",
-        "Take pictures of all trees in row 3 but the last one.",
-        "'but the last one' does not fit at this point in 'Take pictures of all trees in row 3 but the last one'",
     ),
     (
         "husky",
@@ -1354,11 +1363,6 @@ REFUSED = [
         "husky",
         "take a picture between rows 3 and 4",
         "'between rows 3 and' does not fit at this point in 'take a picture between rows 3 and 4'",
-    ),
-    (
-        "husky",
-        "take a picture of tree 40. Photograph every tree in the next two rows.",
-        "'in the next two' does not fit at this point in 'Photograph every tree in the next two rows'",
     ),
     ("husky", "row 3", "'row 3': it does not say what to do there"),
     ("husky", "rows", "the request asks for nothing to be done"),

@@ -353,7 +353,10 @@ class Failing:
 
 @dataclass(frozen=True, slots=True)
 class InAnOrder:
-    """The order of visits: that of their mention (``by`` empty), any order, one by one, by compass or attribute."""
+    """The order of visits.
+
+    It is that of their mention (``by`` empty) or its reverse, any order, one by one, by compass or attribute.
+    """
 
     by: str
     attribute: str

@@ -190,6 +190,12 @@ def in_that_order(used: int) -> InAnOrder:
     return InAnOrder("", "", False, used)
 
 
+@construction("order: REVERSE", cost=0.2)
+def in_reverse_order(used: int) -> InAnOrder:
+    """Compose "in reverse order"."""
+    return InAnOrder("reverse", "", False, used)
+
+
 @construction("order: NOORDER", "order: DISTINCT", "order: ORDERWORD COMMA ANY", cost=0.2)
 def in_any_order(used: int) -> InAnOrder:
     """Compose "in any order"."""

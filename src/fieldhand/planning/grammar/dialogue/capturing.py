@@ -157,7 +157,7 @@ def _capture_at_each(
     """Return the state after captures at each of several places."""
     loop = visits(place, at_said)
     if state.order is not None:
-        loop = ordered(loop, state.order, setting.spans_of(state.order.used))
+        loop = ordered(loop, state.order, setting.spans_of(state.order.used), setting.site)
         state = replace(state, order=None)
     inside = (*state.next_step, "body")
     state = with_step(state, loop)

@@ -21,7 +21,14 @@ from fieldhand.planning.grammar.dialogue.state import (
     with_step,
 )
 from fieldhand.planning.grammar.meaning import DriveCommand, Home, InAnOrder, Lead, PlaceMeaning, VisitLimit
-from fieldhand.planning.selections import as_every_nth, chooses_from_trees, is_next_to_here, starts_here
+from fieldhand.planning.selections import (
+    are_rows,
+    as_every_nth,
+    chooses_from_trees,
+    is_next_to_here,
+    is_one_row,
+    starts_here,
+)
 from fieldhand.site.model import Site
 from fieldhand.task import plan as p
 
@@ -226,10 +233,10 @@ def put_in_order(setting: Setting, state: DialogueState, command: InAnOrder) -> 
         if loop.order != "best":
             raise NotComposed(message("the places cannot have two different orders", context="fault"))
         return replace(state, plan=with_node(state.plan, path, replace(loop, said=(*loop.said, *said))))
-    return replace(state, plan=with_node(state.plan, path, ordered(loop, command, said)))
+    return replace(state, plan=with_node(state.plan, path, ordered(loop, command, said, setting.site)))
 
 
-def ordered(loop: p.ForEach, command: InAnOrder, said: Spans) -> p.ForEach:
+def ordered(loop: p.ForEach, command: InAnOrder, said: Spans, site: Site) -> p.ForEach:
     """Return a for-each in an order.
 
     Raises:
@@ -240,6 +247,8 @@ def ordered(loop: p.ForEach, command: InAnOrder, said: Spans) -> p.ForEach:
     if loop.order == "given" or loop.optional or loop.at_most is not None:
         raise NotComposed(message("an order of places cannot be combined with a choice of how many", context="fault"))
     said = (*loop.said, *said)
+    if command.by == "reverse":
+        return replace(loop, select=_reversed(loop.select, site), order="given", said=said)
     if not command.by:
         return replace(loop, order="given", said=said)
     if any(as_every_nth(part) is not None for part in loop.select.walk()) and command.by not in ("attribute", "rows"):
@@ -249,6 +258,23 @@ def ordered(loop: p.ForEach, command: InAnOrder, said: Spans) -> p.ForEach:
     by = cast(Order, command.by)
     select = s.Ordered(by=by, attribute=command.attribute, descending=command.descending, of=loop.select)
     return replace(loop, select=select, order="given", said=said)
+
+
+def _reversed(select: s.Selector, site: Site) -> s.Selector:
+    """Return places in the reverse of the order in which they are named, or of that of their row.
+
+    Raises:
+        NotComposed: They have no order that could be reversed.
+    """
+    members = select.members
+    if len(members) > 1 and all(one.single for one in members):
+        return s.UnionOf(parts=tuple(reversed(members)))
+    rows = {part for part in select.walk() if are_rows(part)}
+    named = {part.block for part in select.walk() if isinstance(part, s.InBlock)}
+    runs = {one.runs_east_west for one in site.planting.blocks if not named or one.name in named}
+    if len(rows) != 1 or len(runs) != 1 or not is_one_row(rows.pop()):
+        raise NotComposed(message("it is not clear which order is reversed", context="fault"))
+    return s.Ordered(by="east_to_west" if runs.pop() else "south_to_north", of=select)
 
 
 def limit_visits(setting: Setting, state: DialogueState, command: VisitLimit) -> DialogueState:

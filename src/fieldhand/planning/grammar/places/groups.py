@@ -16,6 +16,7 @@ from fieldhand.planning.selections import (
     chooses_from_trees,
     is_by_attribute,
     is_end_of_site,
+    is_one_row,
     landmark_of,
     measures_distance,
     over,
@@ -273,18 +274,45 @@ def except_those_of_a_kind(whole: PlaceMeaning, value: Lex) -> list[PlaceMeaning
 
 
 @construction(
-    "place: whole=place but_not [DET] out=positions [TREE] in_ row=rows",
-    "place: whole=place but_not [DET] out=position ONE in_ row=rows",
-    cost=0.2,
+    "left_out: [DET] at=span [TREE]",
+    "left_out: [DET] at=span ONE",
+    "left_out: [DET] at=span AND [DET] second=span [TREE]",
+    "left_out: [DET] at=span AND [DET] second=span ONE",
+    "left_out: [DET] at=span TREE AND [DET] second=span TREE",
+    cost=0.1,
 )
-def except_positions(whole: PlaceMeaning, out: tuple[int, int], row: s.Selector) -> PlaceMeaning | None:
-    """Compose "row 3 except the last two in the row"."""
-    if not _may_leave_out(whole) or not are_rows(whole.selector) or row not in (s.RowOf(), whole.selector):
+def left_out(at: tuple[int, int], second: tuple[int, int] | None = None) -> tuple[tuple[int, int], ...]:
+    """Compose "the first two" and "the first and the last one" behind "except"."""
+    return (at,) if second is None else (at, second)
+
+
+@construction(
+    "place: whole=place but_not out=left_out", "place: whole=place but_not out=left_out in_ row=rows", cost=0.2
+)
+def except_positions(
+    whole: PlaceMeaning, out: tuple[tuple[int, int], ...], row: s.Selector | None = None
+) -> PlaceMeaning | None:
+    """Compose "row 3 except the first two" and "every tree but the first and last of row 3"."""
+    rows = row if whole.selector == s.Trees() and row is not None else whole.selector
+    if not _may_leave_out(whole) or not are_rows(rows) or row not in (None, s.RowOf(), rows):
         return None
-    first, last = out
-    return replace(
-        whole, selector=s.Excluding(places=s.InRow(first=first, last=last, of=whole.selector), of=whole.selector)
-    )
+    if not is_one_row(rows) and row is None:
+        return None  # "rows 3 and 4 except the first": of each of them?
+    parts = tuple(s.InRow(first=first, last=last, of=rows) for first, last in out)
+    places = parts[0] if len(parts) == 1 else s.UnionOf(parts=parts)
+    return replace(whole, selector=s.Excluding(places=places, of=rows), shape="several")
+
+
+@construction("place: whole=place but_not out=left_out in_ rows=each_row", cost=0.2)
+def except_positions_of_each(
+    whole: PlaceMeaning, out: tuple[tuple[int, int], ...], rows: s.Selector
+) -> PlaceMeaning | None:
+    """Compose "every tree except the first of each row"."""
+    known = whole.selector in (s.Trees(), rows) or (are_rows(whole.selector) and rows == s.Rows())
+    if not known or not _may_leave_out(whole):
+        return None
+    of = whole.selector if are_rows(whole.selector) else rows
+    return except_positions(replace(whole, selector=of), out, of)
 
 
 def _may_leave_out(whole: PlaceMeaning) -> bool:
@@ -314,6 +342,8 @@ def except_for(whole: PlaceMeaning, part: PlaceMeaning, site: Site) -> PlaceMean
         or part.shape not in ("one", "several", "area")
     ):
         return None
+    if whole.selector != s.Trees() and any(is_end_of_site(one) for one in part.selector.members):
+        return None  # the first or last of these, not of the site
     trees = {one.tree for one in part.selector.walk() if isinstance(one, s.TreeIs)}
     if trees and whole.selector != s.Trees() and not trees <= (ids_of(whole.selector, site) or set()):
         return None

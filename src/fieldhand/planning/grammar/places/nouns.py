@@ -88,6 +88,17 @@ def with_attribute(inner: Nominal, test: tuple[str, Test, Any]) -> Nominal | Non
     return replace(inner, selector=s.Where(attribute=name, test=check, value=value, of=inner.selector), tested=True)
 
 
+@construction(
+    "nominal: inner=nominal [WHICH] [IS] test=attribute_test AND [WHICH] [IS] second=attribute_test",
+    "nominal: inner=nominal WITH test=attribute_test AND [WITH] second=attribute_test",
+    cost=0.2,
+)
+def with_two_attributes(inner: Nominal, test: tuple[str, Test, Any], second: tuple[str, Test, Any]) -> Nominal | None:
+    """Compose "trees older than 8 years and younger than 12"."""
+    first = with_attribute(inner, test)
+    return None if first is None else with_attribute(first, second)
+
+
 @construction("place: whole=place [WHICH] [IS] test=attribute_test", cost=0.3)
 def those_with_attribute(whole: PlaceMeaning, test: tuple[str, Test, Any]) -> PlaceMeaning | None:
     """Compose "every third tree in row 4 that is yellow"."""

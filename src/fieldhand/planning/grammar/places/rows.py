@@ -77,6 +77,18 @@ def rows_from_to(first: Lex, last: Lex) -> s.Selector:
     return s.Rows(first=name_of(first), last=name_of(last))
 
 
+@construction("nominal: inner=nominal BETWEEN [DET] noun=ROW first=row_name AND [ROW] last=row_name", cost=0.2)
+def between_rows(inner: Nominal, noun: Lex, first: Lex, last: Lex) -> list[Nominal] | None:
+    """Compose "trees between rows 3 and 6": with those of the two rows, or without them?"""
+    low, high = (whole(one.value) if isinstance(one.value, float) else None for one in (first, last))
+    if not noun.plural or low is None or high is None or high < low + 2 or not chooses_from_trees(inner.selector):
+        return None
+    return [
+        replace(inner, selector=over(inner.selector, s.Rows(first=str(begin), last=str(end))))
+        for begin, end in ((low, high), (low + 1, high - 1))
+    ]
+
+
 @construction("row_list: [DET] noun=ROW first=row_name", cost=0.0)
 def row_list(noun: Lex, first: Lex) -> tuple[str, ...] | None:
     """Compose "rows 3", the beginning of "rows 3, 5 and 7"."""
@@ -143,6 +155,14 @@ def row_of_tree(tree: PlaceMeaning) -> s.Selector | None:
 def next_row() -> s.Selector:
     """Compose "the next row"."""
     return s.RowOf(over=1)
+
+
+@construction("rows: DET NEXTONE n=count noun=ROW", "rows: DET n=count NEXTONE noun=ROW", cost=0.1)
+def next_rows(n: int, noun: Lex) -> s.Selector | None:
+    """Compose "the next two rows"."""
+    if not noun.plural or n < 2:
+        return None
+    return s.UnionOf(parts=tuple(s.RowOf(over=number) for number in range(1, n + 1)))
 
 
 @construction("rows: [DET] PREVROW", cost=0.1)
