@@ -44,7 +44,7 @@ def question_between(plans: Sequence[Planned], request: str, site: Site, robot: 
     texts = [[line.text for line in lines] for lines in written]
     first = next((k for k in range(min(map(len, texts))) if len({text[k] for text in texts}) > 1), None)
     if first is None:
-        return None
+        return _question_of_branch(plans, written, request)
     last = 0
     while all(len(text) > first + 1 + last for text in texts) and len({text[-1 - last] for text in texts}) == 1:
         last += 1
@@ -55,6 +55,25 @@ def question_between(plans: Sequence[Planned], request: str, site: Site, robot: 
         answers = [text[first] for text in texts]
     left: dict[str, tuple[Planned, ...]] = {}
     for answer, plan in zip(answers, plans, strict=True):
+        left[answer] = (*left.get(answer, ()), plan)
+    start, end = _said(plans, [lines[first] for lines in written], request)
+    asked = message("'{said}': which is meant?", context="question", said=request[start:end])
+    return PlanQuestion(question=asked, said=(start, end), plans=left)
+
+
+def _question_of_branch(
+    plans: Sequence[Planned], written: Sequence[Sequence[ReadBackLine]], request: str
+) -> PlanQuestion | None:
+    """Return the question between plans of the same steps, of which one stands in a branch or behind it."""
+    depths = [[line.indent for line in lines] for lines in written]
+    first = next((k for k in range(min(map(len, depths))) if len({depth[k] for depth in depths}) > 1), None)
+    if first is None:
+        return None
+    left: dict[str, tuple[Planned, ...]] = {}
+    for plan, lines in zip(plans, written, strict=True):
+        line = lines[first]
+        heads = [head.text for head in lines[:first] if head.indent < line.indent]
+        answer = joined(" ", (heads[-1], line.text)) if heads else message("In each case: {step}", step=line.text)
         left[answer] = (*left.get(answer, ()), plan)
     start, end = _said(plans, [lines[first] for lines in written], request)
     asked = message("'{said}': which is meant?", context="question", said=request[start:end])

@@ -174,11 +174,19 @@ class DriveCommand:
 
 @dataclass(frozen=True, slots=True)
 class Lead:
-    """A place at which the next command is done ("at tree 4, ..."), or what was done last."""
+    """A place at which the next command is done ("at tree 4, ..."), or what was done last.
+
+    Attributes:
+        place: Place.
+        used: Tokens of the phrase.
+        relation: Word that ties the place to what is done there; ``topic`` if it is what the next sentences are about.
+        things: Captures that the next command can refer to, if the phrase names them.
+    """
 
     place: PlaceMeaning
     used: int
     relation: str = "at"
+    things: tuple[Thing, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -320,11 +328,19 @@ class VisitLimit:
 
 @dataclass(frozen=True, slots=True)
 class Again:
-    """A command to do what was done at the last place again, at another place or there; with ``times`` that often."""
+    """A command to do what was done at the last place again, at another place or there.
+
+    Attributes:
+        place: Other place; None if the phrase names none.
+        used: Tokens of the phrase.
+        times: Number of repetitions of all that was done so far; 0 if the phrase gives none.
+        in_all: True if the number includes what was done so far.
+    """
 
     place: PlaceMeaning | None
     used: int
-    times: int = 1
+    times: int = 0
+    in_all: bool = False
 
 
 @dataclass(frozen=True, slots=True)

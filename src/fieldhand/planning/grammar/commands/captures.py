@@ -230,6 +230,67 @@ def at_every_tree(act: CaptureCommand, used: int, noun: Lex | None = None) -> Ca
     return replace(act, place=replace(act.place, shape="several", each=True), used=used)
 
 
+@construction(
+    "capture: GO FARTHEST FOR things=things",
+    "capture: GO FARTHEST FOR things=things OF inner=nominal",
+    "capture: GO FARTHEST FOR things=things OF other=ANOTHER inner=nominal",
+    cost=0.3,
+)
+def far_away_for(
+    things: tuple[Thing, ...], used: int, inner: Nominal | None = None, other: Lex | None = None
+) -> CaptureCommand | None:
+    """Compose "move as far away as possible for a CO2 reading of another tree"."""
+    if inner is not None and (inner.single or inner.plural or inner.complete):
+        return None
+    trees = s.Trees() if inner is None else inner.selector
+    far = s.Farthest(origin=s.Here(), of=trees if other is None else s.NotVisited(of=trees))
+    return CaptureCommand(things, PlaceMeaning(far, "one"), used)
+
+
+@construction("capture: act=capture BYGOING", cost=0.1)
+def by_going_there(act: CaptureCommand, used: int) -> CaptureCommand | None:
+    """Compose "take pictures of two nearby trees by going to them"."""
+    return replace(act, used=used) if act.place is not None else None
+
+
+@construction("capture: act=capture IS WANTED", cost=0.2)
+def is_wanted(act: CaptureCommand, used: int) -> CaptureCommand:
+    """Compose "pictures of the yellow trees are what I want"."""
+    return replace(act, used=used)
+
+
+@construction("capture: act=capture IS", cost=0.6)
+def is_as_well(act: CaptureCommand, used: int) -> CaptureCommand | None:
+    """Compose "a picture of each is", behind what is not required."""
+    return replace(act, used=used) if act.relation == "plain" else None
+
+
+@construction("capture: place=place IS WANTED things=things word=relation", cost=0.3)
+def are_wanted(place: PlaceMeaning, things: tuple[Thing, ...], word: str, used: int) -> CaptureCommand | None:
+    """Compose "the yellow trees are what I want pictures of"."""
+    if place.shape == "area" and not all(one.plural for one in things):
+        return None
+    return CaptureCommand(things, place, used, relation=word)
+
+
+@construction(
+    "capture: SEPARATE things=things BY far=amount [COMMA] [AND] [verb] n=count [LIMIT]",
+    "capture: SEPARATE things=things dist=apart [COMMA] [AND] [verb] n=count [LIMIT]",
+    "capture: SEPARATE things=things BY far=amount",
+    "capture: SEPARATE things=things dist=apart",
+    cost=0.2,
+)
+def separate(
+    things: tuple[Thing, ...], used: int, far: Amount | None = None, dist: float | None = None, n: int | None = None
+) -> CaptureCommand | None:
+    """Compose "separate your measurements by 12 m, and carry out four in all"."""
+    metres = dist if far is None else far.number if far.unit == "metres" else None
+    if metres is None or (n is not None and any(one.count is not None for one in things)):
+        return None
+    counted = things if n is None else tuple(replace(one, count=n, plural=True) for one in things)
+    return CaptureCommand(counted, None, used, spacing=metres)
+
+
 @construction("capture: verb=ACTV", cost=0.6)
 def act_here(verb: Lex, used: int) -> CaptureCommand:
     """Compose "photograph"."""
@@ -322,13 +383,26 @@ def apart(far: Amount | None = None, every: float | None = None) -> float | None
     return far.number if far is not None and far.unit == "metres" else None
 
 
+@construction(
+    "apart_least: ATLEAST far=amount APART",
+    "apart_least: [EACH] check=CMP far=amount APART",
+    "apart_least: SPACEDBY ATLEAST far=amount [APART]",
+    cost=0.1,
+)
+def apart_at_least(far: Amount, check: Lex | None = None) -> float | None:
+    """Compose "at least 10 m apart"."""
+    if far.unit != "metres" or (check is not None and (check.value is None or check.value[0] not in ("ge", "gt"))):
+        return None
+    return far.number
+
+
 @construction("spaced: dist=every", cost=0.0)
 def spacing_of_one(dist: float) -> tuple[float, bool]:
     """Compose "every 10 m"."""
     return (dist, False)
 
 
-@construction("spaced: dist=apart", cost=0.0)
+@construction("spaced: dist=apart", "spaced: dist=apart_least", cost=0.0)
 def spacing_of_many(dist: float) -> tuple[float, bool]:
     """Compose "10 m apart"."""
     return (dist, True)
@@ -429,15 +503,21 @@ def repeated_at_spacing(
     return at_spacing((dist, True), used, tuple(replace(one, count=times.value, plural=True) for one in things), place)
 
 
-@construction("capture: verb things=things relation inner=nominal [COMMA] dist=apart", cost=0.2)
-def of_trees_apart(things: tuple[Thing, ...], inner: Nominal, dist: float, used: int) -> CaptureCommand | None:
+@construction(
+    "capture: verb things=things relation inner=nominal [COMMA] [WHICH] dist=apart",
+    "capture: verb things=things relation inner=nominal [COMMA] [WHICH] least=apart_least",
+    cost=0.2,
+)
+def of_trees_apart(
+    things: tuple[Thing, ...], inner: Nominal, used: int, dist: float | None = None, least: float | None = None
+) -> CaptureCommand | None:
     """Compose "take three pictures of trees 15 m apart"."""
     counts = {one.count for one in things}
     count = counts.pop()
     if counts or count is None or count < 2 or not inner.plural or inner.single or inner.complete:
         return None
-    place = PlaceMeaning(s.Apart(apart_m=dist, count=count, of=inner.selector), "several", count=count)
-    return CaptureCommand(things, place, used)
+    apart = s.Apart(apart_m=dist or least or 0.0, count=count, least=least is not None, of=inner.selector)
+    return CaptureCommand(things, PlaceMeaning(apart, "several", count=count), used)
 
 
 @construction("capture: relation place=place times=COUNT", cost=1.0)

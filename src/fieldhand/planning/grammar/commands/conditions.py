@@ -148,7 +148,13 @@ def bounded(value: tuple[float, str], bound: Lex) -> Test | None:
     return None if bound.value[1] else Test("", bound.value[0], value[0], value[1])
 
 
-@construction("predicate: level=LEVEL", "predicate: level=LEVEL READING", cost=0.1)
+@construction("predicate: STILL test=predicate", "predicate: AGAIN test=predicate", cost=0.1)
+def still(test: Test) -> Test:
+    """Compose "still above 30 degC" and "again above 30 degC"."""
+    return test
+
+
+@construction("predicate: level=LEVEL", "predicate: [DET] level=LEVEL READING", cost=0.1)
 def at_level(level: Lex) -> Test:
     """Compose "high"; "hot" is said of a temperature only, and "dry" of moisture."""
     return Test("", "level", level.value, next((unit for name, unit in _SAID_OF.items() if name in level.features), ""))
@@ -164,7 +170,6 @@ def negated(test: Test) -> Test:
     "test: subject=subject IS test=predicate",
     "test: subject=subject test=predicate",
     "test: IS test=predicate",
-    "test: subject=subject IS [STILL] test=predicate",
     cost=0.2,
 )
 def reading_is(test: Test, subject: str = "") -> Test:
@@ -262,7 +267,19 @@ def level_question(one: AllTests, used: int) -> When:
     return When(one, used)
 
 
-@construction("when: IF tests=tests", "when: where=WHERE tests=tests", cost=0.3)
+@construction("when: test=test mark=FULLSTOP", "when: test=predicate mark=FULLSTOP", cost=0.6)
+def test_as_question(test: Test, mark: Lex, used: int) -> When | None:
+    """Compose "below 33 degC?" and "is it below 33 degC?"."""
+    return When(AllTests((test,)), used) if "question" in mark.features else None
+
+
+@construction("test: IS subject=subject test=predicate", cost=0.3)
+def is_it(test: Test, subject: str) -> Test:
+    """Compose "is it below 33 degC", of a question."""
+    return replace(test, quantity=subject)
+
+
+@construction("when: IF tests=tests", "when: IF tests=tests INVERTED", "when: where=WHERE tests=tests", cost=0.3)
 def when(tests: AllTests, used: int, where: Lex | None = None) -> When:
     """Compose "if it is high" and "wherever a tree is yellow"."""
     return When(tests, used, among="" if where is None else "area")
@@ -563,13 +580,27 @@ def bare_level(level: Lex) -> AllTests:
     return AllTests((at_level(level),))
 
 
-@construction("when: AT DET level=LEVEL READING", "when: INCASE DET level=LEVEL READING", cost=0.2)
-def on_a_level(level: Lex, used: int) -> When:
-    """Compose "on a low reading"."""
-    return When(AllTests((at_level(level),)), used)
+@construction(
+    "such_reading: [DET] level=LEVEL READING",
+    "such_reading: [DET] level=LEVEL noun=NOUN",
+    "such_reading: [DET] level=LEVEL noun=NOUN READING",
+    cost=0.1,
+)
+def such_reading(level: Lex, noun: Lex | None = None) -> list[Test]:
+    """Compose "a low reading" and "a low CO2 level"."""
+    return [replace(at_level(level), quantity=name) for name in ([""] if noun is None else measured_by(noun))]
 
 
-@construction("when: DET READING test=predicate MEANING", cost=0.3)
+@construction(
+    "when: AT test=such_reading",
+    "when: INCASE test=such_reading",
+    "when: WITH test=such_reading",
+    "when: test=such_reading MEANING",
+    "when: test=such_reading THERE MEANING",
+    "when: test=test MEANING",
+    "when: test=test THERE MEANING",
+    cost=0.3,
+)
 def such_a_reading_means(test: Test, used: int) -> When:
-    """Compose "a reading under 400 ppm means"."""
+    """Compose "on a low reading" and "a reading under 400 ppm means"."""
     return When(AllTests((test,)), used)

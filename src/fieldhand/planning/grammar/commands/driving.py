@@ -19,6 +19,7 @@ from fieldhand.planning.grammar.meaning import (
     PlaceMeaning,
     RankCommand,
     StopCommand,
+    Thing,
 )
 from fieldhand.planning.grammar.places.compass import AWAY_FROM
 from fieldhand.planning.grammar.places.groups import both
@@ -214,6 +215,36 @@ def lead(place: PlaceMeaning, used: int, word: str) -> Lead | None:
     return Lead(place, used, word) if place.shape in ("one", "several", "area") else None
 
 
+@construction("lead: TOPIC place=place", cost=0.3)
+def topic(place: PlaceMeaning, used: int) -> Lead | None:
+    """Compose "our focus is the northern half", of what the next sentences are about."""
+    return Lead(place, used, relation="topic") if place.shape in ("one", "several", "area") else None
+
+
+@construction(
+    "lead: relation place=place [COMMA] things=things [OF] [DET] [GROUND] MATTERS",
+    "lead: things=things relation place=place MATTERS",
+    cost=0.3,
+)
+def topic_things(place: PlaceMeaning, things: tuple[Thing, ...], used: int) -> Lead | None:
+    """Compose "in the northern half the nitrate of the soil matters"."""
+    if place.shape not in ("one", "several", "area") or any(one.count is not None for one in things):
+        return None
+    return Lead(place, used, relation="topic", things=things)
+
+
+@construction("lead: site IS place=place", cost=0.6)
+def topic_of_site(place: PlaceMeaning, used: int) -> Lead | None:
+    """Compose "the farm has four corners"."""
+    return Lead(place, used, relation="topic") if place.shape == "several" else None
+
+
+@construction("lead: place=place REMAINS", cost=0.3)
+def enough_places(place: PlaceMeaning, used: int) -> Lead | None:
+    """Compose "four trees will do"."""
+    return Lead(place, used, relation="topic") if place.shape == "several" else None
+
+
 @construction("home: word=GOHOME", "home: word=RETURN", "home: word=RETURN AT DET PLOT", cost=0.3, given=("site",))
 def go_home(word: Lex, used: int, site: Site) -> Home | None:
     """Compose "go home", to where the robot started."""
@@ -277,6 +308,13 @@ def more_times(times: Lex | None = None, n: int = 1) -> int:
 def again_so_often(times: int, used: int) -> Again:
     """Compose "do it another two times"."""
     return Again(None, used, times=times)
+
+
+@construction("again: REPEAT times=COUNT", "again: REPEAT n=count TIMES", cost=0.2)
+def again_in_all(used: int, times: Lex | None = None, n: int = 1) -> list[Again]:
+    """Compose "repeat three times": three times in all, or three times more?"""
+    often = n if times is None else int(times.value)
+    return [Again(None, used, times=often), *([Again(None, used, times=often, in_all=True)] if often > 1 else ())]
 
 
 @construction("again: REPEAT where=rows", cost=0.2)

@@ -94,6 +94,12 @@ def home_below(check: Lex, least: Amount, used: int) -> LimitClause | None:
     return LimitClause(least, True, used, back=True)
 
 
+@construction("limit: less most=amount of_what", cost=0.5)
+def at_most_of_driving(most: Amount, used: int) -> LimitClause | None:
+    """Compose "at most 100 m of driving"."""
+    return LimitClause(most, False, used) if most.unit in _LIMITED else None
+
+
 @construction("at: AT", "at: CMP", cost=0.0)
 def at_word() -> str:
     """Compose "at"."""

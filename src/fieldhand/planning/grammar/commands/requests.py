@@ -83,10 +83,10 @@ def but_first(used: int) -> Connective:
     return Connective(False, True, used, first=True)
 
 
-@construction("joint: [COMMA] both=and_or_but [then]", "joint: COMMA [then]", "joint: then", cost=0.2)
-def joint(used: int, then: str = "", both: Lex | None = None) -> Connective:
+@construction("joint: [COMMA] both=and_or_but", "joint: COMMA", cost=0.2)
+def joint(used: int, both: Lex | None = None) -> Connective:
     """Compose "and"."""
-    return Connective(False, bool(then), used, both=both is not None)
+    return Connective(False, False, used, both=both is not None)
 
 
 @construction("joint: [before=COMMA] [both=and_or_but] then=then [COMMA]", cost=0.1)
@@ -158,6 +158,17 @@ def then(word: Lex) -> str | None:
     return "from here" if "from_here" in word.features else "then"
 
 
+@construction(
+    "then: [DET] ORD LABEL IS [INORDERTO]",
+    "then: [DET] NEXTONE LABEL IS [INORDERTO]",
+    "then: [DET] LAST LABEL IS [INORDERTO]",
+    cost=0.1,
+)
+def next_task_is() -> str:
+    """Compose "your next task is to"."""
+    return "then"
+
+
 @construction("after: word=THEN done=capture", "after: word=THEN done=drive", cost=0.2)
 def after_doing(word: Lex, done: CaptureCommand | DriveCommand, used: int) -> After | None:
     """Compose "after photographing tree 4"."""
@@ -200,6 +211,12 @@ def first_command(one: Command) -> Said:
     return Said((LinkedCommand(None, one),))
 
 
+@construction("command: WHODOES one=capture", "command: WHODOES one=drive", "command: WHODOES one=home", cost=0.3)
+def who_does(one: CaptureCommand | DriveCommand | Home) -> Command:
+    """Compose "it measures CO2", of the robot."""
+    return one
+
+
 @construction("said: before=said joint=joint one=command", cost=0.3)
 def next_command(before: Said, joint: Connective, one: Command) -> Said | None:
     """Compose "take a picture and go to tree 4"."""
@@ -213,8 +230,10 @@ def without_joint(before: Said, one: Command) -> Said | None:
     """Compose "take a picture if it is high"."""
     last = before.clauses[-1].command
     match one:
-        case Otherwise() | Again() | CaptureWhere() | ReadingQuestion() | Failing() | RankCommand():
+        case Again() | CaptureWhere() | ReadingQuestion() | Failing() | RankCommand():
             return None
+        case Otherwise():
+            follows = any(isinstance(clause.command, When) for clause in before.clauses)
         case Lead():
             follows = isinstance(last, Otherwise)
         case CaptureCommand():

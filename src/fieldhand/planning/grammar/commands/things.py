@@ -65,7 +65,7 @@ def so_many_of_them(n: int) -> Thing:
     return Thing(LAST_THING, count=n, plural=n > 1)
 
 
-@construction("thing: ANOTHER", "thing: ANOTHER ONE", cost=1.5)
+@construction("thing: ANOTHER", "thing: ANOTHER ONE", "thing: ANOTHER READING", cost=1.5)
 def another_of_them() -> Thing:
     """Compose "another one"."""
     return Thing(LAST_THING, count=1)

@@ -312,11 +312,12 @@ def _at_the_same_place(setting: Setting, state: DialogueState, command: CaptureC
 
 
 def _is_of_other_case(state: DialogueState) -> bool:
-    """Return True if the next command begins the other case of a condition, whose first case goes to another place."""
+    """Return True if the next command begins the other case of a condition whose first case goes to one other place."""
     if not state.scope or state.scope[-1] != "otherwise" or state.block.steps:
         return False
     choice = as_choice(node_at(state.plan, state.scope[:-1]))
-    return choice is not None and any(node.selector is not None for node in p.walk(choice.then))
+    nodes = () if choice is None else tuple(p.walk(choice.then))
+    return any(node.selector is not None and not node.visits_each for node in nodes)
 
 
 def _nothing_done_there(state: DialogueState) -> bool:
@@ -339,6 +340,8 @@ def capture_elided(setting: Setting, state: DialogueState) -> DialogueState:
     """Return the state after what was done last at a place named at the end ("..., then at the southernmost tree")."""
     lead = state.lead
     if lead is None or not state.things or lead.place.shape not in ("one", "several", "area"):
+        return state
+    if lead.relation == "topic":
         return state
     if lead.relation == "" and lead.place.selector.named_marker:
         raise NotComposed(message("it is not clear from which place that is measured", context="fault"))
@@ -371,7 +374,7 @@ def _are_of_each(things: tuple[Thing, ...]) -> bool:
 
 def capture_again(setting: Setting, state: DialogueState, command: Again) -> DialogueState:
     """Return the state after what was done at the last place was done at another one."""
-    if command.times > 1:
+    if command.times:
         return done_more_times(setting, state, command)
     place, steps = command.place, _steps_before(state)
     if place is not None and place.shape == "area" and place.per is None:

@@ -21,7 +21,7 @@ from fieldhand.planning.grammar.dialogue.driving import (
     without_home,
 )
 from fieldhand.planning.grammar.dialogue.faults import Fork
-from fieldhand.planning.grammar.dialogue.fitting import is_spoken_of
+from fieldhand.planning.grammar.dialogue.fitting import in_area, is_spoken_of
 from fieldhand.planning.grammar.dialogue.likewise import with_known_place
 from fieldhand.planning.grammar.dialogue.plans import EMPTY, as_for_each, walk
 from fieldhand.planning.grammar.dialogue.state import (
@@ -150,6 +150,9 @@ def _read(
         state = capture_elided(setting, state)  # "take a picture at tree 4, at tree 5 and read CO2 at tree 6"
     if joint is not None and joint.full:
         state = _new_sentence(setting, state, command)
+    if joint is not None and joint.then and state.runs_on and isinstance(command, DriveCommand):
+        scope = setting.either("in the other case only, or in each?", command.used, (state.scope, ()))
+        state = replace(state, scope=scope, runs_on=False, loop=None)
     steps_on = isinstance(command, DriveCommand) and command.place.shape == "step"
     if joint is not None and (joint.from_here or (joint.then and steps_on)) and state.where is not None:
         here = PlaceMeaning(s.Here(), "one")
@@ -187,7 +190,8 @@ def _read(
         case CaptureWhere():
             return captured_where(setting, state, command)
         case Otherwise():
-            return otherwise(setting, state, setting.spans_of(command.used))
+            runs_on = joint is None  # without a comma or a full stop nothing shows where the case ends
+            return replace(otherwise(setting, state, setting.spans_of(command.used)), runs_on=runs_on)
         case LimitClause():
             return _limit(setting, state, command)
         case Allowed():
@@ -233,18 +237,24 @@ def _rest_of_sentence(following: Sequence[LinkedCommand]) -> list[LinkedCommand]
 def _new_sentence(setting: Setting, state: DialogueState, command: Command) -> DialogueState:
     """Return the state at the beginning of a sentence whose first command is known."""
     state = capture_elided(setting, state)
-    if state.open or state.lead is not None:
+    if state.open or (state.lead is not None and state.lead.relation != "topic"):
         raise NotComposed(_IDLE, advice=_WHAT_THERE)
     place = command.place if isinstance(command, CaptureCommand) else None
     if state.area is not None and not is_there(setting, state.area, place):
         state = enter(setting, state, state.area)
     scope = state.scope if isinstance(command, Otherwise) else ()
-    return replace(state, scope=scope, commands_in_sentence=0, within=None)
+    return replace(state, scope=scope, commands_in_sentence=0, within=None, runs_on=False)
 
 
 def _lead(setting: Setting, state: DialogueState, command: Lead) -> DialogueState:
     """Return the state in which the next command is done at a place."""
     state = capture_elided(setting, state)
+    before, place = state.lead, command.place
+    if before is not None and command.relation == "topic" and before.place.shape == "area" and before.place.per is None:
+        place = in_area(setting, before, place)  # "in row 3 the CO2 matters: four trees will do"
+        return replace(state, lead=replace(command, place=place, used=before.used | command.used))
+    if command.things:
+        state = replace(state, things=command.things)
     if state.awaits_command:
         raise NotComposed(message("it is not clear at which of two places this is done", context="fault"))
     return replace(state, lead=command)

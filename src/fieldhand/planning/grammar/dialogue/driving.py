@@ -43,6 +43,9 @@ def drive(setting: Setting, state: DialogueState, command: DriveCommand) -> Dial
     if command.begins and state.plan.steps:
         raise NotComposed(message("where to begin has to be said before the work", context="fault"))
     area, leads = state.area, False
+    if state.lead is not None and place.shape == "those" and state.lead.place.shape in ("one", "several"):
+        before = state.lead  # "our focus is the oldest trees: drive to them"
+        return drive(setting, replace(state, lead=None), DriveCommand(before.place, before.used | command.used))
     if state.lead is not None and state.lead.place.shape == "one" and place.shape in ("one", "step"):
         leads = True
         before = state.lead  # "From tree 4 drive to tree 9."
@@ -223,6 +226,8 @@ def put_in_order(setting: Setting, state: DialogueState, command: InAnOrder) -> 
     if command.by == "each" and state.area is not None:
         place = replace(state.area.place, each=True)  # "along row 3 tree by tree"
         return replace(state, area=replace(state.area, place=place, used=state.area.used | command.used))
+    if command.by == "any" and state.lead is not None and state.lead.place.shape == "several":
+        return replace(state, order=command)
     if state.loop is None:
         if command.by in ("", "any") or state.order is not None or state.commands_in_sentence:
             raise NotComposed(message("an order needs several places", context="fault"))
@@ -242,7 +247,7 @@ def ordered(loop: p.ForEach, command: InAnOrder, said: Spans, site: Site) -> p.F
     Raises:
         NotComposed: The places are not fixed, or what the order refers to is unclear.
     """
-    if command.by == "each":
+    if command.by in ("each", "any"):
         return replace(loop, said=(*loop.said, *said))
     if loop.order == "given" or loop.optional or loop.at_most is not None:
         raise NotComposed(message("an order of places cannot be combined with a choice of how many", context="fault"))

@@ -9,6 +9,7 @@ from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.driving import drive
 from fieldhand.planning.grammar.dialogue.plans import (
+    EMPTY,
     Path,
     as_choice,
     as_for_each,
@@ -64,7 +65,7 @@ def process_again(setting: Setting, state: DialogueState, command: Again) -> Dia
 
 
 def done_more_times(setting: Setting, state: DialogueState, command: Again) -> DialogueState:
-    """Return the state after all that was done so far, at one place or at each of several, was done some more times.
+    """Return the state after all that was done so far, at one place or at each of several, was done several times.
 
     Raises:
         NotComposed: What is repeated is unclear.
@@ -75,6 +76,9 @@ def done_more_times(setting: Setting, state: DialogueState, command: Again) -> D
     if steps[0].selector is None or any(step.selector is not None for step in steps[1:]):
         raise NotComposed(message("it is not clear from which place on", context="fault"))
     said, names = setting.spans_of(command.used), _Names(state.readings)
+    if command.in_all:
+        every = p.Repeat(id="", times=command.times, body=state.plan, said=said)
+        return replace(with_step(replace(state, plan=EMPTY), every), captured=None, loop=None, choice=None, things=())
     body = p.InOrder(id="", steps=tuple(_renamed(step, names, said) for step in steps))
     state = with_step(state, p.Repeat(id="", times=command.times, body=body, said=said))
     return replace(state, readings=names.last, captured=None, loop=None, choice=None, things=())

@@ -109,6 +109,7 @@ class DialogueState:
         ended_by: Condition that ends the last for-each, until something else is done.
         joints: Spans of the connectives.
         ranking: Trees that were ranked.
+        runs_on: True if the last "otherwise" stands in a text without a mark that shows where its case ends.
     """
 
     plan: p.InOrder = EMPTY
@@ -139,6 +140,7 @@ class DialogueState:
     ended_by: Condition | None = None
     joints: Spans = ()
     ranking: RankCommand | None = None
+    runs_on: bool = False
 
     @property
     def block(self) -> p.InOrder:

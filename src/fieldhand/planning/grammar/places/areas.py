@@ -34,7 +34,12 @@ construction = GRAMMAR.construction
 _MOST_BLOCKS = 5
 
 
-@construction("region: [DET] side=DIR HALF", "region: [DET] side=DIR SIDE", cost=0.2)
+@construction(
+    "region: [DET] side=DIR HALF",
+    "region: [DET] side=DIR SIDE",
+    "region: DET side=DIR OF site",
+    cost=0.2,
+)
 def half(side: Lex) -> s.Selector | None:
     """Compose "the northern half" and "the north-east part"."""
     if side.value in CORNERS:

@@ -440,3 +440,17 @@ def each_rows() -> s.Selector:
 def trees_of_each_rows(rows: s.Selector, where: tuple[int, int], inner: Nominal) -> PlaceMeaning | None:
     """Compose "every row's first tree"."""
     return None if inner.plural != (where[0] != where[1]) else trees_of_row(where, inner, rows)
+
+
+@construction(
+    "place: OUTOF m=count inner=nominal AT DET ROW [PASSED] [COMMA] n=count [OFTHEM]",
+    "place: OUTOF DET ROW OF m=count inner=nominal [PASSED] [COMMA] n=count [OFTHEM]",
+    "place: n=count OUTOF m=count inner=nominal AT DET ROW",
+    "place: n=count OUTOF DET ROW OF m=count inner=nominal",
+    cost=0.2,
+)
+def some_of_a_row(n: int, m: int, inner: Nominal) -> PlaceMeaning | None:
+    """Compose "out of a row of six trees, two"."""
+    if n >= m or inner.single or inner.complete or not inner.plural or inner.kind != "tree":
+        return None
+    return PlaceMeaning(s.Evenly(count=n, of=s.Successive(count=m, of=inner.selector)), "several", count=n)

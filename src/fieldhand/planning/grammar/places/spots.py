@@ -73,6 +73,7 @@ def corners(noun: Lex, n: int | None = None) -> Nominal | None:
     "place: [DET] MIDDLE TREE",
     "place: [DET] MIDDLE ONE",
     "place: [DET] TREE NEAREST [AT] DET MIDDLE [in_] [site]",
+    "place: DET TREE NEAR DET MIDDLE [in_] [site]",
     cost=0.2,
 )
 def middle() -> PlaceMeaning:

@@ -383,14 +383,18 @@ def nearest_in(near: PlaceMeaning, where: s.Selector) -> PlaceMeaning | None:
 
 @construction(
     "place: n=count inner=nominal [COMMA] [EACH] dist=apart",
+    "place: n=count inner=nominal [COMMA] WHICH dist=apart",
     "place: n=count inner=nominal [COMMA] ABOUT dist=apart",
+    "place: n=count inner=nominal [COMMA] [EACH] least=apart_least",
+    "place: n=count inner=nominal [COMMA] WHICH least=apart_least",
     cost=0.2,
 )
-def trees_apart(n: int, inner: Nominal, dist: float) -> PlaceMeaning | None:
+def trees_apart(n: int, inner: Nominal, dist: float | None = None, least: float | None = None) -> PlaceMeaning | None:
     """Compose "four trees of row 3, each 12 m from the next"."""
     if inner.single or inner.complete or n < 2:
         return None
-    return PlaceMeaning(s.Apart(apart_m=dist, count=n, of=inner.selector), "several", count=n)
+    apart = s.Apart(apart_m=dist or least or 0.0, count=n, least=least is not None, of=inner.selector)
+    return PlaceMeaning(apart, "several", count=n)
 
 
 @construction("place: whole=place [COMMA] [WHICH] [IS] INSIDE far=amount OF to=place", cost=0.4)
