@@ -92,6 +92,7 @@ class PlaceMeaning:
         in_order: True if the places are visited in the order in which they are named.
         like: Side that the places are on, or which they are, by one named before.
         itself: True for "the tree itself", and no other place that was spoken of.
+        one_tree: True for "that tree", which is none of several places.
         there: True if the phrase says that they are in the area spoken of ("every tree there").
         per: Rows of each of which the selector says something by itself ("the oldest tree of each row").
         fault: Why the site cannot have it, for ``nowhere``.
@@ -107,6 +108,7 @@ class PlaceMeaning:
     in_order: bool = False
     there: bool = False
     itself: bool = False
+    one_tree: bool = False
     like: Likewise | None = None
     per: s.Selector | None = None
     fault: str = ""

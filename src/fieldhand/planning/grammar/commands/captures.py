@@ -190,6 +190,7 @@ def here(word: Lex) -> PlaceMeaning:
         s.Trees() if several and "of_trees" in word.features else s.Here(),
         "those" if several else "here",
         each="of_each" in word.features,
+        one_tree=not several and "of_trees" in word.features,
     )
 
 

@@ -287,7 +287,7 @@ def _at_the_same_place(setting: Setting, state: DialogueState, command: CaptureC
         raise OpenQuestion(asked)
     if command.place is not None and state.where is None:
         raise NotComposed(message("which place is meant?", context="fault"))
-    if command.place is not None and not command.place.itself and _is_of_other_case(state):
+    if command.place is not None and not command.place.itself and _is_of_other_case(state, command.place):
         raise NotComposed(message("it is not clear at which of two places this is done", context="fault"))
     if command.place is None and state.where is not None and state.where.in_order and _nothing_done_there(state):
         raise NotComposed(
@@ -311,13 +311,13 @@ def _at_the_same_place(setting: Setting, state: DialogueState, command: CaptureC
     return replace(state, things=command.things, commands_in_sentence=state.commands_in_sentence + 1)
 
 
-def _is_of_other_case(state: DialogueState) -> bool:
-    """Return True if the next command begins the other case of a condition whose first case goes to one other place."""
+def _is_of_other_case(state: DialogueState, place: PlaceMeaning) -> bool:
+    """Return True if a place begins the other case of a condition, and may be one of the first case."""
     if not state.scope or state.scope[-1] != "otherwise" or state.block.steps:
         return False
     choice = as_choice(node_at(state.plan, state.scope[:-1]))
     nodes = () if choice is None else tuple(p.walk(choice.then))
-    return any(node.selector is not None and not node.visits_each for node in nodes)
+    return any(node.selector is not None and not (node.visits_each and place.one_tree) for node in nodes)
 
 
 def _nothing_done_there(state: DialogueState) -> bool:

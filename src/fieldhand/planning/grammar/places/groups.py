@@ -484,7 +484,7 @@ def any_of_those(n: int) -> PlaceMeaning:
 @construction("place: word=DET TREE [same=ITSELF]", cost=0.7)
 def that_tree(word: Lex, same: Lex | None = None) -> PlaceMeaning | None:
     """Compose "that tree" and "the tree itself"."""
-    return PlaceMeaning(s.Here(), "here", itself=same is not None) if "definite" in word.features else None
+    return PlaceMeaning(s.Here(), "here", itself=same is not None, one_tree=True) if "definite" in word.features else None
 
 
 @construction("place: n=count OFTHEM", "place: n=count OF word=DET", "place: n=count THERE", cost=0.5)
