@@ -29,7 +29,16 @@ ANSWERED = [
         ("3 nearest",),
         "for Take(3, of Where(leaf_color, eq, yellow)): [picture]",
     ),
-    ("take a picture of tree 5, and repeat three times", ("3 more times",), None),
+    (
+        "take a picture of tree 5, and repeat three times",
+        ("At tree 5: take a thermal picture. Do this 3 times: At tree 5: take a thermal picture.",),
+        "picture @ TreeIs(5); 3 times: [picture @ TreeIs(5)]",
+    ),
+    (
+        "take a picture of tree 5, and repeat three times",
+        ("Do this 3 times: At tree 5: take a thermal picture.",),
+        "3 times: [picture @ TreeIs(5)]",
+    ),
     ("take a picture of tree 5 in row 1", ("At tree 5:",), "picture @ TreeIs(5)"),
     ("take a picture at either end of row 3", ("At tree 1",), "picture @ InRow(1, 1, of Rows(3, 3))"),
     ("measure tree 4", ("CO₂",), "co2 @ TreeIs(4)"),
@@ -47,7 +56,8 @@ def answered(request: str, *said: str) -> Outcome:
     for answer in said:
         outcome = EnglishPlanner().plan(request, SITE, HUSKY, answers)
         assert isinstance(outcome, Clarify), outcome
-        chosen = next((choice for choice in outcome.choices if answer in choice), answer)
+        held = [choice for choice in outcome.choices if answer in choice]
+        chosen = answer if answer in held or not held else held[0]
         answers = (*answers, Answer(question=outcome.question, answer=chosen))
     return EnglishPlanner().plan(request, SITE, HUSKY, answers)
 

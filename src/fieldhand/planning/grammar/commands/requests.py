@@ -83,9 +83,7 @@ def but_first(used: int) -> Connective:
     return Connective(False, True, used, first=True)
 
 
-@construction(
-    "joint: [COMMA] both=and_or_but [after=then]", "joint: COMMA [after=then]", "joint: after=then", cost=0.2
-)
+@construction("joint: [COMMA] both=and_or_but [after=then]", "joint: COMMA [after=then]", "joint: after=then", cost=0.2)
 def joint(used: int, after: str = "", both: Lex | None = None) -> Connective | None:
     """Compose "and", and "then" that adds another place ("a picture of row 3, then of row 4")."""
     return None if after == "from here" else Connective(False, False, used, both=both is not None)

@@ -109,9 +109,9 @@ def so_many(n: int, inner: Nominal, word: Lex | None = None) -> PlaceMeaning | N
     """Compose "three trees"."""
     if word is not None and not inner.complete and "indefinite" not in word.features:
         return None  # "the three yellow trees": which are meant, if there are more?
-    if inner.single or (inner.complete and n != inner.complete):
+    if inner.single or (inner.complete and word is not None and n != inner.complete):
         return None
-    if inner.complete:
+    if inner.complete == n:
         return PlaceMeaning(inner.selector, "several", count=n)
     if n == 1:
         return PlaceMeaning(s.Take(count=1, of=inner.selector), "one")
@@ -484,7 +484,9 @@ def any_of_those(n: int) -> PlaceMeaning:
 @construction("place: word=DET TREE [same=ITSELF]", cost=0.7)
 def that_tree(word: Lex, same: Lex | None = None) -> PlaceMeaning | None:
     """Compose "that tree" and "the tree itself"."""
-    return PlaceMeaning(s.Here(), "here", itself=same is not None, one_tree=True) if "definite" in word.features else None
+    if "definite" not in word.features:
+        return None
+    return PlaceMeaning(s.Here(), "here", itself=same is not None, one_tree=True)
 
 
 @construction("place: n=count OFTHEM", "place: n=count OF word=DET", "place: n=count THERE", cost=0.5)
