@@ -1126,7 +1126,11 @@ REFUSED = [
         "never go to tree 5. Take a picture of tree 4.",
         "'never go to' is a prohibition: a plan says only what is to be done",
     ),
-    ("husky", "Take a picture at 12 corners", "12 were asked for, but there are only 4"),
+    (
+        "husky",
+        "Take a picture at 12 corners",
+        "12 were asked for, but there are only 4: the 12 nearest of the 4 corner trees",
+    ),
     (
         "husky",
         "take a picture in the northern half of the southern edge",
@@ -1181,7 +1185,7 @@ REFUSED = [
     (
         "husky",
         "Take pictures of trees older than 10 years and younger than 5 years.",
-        "nothing on this site matches the trees whose age is above 10 years",
+        "nothing on this site matches the trees whose age is above 10 years, whose age is below 5 years",
     ),
     ("husky", "take pictures of as many trees as you can within 500% battery", "a limit of 500 percent cannot be kept"),
     (
