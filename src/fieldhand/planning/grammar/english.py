@@ -32,7 +32,7 @@ _SPELT_OUT = {"temp": "temperature", "temps": "temperature", "temperatures": "te
 #: Words for pictures and for taking them, by what they are to the grammar.
 _WITH_A_CAMERA = {"PICTURE": "NOUN", "CAMERA": "ACTV"}
 #: Categories of phrases that are silent in the shared vocabulary only.
-_SAY_SOMETHING = frozenset({"AVERAGEWORD", "ONEBYONE"})
+_SAY_SOMETHING = frozenset({"AVERAGEWORD", "CORRECTION", "ONEBYONE"})
 
 
 @dataclass(frozen=True)

@@ -354,6 +354,24 @@ class After:
 
 
 @dataclass(frozen=True, slots=True)
+class InTurn:
+    """A command that is done before or after all others ("start with ...", "finish with ...")."""
+
+    command: CaptureCommand | DriveCommand
+    first: bool
+    used: int
+
+
+@dataclass(frozen=True, slots=True)
+class Correction:
+    """What is meant in the stead of the last place or number ("no wait, tree 9")."""
+
+    place: PlaceMeaning | None
+    things: tuple[Thing, ...]
+    used: int
+
+
+@dataclass(frozen=True, slots=True)
 class ReadingQuestion:
     """A reading to be taken, and a test of it that "if so" refers to."""
 
@@ -428,6 +446,8 @@ Command = (
     | After
     | ReadingQuestion
     | Failing
+    | InTurn
+    | Correction
 )
 
 

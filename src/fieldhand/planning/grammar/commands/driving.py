@@ -317,6 +317,18 @@ def again_in_all(used: int, times: Lex | None = None, n: int = 1) -> list[Again]
     return [Again(None, used, times=often), *([Again(None, used, times=often, in_all=True)] if often > 1 else ())]
 
 
+@construction(
+    "again: place=place SAMEWAY",
+    "again: TAKE place=place SAMEWAY",
+    "again: SEENAS place=place SAMEWAY",
+    "again: SAMEFOR place=place",
+    cost=0.2,
+)
+def the_same_way(place: PlaceMeaning, used: int) -> Again:
+    """Compose "do row 4 the same way" and "the same for row 4"."""
+    return Again(place, used)
+
+
 @construction("again: REPEAT where=rows", cost=0.2)
 def again_in_row(where: s.Selector, used: int) -> Again | None:
     """Compose "do the same two rows over"."""

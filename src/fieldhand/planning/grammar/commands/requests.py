@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import (
     After,
@@ -11,18 +13,22 @@ from fieldhand.planning.grammar.meaning import (
     CaptureWhere,
     Command,
     Connective,
+    Correction,
     DriveCommand,
     Failing,
     Home,
     InAnOrder,
+    InTurn,
     Lead,
     LimitClause,
     LinkedCommand,
     Otherwise,
+    PlaceMeaning,
     RankCommand,
     ReadingQuestion,
     Said,
     StopCommand,
+    Thing,
     When,
 )
 from fieldhand.planning.grammar.words import Lex
@@ -31,7 +37,7 @@ GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
 #: Clauses that a command may follow without a connective.
-_LEADS_ON = When | Otherwise | Lead | LimitClause | Allowed | InAnOrder | Failing
+_LEADS_ON = When | Otherwise | Lead | LimitClause | Allowed | InAnOrder | Failing | After
 
 
 @construction(
@@ -126,16 +132,64 @@ def in_order_to(used: int) -> Connective:
     return Connective(False, True, used)
 
 
-@construction("opening: FIRSTONE", "opening: before=BEFORE", cost=0.0)
-def opening(used: int, before: Lex | None = None) -> Connective | None:
-    """Compose "first" and "before" at the beginning of a request."""
-    return None if before is not None and "before_doing" not in before.features else Connective(False, True, used)
+@construction("opening: FIRSTONE", cost=0.0)
+def opening(used: int) -> Connective:
+    """Compose "first" at the beginning of a request."""
+    return Connective(False, True, used)
 
 
-@construction("said: first=opening last=home [COMMA] rest=said", cost=0.3)
-def before_home(first: Connective, last: Home, rest: Said) -> Said:
-    """Compose "before going back to the start, photograph tree 4"."""
-    return Said((*rest.clauses, LinkedCommand(first, last)))
+@construction("before: word=BEFORE", cost=0.0)
+def before(word: Lex, used: int) -> Connective | None:
+    """Compose "before" at the beginning of a request."""
+    return Connective(False, True, used) if "before_doing" in word.features else None
+
+
+@construction("said: word=before last=command [COMMA] rest=said", cost=0.3)
+def before_last(word: Connective, last: Command, rest: Said) -> Said | None:
+    """Compose "before going back to the start, photograph tree 4", of one sentence."""
+    if not isinstance(last, Home | CaptureCommand | DriveCommand):
+        return None
+    if any(clause.before is not None and clause.before.full for clause in rest.clauses):
+        return None
+    return Said((*rest.clauses, LinkedCommand(replace(word, full=not isinstance(last, Home)), last)))
+
+
+@construction(
+    "command: STARTWITH one=capture",
+    "command: STARTWITH one=drive",
+    "command: word=ENDWITH one=capture",
+    "command: word=ENDWITH one=drive",
+    cost=0.2,
+)
+def in_turn(one: CaptureCommand | DriveCommand, used: int, word: Lex | None = None) -> InTurn:
+    """Compose "start with CO2 at tree 4" and "finish with a picture of tree 9"."""
+    made = replace(one, used=used)
+    if isinstance(made, CaptureCommand) and made.relation == "bare":
+        made = replace(made, relation="at")
+    return InTurn(made, word is None, used)
+
+
+@construction("corrects: CORRECTION [COMMA]", "corrects: CORRECTION [COMMA] corrects", cost=0.0)
+def corrects() -> str:
+    """Compose "no, wait,"."""
+    return "no"
+
+
+@construction(
+    "command: corrects place=place",
+    "command: corrects relation place=place",
+    "command: corrects things=things",
+    cost=0.2,
+)
+def correction(used: int, place: PlaceMeaning | None = None, things: tuple[Thing, ...] = ()) -> Correction:
+    """Compose "no wait, tree 9"."""
+    return Correction(place, things, used)
+
+
+@construction("said: before=said DASH one=command", cost=0.3)
+def corrected_by_dash(before: Said, one: Command) -> Said | None:
+    """Compose "take a picture of tree 4 - no, tree 9"."""
+    return Said((*before.clauses, LinkedCommand(None, one))) if isinstance(one, Correction) else None
 
 
 @construction("said: last=home COMMA rest=said", "said: last=home FULLSTOP rest=said", cost=0.2)
@@ -230,7 +284,7 @@ def without_joint(before: Said, one: Command) -> Said | None:
     """Compose "take a picture if it is high"."""
     last = before.clauses[-1].command
     match one:
-        case Again() | CaptureWhere() | ReadingQuestion() | Failing() | RankCommand():
+        case Again() | InTurn() | CaptureWhere() | ReadingQuestion() | Failing() | RankCommand():
             return None
         case Otherwise():
             follows = any(isinstance(clause.command, When) for clause in before.clauses)

@@ -31,6 +31,7 @@ from fieldhand.planning.grammar.dialogue.state import (
     with_joints,
     with_step,
 )
+from fieldhand.planning.grammar.dialogue.turns import as_meant
 from fieldhand.planning.grammar.meaning import (
     LAST_THING,
     After,
@@ -40,10 +41,12 @@ from fieldhand.planning.grammar.meaning import (
     CaptureWhere,
     Command,
     Connective,
+    Correction,
     DriveCommand,
     Failing,
     Home,
     InAnOrder,
+    InTurn,
     Lead,
     LimitClause,
     LinkedCommand,
@@ -92,9 +95,10 @@ def read_clauses(setting: Setting, said: Said) -> DialogueState:
         Fork: They can be continued in several ways, and ``setting`` does not say in which.
     """
     state = DialogueState()
-    for k, clause in enumerate(said.clauses):
+    clauses = as_meant(said.clauses)
+    for k, clause in enumerate(clauses):
         try:
-            state = _read(setting, state, clause, said.clauses[k + 1 :])
+            state = _read(setting, state, clause, clauses[k + 1 :])
         except NotComposed as fault:
             raise fault.about(clause.command.used) from None
     return _ended(capture_elided(setting, state))
@@ -214,6 +218,8 @@ def _read(
             return question(setting, state, command)
         case Failing():
             return failing(setting, state, command)
+        case InTurn() | Correction():
+            raise AssertionError("these are resolved before the clauses are read")
 
 
 def _has_own_place(command: Command) -> bool:
