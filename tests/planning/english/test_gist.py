@@ -132,3 +132,41 @@ def test_steps_are_read_clause_by_clause(request_: str, plan: str) -> None:
 )
 def test_what_nobody_means_is_asked_about(request_: str, why: str) -> None:
     assert why in plan_of(request_)
+
+
+@pytest.mark.parametrize(
+    ("request_", "plain"),
+    [
+        ("Before you photograph tree 9, measure CO2 at tree 4.", "Measure CO2 at tree 4. Take a picture of tree 9."),
+        ("After photographing tree 9 measure CO2 at tree 4.", "Take a picture of tree 9. Measure CO2 at tree 4."),
+        ("Finish with a picture of tree 9, start with CO2 at tree 4.", "Measure CO2 at tree 4. Take a picture of tree 9."),
+        ("Finish with a picture of tree 9. Begin with CO2 at tree 4. Photograph tree 7.", "Measure CO2 at tree 4. Take a picture of tree 7. Take a picture of tree 9."),
+        ("First take CO2 at tree 4, but even before that take a picture of tree 9.", "Take a picture of tree 9. Measure CO2 at tree 4."),
+    ],
+)  # fmt: skip
+def test_steps_told_out_of_order_are_done_in_order(request_: str, plain: str) -> None:
+    assert plan_of(request_) == plan_of(plain)
+
+
+@pytest.mark.parametrize(
+    "same",
+    [
+        "Do the same in row 4.",
+        "Do row 4 the same way.",
+        "The same for row 4.",
+        "Same thing in row 4.",
+        "Row 4 likewise.",
+        "Treat row 4 the same way.",
+    ],
+)
+def test_another_row_is_treated_the_same_way(same: str) -> None:
+    found = plan_of(f"Photograph every second tree in row 2. {same}")
+    assert found == "for EveryNth(2, of Rows(2, 2)): [picture]; for EveryNth(2, of Rows(4, 4)): [picture]"
+
+
+@pytest.mark.parametrize(
+    "other", ["In every other case,", "In any other event,", "In the remaining cases,", "Otherwise"]
+)
+def test_the_other_case_has_many_names(other: str) -> None:
+    found = plan_of(f"Take a picture of tree 4. If it is above 35 °C, take CO2. {other} read the air temperature.")
+    assert found == "picture @ TreeIs(4) = r1; if r1 > 35 degC: [co2] else [air]"
