@@ -170,3 +170,36 @@ def test_another_row_is_treated_the_same_way(same: str) -> None:
 def test_the_other_case_has_many_names(other: str) -> None:
     found = plan_of(f"Take a picture of tree 4. If it is above 35 °C, take CO2. {other} read the air temperature.")
     assert found == "picture @ TreeIs(4) = r1; if r1 > 35 degC: [co2] else [air]"
+
+
+@pytest.mark.parametrize(
+    ("request_", "plain"),
+    [
+        ("Take a picture of tree 4, no wait, tree 5.", "Take a picture of tree 5."),
+        ("Photograph tree 8. Sorry, I mean tree 9.", "Take a picture of tree 9."),
+        ("Take CO2 at tree 8 - no, at tree 9.", "Take CO2 at tree 9."),
+        ("Photograph every second tree in row 3, no wait, make that row 4.", "Photograph every second tree in row 4."),
+        ("Go to tree 4, sorry, tree 9, and take a picture.", "Go to tree 9 and take a picture."),
+        ("Take CO2 at trees 3 and 4. Sorry, I mean trees 5 and 6.", "Take CO2 at trees 5 and 6."),
+    ],
+)
+def test_a_correction_takes_the_place_of_what_it_corrects(request_: str, plain: str) -> None:
+    assert plan_of(request_) == plan_of(plain)
+    outcome = EnglishPlanner().plan(request_, DEMO, HUSKY)
+    assert isinstance(outcome, Planned)
+    assert outcome.task.command.request == request_
+    assert outcome.task.command.read_as == plain.replace("Take a picture of tree 9", "Photograph tree 9")
+
+
+@pytest.mark.parametrize(
+    "request_",
+    [
+        "Sorry, tree 9.",
+        "Photograph tree 4, no tree 5.",
+        "Photograph row 2, I mean the yellow trees.",
+        "Take CO2 at trees 3 and 4, sorry, tree 5.",
+        "Go to tree 4 and wait there.",
+    ],
+)
+def test_an_unclear_correction_is_refused(request_: str) -> None:
+    assert plan_of(request_).startswith("refuses")

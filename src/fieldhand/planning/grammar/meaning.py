@@ -364,10 +364,9 @@ class InTurn:
 
 @dataclass(frozen=True, slots=True)
 class Correction:
-    """What is meant in the stead of the last place or number ("no wait, tree 9")."""
+    """A place that is meant in the stead of the last one ("no wait, tree 9")."""
 
-    place: PlaceMeaning | None
-    things: tuple[Thing, ...]
+    place: PlaceMeaning
     used: int
 
 

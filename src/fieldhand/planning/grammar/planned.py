@@ -54,6 +54,7 @@ class Meant:
         no_part: Spans of the request that ask for nothing.
         assumptions: What was assumed, as sentences.
         warnings: What has to be confirmed before the Task is approved, as sentences.
+        read_as: The request with its corrections made; empty if it has none.
     """
 
     plan: p.Node
@@ -63,6 +64,7 @@ class Meant:
     no_part: tuple[p.Span, ...] = ()
     assumptions: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
+    read_as: str = ""
 
 
 def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> Outcome:
@@ -73,6 +75,7 @@ def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> O
     nominal = usual_exit(site) if meant.nominal is None else meant.nominal
     task = make_task(
         request=request,
+        read_as=meant.read_as,
         plan=meant.plan,
         measures=measures_of(robot),
         resources=(

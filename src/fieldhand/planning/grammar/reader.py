@@ -15,6 +15,7 @@ from fieldhand.planning.grammar.blocks import in_each_block, leaves_block_open
 from fieldhand.planning.grammar.chart import Chart, Grammar, PhraseEdge, tokens_of
 from fieldhand.planning.grammar.dialogue import (
     DialogueState,
+    Edits,
     NotComposed,
     OpenQuestion,
     Setting,
@@ -206,7 +207,11 @@ def composed(
         if (plan := candidate.plan) is not None
         and (candidate.reading.cost == likely[0].reading.cost or _is_whole(plan, remarks, site, robot))
     ]
-    return _chosen(plans, remarks, request, site, robot, answers) if plans else likely[0].outcome
+    return (
+        _chosen(plans, likely[0].reading.state.edits, remarks, request, site, robot, answers)
+        if plans
+        else likely[0].outcome
+    )
 
 
 def _likely(found: Sequence[RequestReading], request: str, site: Site, robot: RobotProfile) -> Sequence[_Candidate]:
@@ -243,6 +248,7 @@ def _candidates(
 
 def _chosen(
     plans: Sequence[Planned],
+    edits: Edits,
     remarks: Sequence[Span],
     request: str,
     site: Site,
@@ -255,7 +261,7 @@ def _chosen(
     while len(plans) > 1 and (question := question_between(plans, request, site, robot)) is not None:
         given = next((answer for answer in answers if answer.question == question.question), None)
         if given is None:
-            left = _whole_answers(question, taken, remarks, site, robot)
+            left = _whole_answers(question, taken, edits, remarks, site, robot)
             if len(left) < 2:  # the others contradict the request
                 plans = list(left.values())
                 break
@@ -265,7 +271,7 @@ def _chosen(
         if chosen is None:
             return Refused(reasons=(not_an_answer(given, tuple(question.plans)),), planner=NAME)
         plans, taken = question.plans[chosen], (*taken, (replace(given, answer=chosen), question.said))
-    plan = _answered(plans[0] if plans else first, taken)
+    plan = _answered(plans[0] if plans else first, taken, edits)
     if _is_whole(plan, remarks, site, robot):
         return plan
     lost = _lost_words(plan, remarks)
@@ -275,6 +281,7 @@ def _chosen(
 def _whole_answers(
     question: PlanQuestion,
     taken: Sequence[tuple[Answer, Span]],
+    edits: Edits,
     remarks: Sequence[Span],
     site: Site,
     robot: RobotProfile,
@@ -283,21 +290,22 @@ def _whole_answers(
     left: dict[str, Planned] = {}
     for text, plans in question.plans.items():
         answer = (Answer(question=question.question, answer=text), question.said)
-        whole = (plan for plan in plans if _is_whole(_answered(plan, (*taken, answer)), remarks, site, robot))
+        whole = (plan for plan in plans if _is_whole(_answered(plan, (*taken, answer), edits), remarks, site, robot))
         if (first := next(whole, None)) is not None:
             left[text] = first
     return left
 
 
-def _answered(plan: Planned, taken: Sequence[tuple[Answer, Span]]) -> Planned:
+def _answered(plan: Planned, taken: Sequence[tuple[Answer, Span]], edits: Edits) -> Planned:
     """Return a plan with the answers that chose it; its request is read with them in place of the words in question."""
     if not taken:
         return plan
     command = plan.task.command
-    read_as, before = command.request, len(command.request)
-    for answer, (start, end) in sorted(taken, key=lambda one: one[1], reverse=True):
-        read_as = f"{read_as[:start]}{answer.answer.rstrip('.')}{read_as[min(end, before) :]}"
-        before = start
+    answered = tuple((said, answer.answer.rstrip(".")) for answer, said in taken)
+    left = tuple(
+        one for one in edits if not any(start <= one[0][0] and one[0][1] <= end for (start, end), _ in answered)
+    )
+    read_as = _edited(command.request, (*answered, *left))
     assumptions = (*(answer.sentence() for answer, _ in taken), *command.assumptions)
     return replace(plan, task=replace(plan.task, command=replace(command, read_as=read_as, assumptions=assumptions)))
 
@@ -378,7 +386,17 @@ def _meant(reading: RequestReading, request: str) -> Meant:
         no_part=tuple(no_part),
         assumptions=(*reading.assumed, *remarked),
         warnings=reading.mended,
+        read_as=_edited(request, state.edits) if state.edits else "",
     )
+
+
+def _edited(request: str, edits: Edits) -> str:
+    """Return a request with other words in some of its ranges."""
+    read_as, before = request, len(request)
+    for (start, end), words in sorted(edits, reverse=True):
+        read_as = f"{read_as[:start]}{words}{read_as[min(end, before) :]}"
+        before = start
+    return read_as
 
 
 def _same(one: Meant, other: Meant) -> bool:

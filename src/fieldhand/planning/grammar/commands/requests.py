@@ -28,7 +28,6 @@ from fieldhand.planning.grammar.meaning import (
     ReadingQuestion,
     Said,
     StopCommand,
-    Thing,
     When,
 )
 from fieldhand.planning.grammar.words import Lex
@@ -169,21 +168,22 @@ def in_turn(one: CaptureCommand | DriveCommand, used: int, word: Lex | None = No
     return InTurn(made, word is None, used)
 
 
-@construction("corrects: CORRECTION [COMMA]", "corrects: CORRECTION [COMMA] corrects", cost=0.0)
-def corrects() -> str:
-    """Compose "no, wait,"."""
-    return "no"
+@construction(
+    "corrects: CORRECTION COMMA", "corrects: CORRECTION [COMMA] corrects", "corrects: word=CORRECTION", cost=0.0
+)
+def corrects(word: Lex | None = None) -> str | None:
+    """Compose "no, wait,"; "no tree 5" corrects nothing."""
+    return None if word is not None and "negates" in word.features else "no"
 
 
 @construction(
     "command: corrects place=place",
     "command: corrects relation place=place",
-    "command: corrects things=things",
     cost=0.2,
 )
-def correction(used: int, place: PlaceMeaning | None = None, things: tuple[Thing, ...] = ()) -> Correction:
+def correction(place: PlaceMeaning, used: int) -> Correction:
     """Compose "no wait, tree 9"."""
-    return Correction(place, things, used)
+    return Correction(place, used)
 
 
 @construction("said: before=said DASH one=command", cost=0.3)

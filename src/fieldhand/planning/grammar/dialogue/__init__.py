@@ -10,7 +10,8 @@ The rules:
 
 ``clauses`` reads clause by clause (:func:`read_clauses`) and leaves each kind of command to ``capturing``, ``driving``,
 ``conditions`` or ``allowances``. ``state`` and ``plans`` have the state and what is done with the plan in it;
-``fitting`` decides how many visits and captures a place means, and ``tested`` which reading a test is about.
+``turns`` makes corrections and puts steps told out of order in their order; ``fitting`` decides how many visits and
+captures a place means, and ``tested`` which reading a test is about.
 
 Where a request leaves open what is meant ("a picture of row 3": of each tree, or of one?), a function takes the way
 that :meth:`Setting.either` returns; :func:`read_in_each_way` reads the clauses once for each way, and the plans that
@@ -21,6 +22,15 @@ from __future__ import annotations
 
 from fieldhand.planning.grammar.dialogue.clauses import read_clauses, read_in_each_way
 from fieldhand.planning.grammar.dialogue.plans import whole_plan
-from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, OpenQuestion, Setting
+from fieldhand.planning.grammar.dialogue.state import DialogueState, Edits, NotComposed, OpenQuestion, Setting
 
-__all__ = ["DialogueState", "NotComposed", "OpenQuestion", "Setting", "read_clauses", "read_in_each_way", "whole_plan"]
+__all__ = [
+    "DialogueState",
+    "Edits",
+    "NotComposed",
+    "OpenQuestion",
+    "Setting",
+    "read_clauses",
+    "read_in_each_way",
+    "whole_plan",
+]

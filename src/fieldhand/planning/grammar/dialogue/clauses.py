@@ -94,8 +94,8 @@ def read_clauses(setting: Setting, said: Said) -> DialogueState:
         NotComposed: The clauses do not fit together.
         Fork: They can be continued in several ways, and ``setting`` does not say in which.
     """
-    state = DialogueState()
-    clauses = as_meant(said.clauses)
+    clauses, edits = as_meant(setting, said.clauses)
+    state = DialogueState(edits=edits)
     for k, clause in enumerate(clauses):
         try:
             state = _read(setting, state, clause, clauses[k + 1 :])

@@ -27,6 +27,8 @@ from fieldhand.task.conditions import Condition
 from fieldhand.task.frames import Then
 
 Spans = tuple[p.Span, ...]
+#: Ranges of the request that corrections change, each with what stands there then.
+Edits = tuple[tuple[p.Span, str], ...]
 T = TypeVar("T")
 
 
@@ -109,6 +111,7 @@ class DialogueState:
         ended_by: Condition that ends the last for-each, until something else is done.
         joints: Spans of the connectives.
         ranking: Trees that were ranked.
+        edits: What corrections change in the request.
         runs_on: True if the last "otherwise" stands in a text without a mark that shows where its case ends.
     """
 
@@ -141,6 +144,7 @@ class DialogueState:
     joints: Spans = ()
     ranking: RankCommand | None = None
     runs_on: bool = False
+    edits: Edits = ()
 
     @property
     def block(self) -> p.InOrder:
@@ -189,6 +193,6 @@ def done_at(state: DialogueState, place: PlaceMeaning) -> DialogueState:
 
 
 __all__ = [
-    "DialogueState", "NotComposed", "OpenQuestion", "Path", "Setting", "Spans", "done_at", "with_capture",
+    "DialogueState", "Edits", "NotComposed", "OpenQuestion", "Path", "Setting", "Spans", "done_at", "with_capture",
     "with_joints", "with_last_step", "with_step",
 ]  # fmt: skip

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from fieldhand.language import message
-from fieldhand.planning.grammar.dialogue.faults import NotComposed
+from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.dialogue.state import Edits, NotComposed, Setting
 from fieldhand.planning.grammar.meaning import (
     CaptureCommand,
     Connective,
@@ -16,46 +17,69 @@ from fieldhand.planning.grammar.meaning import (
     LinkedCommand,
     PlaceMeaning,
 )
-from fieldhand.planning.selections import replaceable_area, swapped
+from fieldhand.planning.selections import named_places, replaceable_area, swapped
+from fieldhand.task.plan import Span
 
 
-def as_meant(clauses: Sequence[LinkedCommand]) -> tuple[LinkedCommand, ...]:
-    """Return clauses with corrections made ("no wait, tree 9"), and in order ("finish with ..., start with ...").
+def as_meant(setting: Setting, clauses: Sequence[LinkedCommand]) -> tuple[tuple[LinkedCommand, ...], Edits]:
+    """Return clauses with corrections made ("no wait, tree 9"), in order ("finish with ...").
+
+    With them come the ranges of the request that the corrections change, and what stands there then.
 
     Raises:
         NotComposed: What is corrected, or the order, is unclear.
     """
     found: list[LinkedCommand] = []
+    edits: Edits = ()
     for clause in clauses:
-        if isinstance(clause.command, Correction):
-            if not found:
-                raise NotComposed(message("it is not clear what is corrected", context="fault"), clause.command.used)
-            found.append(_corrected(found.pop(), clause, clause.command))
-        else:
+        if not isinstance(clause.command, Correction):
             found.append(clause)
-    return _in_turn(found)
+            continue
+        if not found:
+            raise _unclear(clause.command)
+        corrected, changed = _corrected(setting, found.pop(), clause, clause.command)
+        found.append(corrected)
+        edits = (*edits, *changed)
+    return _in_turn(found), edits
 
 
-def _corrected(last: LinkedCommand, clause: LinkedCommand, correction: Correction) -> LinkedCommand:
-    """Return the last clause with what a correction puts in the place of a part of it."""
-    command = last.command
+def _unclear(correction: Correction) -> NotComposed:
+    return NotComposed(message("it is not clear what is corrected", context="fault"), correction.used)
+
+
+def _corrected(
+    setting: Setting, last: LinkedCommand, clause: LinkedCommand, correction: Correction
+) -> tuple[LinkedCommand, Edits]:
+    """Return the last clause with the place of a correction, and what the correction changes in the request."""
+    command, new = last.command, correction.place
+    if not isinstance(command, CaptureCommand | DriveCommand) or command.place is None:
+        raise _unclear(correction)
+    old, place = command.place, _other_place(command.place, new)
+    if place is None or not old.tokens:
+        raise _unclear(correction)
     used = correction.used | (clause.before.used if clause.before is not None else 0)
-    unclear = NotComposed(message("it is not clear what is corrected", context="fault"), correction.used)
-    if correction.things and isinstance(command, CaptureCommand):
-        if [one.action for one in correction.things] != [one.action for one in command.things]:
-            raise unclear
-        return replace(last, command=replace(command, things=correction.things, used=command.used | used))
-    if correction.place is None or not isinstance(command, CaptureCommand | DriveCommand) or command.place is None:
-        raise unclear
-    place = _other_place(command.place, correction.place)
-    if place is None:
-        raise unclear
-    return replace(last, command=replace(command, place=place, used=command.used | used))
+    words, start, end = setting.quoted(new.tokens), *_range(setting, old.tokens)
+    if old.shape != new.shape:
+        part = setting.request[start:end].lower().rfind(words.lower().split()[0])
+        start = start + part if part >= 0 else end
+        if len(setting.request[start:end].split()) != len(words.split()):
+            raise _unclear(correction)
+    changed = replace(command, place=place, used=command.used | used)
+    return replace(last, command=changed), (((start, end), words), (_range(setting, used), ""))
+
+
+def _range(setting: Setting, used: int) -> Span:
+    """Return the range of the request from the first to the last of some tokens."""
+    said = setting.spans_of(used)
+    return (said[0][0], said[-1][1])
 
 
 def _other_place(old: PlaceMeaning, new: PlaceMeaning) -> PlaceMeaning | None:
     """Return a place with another one in its stead, or with another area of the same kind; None if they are unlike."""
-    if old.shape == new.shape == "one" or old.selector == new.selector:
+    if old.shape == new.shape and new.shape in ("one", "area") and old.per is None and new.per is None:
+        return replace(new, tokens=old.tokens | new.tokens)
+    named = (*named_places(old.selector), *named_places(new.selector))
+    if old.shape == new.shape == "several" and all(isinstance(one, s.TreeIs) for one in named):
         return replace(new, tokens=old.tokens | new.tokens)
     if new.shape != "area":
         return None
