@@ -179,7 +179,7 @@ def test_the_other_case_has_many_names(other: str) -> None:
         ("Photograph tree 8. Sorry, I mean tree 9.", "Take a picture of tree 9."),
         ("Take CO2 at tree 8 - no, at tree 9.", "Take CO2 at tree 9."),
         ("Photograph every second tree in row 3, no wait, make that row 4.", "Photograph every second tree in row 4."),
-        ("Go to tree 4, sorry, tree 9, and take a picture.", "Go to tree 9 and take a picture."),
+        ("Go to tree 4, sorry, tree 9, and take a picture.", "Go to tree 9, and take a picture."),
         ("Take CO2 at trees 3 and 4. Sorry, I mean trees 5 and 6.", "Take CO2 at trees 5 and 6."),
     ],
 )

@@ -1158,7 +1158,7 @@ REFUSED = [
     (
         "husky",
         "Photograph two trees that are 300 metres apart.",
-        "'that are 300 metres' does not fit at this point in 'Photograph two trees that are 300 metres apart'",
+        "there are no 2 trees about 300 m from each other among 169 trees over 68 m east-west and 97 m north-south",
     ),
     ("husky", "take a picture of every tree in block B", "there is no block 'B'"),
     ("husky", "take a picture of every tree in row 40", "there is no row '40'"),
