@@ -92,6 +92,7 @@ def test_a_question_and_its_answer_are_said_among_the_assumptions() -> None:
     assert isinstance(asked, Clarify)
     answer = Answer(question=asked.question, answer=asked.choices[-1])
     said_at_once = SPANISH.say(answer.sentence())
-    assert "«some trees»: ¿cuántos?" in said_at_once
-    assert "«todos»" in said_at_once
-    assert SPANISH.say(recalled(str(answer), "assumption")) == said_at_once
+    assert "«Take pictures of some trees in row 3»: ¿" in said_at_once
+    assert "En cada uno de los 10" in said_at_once
+    written = SPANISH.say(recalled(str(answer), "assumption"))
+    assert written.split(" Respuesta: ")[0] == said_at_once.split(" Respuesta: ")[0]

@@ -307,9 +307,15 @@ class CaptureWhere:
 
 @dataclass(frozen=True, slots=True)
 class Allowed:
-    """Work that is done only if the budget allows it: what follows it, or the command before it."""
+    """Work that is done only if the budget allows it: what follows it, or the command before it.
+
+    Attributes:
+        used: Tokens of the phrase.
+        unsaid: True if the phrase does not say that the budget decides ("if possible").
+    """
 
     used: int
+    unsaid: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -384,7 +384,7 @@ def _meant(reading: RequestReading, request: str) -> Meant:
         nominal=state.nominal,
         nominal_said=state.nominal_said,
         no_part=tuple(no_part),
-        assumptions=(*reading.assumed, *remarked),
+        assumptions=(*state.assumed, *reading.assumed, *remarked),
         warnings=reading.mended,
         read_as=_edited(request, state.edits) if state.edits else "",
     )

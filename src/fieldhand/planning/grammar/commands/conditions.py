@@ -334,7 +334,7 @@ def means(noun: Lex | None = None) -> str | None:
 
 
 @construction(
-    "allow: FITS",
+    "allow: word=FITS",
     "allow: IF means [STILL] ALLOW [IT]",
     "allow: means PERMITTING",
     "allow: IF THEREIS [STILL] [ENOUGH] means [LEFT]",
@@ -347,9 +347,9 @@ def means(noun: Lex | None = None) -> str | None:
     "allow: FITS INSIDE means",
     cost=0.2,
 )
-def if_it_fits(used: int) -> Allowed:
+def if_it_fits(used: int, word: Lex | None = None) -> Allowed:
     """Compose "if the battery allows it"."""
-    return Allowed(used)
+    return Allowed(used, unsaid=word is not None and "unsaid_budget" in word.features)
 
 
 @construction("means: first=means AND second=means", cost=0.1)

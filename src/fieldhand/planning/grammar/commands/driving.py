@@ -25,7 +25,6 @@ from fieldhand.planning.grammar.places.compass import AWAY_FROM
 from fieldhand.planning.grammar.places.groups import both
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_some, is_row_of_place
-from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -245,13 +244,10 @@ def enough_places(place: PlaceMeaning, used: int) -> Lead | None:
     return Lead(place, used, relation="topic") if place.shape == "several" else None
 
 
-@construction("home: word=GOHOME", "home: word=RETURN", "home: word=RETURN AT DET PLOT", cost=0.3, given=("site",))
-def go_home(word: Lex, used: int, site: Site) -> Home | None:
+@construction("home: word=GOHOME", "home: word=RETURN", "home: word=RETURN AT DET PLOT", cost=0.3)
+def go_home(word: Lex, used: int) -> Home | None:
     """Compose "go home", to where the robot started."""
-    if "ends" in word.features:
-        return None
-    back = "to_start" in word.features and "start" in site.markers
-    return Home("return_to_start" if back else None, used)
+    return None if "ends" in word.features else Home(None, used)
 
 
 @construction("home: RETURN AT marker=marker", "home: RETURN marker=marker", cost=0.2)

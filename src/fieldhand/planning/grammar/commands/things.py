@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import LAST_THING, Thing
@@ -88,6 +90,12 @@ def it_again() -> Thing:
 def things(one: Thing) -> tuple[Thing, ...]:
     """Compose "two pictures"."""
     return (one,)
+
+
+@construction("things: one=thing times=COUNT", cost=1.2)
+def thing_so_often(one: Thing, times: Lex) -> tuple[Thing, ...] | None:
+    """Compose "CO2 twice" before its place."""
+    return None if one.count not in (None, 1) else (replace(one, count=times.value, plural=True),)
 
 
 @construction("things: first=things AND second=things", "things: first=things COMMA second=things", cost=0.3)

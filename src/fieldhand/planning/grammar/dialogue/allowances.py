@@ -8,7 +8,14 @@ from dataclasses import replace
 from fieldhand.language import message
 from fieldhand.planning.grammar.dialogue.fitting import is_spoken_of
 from fieldhand.planning.grammar.dialogue.plans import EMPTY, Path
-from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, with_last_step, with_step
+from fieldhand.planning.grammar.dialogue.state import (
+    DialogueState,
+    NotComposed,
+    Setting,
+    with_assumption,
+    with_last_step,
+    with_step,
+)
 from fieldhand.planning.grammar.meaning import Allowed, CaptureCommand, Connective, Failing, LinkedCommand
 from fieldhand.task import plan as p
 
@@ -33,6 +40,13 @@ def allowed(
         NotComposed: What may be left out is unclear.
     """
     said, steps = setting.spans_of(command.used), state.block.steps
+    if command.unsaid:
+        taken = message(
+            "'{said}' is taken as: if the battery and the budget allow it.",
+            context="assumption",
+            said=setting.quoted(command.used),
+        )
+        state = with_assumption(state, taken)
     if state.awaits_command:
         raise NotComposed(message("does it apply to all these places together, or to each of them?", context="fault"))
     if state.commands_in_sentence and any(step.visits_each and step.is_optional for step in steps[-1:]):

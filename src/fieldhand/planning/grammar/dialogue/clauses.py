@@ -28,6 +28,7 @@ from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
     NotComposed,
     Setting,
+    with_assumption,
     with_joints,
     with_step,
 )
@@ -126,13 +127,26 @@ def _ended(state: DialogueState) -> DialogueState:
     if state.nominal is None and state.in_case is not None:
         cases = state.plan.steps[-1].children if state.plan.steps[-1].is_choice else ()
         both_drive = len(cases) > 1 and all(case.children and case.children[-1].only_drives for case in cases)
-        return replace(state, nominal="stay" if both_drive else state.in_case)
+        return _ended_in_case(replace(state, nominal="stay" if both_drive else state.in_case))
     if state.nominal is None and state.plan.steps[-1].ends_plan:
         stays = state.plan.steps[-2].only_drives
         return replace(state, nominal="stay" if stays else None, nominal_said=state.plan.steps[-1].said)
     if state.nominal is None and state.returned and state.plan.steps[-1].only_drives:
         return replace(state, nominal="stay")
     return state
+
+
+def _ended_in_case(state: DialogueState) -> DialogueState:
+    """Return the state after it was assumed where the mission ends if only some of the cases say so."""
+    if state.nominal == "stay":
+        sentence = message(
+            "Where the mission ends depends on the case; in a case that does not say where, the robot stays.",
+            context="assumption",
+        )
+    else:
+        way = message(str(state.nominal).replace("_", " "), context="way")
+        sentence = message("The mission ends there in any case ({way}).", context="assumption", way=way)
+    return with_assumption(state, sentence)
 
 
 def _visits_open_number(loop: p.ForEach) -> bool:

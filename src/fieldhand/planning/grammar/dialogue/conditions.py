@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from fieldhand.language import message
+from fieldhand.language.words import say_action
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.capturing import capture, capture_once
 from fieldhand.planning.grammar.dialogue.driving import drive
@@ -26,6 +27,7 @@ from fieldhand.planning.grammar.dialogue.state import (
     NotComposed,
     Setting,
     Spans,
+    with_assumption,
     with_joints,
     with_last_step,
     with_step,
@@ -142,7 +144,19 @@ def _measured_here(setting: Setting, state: DialogueState, command: When) -> Dia
         return state
     if not steps[-1].only_drives or any(_measures(node, action) for _, node in walk(state.plan)):
         return state
+    state = _assumed_first(setting, state, action, command.used)
     return capture(setting, state, CaptureCommand((Thing(action),), None, command.used))
+
+
+def _assumed_first(setting: Setting, state: DialogueState, action: str, used: int) -> DialogueState:
+    """Return the state after it was assumed that a reading is taken where a condition asks for it."""
+    first = message(
+        "'{said}' is measured first ({action}), there.",
+        context="assumption",
+        said=setting.quoted(used),
+        action=say_action(action, 1),
+    )
+    return with_assumption(state, first)
 
 
 def _measures(node: p.Node, action: str) -> bool:
@@ -185,6 +199,7 @@ def _measured_at_each(setting: Setting, state: DialogueState, command: CaptureWh
     if action is None or (area is not None and state.awaits_command):
         raise NotComposed(message("it is not clear what is measured, and where", context="fault"))
     place = area if area is not None else PlaceMeaning(s.Trees(), "several", each=True)
+    state = _assumed_first(setting, state, action, command.used)
     return capture(setting, state, CaptureCommand((Thing(action, plural=True),), place, command.used))
 
 
@@ -371,4 +386,5 @@ def _measured(setting: Setting, state: DialogueState, quantity: str, place: Plac
     if action is None or place.shape != "one":
         raise NotComposed(message("it is not clear what is measured, and where", context="fault"))
     said = setting.spans_of(used)
+    state = _assumed_first(setting, state, action, used)
     return capture_once(state, CaptureCommand((Thing(action),), place, used), place, said, said)

@@ -17,6 +17,7 @@ from fieldhand.planning.grammar.dialogue.state import (
     Setting,
     Spans,
     done_at,
+    with_assumption,
     with_joints,
     with_step,
 )
@@ -176,6 +177,9 @@ def go_home(setting: Setting, state: DialogueState, command: Home) -> DialogueSt
         if not {"start", "end"} & set(markers):
             raise NotComposed(message("it is not clear where that is", context="fault"))
         command = replace(command, then="return_to_start" if "start" in markers else "return_to_end")
+        if command.then == "return_to_start":
+            back = message("'{said}' means back to the start.", context="assumption", said=setting.quoted(command.used))
+            state = with_assumption(state, back)
     steps = state.block.steps
     if steps and steps[-1].ends_plan:
         return replace(state, nominal=command.then, nominal_said=said)

@@ -143,6 +143,7 @@ class DialogueState:
     ended_by: Condition | None = None
     joints: Spans = ()
     ranking: RankCommand | None = None
+    assumed: tuple[str, ...] = ()
     runs_on: bool = False
     edits: Edits = ()
 
@@ -187,12 +188,28 @@ def with_joints(state: DialogueState, said: Spans) -> DialogueState:
     return replace(state, joints=(*state.joints, *said))
 
 
+def with_assumption(state: DialogueState, sentence: str) -> DialogueState:
+    """Return the state after something was assumed."""
+    return replace(state, assumed=(*state.assumed, sentence))
+
+
 def done_at(state: DialogueState, place: PlaceMeaning) -> DialogueState:
     """Return the state after a command was done at a place."""
     return replace(state, where=place, where_scope=state.scope, commands_in_sentence=state.commands_in_sentence + 1)
 
 
 __all__ = [
-    "DialogueState", "Edits", "NotComposed", "OpenQuestion", "Path", "Setting", "Spans", "done_at", "with_capture",
-    "with_joints", "with_last_step", "with_step",
+    "DialogueState",
+    "Edits",
+    "NotComposed",
+    "OpenQuestion",
+    "Path",
+    "Setting",
+    "Spans",
+    "done_at",
+    "with_assumption",
+    "with_capture",
+    "with_joints",
+    "with_last_step",
+    "with_step",
 ]  # fmt: skip

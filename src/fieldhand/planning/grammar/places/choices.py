@@ -7,7 +7,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import CORNERS
 from fieldhand.planning.grammar.places.numbered import ids_of
-from fieldhand.planning.grammar.places.numbers import name_of
+from fieldhand.planning.grammar.places.numbers import VAGUE_NUMBERS, name_of
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import chooses_from_trees, is_by_attribute, is_description, is_one_row
 from fieldhand.site.model import Site
@@ -24,6 +24,14 @@ def those_there(word: Lex, inner: Nominal, site: Site, n: int | None = None) -> 
     if (n is None and inner.plural) or inner.kind != "tree" or not is_description(inner.selector):
         return None
     return _so_many(n or 1, inner.selector, site)
+
+
+@construction("place: word=DET inner=nominal", cost=0.4)
+def some_of_them(word: Lex, inner: Nominal) -> list[PlaceMeaning] | None:
+    """Compose "some trees": how many?"""
+    if "vague" not in word.features or not inner.plural or inner.single or inner.complete:
+        return None
+    return [PlaceMeaning(s.Take(count=n, of=inner.selector), "several", count=n) for n in VAGUE_NUMBERS]
 
 
 @construction("place: word=EACH n=count inner=nominal", cost=0.3, given=("site",))
@@ -69,10 +77,10 @@ def one_number_or_the_other(first: tuple[str, ...], n: Lex) -> list[PlaceMeaning
     return [PlaceMeaning(s.TreeIs(tree=name), "one") for name in (*first, name_of(n))]
 
 
-@construction("place: word=DET noun=CORNER [TREE]", cost=0.4)
-def some_corner(word: Lex, noun: Lex) -> list[PlaceMeaning] | None:
+@construction("place: word=DET noun=CORNER [tree=TREE]", cost=0.4)
+def some_corner(word: Lex, noun: Lex, tree: Lex | None = None) -> list[PlaceMeaning] | None:
     """Compose "the corner"."""
-    if noun.plural or "definite" not in word.features:
+    if noun.plural or (tree is not None and tree.plural) or "definite" not in word.features:
         return None
     return [PlaceMeaning(s.Corners(which=(corner,)), "one") for corner in CORNERS]
 

@@ -15,7 +15,7 @@ GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
 #: Numbers to choose from in place of a vague one.
-_VAGUE = (3, 5, 10)
+VAGUE_NUMBERS = (3, 5, 10)
 #: Id of letters and a number.
 _CODED = re.compile(r"(\D*)([1-9]\d*)")
 
@@ -41,7 +41,7 @@ def count(number: Lex) -> int | None:
 @construction("count: VAGUE", cost=0.0)
 def vague_count() -> list[int]:
     """Compose "a few": a question between numbers."""
-    return list(_VAGUE)
+    return list(VAGUE_NUMBERS)
 
 
 def name_of(number: Lex) -> str:
