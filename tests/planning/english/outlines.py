@@ -29,7 +29,11 @@ def node(n: p.Node) -> str:
         case p.Act():
             times = f" x{n.count}" if n.count > 1 else ""
             at = f" @ {selector(n.at)}" if n.at is not None else ""
-            return f"{SHORT.get(n.action, n.action)}{times}{at}" + (f" = {n.reading}" if n.reading else "")
+            values = ", ".join(
+                f"{name} {value:g}" if isinstance(value, float) else f"{name} {value}" for name, value in n.parameters
+            )
+            with_ = f"({values})" if values else ""
+            return f"{SHORT.get(n.action, n.action)}{with_}{times}{at}" + (f" = {n.reading}" if n.reading else "")
         case p.GoTo():
             return f"go {selector(n.place)}"
         case p.ForEach():

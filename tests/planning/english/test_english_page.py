@@ -14,17 +14,17 @@ from fieldhand.site.loader import open_site
 from planning.english.outlines import outline
 
 PAGE = Path(__file__).resolve().parents[3] / "docs" / "english.md"
-EXAMPLES = re.findall(r"^> (.+)\n  (plan|asks|refuses): (.+)$", PAGE.read_text(encoding="utf-8"), re.MULTILINE)
-SITE, HUSKY = open_site("demo"), load_robot("husky")
+EXAMPLES = re.findall(r"^(amiga)?> (.+)\n  (plan|asks|refuses): (.+)$", PAGE.read_text(encoding="utf-8"), re.MULTILINE)
+SITE, ROBOTS = open_site("demo"), {"": load_robot("husky"), "amiga": load_robot("amiga")}
 
 
 def test_the_page_has_examples() -> None:
     assert len(EXAMPLES) >= 30
 
 
-@pytest.mark.parametrize(("request_", "kind", "words"), EXAMPLES, ids=lambda v: str(v)[:50])
-def test_an_example_becomes_what_the_page_says(request_: str, kind: str, words: str) -> None:
-    outcome = EnglishPlanner().plan(request_, SITE, HUSKY)
+@pytest.mark.parametrize(("robot", "request_", "kind", "words"), EXAMPLES, ids=lambda v: str(v)[:50])
+def test_an_example_becomes_what_the_page_says(robot: str, request_: str, kind: str, words: str) -> None:
+    outcome = EnglishPlanner().plan(request_, SITE, ROBOTS[robot])
     if isinstance(outcome, Planned):
         assert (kind, words) == ("plan", outline(outcome.task))
     elif isinstance(outcome, Clarify):

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from fieldhand.planning.english.naming import NameEntry, Phrase, robot_entries, site_entries, split
+from fieldhand.planning.english.naming import NameEntry, Phrase, parameter_entries, robot_entries, site_entries, split
 from fieldhand.planning.english.shared import shared_vocabulary
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -104,6 +104,9 @@ def lexicon_for(robot: RobotProfile, site: Site) -> Lexicon:
 def _lexicon_of(robot: RobotProfile, site: Site) -> Lexicon:
     own: dict[Phrase, NameEntry] = {}
     for phrase, entry in site_entries(site):
+        if phrase not in shared_vocabulary():
+            own.setdefault(phrase, entry)
+    for phrase, entry in parameter_entries(robot):
         if phrase not in shared_vocabulary():
             own.setdefault(phrase, entry)
     for phrase, entry in robot_entries(robot):

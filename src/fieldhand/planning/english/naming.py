@@ -32,10 +32,11 @@ class NameEntry:
 
 @dataclass(frozen=True, kw_only=True)
 class Naming:
-    """What a noun may mean to this robot: actions that yield it, quantities that it names."""
+    """What a noun may mean to this robot: actions that yield it with their parameters, quantities that it names."""
 
     actions: tuple[str, ...] = ()
     quantities: tuple[str, ...] = ()
+    parameters: tuple[tuple[str, str | float], ...] = ()
 
 
 def split(phrase: str) -> Phrase:
@@ -68,6 +69,27 @@ def robot_entries(robot: RobotProfile) -> Iterator[tuple[Phrase, NameEntry]]:
         for verb in action.verbs:
             for form in forms_of(verb):
                 yield split(form), NameEntry(kind="ACTV", value=Naming(actions=(action.name,)))
+
+
+def parameter_entries(robot: RobotProfile) -> Iterator[tuple[Phrase, NameEntry]]:
+    """Choices, names and units of the parameters of a robot's actions."""
+    choices: dict[Phrase, list[tuple[str, str]]] = {}
+    names: dict[Phrase, list[str]] = {}
+    adjectives: dict[str, list[str]] = vocabulary()["adjectives_of"]
+    for parameter in {one.name: one for action in robot.actions for one in action.parameters}.values():
+        for choice in parameter.choices:
+            choices.setdefault(split(choice), []).append((parameter.name, choice))
+        words = name_words(parameter.name)
+        for phrase in (tuple(words), *((word,) for noun in words for word in adjectives.get(noun, ()))):
+            names.setdefault(phrase, []).append(parameter.name)
+        if parameter.unit:
+            yield split(parameter.unit), NameEntry(kind="UNIT", value=(parameter.unit, 1.0, 0.0))
+    for phrase, meant in choices.items():
+        yield phrase, NameEntry(kind="CHOICE", value=tuple(meant))
+        yield _plural(phrase), NameEntry(kind="CHOICE", value=tuple(meant), plural=True)
+    for phrase, found in names.items():
+        if phrase:
+            yield phrase, NameEntry(kind="PARAMETER", value=tuple(found))
 
 
 def site_entries(site: Site) -> Iterator[tuple[Phrase, NameEntry]]:

@@ -11,9 +11,11 @@ from dataclasses import dataclass
 from fieldhand.language import Number, message
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Amount, Nominal, PlaceMeaning
+from fieldhand.planning.grammar.commands.parameters import in_unit_of, with_parameter
+from fieldhand.planning.grammar.meaning import Amount, Nominal, ParameterValue, PlaceMeaning, Thing
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import measures_distance
+from fieldhand.robot.model import RobotProfile
 
 GRAMMAR = Grammar()
 
@@ -34,9 +36,11 @@ class Impossible:
     advice: str
 
 
-def construction(*patterns: str) -> Callable[[Callable[..., Impossible | None]], Callable[..., Impossible | None]]:
+def construction(
+    *patterns: str, given: tuple[str, ...] = ()
+) -> Callable[[Callable[..., Impossible | None]], Callable[..., Impossible | None]]:
     """Register a function that says why the phrases of some patterns cannot be planned."""
-    return GRAMMAR.construction(*(f"{IMPOSSIBLE}: {pattern}" for pattern in patterns))
+    return GRAMMAR.construction(*(f"{IMPOSSIBLE}: {pattern}" for pattern in patterns), given=given)
 
 
 @construction("number=NUM inner=nominal")
@@ -196,3 +200,21 @@ def ends_of_rows(noun: Lex, ends: Lex) -> Impossible | None:
     if noun.plural or not ends.plural:
         return None
     return Impossible(message("of which rows?"), message("say 'both ends of row 3', or 'both ends of every row'"))
+
+
+@construction("how=parameter", given=("robot",))
+def parameter_out_of_bounds(how: ParameterValue, robot: RobotProfile) -> Impossible | None:
+    """Compose "at 90 cm", deeper than the probe can go."""
+    known = [one for action in robot.actions for one in action.parameters]
+    numbers = [(one, number) for one in known if (number := in_unit_of(one, how)) is not None]
+    if not numbers or any(with_parameter(Thing(action.name), how, robot) for action in robot.actions):
+        return None
+    one, number = numbers[0]
+    what = message(
+        "{number} {unit} is not between {low} and {high} {unit}",
+        number=Number(f"{number:g}"),
+        unit=one.unit,
+        low=Number(f"{one.minimum or 0.0:g}"),
+        high=Number(f"{one.maximum or 0.0:g}"),
+    )
+    return Impossible(what, message("the robot's profile gives the bounds of the {name}", name=one.name))

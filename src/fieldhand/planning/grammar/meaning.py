@@ -120,12 +120,28 @@ class PlaceMeaning:
 
 
 @dataclass(frozen=True, slots=True)
+class ParameterValue:
+    """A value that a phrase gives to a parameter of an action.
+
+    Attributes:
+        value: Number in ``unit``, or one of the parameter's choices.
+        unit: Unit of a number, as in :class:`Amount`, or the profile's own.
+        names: Parameters that the phrase may name; empty if it names none.
+    """
+
+    value: float | str
+    unit: str
+    names: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Thing:
-    """One kind of capture: its action, and how many if the phrase says so."""
+    """One kind of capture: its action, how many if the phrase says so, and the parameters that it gives."""
 
     action: str
     count: int | None = None
     plural: bool = False
+    parameters: tuple[tuple[str, str | float], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

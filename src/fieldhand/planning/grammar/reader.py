@@ -108,7 +108,7 @@ def _read_words(
     remarks = without_remarks(words, edges_of(words, phrases))
     words = remarks.words
     edges = list(edges_of(words, phrases))
-    chart = _parsed(language.grammar(), words, edges, phrases, site)
+    chart = _parsed(language.grammar(), words, edges, phrases, site, robot)
     setting = Setting(robot, site, lambda used: spans(words, used), request)
     found: list[RequestReading] = []
     faults: list[NotComposed] = []
@@ -131,16 +131,23 @@ def _read_words(
         ]
     unread: tuple[Reason, ...] = ()
     if not found:
-        chart = _parsed(_with_impossible(language), words, edges, phrases, site)
+        chart = _parsed(_with_impossible(language), words, edges, phrases, site, robot)
         unread = unread_reasons(request, words, edges, chart, faults, site)
     return ReadRequest(readings=found, faults=faults, unread=unread)
 
 
 def _parsed(
-    grammar: Grammar, words: Sequence[Word], edges: Sequence[PhraseEdge], phrases: Phrases, site: Site
+    grammar: Grammar,
+    words: Sequence[Word],
+    edges: Sequence[PhraseEdge],
+    phrases: Phrases,
+    site: Site,
+    robot: RobotProfile,
 ) -> Chart:
     """Return the chart over words."""
-    chart = Chart(grammar, len(words), fillers_of(words, phrases), given={"site": site}, predicted=PREDICTED)
+    chart = Chart(
+        grammar, len(words), fillers_of(words, phrases), given={"site": site, "robot": robot}, predicted=PREDICTED
+    )
     chart.parse(edges)
     return chart
 

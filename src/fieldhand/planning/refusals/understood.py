@@ -73,7 +73,7 @@ def parse_parts(request: str, site: Site, robot: RobotProfile) -> ParsedRequest:
     """Find the phrases of a request, whether or not they make one request together."""
     words = ENGLISH.words_of(request)
     phrases = ENGLISH.phrases(robot, site)
-    chart = Chart(ENGLISH.grammar(), len(words), fillers_of(words, phrases), given={"site": site})
+    chart = Chart(ENGLISH.grammar(), len(words), fillers_of(words, phrases), given={"site": site, "robot": robot})
     chart.parse(edges_of(words, phrases))
     return ParsedRequest(request=request, words=words, chart=chart, site=site, robot=robot)
 

@@ -13,33 +13,36 @@ GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
 
+def _named(noun: Lex, *, count: int | None = None, plural: bool = False) -> Thing | None:
+    """Return the capture that a noun names; None if it names only a quantity that no action measures."""
+    naming: Naming = noun.value
+    if not naming.actions:
+        return None
+    return Thing(naming.actions[0], count=count, plural=plural, parameters=naming.parameters)
+
+
 @construction("thing: [DET] noun=NOUN", cost=0.0)
 def thing(noun: Lex) -> Thing | None:
     """Compose "a picture"."""
-    naming: Naming = noun.value
-    return Thing(naming.actions[0], plural=noun.plural) if naming.actions else None
+    return _named(noun, plural=noun.plural)
 
 
 @construction("thing: word=DET noun=NOUN", "thing: word=ANOTHER noun=NOUN", cost=0.0)
 def one_thing(word: Lex, noun: Lex) -> Thing | None:
     """Compose "another picture"."""
-    naming: Naming = noun.value
-    single = "one" in word.features and not noun.plural
-    return Thing(naming.actions[0], count=1) if naming.actions and single else None
+    return _named(noun, count=1) if "one" in word.features and not noun.plural else None
 
 
 @construction("thing: n=count [MORE] noun=NOUN", cost=0.0)
 def so_many_things(n: int, noun: Lex) -> Thing | None:
     """Compose "three pictures"."""
-    naming: Naming = noun.value
-    return Thing(naming.actions[0], count=n, plural=True) if naming.actions else None
+    return _named(noun, count=n, plural=True)
 
 
 @construction("thing: [DET] noun=NOUN READING", "thing: READING OF [DET] noun=NOUN", cost=0.1)
 def reading_of(noun: Lex) -> Thing | None:
     """Compose "the temperature reading"."""
-    naming: Naming = noun.value
-    return Thing(naming.actions[0]) if naming.actions else None
+    return _named(noun)
 
 
 @construction(
@@ -57,8 +60,7 @@ def how_much(noun: Lex) -> Thing | None:
 @construction("thing: n=count noun=NOUN READING", cost=0.1)
 def readings_of(n: int, noun: Lex) -> Thing | None:
     """Compose "three temperature readings"."""
-    naming: Naming = noun.value
-    return Thing(naming.actions[0], count=n, plural=True) if naming.actions else None
+    return _named(noun, count=n, plural=True)
 
 
 @construction("thing: n=count", "thing: n=count ONE", "thing: n=count READING", cost=1.5)
@@ -76,8 +78,7 @@ def another_of_them() -> Thing:
 @construction("thing: [DET] rank=ORD noun=NOUN", cost=0.3)
 def second_thing(rank: Lex, noun: Lex) -> Thing | None:
     """Compose "a second picture"."""
-    naming: Naming = noun.value
-    return Thing(naming.actions[0], count=1) if naming.actions and rank.value == 2 and not noun.plural else None
+    return _named(noun, count=1) if rank.value == 2 and not noun.plural else None
 
 
 @construction("thing: IT AGAIN", "thing: DET SAME", cost=0.5)

@@ -176,7 +176,8 @@ def _with_captures(
 
 def _act(thing: Thing, times: int, said: Spans) -> p.Act:
     """Return the step of a capture."""
-    return p.Act(id="", action=thing.action, count=(thing.count or 1) * times, said=said)
+    count = (thing.count or 1) * times
+    return p.Act(id="", action=thing.action, count=count, parameters=thing.parameters, said=said)
 
 
 def said_things(setting: Setting, command: CaptureCommand) -> tuple[Thing, ...]:
@@ -199,7 +200,8 @@ def meant_things(state: DialogueState, things: tuple[Thing, ...]) -> tuple[Thing
         raise NotComposed(message("it is not clear what another one is meant", context="fault"))
     if may_be_left_out(state):
         raise NotComposed(message("it is not clear whether that may be left out too", context="fault"))
-    return (replace(things[0], action=state.things[0].action),)
+    last = state.things[0]
+    return (replace(things[0], action=last.action, parameters=last.parameters),)
 
 
 def _place_of(

@@ -1,0 +1,157 @@
+"""Constructions of the parameters that a robot's profile declares for its actions: a depth, a view."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+from fieldhand.planning.english.naming import Naming
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.meaning import Amount, CaptureCommand, ParameterValue, PlaceMeaning, Thing
+from fieldhand.planning.grammar.words import Lex
+from fieldhand.robot.model import Parameter, RobotProfile
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+#: Units of parameters by the unit of an amount, each with its size in that unit.
+_SIZES: Mapping[str, Mapping[str, float]] = {
+    "metres": {"m": 1.0, "cm": 0.01, "mm": 0.001},
+    "seconds": {"s": 1.0, "ms": 0.001, "min": 60.0, "h": 3600.0},
+    "percent": {"%": 1.0, "percent": 1.0},
+    "degC": {"degC": 1.0, "°C": 1.0, "C": 1.0},
+}
+
+
+@construction(
+    "parameter: word=AT amount=amount",
+    "parameter: word=AT amount=amount name=PARAMETER",
+    "parameter: amount=amount name=PARAMETER",
+    "parameter: word=AT [DET] name=PARAMETER OF amount=amount",
+    "parameter: WITH [DET] name=PARAMETER OF amount=amount",
+    "parameter: [DET] name=PARAMETER OF amount=amount",
+    cost=0.2,
+)
+def parameter(amount: Amount, word: Lex | None = None, name: Lex | None = None) -> ParameterValue | None:
+    """Compose "at 30 cm", "25 cm deep" and "at a depth of 40 cm"."""
+    if word is not None and "setting" not in word.features:
+        return None
+    return ParameterValue(amount.number, amount.unit, () if name is None else tuple(name.value))
+
+
+@construction("parameter: [DET] choice=CHOICE", cost=0.2)
+def chosen(choice: Lex) -> list[ParameterValue]:
+    """Compose "the trunk"."""
+    return [ParameterValue(value, "", (name,)) for name, value in choice.value]
+
+
+@construction("thing: one=thing how=parameter", cost=0.2, given=("robot",))
+def thing_with(one: Thing, how: ParameterValue, robot: RobotProfile) -> Thing | None:
+    """Compose "soil moisture at 30 cm"."""
+    return None if isinstance(how.value, str) else with_parameter(one, how, robot)
+
+
+@construction("thing: one=thing OF how=parameter", "thing: one=thing OF ITS choice=CHOICE", cost=0.2, given=("robot",))
+def thing_of(
+    one: Thing, robot: RobotProfile, how: ParameterValue | None = None, choice: Lex | None = None
+) -> list[Thing] | None:
+    """Compose "a picture of the trunk"."""
+    values = chosen(choice) if choice is not None else [how] if how is not None and isinstance(how.value, str) else []
+    return [made for value in values if (made := with_parameter(one, value, robot)) is not None] or None
+
+
+@construction("NOUN: choice=CHOICE noun=NOUN", cost=0.1, given=("robot",))
+def noun_of(choice: Lex, noun: Lex, robot: RobotProfile) -> list[Lex] | None:
+    """Compose "trunk photos"."""
+    naming: Naming = noun.value
+    if not naming.actions or naming.parameters:
+        return None
+    thing = Thing(naming.actions[0])
+    made = [with_parameter(thing, value, robot) for value in chosen(choice)]
+    named = [replace(naming, parameters=one.parameters) for one in made if one is not None]
+    return [replace(noun, value=one) for one in named] or None
+
+
+@construction(
+    "capture: verb=ACTV how=parameter relation place=place",
+    "capture: verb=ACTV how=parameter",
+    cost=0.3,
+    given=("robot",),
+)
+def act_on_part(
+    verb: Lex, how: ParameterValue, used: int, robot: RobotProfile, place: PlaceMeaning | None = None
+) -> CaptureCommand | None:
+    """Compose "photograph the trunk of tree 4"."""
+    made = with_parameter(Thing(verb.value.actions[0]), how, robot)
+    return (
+        None if made is None or not isinstance(how.value, str) else CaptureCommand((made,), place, used, relation="of")
+    )
+
+
+@construction(
+    "capture: said=capture [COMMA] how=parameter",
+    "capture: said=capture COMMA amount=amount",
+    cost=0.5,
+    given=("robot",),
+)
+def capture_with(
+    said: CaptureCommand,
+    used: int,
+    robot: RobotProfile,
+    how: ParameterValue | None = None,
+    amount: Amount | None = None,
+) -> CaptureCommand | None:
+    """Compose "measure moisture along row 1, 25 cm deep"."""
+    value = how if amount is None else ParameterValue(amount.number, amount.unit, ())
+    if value is None or isinstance(value.value, str):
+        return None
+    made = tuple(with_parameter(one, value, robot) for one in said.things)
+    if all(one is None for one in made):
+        return None
+    things = tuple(one if new is None else new for one, new in zip(said.things, made, strict=True))
+    return replace(said, things=things, used=used)
+
+
+@construction("things: one=thing first=parameter AND second=parameter", cost=0.3, given=("robot",))
+def thing_at_both(
+    one: Thing, first: ParameterValue, second: ParameterValue, robot: RobotProfile
+) -> tuple[Thing, ...] | None:
+    """Compose "soil moisture at 10 cm and at 50 cm"."""
+    made = tuple(with_parameter(one, value, robot) for value in (first, second))
+    things = tuple(thing for thing in made if thing is not None)
+    return things if len(things) == len(made) and first != second else None
+
+
+def with_parameter(thing: Thing, value: ParameterValue, robot: RobotProfile) -> Thing | None:
+    """Return a capture with a parameter; None if its action has none that the value fits."""
+    action = robot.action.get(thing.action)
+    fitting = [] if action is None else list(_fitting(action.parameters, value))
+    taken = {name for name, _ in thing.parameters}
+    if len(fitting) != 1 or fitting[0][0] in taken:
+        return None
+    return replace(thing, parameters=(*thing.parameters, fitting[0]))
+
+
+def _fitting(parameters: tuple[Parameter, ...], value: ParameterValue) -> Iterator[tuple[str, str | float]]:
+    """Yield the name and the value of each parameter that a value fits."""
+    for one in parameters:
+        if isinstance(value.value, str):
+            if value.value in one.choices and one.name in value.names:
+                yield one.name, value.value
+        elif (number := in_unit_of(one, value)) is not None and _is_within(one, number):
+            yield one.name, number
+
+
+def in_unit_of(parameter: Parameter, value: ParameterValue) -> float | None:
+    """Return a number in the unit of a parameter; None if it has another unit, or another parameter is named."""
+    if isinstance(value.value, str) or parameter.kind != "number":
+        return None
+    if value.names and parameter.name not in value.names:
+        return None
+    size = 1.0 if value.unit == parameter.unit else _SIZES.get(value.unit, {}).get(parameter.unit)
+    return None if size is None else round(value.value / size, 6)
+
+
+def _is_within(parameter: Parameter, number: float) -> bool:
+    low, high = parameter.minimum, parameter.maximum
+    return (low is None or low <= number) and (high is None or number <= high)
