@@ -19,6 +19,9 @@ from planning.english.vineyards import vineyard
 HUSKY = load_robot("husky")
 PLANNED = {
     "demo": [
+        ("Cover the whole of row 3 with pictures.", "for Rows(3, 3): [picture]"),
+        ("Photograph two trees of each variety.", "for UnionOf(Take(2, of Where(variety, eq, Carmel))+Take(2, of Where(variety, eq, Nonpareil))): [picture]"),
+        ("Take CO2 at one tree per variety in the northern half.", "for UnionOf(Take(1, of Where(variety, eq, Carmel, of Half(north)))+Take(1, of Where(variety, eq, Nonpareil, of Half(north)))): [co2]"),
         ("Take pictures in row 4, at the yellow trees.", "for Where(leaf_color, eq, yellow, of Rows(4, 4)): [picture]"),
         ("Take CO2 readings in the northern half, at the three oldest trees.", "for Top(age_years, 3, of Half(north)): [co2]"),
         ("Take one picture in every row, at the first tree.", "for InRow(1, 1, of Rows): [picture]"),

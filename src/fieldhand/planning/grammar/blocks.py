@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from fieldhand.errors import PlaceError
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.plans import with_selector
-from fieldhand.planning.selections import is_in_block, over, rows_of
+from fieldhand.planning.selections import is_in_block, over, rows_of, swapped
 from fieldhand.site.counting import find_row, rows_from
 from fieldhand.site.model import Site
 from fieldhand.site.planting import Block
@@ -57,6 +58,10 @@ def _has(site: Site, block: Block, rows: s.Rows) -> bool:
 def _of_block(node: p.Node, block: Block) -> p.Node:
     """Return a node whose rows without a block are those of a block."""
     node = node.with_children([_of_block(child, block) for child in node.children])
-    if node.selector is None or is_in_block(node.selector) or not rows_of(node.selector):
+    place = node.selector
+    if place is None:
         return node
-    return with_selector(node, over(node.selector, s.InBlock(block=block.name)))
+    for rows in rows_of(place):
+        if rows.first and not is_in_block(rows.of):
+            place = swapped(place, rows, replace(rows, of=over(rows.of, s.InBlock(block=block.name))))
+    return node if place == node.selector else with_selector(node, place)

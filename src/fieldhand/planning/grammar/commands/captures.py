@@ -132,12 +132,17 @@ def place_passive(place: PlaceMeaning, verb: Lex, used: int) -> CaptureCommand:
     return act_on(verb, place, used)
 
 
-@construction("capture: verb things=things PER noun=ROW", "capture: things=things PER noun=ROW", cost=0.3)
-def per_row(things: tuple[Thing, ...], noun: Lex, used: int) -> CaptureCommand | None:
+@construction(
+    "capture: verb things=things PER noun=ROW",
+    "capture: things=things PER noun=ROW",
+    "capture: verb things=things PER noun=ROW in_ block=block",
+    "capture: things=things PER noun=ROW in_ block=block",
+    cost=0.3,
+)
+def per_row(things: tuple[Thing, ...], noun: Lex, used: int, block: s.Selector | None = None) -> CaptureCommand | None:
     """Compose "take a picture per row"."""
-    return (
-        None if noun.plural else CaptureCommand(things, PlaceMeaning(s.Trees(), "area", each=True, per=s.Rows()), used)
-    )
+    rows = s.Rows() if block is None else s.Rows(of=block)
+    return None if noun.plural else CaptureCommand(things, PlaceMeaning(s.Trees(), "area", each=True, per=rows), used)
 
 
 @construction(

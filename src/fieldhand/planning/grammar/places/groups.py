@@ -28,6 +28,9 @@ from fieldhand.site.model import Site
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
+#: Maximum number of kinds that are visited one after the other ("of each variety").
+_MOST_KINDS = 12
+
 
 @construction("place: [word=DET] inner=nominal", cost=0.3)
 def definite(inner: Nominal, word: Lex | None = None) -> PlaceMeaning | None:
@@ -516,3 +519,33 @@ def of_them_there(whole: PlaceMeaning, word: Lex) -> PlaceMeaning | None:
 def largest_number(inner: Nominal) -> PlaceMeaning | None:
     """Compose "the largest possible number of trees"."""
     return as_many(inner)
+
+
+@construction(
+    "place: n=count inner=nominal PER kind=ATTR",
+    "place: n=count inner=nominal OF EACH kind=ATTR",
+    "place: n=count inner=nominal FOR EACH kind=ATTR",
+    "place: n=count inner=nominal FROM EACH kind=ATTR",
+    "place: n=count inner=nominal PER kind=ATTR in_ where=region",
+    "place: n=count inner=nominal OF EACH kind=ATTR in_ where=region",
+    cost=0.2,
+    given=("site",),
+)
+def so_many_of_each_kind(
+    n: int, inner: Nominal, kind: Lex, site: Site, where: s.Selector | None = None
+) -> list[PlaceMeaning] | None:
+    """Compose "5 vines per variety": so many of each of the kinds that the site records."""
+    if inner.single or inner.complete or inner.pronoun or kind.plural:
+        return None
+    made: list[PlaceMeaning] = []
+    for attribute in kind.value:
+        kinds = [value for value in site.attributes.get(attribute, ()) if isinstance(value, str)]
+        if 1 < len(kinds) <= _MOST_KINDS:
+            of = inner.selector if where is None else over(inner.selector, where)
+            described = [s.Where(attribute=attribute, test="eq", value=value, of=of) for value in kinds]
+            parts = [part for part in described if ids_of(part, site)]
+            if not parts:
+                continue
+            each = s.UnionOf(parts=tuple(s.Take(count=n, of=part) for part in parts))
+            made.append(PlaceMeaning(each, "several", each=True))
+    return made or None
