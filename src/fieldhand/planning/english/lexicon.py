@@ -15,8 +15,6 @@ from fieldhand.site.model import Site
 
 #: Words of the shared vocabulary that a robot's own word may replace; no function word is among them.
 _REPLACEABLE = frozenset({"READING", "FILLER", "TREE", "PLACE", "EDGE", "SIDE"})
-#: A shorter word is no word that another may be a misspelling of.
-_SPELLABLE = 6
 #: An id of letters and a number, which names a tree without the word for it.
 CODE = re.compile(r"([^\W\d_]+)(\d+)")
 
@@ -46,11 +44,6 @@ class Lexicon:
         words = {word for phrase in (*self.own, *shared_vocabulary()) for word in phrase}
         names = [*self.trees, *self.row_names, *self.block_names]
         return frozenset({*words, *names, *(part for name in names for part in split(name))})
-
-    @cached_property
-    def spellings(self) -> tuple[str, ...]:
-        """The words of some length, which a word may be a misspelling of."""
-        return tuple(sorted(word for word in self.vocabulary if len(word) >= _SPELLABLE and word.isalpha()))
 
     def entry(self, phrase: Phrase) -> NameEntry | None:
         """What a phrase is; None if it is not known."""

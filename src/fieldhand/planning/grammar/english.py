@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from collections import defaultdict
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from importlib.resources import files
@@ -15,7 +15,7 @@ from fieldhand.planning.english.inflection import forms_of, plural_of
 from fieldhand.planning.english.lexicon import Lexicon, lexicon_for
 from fieldhand.planning.english.naming import NameEntry, Naming, Phrase, split
 from fieldhand.planning.english.spelling import respelt
-from fieldhand.planning.english.tokens import words_of
+from fieldhand.planning.english.tokens import Word, words_of
 from fieldhand.planning.english.vocabulary import vocabulary
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.language import GrammarLanguage
@@ -153,4 +153,9 @@ def _grammar() -> Grammar:
     return made
 
 
-ENGLISH = GrammarLanguage(code="en", words_of=words_of, phrases=phrases_for, grammar=_grammar, respelt=respelt)
+def _respelt(words: Sequence[Word], lexicon: Lexicon) -> tuple[list[Word], list[str]]:
+    """Return words with small misspellings of any known word mended, and what was mended."""
+    return respelt(words, {*lexicon.vocabulary, *(word for phrase in more_words() for word in phrase)})
+
+
+ENGLISH = GrammarLanguage(code="en", words_of=words_of, phrases=phrases_for, grammar=_grammar, respelt=_respelt)

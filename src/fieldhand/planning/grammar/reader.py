@@ -88,13 +88,12 @@ def read(request: str, site: Site, robot: RobotProfile, language: GrammarLanguag
     if found.readings or language.respelt is None:
         return found
     known = {token for edge in edges_of(words, phrases) for token in range(edge.start, edge.end)}
-    mended: list[str] = []
-    for token, word in enumerate(words):
-        if token not in known:
-            (words[token],), notes = language.respelt([word], phrases.lexicon)
-            mended += notes
+    strange = [token for token in range(len(words)) if token not in known]
+    corrected, mended = language.respelt([words[token] for token in strange], phrases.lexicon)
     if not mended:
         return found
+    for token, word in zip(strange, corrected, strict=True):
+        words[token] = word
     respelt = _read_words(request, words, phrases, site, robot, language)
     if not respelt.readings:
         return found
