@@ -10,7 +10,7 @@ from fieldhand.language import message
 from fieldhand.planning.english.tokens import Word
 
 #: Words shorter than this are too like each other; from ``_MEDIUM`` letters on a word may have one edit, from ``_LONG``
-#: letters on two. A shorter one lacks a letter inside or has two letters inside swapped, or is not a misspelling.
+#: letters on two. A shorter one lacks a letter or has two letters swapped, or is not a misspelling.
 _SHORT, _MEDIUM, _LONG = 4, 6, 9
 
 
@@ -58,5 +58,11 @@ def _meant(word: Word, known: AbstractSet[str], spellings: Sequence[str]) -> str
 
 
 def _is_slip(typed: str, spelt: str) -> bool:
-    """Return True if a short word lacks a letter of another one inside, or has two of its letters swapped."""
-    return spelt[-1] == typed[-1] and (len(spelt) > len(typed) or sorted(spelt) == sorted(typed))
+    """Return True if a short word lacks a letter of another one, or has two of its letters swapped.
+
+    In words of four letters the letter that lacks is inside ("evry"): so many words become another one at the end.
+    """
+    if len(spelt) == len(typed):
+        return sorted(spelt) == sorted(typed)
+    ends = spelt[-1] == typed[-1] or (len(typed) > _SHORT and spelt.startswith(typed))
+    return len(spelt) > len(typed) and ends

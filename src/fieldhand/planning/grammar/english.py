@@ -28,7 +28,13 @@ _PICTURES = frozenset({"picture", "photo", "image", "thermal picture"})
 #: Number of words of the longest phrase of english.toml that is read as a word.
 _LONGEST = 6
 #: Short forms.
-_SPELT_OUT = {"temp": "temperature", "temps": "temperature", "temperatures": "temperature", "pic": "picture"}
+_SPELT_OUT = {
+    "temp": "temperature",
+    "temps": "temperature",
+    "temperatures": "temperature",
+    "pic": "picture",
+    "pics": "pictures",
+}
 #: Words for pictures and for taking them, by what they are to the grammar.
 _WITH_A_CAMERA = {"PICTURE": "NOUN", "CAMERA": "ACTV"}
 #: Categories of phrases that are silent in the shared vocabulary only.
