@@ -23,7 +23,10 @@ _OF_FAULTS = w.words_in("fail fails failed fault error abort aborted wrong stuck
 _EACH_KIND = frozenset({"each", "every", "all", "per", "both", "different", "any"})
 _NUMBER = re.compile("-?[0-9]{1,9}")
 #: Pattern of the reverse of an order.
-_REVERSED = re.compile(r"\brevers|\bopposite order|\bback to front|\blast( one| tree| vine)?( to( the)?)? first\b")
+_REVERSED = re.compile(
+    r"\brevers|\bopposite order|\bback to front|ing (?:with|from) the last\b"
+    r"|\blast(?: one| tree| vine)?(?: to(?: the)?)? first\b"
+)
 #: Pattern of a side that refers to the one mentioned before.
 _OTHER_PART = re.compile(r"\bother (?:half|side|end|edge|corner|quarter)\b")
 #: Pattern of rows without a number for each.

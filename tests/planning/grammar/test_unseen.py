@@ -19,6 +19,10 @@ from planning.english.vineyards import vineyard
 HUSKY = load_robot("husky")
 PLANNED = {
     "demo": [
+        ("Photograph row 3 starting with the last tree.", "for Ordered(south_to_north, of Rows(3, 3)) given: [picture]"),
+        ("Go to tree 80 and photograph every tree in the two rows to the east.", "go TreeIs(80); for UnionOf(RowOf(1)+RowOf(2)): [picture]"),
+        ("Take CO2 at all trees of row 4 except the ends.", "for Excluding(UnionOf(InRow(1, 1, of Rows(4, 4))+InRow(-1, -1, of Rows(4, 4))), of Rows(4, 4)): [co2]"),
+        ("Photograph the trees in the northern half between 5 and 12 years old.", "for Where(age_years, le, 12, of Where(age_years, ge, 5, of Half(north))): [picture]"),
         ("Cover the whole of row 3 with pictures.", "for Rows(3, 3): [picture]"),
         ("Photograph two trees of each variety.", "for UnionOf(Take(2, of Where(variety, eq, Carmel))+Take(2, of Where(variety, eq, Nonpareil))): [picture]"),
         ("Take CO2 at one tree per variety in the northern half.", "for UnionOf(Take(1, of Where(variety, eq, Carmel, of Half(north)))+Take(1, of Where(variety, eq, Nonpareil, of Half(north)))): [co2]"),

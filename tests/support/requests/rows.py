@@ -1398,7 +1398,7 @@ REFUSED = [
     (
         "husky",
         "take a picture of the trees in row 3 between 5 and 10 years old",
-        "'between 5 and 10' does not fit at this point in 'take a picture of the trees in row 3 between 5 and 10 years old'",
+        "nothing on this site matches the trees of row 3 whose age is at least 5 years, whose age is at most 10 years",
     ),
     (
         "husky",

@@ -145,6 +145,12 @@ def per_row(things: tuple[Thing, ...], noun: Lex, used: int, block: s.Selector |
     return None if noun.plural else CaptureCommand(things, PlaceMeaning(s.Trees(), "area", each=True, per=rows), used)
 
 
+@construction("capture: [verb] things=things blocks=per_block", cost=0.3)
+def captures_per_block(things: tuple[Thing, ...], blocks: tuple[s.Selector, ...], used: int) -> CaptureCommand:
+    """Compose "take a picture per block"."""
+    return CaptureCommand(things, PlaceMeaning(s.Trees(), "area", each=True, per=s.UnionOf(parts=blocks)), used)
+
+
 @construction(
     "capture: verb things=things PER noun=CORNER", "capture: things=things PER noun=CORNER [OF] [site]", cost=0.3
 )

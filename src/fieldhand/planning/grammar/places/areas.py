@@ -18,6 +18,7 @@ from fieldhand.planning.selections import (
     as_edge,
     as_zone,
     chooses_from_trees,
+    counts_in_row,
     is_in_block,
     is_row_of_place,
     is_whole_rows,
@@ -121,6 +122,12 @@ def each_block(noun: Lex, site: Site) -> tuple[s.Selector, ...] | None:
     return tuple(s.InBlock(block=block.name) for block in site.planting.blocks)
 
 
+@construction("per_block: PER noun=PLOT", cost=0.1, given=("site",))
+def per_block(noun: Lex, site: Site) -> tuple[s.Selector, ...] | None:
+    """Compose "per block"."""
+    return None if noun.plural else each_block(noun, site)
+
+
 @construction("each_block: EACH OF blocks=blocks", "each_block: EACH blocks=blocks", cost=0.0)
 def each_of_blocks(blocks: tuple[s.Selector, ...]) -> tuple[s.Selector, ...]:
     """Compose "each of the blocks A and B"."""
@@ -137,6 +144,7 @@ def at_each_block(blocks: tuple[s.Selector, ...]) -> PlaceMeaning:
     "place: one=place in_ blocks=each_block",
     "place: one=place FOR blocks=each_block",
     "place: one=place in_ blocks=blocks",
+    "place: one=place blocks=per_block",
     cost=0.2,
 )
 def in_each_block(one: PlaceMeaning, blocks: tuple[s.Selector, ...]) -> PlaceMeaning | None:
@@ -145,6 +153,8 @@ def in_each_block(one: PlaceMeaning, blocks: tuple[s.Selector, ...]) -> PlaceMea
         return None
     if not chooses_from_trees(one.selector) or is_in_block(one.selector):
         return None
+    if all(counts_in_row(part) for part in one.selector.members):
+        return None  # "the ends of row 2 in both blocks": of their rows
     if one.shape == "several" and one.count is None and not are_meant_each(one.selector):
         return replace(one, selector=over(one.selector, s.UnionOf(parts=blocks)))
     parts = tuple(over(one.selector, block) for block in blocks)

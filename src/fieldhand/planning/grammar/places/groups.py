@@ -290,6 +290,19 @@ def left_out(at: tuple[int, int], second: tuple[int, int] | None = None) -> tupl
 
 
 @construction(
+    "left_out: [DET] noun=FINISH",
+    "left_out: EACH noun=FINISH",
+    "left_out: [DET] FINISH noun=TREE",
+    "left_out: DET ONE AT DET noun=FINISH",
+    "left_out: DET TREE AT DET noun=FINISH",
+    cost=0.1,
+)
+def ends_left_out(noun: Lex) -> tuple[tuple[int, int], ...] | None:
+    """Compose "its ends" and "the end trees" behind "except"."""
+    return ((1, 1), (-1, -1)) if noun.plural else None
+
+
+@construction(
     "place: whole=place but_not out=left_out", "place: whole=place but_not out=left_out in_ row=rows", cost=0.2
 )
 def except_positions(
@@ -345,8 +358,8 @@ def except_for(whole: PlaceMeaning, part: PlaceMeaning, site: Site) -> PlaceMean
         or part.shape not in ("one", "several", "area")
     ):
         return None
-    if whole.selector != s.Trees() and any(is_end_of_site(one) for one in part.selector.members):
-        return None  # the first or last of these, not of the site
+    if whole.selector != s.Trees() and any(is_end_of_site(one) or one.named_marker for one in part.selector.members):
+        return None  # the first, the last or the ends of these, not of the site
     trees = {one.tree for one in part.selector.walk() if isinstance(one, s.TreeIs)}
     if trees and whole.selector != s.Trees() and not trees <= (ids_of(whole.selector, site) or set()):
         return None
@@ -464,6 +477,8 @@ def all_so_many(word: Lex, n: int, inner: Nominal, site: Site) -> PlaceMeaning |
 def each_of_group(word: Lex, place: PlaceMeaning) -> PlaceMeaning | None:
     """Compose "each of the 5 oldest trees"."""
     if "all_of" in word.features or place.shape != "several" or place.each or as_some(place.selector) is not None:
+        return None
+    if "every" in word.features or ("two" in word.features and place.count not in (None, 2)):
         return None
     if place.optional or place.at_most is not None or place.per is not None:
         return None

@@ -426,6 +426,22 @@ def of_age(old: Amount, inner: Nominal, site: Site) -> list[Nominal] | None:
     ]
 
 
+@construction("nominal: inner=nominal [WHICH] [IS] BETWEEN low=NUM AND high=amount [OLD]", cost=0.2, given=("site",))
+def of_ages_between(inner: Nominal, low: Lex, high: Amount, site: Site) -> list[Nominal] | None:
+    """Compose "trees between 5 and 10 years old"."""
+    if high.unit != "years" or inner.single or inner.complete or low.value >= high.number:
+        return None
+    if not chooses_from_trees(inner.selector):
+        return None
+    found: list[Nominal] = []
+    for name in hinted_attributes("age", site):
+        older = s.Where(attribute=name, test="ge", value=low.value, of=inner.selector)
+        found.append(
+            replace(inner, selector=s.Where(attribute=name, test="le", value=high.number, of=older), tested=True)
+        )
+    return found
+
+
 @construction(
     "place: [DET] best=ranking n=count inner=nominal BY attribute=ATTR",
     "place: [DET] n=count inner=nominal WITH DET best=ranking attribute=ATTR",

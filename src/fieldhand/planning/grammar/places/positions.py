@@ -362,6 +362,7 @@ def every_so_many(word: Lex, n: int, inner: Nominal) -> PlaceMeaning | None:
     "place: [DET] n=count inner=nominal OUTOF EACH m=count TREE in_ rows=rows",
     "place: [DET] n=count OUTOF EACH m=count inner=nominal",
     "place: [DET] n=count OF EACH m=count inner=nominal",
+    "place: [DET] n=count AT EACH m=count inner=nominal",
     cost=0.1,
 )
 def some_of_every(n: int, inner: Nominal, m: int, rows: s.Selector | None = None) -> PlaceMeaning | None:

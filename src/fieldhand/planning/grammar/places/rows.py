@@ -189,10 +189,13 @@ def no_rows_to_side(n: int, noun: Lex, way: Towards, site: Site) -> PlaceMeaning
     return PlaceMeaning(s.RowOf(), "nowhere", fault=fault)
 
 
-@construction("rows: DET noun=ROW to=AT DET side=DIR", cost=0.1, given=("site",))
-def row_to_side(noun: Lex, to: Lex, side: Lex, site: Site) -> s.Selector | None:
-    """Compose "the row to the east"."""
-    return None if noun.plural or "motion" not in to.features else rows_towards(1, side.value, site)
+@construction("rows: DET [n=count] noun=ROW to=AT DET side=DIR", cost=0.1, given=("site",))
+def rows_beside(noun: Lex, to: Lex, side: Lex, site: Site, n: int | None = None) -> s.Selector | None:
+    """Compose "the row to the east" and "the two rows to the east"."""
+    if noun.plural != (n is not None) or "motion" not in to.features or n == 1:
+        return None
+    found = [row for k in range(1, (n or 1) + 1) if (row := rows_towards(k, side.value, site)) is not None]
+    return s.UnionOf(parts=tuple(found)) if len(found) > 1 else found[0] if found else None
 
 
 def rows_towards(number: int, side: str, site: Site) -> s.Selector | None:
@@ -297,10 +300,17 @@ def each_row(noun: Lex) -> s.Selector | None:
     return None if noun.plural else s.Rows()
 
 
-@construction("each_row: EACH AT rows=rows", "each_row: EACH OF rows=rows", "each_row: EACH rows=rows", cost=0.2)
-def each_of_rows(rows: s.Selector) -> s.Selector | None:
+@construction("per_row: PER noun=ROW", cost=0.1)
+def per_row(noun: Lex) -> s.Selector | None:
+    """Compose "per row"."""
+    return each_row(noun)
+
+
+@construction("each_row: EACH AT rows=rows", "each_row: EACH OF rows=rows", "each_row: word=EACH rows=rows", cost=0.2)
+def each_of_rows(rows: s.Selector, word: Lex | None = None) -> s.Selector | None:
     """Compose "each of rows 3 to 5"."""
-    return None if is_one_row(rows) else rows
+    third = word is not None and "every" in word.features  # "every third row of both blocks"
+    return None if is_one_row(rows) or third else rows
 
 
 @construction("each_row: rows=each_row in_ block=block", cost=0.1)
@@ -342,6 +352,7 @@ def trees_of_each_row(inner: Nominal, rows: s.Selector, each: Lex | None = None)
     "place: one=place in_ rows=each_row",
     "place: one=place FOR rows=each_row",
     "place: rows=each_rows one=place",
+    "place: one=place rows=per_row",
     cost=0.2,
 )
 def in_each_row(one: PlaceMeaning, rows: s.Selector) -> PlaceMeaning | None:
