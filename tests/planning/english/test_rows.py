@@ -102,3 +102,21 @@ def test_an_assumption_says_which_way_is_counted() -> None:
     )
     assert isinstance(outcome, Planned)
     assert "'go to the next row' is counted towards higher row numbers (east)." in outcome.task.command.assumptions
+
+
+@pytest.mark.parametrize(
+    ("request_", "plan"),
+    [
+        (
+            "take a picture of the oldest tree in each block",
+            "UnionOf(Top(age, 1, of InBlock(A))+Top(age, 1, of InBlock(B)))",
+        ),
+        ("take pictures of 3 trees per block", "UnionOf(Take(3, of InBlock(A))+Take(3, of InBlock(B)))"),
+        ("take pictures at each corner of both blocks", "UnionOf(Corners(of InBlock(A))+Corners(of InBlock(B)))"),
+        ("take pictures of every third row of each block", "UnionOf(Rows(3, of InBlock(A))+Rows(3, of InBlock(B)))"),
+        ("in each block, take a picture of two trees", "UnionOf(Take(2, of InBlock(A))+Take(2, of InBlock(B)))"),
+        ("take pictures of all blocks", "UnionOf(InBlock(A)+InBlock(B))"),
+    ],
+)
+def test_what_is_said_of_each_block_is_done_in_each(request_: str, plan: str) -> None:
+    assert said(EnglishPlanner().plan(request_, SITES["blocks"], ROBOTS["husky"])) == f"for {plan}: [picture]"
