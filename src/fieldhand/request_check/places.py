@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import pairwise
 
 from fieldhand.language import Number, message
 from fieldhand.places import selectors as s
@@ -35,6 +36,8 @@ _SOME_ROWS = re.compile(
     r"(?: \w+){0,3} rows?\b"
 )
 
+#: Words that continue a series of numbers: "5, 15, 25 and so on".
+_SERIES = re.compile(r"\b(?:and so (?:on|forth)|etc|like that)\b|\bevery \S+ (?:after|until|up|to)\b")
 #: Range of ids that differ by their number: "n300 through n310".
 _CODE_RANGE = re.compile(r"\b([a-z]+)(\d+)\s*(?:to|through|thru|a|al|hasta|-|\u2013)\s*\1(\d+)\b")
 
@@ -76,11 +79,22 @@ def _trees(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
             continue
         if any(_is_between(tree.lower(), *ends) for ends in _CODE_RANGE.findall(said.text)):
             continue
+        if _SERIES.search(said.text) and _is_in_series(_digits(tree), said.text):
+            continue
         yield PlanMismatch(
             kind="place",
             what=message("the plan names tree '{tree}', but the request does not", tree=tree[:40]),
             node=node,
         )
+
+
+def _is_in_series(number: str, text: str) -> bool:
+    """Return True if a number lies in steps between others of a text: 35 in "5, 15, 25 and so on up to 165"."""
+    named = [int(one) for one in re.findall(r"\d+", text)]
+    steps = ((low, high - low) for low, high in pairwise(named) if low < high)
+    return number.isdigit() and any(
+        low < int(number) < max(named) and (int(number) - low) % step == 0 for low, step in steps
+    )
 
 
 def _is_between(tree: str, prefix: str, first: str, last: str) -> bool:

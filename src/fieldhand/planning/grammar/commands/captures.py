@@ -17,7 +17,7 @@ from fieldhand.planning.grammar.meaning import (
     Thing,
 )
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import as_every_nth, as_zone, is_across, specifies_part
+from fieldhand.planning.selections import as_every_nth, as_some, as_zone, is_across, specifies_part
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -82,6 +82,12 @@ def topic(place: PlaceMeaning, things: tuple[Thing, ...], used: int) -> CaptureC
 def there_without_verb(things: tuple[Thing, ...], place: PlaceMeaning, used: int) -> CaptureCommand | None:
     """Compose "canopy temperature and CO2 at each of them"."""
     return CaptureCommand(things, place, used, relation="plain") if place.shape in ("here", "those") else None
+
+
+@construction("capture: WITH things=things relation place=place", cost=0.9)
+def with_things(things: tuple[Thing, ...], place: PlaceMeaning, used: int) -> CaptureCommand | None:
+    """Compose "with a picture at every tree" behind "drive along row 3"."""
+    return CaptureCommand(things, place, used) if place.each else None
 
 
 @construction("capture: things=things PER TREE", "capture: verb things=things PER TREE", cost=0.8)
@@ -257,6 +263,31 @@ def far_away_for(
     trees = s.Trees() if inner is None else inner.selector
     far = s.Farthest(origin=s.Here(), of=trees if other is None else s.NotVisited(of=trees))
     return CaptureCommand(things, PlaceMeaning(far, "one"), used)
+
+
+@construction(
+    "capture: act=capture [COMMA] n=count POINT REMAINS",
+    "capture: act=capture [COMMA] n=count TREE REMAINS",
+    "capture: act=capture [COMMA] n=count [OFTHEM] REMAINS",
+    cost=0.2,
+)
+def at_so_many(act: CaptureCommand, n: int, used: int) -> CaptureCommand | None:
+    """Compose "measure CO2 along row 4, three spots will do"."""
+    if act.place is None or act.place.shape != "area" or act.place.per is not None or act.spacing is not None:
+        return None
+    if any(one.count is not None for one in act.things):
+        return None
+    return replace(act, things=tuple(replace(one, count=n, plural=True) for one in act.things), used=used)
+
+
+@construction("capture: act=capture [COMMA] ANY [TREE] REMAINS", cost=0.2)
+def whichever_it_is(act: CaptureCommand, used: int) -> CaptureCommand | None:
+    """Compose "one CO2 reading in each row, any tree is good"."""
+    if act.place is None or act.place.shape == "those":
+        return None
+    chosen = any(one.count is not None for one in act.things) and act.place.shape == "area"
+    some = chosen or any(as_some(part) is not None for part in act.place.selector.members)
+    return replace(act, used=used) if some else None
 
 
 @construction("capture: act=capture BYGOING", cost=0.1)

@@ -78,6 +78,17 @@ def measured(asked: tuple[str, PlaceMeaning], test: Test) -> tuple[PlaceMeaning,
     return (asked[1], replace(test, quantity=asked[0]))
 
 
+@construction(
+    "measured: [DET] noun=NOUN [READING] IS test=predicate relation place=place",
+    "measured: [DET] noun=NOUN [READING] test=predicate relation place=place",
+    cost=0.3,
+)
+def measured_at(noun: Lex, test: Test, place: PlaceMeaning) -> tuple[PlaceMeaning, Test] | None:
+    """Compose "the temperature is above 30 degC at tree 4"."""
+    asked = quantity_at(noun, place)
+    return None if asked is None else measured(asked, test)
+
+
 @construction("measured: asked=asked ISNOT test=predicate", cost=0.2)
 def not_measured(asked: tuple[str, PlaceMeaning], test: Test) -> tuple[PlaceMeaning, Test]:
     """Compose "the temperature at tree 4 is not above 30 degC"."""
@@ -228,6 +239,8 @@ def unless(tests: AllTests, used: int) -> When | None:
     "test: IT value=ATTRVAL",
     "test: IT IS DET value=ATTRVAL",
     "test: DET TREE IS value=ATTRVAL",
+    "test: DET TREE IS DET value=ATTRVAL [ONE]",
+    "test: IT IS DET value=ATTRVAL ONE",
     cost=0.3,
 )
 def tree_is(value: Lex) -> list[Test]:

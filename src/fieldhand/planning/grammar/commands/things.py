@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import LAST_THING, Thing
+from fieldhand.planning.grammar.meaning import LAST_THING, UNSAID_THING, Thing
 from fieldhand.planning.grammar.words import Lex
 
 GRAMMAR = Grammar()
@@ -79,6 +79,14 @@ def another_of_them() -> Thing:
 def second_thing(rank: Lex, noun: Lex) -> Thing | None:
     """Compose "a second picture"."""
     return _named(noun, count=1) if rank.value == 2 and not noun.plural else None
+
+
+@construction("thing: [word=DET] reading=READING", "thing: n=count reading=READING", cost=4.0)
+def unsaid_reading(reading: Lex, n: int | None = None, word: Lex | None = None) -> Thing | None:
+    """Compose "readings", which does not say what is read."""
+    if word is not None and ("indefinite" not in word.features or reading.plural):
+        return None
+    return Thing(UNSAID_THING, count=n, plural=reading.plural)
 
 
 @construction("thing: IT AGAIN", "thing: DET SAME", cost=0.5)

@@ -92,6 +92,10 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
             line, once = spaced(setting, None, things, command.spacing, command.used)
             return _lines_at_each(state, replace(command, things=once), place, line, whole)
         place, things = spaced(setting, place, things, command.spacing, command.used)
+    same = same or _is_one_more(command)
+    if same and place is not None and state.where is not None and place.shape == "one":
+        mark = landmark_of(state.where.selector, place.selector)  # "the tree next to the pond and one farthest from it"
+        place = place if mark is None else replace(place, selector=swapped(place.selector, s.Here(), mark))
     place = _those_again(state, place)
     if place is not None and place.shape == "those" and (place.count or place.at_most):
         return _at_some_of_those(state, replace(command, things=things), place, whole)

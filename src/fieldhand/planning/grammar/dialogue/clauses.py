@@ -188,6 +188,8 @@ def _read(
                     )
                 )  # "two trees get a picture"
             again = any(thing.action == LAST_THING for thing in command.things)
+            if command.relation == "bare" and _continues(state, joint):
+                command = replace(command, relation="at")  # "at tree 40 a picture, then CO2"
             if command.relation == "bare" and (not state.open or (again and state.choice is None)):
                 raise NotComposed(message("it does not say what to do with it", context="fault"))
             return capture(setting, state, command)
@@ -234,6 +236,12 @@ def _read(
             return failing(setting, state, command)
         case InTurn() | Correction():
             raise AssertionError("these are resolved before the clauses are read")
+
+
+def _continues(state: DialogueState, joint: Connective | None) -> bool:
+    """Return True behind "then" if the last step of the plan is a capture at one place."""
+    follows = joint is not None and joint.then and not joint.full and not state.scope and not state.awaits_command
+    return follows and bool(state.plan.steps) and state.plan.steps[-1].act is not None
 
 
 def _has_own_place(command: Command) -> bool:

@@ -43,6 +43,15 @@ def with_known_place(state: DialogueState, command: Command) -> Command:
 def _best_of_ranked(state: DialogueState, command: _WithPlace, best: s.Top) -> Command:
     """Return a command at the best of the trees that were ranked."""
     ranking = state.ranking
+    last = None if ranking is not None or state.where is None else state.where.selector
+    if isinstance(last, s.Top) and best.attribute in ("", last.attribute) and best.lowest != last.lowest:
+        # "the ten weakest vines, then the ten strongest"
+        best = replace(best, attribute=last.attribute, of=last.of)
+        return (
+            command
+            if command.place is None
+            else replace(command, place=replace(command.place, selector=best, like=None))
+        )
     if ranking is None or best.attribute not in ("", ranking.attribute) or command.place is None:
         raise NotComposed(message("it is not clear by what they are ranked", context="fault"))
     best = replace(best, attribute=ranking.attribute, of=ranking.trees.selector)

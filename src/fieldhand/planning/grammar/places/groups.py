@@ -16,10 +16,13 @@ from fieldhand.planning.selections import (
     chooses_from_trees,
     is_by_attribute,
     is_end_of_site,
+    is_in_block,
     is_one_row,
+    is_whole_rows,
     landmark_of,
     measures_distance,
     over,
+    specifies_part,
     swapped,
 )
 from fieldhand.planning.selections import some_of as few_of
@@ -65,6 +68,20 @@ def namely(inner: Nominal, exact: Nominal, word: Lex | None = None) -> PlaceMean
     """Compose "another tree, the farthest one from there"."""
     vague = inner.single and as_some(inner.selector) is not None if word is None else any_one(word, inner) is not None
     return PlaceMeaning(exact.selector, "one") if vague and exact.single and exact.pronoun else None
+
+
+@construction("place: some=place COMMA INEACHCASE exact=place", "place: some=place INEACHCASE exact=place", cost=0.2)
+def in_each_case(some: PlaceMeaning, exact: PlaceMeaning) -> PlaceMeaning | None:
+    """Compose "one Merlot and one Syrah vine, in each case the one closest to the barn"."""
+    ones = [as_some(part) for part in some.selector.members]
+    if exact.shape != "one" or not specifies_part(exact.selector) or exact.like is not None:
+        return None
+    if (len(ones) < 2 and some.per is None) or some.shape not in ("one", "several"):
+        return None
+    if any(one is None or one.count != 1 for one in ones):
+        return None
+    parts = tuple(over(exact.selector, one.of) for one in ones if one is not None)
+    return replace(some, selector=parts[0] if len(parts) == 1 else s.UnionOf(parts=parts))
 
 
 @construction("place: word=ANY inner=nominal", "place: word=ANY DET inner=nominal", cost=0.3)
@@ -367,6 +384,9 @@ def except_for(whole: PlaceMeaning, part: PlaceMeaning, site: Site) -> PlaceMean
         if whole.shape != "area" or not are_rows(part.selector):
             return None
         return replace(whole, per=s.Excluding(places=part.selector, of=whole.per))
+    blocks = {one for one in whole.selector.walk() if isinstance(one, s.InBlock)}
+    if len(blocks) == 1 and are_rows(part.selector) and is_whole_rows(part.selector) and not is_in_block(part.selector):
+        part = replace(part, selector=over(part.selector, blocks.pop()))  # "row 4" behind "rows 1 to 6 of block North"
     all_of_it = whole.shape == "area" and part.shape == "several"  # "row 6 except the yellow trees"
     selector = s.Excluding(places=part.selector, of=whole.selector)
     return replace(whole, selector=selector, shape="several" if all_of_it else whole.shape)
@@ -393,8 +413,12 @@ def listed_places(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | l
 )
 def both(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | list[PlaceMeaning] | None:
     """Compose "tree 12 and the charger"."""
-    if first.per is not None or second.per is not None:
+    if first.per is not None or second.per is not None or first.like is not None:
         return None
+    if second.like is not None:
+        if (opposite := _other_end(first.selector, second.selector)) is None:
+            return None
+        second = replace(second, selector=opposite, like=None)
     if second.selector.named_marker and measures_distance(first.selector):
         return None  # "within 20 m of the start and the charger"
     if first.shape == "one" and second.shape in ("one", "step", "several"):
@@ -417,6 +441,15 @@ def both(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | list[Place
     # "The first tree and the last tree of row 4": is the first that of the row, too?
     in_row = tuple(over(part, counted.of) if is_end_of_site(part) else part for part in parts)
     return [whole, replace(whole, selector=s.UnionOf(parts=in_row))]
+
+
+def _other_end(first: s.Selector, second: s.Selector) -> s.Selector | None:
+    """Return the trees at the other end of a ranking: "the five youngest" behind "the five oldest trees of row 3"."""
+    if not isinstance(first, s.Top) or not isinstance(second, s.Top) or first.lowest == second.lowest:
+        return None
+    return (
+        replace(second, attribute=first.attribute, of=first.of) if second.attribute in ("", first.attribute) else None
+    )
 
 
 @construction("place: first=place COMMA word=DET OTHER ONE", cost=0.2)

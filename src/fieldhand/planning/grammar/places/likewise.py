@@ -55,9 +55,15 @@ def in_likewise(whole: PlaceMeaning, like: Likewise) -> PlaceMeaning | None:
     return replace(whole, like=replace(like, holds=True))
 
 
-@construction("place: DET rank=ranking n=count", "place: DET rank=ranking n=count inner=nominal", cost=0.5)
-def best_of_ranked(rank: tuple[str, bool], n: int, inner: Nominal | None = None) -> PlaceMeaning | None:
-    """Compose "the best five", of trees that were ranked before."""
+@construction(
+    "place: DET rank=ranking n=count",
+    "place: DET rank=ranking n=count inner=nominal",
+    "place: DET n=count rank=ranking",
+    "place: DET ONE WITH DET rank=ranking",
+    cost=0.5,
+)
+def best_of_ranked(rank: tuple[str, bool], n: int = 1, inner: Nominal | None = None) -> PlaceMeaning | None:
+    """Compose "the best five" and "the one with the lowest", of trees that were ranked before."""
     if inner is not None and (rank[0] or inner.selector != s.Trees()):
         return None
     best = s.Top(attribute=rank[0], count=n, lowest=rank[1])

@@ -70,6 +70,29 @@ def described(value: Lex, inner: Nominal) -> list[Nominal] | None:
     ]
 
 
+@construction(
+    "nominal: inner=nominal OF [DET] value=ATTRVAL attribute=ATTR",
+    "nominal: inner=nominal OF [DET] attribute=ATTR value=ATTRVAL",
+    cost=0.2,
+)
+def of_a_kind(inner: Nominal, value: Lex, attribute: Lex) -> list[Nominal] | None:
+    """Compose "trees of the Carmel variety"."""
+    if inner.single or inner.complete or not chooses_from_trees(inner.selector):
+        return None
+    return [
+        replace(inner, selector=s.Where(attribute=name, test="eq", value=text, of=inner.selector), tested=True)
+        for name, text in value.value
+        if name in attribute.value
+    ]
+
+
+@construction("region: DET value=ATTRVAL", cost=0.8, given=("site",))
+def where_a_variety_grows(value: Lex, site: Site) -> list[s.Selector]:
+    """Compose "the Merlot" as an area."""
+    varieties = hinted_attributes("variety", site)
+    return [s.Where(attribute=name, test="eq", value=text) for name, text in value.value if name in varieties]
+
+
 @construction("nominal: value=ATTRVAL", cost=0.8)
 def those_of_a_kind(value: Lex) -> list[Nominal]:
     """Compose "Nonpareil" without a noun."""
@@ -112,11 +135,13 @@ def those_with_attribute(whole: PlaceMeaning, test: tuple[str, Test, Any]) -> Pl
     "attribute_test: attribute=ATTR [IS] check=CMP value=NUM",
     "attribute_test: attribute=ATTR [IS] check=CMP value=amount",
     "attribute_test: [DET] attribute=ATTR [IS] check=CMP value=NUM",
+    "attribute_test: check=CMP value=NUM [OF] attribute=ATTR",
+    "attribute_test: check=CMP value=amount [OF] attribute=ATTR",
     cost=0.2,
 )
-def attribute_compared(attribute: Lex, check: Lex, value: Any) -> list[tuple[str, Test, Any]]:
-    """Compose "yield above 10 kg"."""
-    return [(name, check.value[0], _number(value)) for name in attribute.value]
+def attribute_compared(attribute: Lex, check: Lex, value: Any) -> list[tuple[str, Test, Any]] | None:
+    """Compose "yield above 10 kg" and "more than 0.9 vigor"."""
+    return None if check.value[1] else [(name, check.value[0], _number(value)) for name in attribute.value]
 
 
 @construction("attribute_test: check=CMP value=NUM", "attribute_test: check=CMP value=amount", cost=0.2)
@@ -407,7 +432,7 @@ def with_attribute_of(inner: Nominal, attribute: Lex, check: Lex, value: Any) ->
     """Compose "trees with a yield of more than 3 kg"."""
     if inner.single or inner.complete or not chooses_from_trees(inner.selector):
         return None
-    tests = attribute_compared(attribute, check, value)
+    tests = attribute_compared(attribute, check, value) or []
     return [
         replace(inner, selector=s.Where(attribute=name, test=test, value=number, of=inner.selector), tested=True)
         for name, test, number in tests

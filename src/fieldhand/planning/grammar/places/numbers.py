@@ -32,6 +32,12 @@ def amount(number: Lex, unit: Lex) -> Amount:
     return Amount(number=round(number.value * factor + offset, 6), unit=name)
 
 
+@construction("amount: word=DET unit=UNIT", cost=0.4)
+def one_unit(word: Lex, unit: Lex) -> Amount | None:
+    """Compose "a foot"."""
+    return amount(Lex(1.0, False, "1"), unit) if "one" in word.features else None
+
+
 @construction("count: number=NUM", cost=0.0)
 def count(number: Lex) -> int | None:
     """Compose "5"."""
@@ -133,6 +139,42 @@ def code_range(first: tuple[str, ...], last: tuple[str, ...], site: Site) -> tup
     return names if all(name in site.by_id for name in names) else None
 
 
+@construction(
+    "tree_ids: first=tree_ids [COMMA] ANDSOON up_to [TREE] last=tree_id",
+    "tree_ids: first=tree_ids [COMMA] ANDSOON up_to [TREE] number=NUM",
+    "tree_ids: first=tree_ids [COMMA] [AND] EACH step=NUM [THEN] up_to [TREE] last=tree_id",
+    "tree_ids: first=tree_ids [COMMA] [AND] EACH step=NUM [THEN] up_to [TREE] number=NUM",
+    cost=0.2,
+    given=("site",),
+)
+def and_so_on(
+    first: tuple[str, ...],
+    site: Site,
+    last: tuple[str, ...] = (),
+    number: Lex | None = None,
+    step: Lex | None = None,
+) -> tuple[str, ...] | None:
+    """Compose "5, 15, 25 and so on up to 165" and "N100, N200 and every hundred after that until N2000"."""
+    named = [_CODED.fullmatch(name) for name in (*first, name_of(number) if number is not None else last[0])]
+    codes = [one for one in named if one is not None]
+    if len(codes) != len(named) or len({one[1] for one in codes}) > 1 or len(first) < 2:
+        return None
+    begin, second, *_, end = (int(one[2]) for one in codes)
+    every = second - begin
+    if every < 1 or (step is not None and step.value != every) or not 0 < end - begin <= 500 * every:
+        return None
+    names = tuple(f"{codes[0][1]}{number}" for number in range(begin, end + 1, every))
+    if names[: len(first)] != first or names[-1] != codes[-1][0]:
+        return None  # "5, 15, 25 and so on up to 163"
+    return names if all(name in site.by_id for name in names) else None
+
+
+@construction("up_to: UNTIL", "up_to: UPTO", "up_to: CMP", "up_to: range_to", cost=0.0)
+def until_word() -> str:
+    """Compose "up to" and "until" before the last of a series."""
+    return "to"
+
+
 @construction("range_to: word=AT", "range_to: word=ALONG", "range_to: word=DASH", cost=0.0)
 def range_word(word: Lex) -> str | None:
     """Compose "to" and "through"."""
@@ -168,7 +210,7 @@ def more_numbers(first: tuple[str, ...], number: Lex) -> tuple[str, ...]:
 def hundreds(many: Lex, hundred: Lex, rest: Lex | None = None) -> Lex | None:
     """Compose "four hundred and fifty"."""
     spelled = [number for number in (many, hundred, rest) if number is not None]
-    if not all(number.text.isalpha() for number in spelled) or hundred.value != 100 or not 1 <= many.value < 10:
+    if not all(number.text.isalpha() for number in spelled) or hundred.value != 100 or not _says_hundreds(many.value):
         return None
     value = many.value * 100
     if rest is not None:
@@ -176,3 +218,8 @@ def hundreds(many: Lex, hundred: Lex, rest: Lex | None = None) -> Lex | None:
             return None
         value += rest.value
     return Lex(float(value), False, " ".join(number.text.split()[0] for number in spelled))
+
+
+def _says_hundreds(many: float) -> bool:
+    """Return True for "four" and "fifteen" of "four hundred" and "fifteen hundred"."""
+    return 1 <= many < 100 and many % 10 != 0

@@ -15,6 +15,9 @@ from fieldhand.terms import Side
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
+#: Trees that "points" along a row stand for.
+_TREES = Nominal(s.Trees(), plural=True)
+
 
 @construction("position: rank=ORD", cost=0.0)
 def ordinal_position(rank: Lex) -> tuple[int, int]:
@@ -178,7 +181,11 @@ def tree_from_end(rank: Lex, inner: Nominal, rows: s.Selector) -> PlaceMeaning |
     return PlaceMeaning(s.InRow(first=-rank.value, last=-rank.value, of=rows), one)
 
 
-@construction("place: [DET] side=DIR FINISH in_ rows=rows", "place: [DET] side=DIR FINISH in_ rows=each_row", cost=0.1)
+@construction(
+    "place: [DET] side=DIR FINISH [TREE] in_ rows=rows",
+    "place: [DET] side=DIR FINISH [TREE] in_ rows=each_row",
+    cost=0.1,
+)
 def end_of_row(side: Lex, rows: s.Selector) -> PlaceMeaning | None:
     """Compose "the northern end of row 4"."""
     if side.value not in SIDES:
@@ -415,13 +422,18 @@ def first_and_last(
 
 @construction(
     "place: n=count inner=nominal EVENLYALONG rows=rows",
+    "place: n=count POINT EVENLYALONG rows=rows",
+    "place: n=count POINT EVENLYSPACED in_ rows=rows",
+    "place: n=count POINT EVENLYSPACED along rows=rows",
+    "place: n=count EVENLYSPACED POINT in_ rows=rows",
+    "place: n=count EVENLYSPACED POINT along rows=rows",
     "place: [DET] n=count EVENLYSPACED inner=nominal",
     "place: [DET] n=count inner=nominal [COMMA] EVENLYSPACED",
     "place: [DET] n=count inner=nominal EVENLYSPACED in_ rows=rows",
     "place: [DET] n=count inner=nominal EVENLYSPACED along rows=rows",
     cost=0.2,
 )
-def evenly_along(n: int, inner: Nominal, rows: s.Selector | None = None) -> PlaceMeaning | None:
+def evenly_along(n: int, inner: Nominal = _TREES, rows: s.Selector | None = None) -> PlaceMeaning | None:
     """Compose "ten trees spread evenly along row 4" and "four evenly spaced trees in row 5"."""
     if inner.single or inner.complete or n < 2 or (rows is not None and not chooses_from_trees(inner.selector)):
         return None

@@ -369,6 +369,12 @@ def in_each_row(one: PlaceMeaning, rows: s.Selector) -> PlaceMeaning | None:
     return PlaceMeaning(one.selector, "several", each=True, per=rows)
 
 
+@construction("place: rows=rows [COMMA] in_ one=place INEACH", "place: rows=rows COMMA one=place INEACH", cost=0.2)
+def in_each_of_those_rows(rows: s.Selector, one: PlaceMeaning) -> PlaceMeaning | None:
+    """Compose "rows 2 and 4, at the middle tree of each"."""
+    return None if is_one_row(rows) else in_each_row(one, rows)
+
+
 @construction("place: rows=each_row", cost=0.5)
 def at_each_row(rows: s.Selector) -> PlaceMeaning:
     """Compose "each row" as a place."""
@@ -379,6 +385,7 @@ def at_each_row(rows: s.Selector) -> PlaceMeaning:
     "rows_of_block: rows=rows in_ block=block",
     "rows_of_block: rows=rows in_ block=bare_block",
     "rows_of_block: rows=rows COMMA block=block",
+    "rows_of_block: rows=rows COMMA block=bare_block",
     cost=0.1,
 )
 def rows_of_block(rows: s.Selector, block: s.Selector) -> s.Selector | None:

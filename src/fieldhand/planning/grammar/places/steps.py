@@ -69,12 +69,21 @@ def another_far_away(inner: Nominal) -> Nominal | None:
     return replace(inner, selector=s.Farthest(origin=s.Here(), of=s.NotVisited(of=inner.selector)), single=True)
 
 
-@construction("place: n=count inner=nominal ADJACENT", "place: n=count ADJACENT inner=nominal", cost=0.2)
-def adjacent(n: int, inner: Nominal) -> PlaceMeaning | None:
-    """Compose "three trees next to each other"."""
-    if inner.single or inner.complete or n < 2:
+@construction(
+    "place: n=count inner=nominal ADJACENT",
+    "place: n=count ADJACENT inner=nominal",
+    "place: n=count inner=nominal ADJACENT in_ to=place",
+    "place: n=count inner=nominal ADJACENT NEAR to=place",
+    "place: n=count ADJACENT inner=nominal in_ to=place",
+    "place: n=count ADJACENT inner=nominal NEAR to=place",
+    cost=0.2,
+)
+def adjacent(n: int, inner: Nominal, to: PlaceMeaning | None = None) -> PlaceMeaning | None:
+    """Compose "three trees next to each other" and "three adjacent trees in the middle of the orchard"."""
+    if inner.single or inner.complete or n < 2 or (to is not None and to.shape != "one"):
         return None
-    return PlaceMeaning(s.Adjacent(near=s.Here(), count=n, of=inner.selector), "several", count=n)
+    near = s.Here() if to is None else to.selector
+    return PlaceMeaning(s.Adjacent(near=near, count=n, of=inner.selector), "several", count=n)
 
 
 @construction("place: n=count inner=nominal NEAREACH", "place: n=count NEAREACH inner=nominal", cost=0.2)
@@ -97,9 +106,10 @@ def next_to(
 ) -> PlaceMeaning | None:
     """Compose "the two trees next to tree 12"."""
     number = n or (None if inner.plural else 1)
-    if number is None or inner.single or inner.kind != "tree" or to.shape not in ("one", "here"):
+    beside_zone = to.shape == "area" and side == "any" and as_zone(to.selector) is not None
+    if number is None or inner.single or inner.kind != "tree" or not (to.shape in ("one", "here") or beside_zone):
         return None
-    selector = s.Nearest(to=to.selector, count=number, adjacent=True, side=side, of=inner.selector)
+    selector = s.Nearest(to=to.selector, count=number, adjacent=not beside_zone, side=side, of=inner.selector)
     return PlaceMeaning(selector, "one" if number == 1 else "several", count=number)
 
 
@@ -164,6 +174,7 @@ def neighbour_on_side(
 
 @construction(
     "place: [DET] [inner=nominal] OPPOSITE to=place [side=on_side]",
+    "place: [DET] [inner=nominal] OPPOSITE to=place COMMA side=on_side",
     "place: [DET] [inner=nominal] OPPOSITE side=on_side OF to=place",
     "place: [DET] inner=nominal OPPOSITE [side=on_side]",
     cost=0.2,
@@ -311,10 +322,16 @@ def farthest(inner: Nominal, to: PlaceMeaning, n: int | None = None) -> PlaceMea
 @construction(
     "place: [EACH] [DET] inner=nominal INSIDE far=amount OF to=place",
     "place: [EACH] [DET] inner=nominal check=CMP far=amount FROM to=place",
+    "place: [ANY] n=count inner=nominal INSIDE far=amount OF to=place",
     cost=0.3,
 )
-def within(inner: Nominal, far: Amount, to: PlaceMeaning, check: Lex | None = None) -> PlaceMeaning | None:
-    """Compose "all trees within 20 m of the charger"."""
+def within(
+    inner: Nominal, far: Amount, to: PlaceMeaning, check: Lex | None = None, n: int | None = None
+) -> PlaceMeaning | None:
+    """Compose "all trees within 20 m of the charger" and "three trees within 20 m of the charger"."""
+    if n is not None:
+        there = None if inner.complete else within(inner, far, to)
+        return there and PlaceMeaning(s.Take(count=n, of=there.selector), "one" if n == 1 else "several", count=n)
     if far.unit != "metres" or inner.single or to.shape not in ("one", "area"):
         return None
     if check is not None and check.value[0] not in ("lt", "le"):
@@ -387,13 +404,18 @@ def nearest_in(near: PlaceMeaning, where: s.Selector) -> PlaceMeaning | None:
     "place: n=count inner=nominal [COMMA] ABOUT dist=apart",
     "place: n=count inner=nominal [COMMA] [EACH] least=apart_least",
     "place: n=count inner=nominal [COMMA] WHICH least=apart_least",
+    "place: n=count other=OTHER inner=nominal [COMMA] [EACH] dist=apart",
+    "place: n=count other=OTHER inner=nominal [COMMA] [EACH] least=apart_least",
     cost=0.2,
 )
-def trees_apart(n: int, inner: Nominal, dist: float | None = None, least: float | None = None) -> PlaceMeaning | None:
+def trees_apart(
+    n: int, inner: Nominal, dist: float | None = None, least: float | None = None, other: Lex | None = None
+) -> PlaceMeaning | None:
     """Compose "four trees of row 3, each 12 m from the next"."""
     if inner.single or inner.complete or n < 2:
         return None
-    apart = s.Apart(apart_m=dist or least or 0.0, count=n, least=least is not None, of=inner.selector)
+    of = inner.selector if other is None else s.NotVisited(of=inner.selector)
+    apart = s.Apart(apart_m=dist or least or 0.0, count=n, least=least is not None, of=of)
     return PlaceMeaning(apart, "several", count=n)
 
 
