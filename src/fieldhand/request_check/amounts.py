@@ -192,6 +192,8 @@ def _pace(said: Sequence[Token], k: int) -> float:
 def _name(before: Sequence[Token]) -> AmountKind | None:
     """Return the kind of name that a number is by the words before it: "tree 7", "row #3"."""
     texts = [token.text for token in before]
+    if len(texts) > 1 and texts[-1] == "from":
+        texts.pop()  # "the trees from 20 to 30"
     numbered = bool(texts) and texts[-1] in _NUMBERED
     head = "" if not texts else texts[0] if numbered and len(texts) > 1 else texts[-1]
     if head in w.ROWS:

@@ -34,7 +34,11 @@ NUMBERS = {word: float(n) for n, word in enumerate(_UNITS)} | {w: 20.0 + 10 * n 
 ORDINALS = {
     word: n
     for n, word in enumerate(
-        _in_order("first second third fourth fifth sixth seventh eighth ninth tenth eleventh twelfth"), start=1
+        _in_order("""
+            first second third fourth fifth sixth seventh eighth ninth tenth eleventh twelfth thirteenth fourteenth
+            fifteenth sixteenth seventeenth eighteenth nineteenth twentieth
+            """),
+        start=1,
     )
 }
 #: Words for a number of things without a noun.

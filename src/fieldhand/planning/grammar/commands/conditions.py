@@ -550,10 +550,14 @@ def all_of_them(test: Test, noun: Lex | None = None) -> AllTests | None:
 
 
 @construction(
-    "tests: GROUPANY [IS] test=predicate", "tests: GROUPANY noun=NOUN [READING] [IS] test=predicate", cost=0.2
+    "tests: GROUPANY [IS] test=predicate",
+    "tests: GROUPANY noun=NOUN [READING] [IS] test=predicate",
+    "tests: AT GROUPANY [COMMA] test=test",
+    "tests: test=test AT GROUPANY",
+    cost=0.2,
 )
 def any_of_them(test: Test, noun: Lex | None = None) -> AllTests | None:
-    """Compose "either one is low"."""
+    """Compose "either one is low" and "at one of them it is low"."""
     return _of_group(test, noun, "any")
 
 

@@ -250,7 +250,7 @@ def go_home(word: Lex, used: int) -> Home | None:
     return None if "ends" in word.features else Home(None, used)
 
 
-@construction("home: RETURN AT marker=marker", "home: RETURN marker=marker", cost=0.2)
+@construction("home: RETURN AT marker=marker", "home: RETURN marker=marker", "home: GOHOME AT marker=marker", cost=0.2)
 def return_to(marker: s.Selector, used: int) -> Home | None:
     """Compose "return to the start"."""
     if marker.named_marker in ("", "charger"):

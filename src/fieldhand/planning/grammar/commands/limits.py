@@ -66,14 +66,19 @@ def not_more_than(check: Lex, most: Amount, used: int) -> LimitClause | None:
 @construction(
     "limit: KEEP least=amount [of_what] [LEFT]",
     "limit: KEEP check=CMP least=amount [of_what] [LEFT]",
+    "limit: KEEP least=amount [of_what] [LEFT] word=THEN",
+    "limit: KEEP check=CMP least=amount [of_what] [LEFT] word=THEN",
+    "limit: KEEP [DET] BATTERY check=CMP least=amount",
     "limit: BEFORE BATTERY [IS] [at] least=amount [LEFT]",
+    "limit: [DET] BATTERY STAYSOVER least=amount",
+    "limit: NEVERLET [DET] BATTERY GOUNDER least=amount",
     cost=0.3,
 )
-def keep(least: Amount, used: int, check: Lex | None = None) -> LimitClause | None:
-    """Compose "keep at least 30 % battery"."""
+def keep(least: Amount, used: int, check: Lex | None = None, word: Lex | None = None) -> LimitClause | None:
+    """Compose "keep at least 30 % battery" and "the battery must not go under 30 %"."""
     if least.unit != "percent" or (check is not None and check.value[0] not in ("gt", "ge")):
         return None
-    return LimitClause(least, True, used)
+    return None if word is not None and "when_done" not in word.features else LimitClause(least, True, used)
 
 
 @construction("limit: RETURN BEFORE BATTERY [IS] [at] least=amount [LEFT]", cost=0.2)

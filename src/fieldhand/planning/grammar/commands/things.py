@@ -114,7 +114,7 @@ def more_things(first: tuple[Thing, ...], second: tuple[Thing, ...]) -> tuple[Th
     return (*first, *second) if len(set(names)) == len(names) else None
 
 
-@construction("verb: TAKE", "verb: MEASURE", cost=0.0)
+@construction("verb: TAKE", "verb: MEASURE", "verb: CLIP", cost=0.0)
 def capture_verb() -> str:
     """Compose "take"."""
     return "take"

@@ -61,7 +61,7 @@ from fieldhand.planning.grammar.meaning import (
     VisitLimit,
     When,
 )
-from fieldhand.planning.selections import AREAS, are_unvisited, specifies_part
+from fieldhand.planning.selections import AREAS, are_rows, are_unvisited, over, specifies_part
 from fieldhand.task import plan as p
 
 #: Maximum number of ways in which one parse is continued; a request that leaves more open is not composed.
@@ -281,11 +281,24 @@ def _lead(setting: Setting, state: DialogueState, command: Lead) -> DialogueStat
     if before is not None and command.relation == "topic" and before.place.shape == "area" and before.place.per is None:
         place = in_area(setting, before, place)  # "in row 3 the CO2 matters: four trees will do"
         return replace(state, lead=replace(command, place=place, used=before.used | command.used))
+    if (row := _row_of_block(before, place)) is not None and before is not None:
+        return replace(state, lead=replace(command, place=row, relation="at", used=before.used | command.used))
     if command.things:
         state = replace(state, things=command.things)
     if state.awaits_command:
         raise NotComposed(message("it is not clear at which of two places this is done", context="fault"))
     return replace(state, lead=command)
+
+
+def _row_of_block(before: Lead | None, place: PlaceMeaning) -> PlaceMeaning | None:
+    """Return the rows of a block that two leads name together ("in the south block, row 31, ..."); None for others."""
+    if before is None or before.relation == "topic" or before.place.per is not None or place.per is not None:
+        return None
+    for rows, block in ((place, before.place), (before.place, place)):
+        in_block = any(isinstance(part, s.InBlock) for part in rows.selector.walk())
+        if {rows.shape, block.shape} == {"area"} and isinstance(block.selector, s.InBlock) and not in_block:
+            return replace(rows, selector=over(rows.selector, block.selector)) if are_rows(rows.selector) else None
+    return None
 
 
 def _require_other_places(state: DialogueState, place: PlaceMeaning) -> None:

@@ -25,6 +25,7 @@ from fieldhand.planning.grammar.meaning import DriveCommand, Home, InAnOrder, Le
 from fieldhand.planning.selections import (
     are_rows,
     as_every_nth,
+    as_in_row,
     chooses_from_trees,
     is_next_to_here,
     is_one_row,
@@ -130,6 +131,11 @@ def require_known(setting: Setting, state: DialogueState, place: PlaceMeaning | 
     if place is not None and place.shape == "nowhere":
         raise NotComposed(place.fault)
     parts = [] if place is None or place.shape in ("here", "those") else list(place.selector.walk())
+    if any((row := as_in_row(part)) is not None and not any(are_rows(of) for of in row.of.walk()) for part in parts):
+        raise NotComposed(
+            message("'{said}' could be counted in several ways", said=setting.quoted(place.tokens if place else used)),
+            advice=message("say of which row and from which end: 'the third tree of row 4 from the north'"),
+        )
     from_here = [part for part in parts if starts_here(part)]
     if from_here:
         if state.where is None or (state.where.shape != "one" and not is_inside(state.scope, state.loop or (-1,))):

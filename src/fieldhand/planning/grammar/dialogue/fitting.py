@@ -16,6 +16,7 @@ from fieldhand.planning.selections import (
     are_rows,
     are_several_rows,
     as_along_row,
+    as_in_row,
     as_some,
     chooses_from_trees,
     counts_in_row,
@@ -59,6 +60,9 @@ def in_area(setting: Setting, before: Lead | DriveCommand, place: PlaceMeaning |
             return PlaceMeaning(s.Trees(), "area", each=True, per=area)
         return PlaceMeaning(area, "several", each=True)
     if place.per is None and place.shape in ("one", "several") and chooses_from_trees(place.selector):
+        counted = [row for part in place.selector.walk() if (row := as_in_row(part)) is not None]
+        if isinstance(area, s.RowOf) and any(row.of == s.Trees() for row in counted):
+            return place  # "go down the row, ... at the third tree": counted from here, or from the end?
         selector = over(place.selector, area)
         of_each_row = are_several_rows(area) and all(counts_in_row(part) for part in selector.members)
         return replace(place, selector=selector, shape="several" if of_each_row else place.shape)

@@ -265,16 +265,27 @@ def but_not() -> str:
 
 @construction(
     "place: whole=place but_not trees=numbers",
+    "place: whole=place but_not [DET] NUMBERED trees=numbers",
     "place: whole=place but_not [DET] trees=tree_ids",
     cost=0.3,
+    given=("site",),
 )
-def named_except_numbers(whole: PlaceMeaning, trees: tuple[str, ...]) -> PlaceMeaning | None:
-    """Compose "trees 1 to 19 except 7 and 13"."""
+def named_except_numbers(whole: PlaceMeaning, trees: tuple[str, ...], site: Site) -> PlaceMeaning | None:
+    """Compose "trees 1 to 19 except 7 and 13" and "all trees of row 9 except number 140"."""
     parts = tuple(s.TreeIs(tree=tree) for tree in trees)
-    if not set(parts) <= set(whole.selector.members) or len(parts) >= len(whole.selector.members):
-        return None
     out = parts[0] if len(parts) == 1 else s.UnionOf(parts=parts)
-    return replace(whole, selector=s.Excluding(places=out, of=whole.selector), count=None)
+    if set(parts) <= set(whole.selector.members):
+        left = len(parts) < len(whole.selector.members)
+        return replace(whole, selector=s.Excluding(places=out, of=whole.selector), count=None) if left else None
+    if (
+        not _may_leave_out(whole)
+        or whole.selector == s.Trees()
+        or (are_rows(whole.selector) and not is_one_row(whole.selector))
+    ):
+        return None  # "rows 3 to 5 except 4": the tree or the row?
+    if not set(trees) < (ids_of(whole.selector, site) or set()):
+        return None
+    return replace(whole, selector=s.Excluding(places=out, of=whole.selector), shape="several")
 
 
 @construction("place: whole=place but_not [DET] value=ATTRVAL ONE", cost=0.2)

@@ -59,7 +59,13 @@ def pronoun(noun: Lex) -> Nominal:
     return Nominal(s.Trees(), plural="plural" in noun.features, pronoun=True)
 
 
-@construction("nominal: value=ATTRVAL inner=nominal", "owner: value=ATTRVAL inner=owner", cost=0.2)
+@construction(
+    "nominal: value=ATTRVAL inner=nominal",
+    "owner: value=ATTRVAL inner=owner",
+    "nominal: inner=nominal OF value=ATTRVAL",
+    "nominal: inner=nominal OF [DET] ATTR value=ATTRVAL",
+    cost=0.2,
+)
 def described(value: Lex, inner: Nominal) -> list[Nominal] | None:
     """Compose "yellow trees"."""
     if inner.single or inner.complete or inner.pronoun or inner.tested:
@@ -256,7 +262,12 @@ def _number(value: Lex | Amount) -> float:
     return value.number if isinstance(value, Amount) else value.value
 
 
-@construction("nominal: side=MOST inner=nominal", "owner: side=MOST inner=owner", cost=0.2)
+@construction(
+    "nominal: side=MOST inner=nominal",
+    "owner: side=MOST inner=owner",
+    "nominal: inner=nominal WHICH [IS] [DET] side=MOST",
+    cost=0.2,
+)
 def extreme(side: Lex, inner: Nominal) -> Nominal | None:
     """Compose "northernmost tree"."""
     if inner.single or inner.complete or inner.kind != "tree":

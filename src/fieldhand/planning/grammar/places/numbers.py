@@ -120,7 +120,7 @@ def bare_code(first: tuple[str, ...]) -> tuple[str, ...]:
     return first
 
 
-@construction("tree_ids: TREE number=NUM range_to last=NUM", cost=0.3)
+@construction("tree_ids: TREE [FROM] [NUMBERED] number=NUM range_to last=NUM", cost=0.3)
 def tree_range(number: Lex, last: Lex) -> tuple[str, ...] | None:
     """Compose "trees 12 to 20"."""
     low, high = whole(number.value), whole(last.value)

@@ -136,6 +136,12 @@ def first_so_many(rank: Lex, n: int) -> tuple[int, int] | None:
     return (1, n) if rank.value == 1 and n > 1 else None
 
 
+@construction("positions: first=ORD range_to [DET] last=ORD", cost=0.0)
+def from_rank_to_rank(first: Lex, last: Lex) -> tuple[int, int] | None:
+    """Compose "tenth to the twentieth"."""
+    return (first.value, last.value) if first.value < last.value else None
+
+
 @construction("positions: LAST n=count", cost=0.0)
 def last_so_many(n: int) -> tuple[int, int] | None:
     """Compose "last three"."""
@@ -146,6 +152,9 @@ def last_so_many(n: int) -> tuple[int, int] | None:
     "place: [DET] where=positions inner=nominal in_ rows=rows",
     "place: [DET] where=positions inner=nominal in_ rows=each_row",
     "place: [DET] where=positions inner=nominal in_ rows=rows_of_block",
+    "place: [DET] inner=nominal FROM [DET] where=positions in_ rows=rows",
+    "place: [DET] inner=nominal FROM [DET] where=positions ONE in_ rows=rows",
+    "place: [DET] inner=nominal in_ rows=rows FROM [DET] where=positions",
     cost=0.2,
 )
 def trees_of_row(where: tuple[int, int], inner: Nominal, rows: s.Selector) -> PlaceMeaning | None:
@@ -154,6 +163,27 @@ def trees_of_row(where: tuple[int, int], inner: Nominal, rows: s.Selector) -> Pl
         return None
     count = where[1] - where[0] + 1 if is_one_row(rows) else None
     return PlaceMeaning(s.InRow(first=where[0], last=where[1], of=over(inner.selector, rows)), "several", count=count)
+
+
+@construction("place: [DET] rank=ORD inner=nominal", "place: DET rank=ORD", cost=0.6)
+def tree_of_row_named_before(rank: Lex, inner: Nominal | None = None) -> PlaceMeaning | None:
+    """Compose "the third tree", of a row that was named before it."""
+    if rank.value < 2 or (inner is not None and (inner.plural or inner.selector != s.Trees() or inner.kind != "tree")):
+        return None
+    return PlaceMeaning(s.InRow(first=rank.value, last=rank.value, of=s.Trees()), "one")
+
+
+@construction(
+    "place: [DET] inner=nominal FROM [DET] where=positions",
+    "place: [DET] where=positions inner=nominal",
+    cost=0.6,
+)
+def trees_of_row_named_before(where: tuple[int, int], inner: Nominal) -> PlaceMeaning | None:
+    """Compose "the trees from the third to the tenth", of a row that was named before them."""
+    if where[0] < 2 or inner.selector != s.Trees() or inner.kind != "tree" or inner.single:
+        return None
+    selector = s.InRow(first=where[0], last=where[1], of=s.Trees())
+    return PlaceMeaning(selector, "several", count=where[1] - where[0] + 1)
 
 
 @construction(
@@ -196,13 +226,20 @@ def end_of_row(side: Lex, rows: s.Selector) -> PlaceMeaning | None:
     )
 
 
+@construction("ends: noun=FINISH", "ends: FINISH noun=TREE", cost=0.0)
+def ends(noun: Lex) -> Lex:
+    """Compose "ends" and "end trees", of rows."""
+    return noun
+
+
 @construction(
-    "place: noun=FINISH in_ rows=rows",
-    "place: EACH noun=FINISH in_ rows=rows",
-    "place: EACH noun=FINISH in_ rows=each_row",
-    "place: [DET] n=count noun=FINISH in_ rows=rows",
-    "place: [DET] n=count noun=FINISH in_ rows=each_row",
-    "place: DET noun=FINISH in_ rows=rows",
+    "place: noun=ends in_ rows=rows",
+    "place: EACH noun=ends in_ rows=rows",
+    "place: EACH noun=ends in_ rows=each_row",
+    "place: [DET] n=count noun=ends in_ rows=rows",
+    "place: [DET] n=count noun=ends in_ rows=each_row",
+    "place: DET noun=ends in_ rows=rows",
+    "place: [DET] noun=ends in_ rows=each_row",
     "place: TREE AT EACH noun=FINISH in_ rows=rows",
     "place: DET TREE AT EACH noun=FINISH in_ rows=rows",
     cost=0.1,

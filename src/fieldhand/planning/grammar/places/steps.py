@@ -320,8 +320,8 @@ def farthest(inner: Nominal, to: PlaceMeaning, n: int | None = None) -> PlaceMea
 
 
 @construction(
-    "place: [EACH] [DET] inner=nominal INSIDE far=amount OF to=place",
-    "place: [EACH] [DET] inner=nominal check=CMP far=amount FROM to=place",
+    "place: [EACH] [DET] inner=nominal [WHICH] [IS] INSIDE far=amount OF to=place",
+    "place: [EACH] [DET] inner=nominal [WHICH] [IS] check=CMP far=amount FROM to=place",
     "place: [ANY] n=count inner=nominal INSIDE far=amount OF to=place",
     cost=0.3,
 )
@@ -343,7 +343,7 @@ def within(
     return PlaceMeaning(s.Within(distance_m=far.number, to=to.selector, of=inner.selector), "several")
 
 
-@construction("place: [EACH] [DET] inner=nominal check=CMP far=amount FROM to=place", cost=0.3)
+@construction("place: [EACH] [DET] inner=nominal [WHICH] [IS] check=CMP far=amount FROM to=place", cost=0.3)
 def beyond_place(inner: Nominal, check: Lex, far: Amount, to: PlaceMeaning) -> PlaceMeaning | None:
     """Compose "all trees more than 20 m from the charger"."""
     zone = as_zone(to.selector)
