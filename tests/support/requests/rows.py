@@ -1233,8 +1233,16 @@ REFUSED = [
         "take a picture of every third corner",
         "'every third corner': the corners have no order",
     ),
-    ("husky", "take a picture of the 3rd tree", "'the 3rd tree': '3rd' could be counted in several ways"),
-    ("husky", "take a picture of the second tree", "'the second tree': 'second' could be counted in several ways"),
+    (
+        "husky",
+        "take a picture of the 3rd tree",
+        "'take a picture of the 3rd tree': 'the 3rd tree' could be counted in several ways",
+    ),
+    (
+        "husky",
+        "take a picture of the second tree",
+        "'take a picture of the second tree': 'the second tree' could be counted in several ways",
+    ),
     ("husky", "photograph tree 5 from north to south", "'from north to south': an order needs several places"),
     (
         "husky",
@@ -1424,7 +1432,7 @@ REFUSED = [
     (
         "husky",
         "Go to tree 40, go down the row, and stop at the 3rd tree.",
-        "'the 3rd tree': '3rd' could be counted in several ways",
+        "'stop at the 3rd tree': 'the 3rd tree' could be counted in several ways",
     ),
     (
         "husky",
@@ -1439,7 +1447,7 @@ REFUSED = [
     (
         "husky",
         "go to tree 50, go down the row and take a picture of the third tree",
-        "'the third tree': 'third' could be counted in several ways",
+        "'take a picture of the third tree': 'the third tree' could be counted in several ways",
     ),
     (
         "husky",

@@ -94,7 +94,7 @@ def _not_yet(words: Sequence[Word], edges: Sequence[PhraseEdge]) -> Iterator[Rea
     """Yield a reason for each phrase that no plan can express yet, if its words are nothing else."""
     others = [edge for edge in edges if edge.category != _NOT_YET]
     for edge in edges:
-        if edge.category != _NOT_YET or any(one.start <= edge.start and edge.end <= one.end for one in others):
+        if edge.category != _NOT_YET or any(_explains(one, edge) for one in others):
             continue
         said = " ".join(word.text for word in words[edge.start : edge.end])
         yield Reason(
@@ -103,6 +103,11 @@ def _not_yet(words: Sequence[Word], edges: Sequence[PhraseEdge]) -> Iterator[Rea
             advice=named(str(edge.meaning.value), "advice"),
             final=True,
         )
+
+
+def _explains(other: PhraseEdge, edge: PhraseEdge) -> bool:
+    """Return True if the words of a phrase are part of another one, or its first word is the end of one ("half an")."""
+    return other.start <= edge.start and (edge.end <= other.end or other.start < edge.start < other.end)
 
 
 def _lacking(words: Sequence[Word], edges: Sequence[PhraseEdge], site: Site) -> Iterator[Reason]:

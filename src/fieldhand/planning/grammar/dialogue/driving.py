@@ -184,7 +184,8 @@ def go_home(setting: Setting, state: DialogueState, command: Home) -> DialogueSt
             raise NotComposed(message("it is not clear where that is", context="fault"))
         command = replace(command, then="return_to_start" if "start" in markers else "return_to_end")
         if command.then == "return_to_start":
-            back = message("'{said}' means back to the start.", context="assumption", said=setting.quoted(command.used))
+            said_home = setting.quoted(command.used).strip(" ,;")
+            back = message("'{said}' means back to the start.", context="assumption", said=said_home)
             state = with_assumption(state, back)
     steps = state.block.steps
     if steps and steps[-1].ends_plan:
