@@ -317,6 +317,21 @@ def as_nearest(selector: s.Selector) -> s.Nearest | None:
     return selector if isinstance(selector, s.Nearest) else None
 
 
+def as_top(selector: s.Selector) -> s.Top | None:
+    """Return the selector if it takes the best by an attribute, None otherwise."""
+    return selector if isinstance(selector, s.Top) else None
+
+
+def blocks_of(selector: s.Selector) -> tuple[s.InBlock, ...]:
+    """Return the blocks that are part of a selector."""
+    return tuple(part for part in selector.walk() if isinstance(part, s.InBlock))
+
+
+def is_block(selector: s.Selector) -> bool:
+    """Return True for the trees of a block."""
+    return isinstance(selector, s.InBlock)
+
+
 def is_in_block(selector: s.Selector) -> bool:
     """Return True if a block is part of it."""
     return any(isinstance(part, s.InBlock) for part in selector.walk())

@@ -14,7 +14,10 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.parameters import in_unit_of, with_parameter
 from fieldhand.planning.grammar.meaning import Amount, Nominal, ParameterValue, PlaceMeaning, Thing
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import measures_distance
+from fieldhand.planning.selections import (
+    as_zone,
+    measures_distance,
+)
 from fieldhand.robot.model import RobotProfile
 
 GRAMMAR = Grammar()
@@ -107,7 +110,7 @@ def counted_somehow(rank: Lex, inner: Nominal | None = None) -> Impossible | Non
 @construction("number=NUM noun=POINT in_ where=region", "number=NUM noun=POINT AT where=region")
 def points_outside_zones(number: Lex, noun: Lex, where: s.Selector) -> Impossible | None:  # noqa: ARG001  any number
     """Compose "3 points in row 4"."""
-    if any(isinstance(part, s.InZone) for part in where.walk()):
+    if any(as_zone(part) is not None for part in where.walk()):
         return None
     return Impossible(
         message("which trees does it refer to?"), message("say 'trees', or name a zone: '4 points in the wet corner'")

@@ -61,7 +61,15 @@ from fieldhand.planning.grammar.meaning import (
     VisitLimit,
     When,
 )
-from fieldhand.planning.selections import AREAS, are_rows, are_unvisited, over, specifies_part
+from fieldhand.planning.selections import (
+    AREAS,
+    are_rows,
+    are_unvisited,
+    is_block,
+    is_in_block,
+    over,
+    specifies_part,
+)
 from fieldhand.task import plan as p
 
 #: Maximum number of ways in which one parse is continued; a request that leaves more open is not composed.
@@ -295,8 +303,8 @@ def _row_of_block(before: Lead | None, place: PlaceMeaning) -> PlaceMeaning | No
     if before is None or before.relation == "topic" or before.place.per is not None or place.per is not None:
         return None
     for rows, block in ((place, before.place), (before.place, place)):
-        in_block = any(isinstance(part, s.InBlock) for part in rows.selector.walk())
-        if {rows.shape, block.shape} == {"area"} and isinstance(block.selector, s.InBlock) and not in_block:
+        in_block = is_in_block(rows.selector)
+        if {rows.shape, block.shape} == {"area"} and is_block(block.selector) and not in_block:
             return replace(rows, selector=over(rows.selector, block.selector)) if are_rows(rows.selector) else None
     return None
 

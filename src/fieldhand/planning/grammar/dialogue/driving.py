@@ -26,6 +26,7 @@ from fieldhand.planning.selections import (
     are_rows,
     as_every_nth,
     as_in_row,
+    blocks_of,
     chooses_from_trees,
     is_next_to_here,
     is_one_row,
@@ -286,7 +287,7 @@ def _reversed(select: s.Selector, site: Site) -> s.Selector:
     if len(members) > 1 and all(one.single for one in members):
         return s.UnionOf(parts=tuple(reversed(members)))
     rows = {part for part in select.walk() if are_rows(part)}
-    named = {part.block for part in select.walk() if isinstance(part, s.InBlock)}
+    named = {part.block for part in blocks_of(select)}
     runs = {one.runs_east_west for one in site.planting.blocks if not named or one.name in named}
     if len(rows) != 1 or len(runs) != 1 or not is_one_row(rows.pop()):
         raise NotComposed(message("it is not clear which order is reversed", context="fault"))

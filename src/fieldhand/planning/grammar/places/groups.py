@@ -13,6 +13,8 @@ from fieldhand.planning.selections import (
     are_rows,
     as_in_row,
     as_some,
+    as_top,
+    blocks_of,
     chooses_from_trees,
     is_by_attribute,
     is_end_of_site,
@@ -395,7 +397,7 @@ def except_for(whole: PlaceMeaning, part: PlaceMeaning, site: Site) -> PlaceMean
         if whole.shape != "area" or not are_rows(part.selector):
             return None
         return replace(whole, per=s.Excluding(places=part.selector, of=whole.per))
-    blocks = {one for one in whole.selector.walk() if isinstance(one, s.InBlock)}
+    blocks = set(blocks_of(whole.selector))
     if len(blocks) == 1 and are_rows(part.selector) and is_whole_rows(part.selector) and not is_in_block(part.selector):
         part = replace(part, selector=over(part.selector, blocks.pop()))  # "row 4" behind "rows 1 to 6 of block North"
     all_of_it = whole.shape == "area" and part.shape == "several"  # "row 6 except the yellow trees"
@@ -456,11 +458,10 @@ def both(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | list[Place
 
 def _other_end(first: s.Selector, second: s.Selector) -> s.Selector | None:
     """Return the trees at the other end of a ranking: "the five youngest" behind "the five oldest trees of row 3"."""
-    if not isinstance(first, s.Top) or not isinstance(second, s.Top) or first.lowest == second.lowest:
+    best, worst = as_top(first), as_top(second)
+    if best is None or worst is None or best.lowest == worst.lowest or worst.attribute not in ("", best.attribute):
         return None
-    return (
-        replace(second, attribute=first.attribute, of=first.of) if second.attribute in ("", first.attribute) else None
-    )
+    return replace(worst, attribute=best.attribute, of=best.of)
 
 
 @construction("place: first=place COMMA word=DET OTHER ONE", cost=0.2)

@@ -10,7 +10,11 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Amount, Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.words import Lex, hinted_attributes
-from fieldhand.planning.selections import as_every_nth, chooses_from_trees
+from fieldhand.planning.selections import (
+    as_every_nth,
+    as_top,
+    chooses_from_trees,
+)
 from fieldhand.site.model import Site
 from fieldhand.terms import Test
 
@@ -373,8 +377,8 @@ def that_yielded(n: int, inner: Nominal, best: tuple[str, bool], site: Site) -> 
 @construction("place: best=place in_ where=region", cost=0.4)
 def best_in(best: PlaceMeaning, where: s.Selector) -> PlaceMeaning | None:
     """Compose "the 20 vines with the lowest vigor in the south block"."""
-    top = best.selector
-    if not isinstance(top, s.Top) or top.of != s.Trees() or best.per is not None or best.each:
+    top = as_top(best.selector)
+    if top is None or top.of != s.Trees() or best.per is not None or best.each:
         return None
     return replace(best, selector=replace(top, of=where))
 

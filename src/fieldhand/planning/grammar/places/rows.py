@@ -11,7 +11,13 @@ from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.places.numbers import name_of, whole
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import chooses_from_trees, counts_in_row, is_one_row, over
+from fieldhand.planning.selections import (
+    chooses_from_trees,
+    counts_in_row,
+    is_in_block,
+    is_one_row,
+    over,
+)
 from fieldhand.site.counting import find_row, rows_from
 from fieldhand.site.model import Site
 from fieldhand.terms import Towards
@@ -390,7 +396,7 @@ def at_each_row(rows: s.Selector) -> PlaceMeaning:
 )
 def rows_of_block(rows: s.Selector, block: s.Selector) -> s.Selector | None:
     """Compose "rows 3 to 5 of block 2"."""
-    if any(isinstance(part, s.InBlock) for part in rows.walk()):
+    if is_in_block(rows):
         return None
     return over(rows, block)
 
@@ -398,7 +404,7 @@ def rows_of_block(rows: s.Selector, block: s.Selector) -> s.Selector | None:
 @construction("rows_of_block: rows=rows in_ blocks=blocks", "rows_of_block: rows=rows in_ blocks=each_block", cost=0.1)
 def rows_of_each_block(rows: s.Selector, blocks: tuple[s.Selector, ...]) -> s.Selector | None:
     """Compose "row 12 of both blocks"."""
-    if any(isinstance(part, s.InBlock) for part in rows.walk()):
+    if is_in_block(rows):
         return None
     return s.UnionOf(parts=tuple(over(rows, block) for block in blocks))
 
