@@ -1464,16 +1464,6 @@ REFUSED = [
         "take a picture of row 3 starting with row 2",
         "'starting with row 2' does not fit at this point in 'take a picture of row 3 starting with row 2'",
     ),
-    (
-        "husky",
-        "take a picture of tree 200 trees down",
-        "'trees down' does not fit at this point in 'take a picture of tree 200 trees down'",
-    ),
-    (
-        "husky",
-        "take a picture of row 3 starting with row 2",
-        "'starting with row 2' does not fit at this point in 'take a picture of row 3 starting with row 2'",
-    ),
 ]
 
 #: (site of support/requests/orchards.py, request, what becomes of it)

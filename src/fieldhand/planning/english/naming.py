@@ -32,7 +32,7 @@ class NameEntry:
 
 @dataclass(frozen=True, kw_only=True)
 class Naming:
-    """What a noun may mean to this robot: actions that yield it with their parameters, quantities that it names."""
+    """Meanings of a noun for a robot: actions that yield it, with their parameters, and quantities that it names."""
 
     actions: tuple[str, ...] = ()
     quantities: tuple[str, ...] = ()

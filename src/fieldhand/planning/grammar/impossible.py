@@ -69,10 +69,8 @@ def nothing_between(low: Lex | Amount, high: Lex | Amount) -> Impossible | None:
     return Impossible(what, message("put the lower number first"))
 
 
-@construction(
-    "[DET] side=DIR HALF in_ rows=rows", "[DET] side=DIR EDGE in_ rows=rows", "[DET] side=DIR QUARTER in_ rows=rows"
-)
-def half_of_rows(side: Lex, rows: s.Selector) -> Impossible:  # noqa: ARG001  any rows
+@construction("[DET] DIR HALF in_ rows", "[DET] DIR EDGE in_ rows", "[DET] DIR QUARTER in_ rows")
+def half_of_rows() -> Impossible:
     """Compose "the northern half of row 3"."""
     return Impossible(
         message("a row has no halves or edges"), message("say 'the first 10 trees of row 3', or 'from the north'")
@@ -90,8 +88,8 @@ def half_of_edge(side: Lex, edge: Lex) -> Impossible | None:
     )
 
 
-@construction("EACH n=ORD noun=CORNER", "EACH OTHER noun=CORNER")
-def every_nth_corner(noun: Lex, n: Lex | None = None) -> Impossible:  # noqa: ARG001  any number
+@construction("EACH ORD CORNER", "EACH OTHER CORNER")
+def every_nth_corner() -> Impossible:
     """Compose "every other corner"."""
     return Impossible(
         message("the corners have no order"), message("name them: 'the north-west and the south-east corner'")
@@ -107,8 +105,8 @@ def counted_somehow(rank: Lex, inner: Nominal | None = None) -> Impossible | Non
     return Impossible(what, message("say of which row and from which end: 'the third tree of row 4 from the north'"))
 
 
-@construction("number=NUM noun=POINT in_ where=region", "number=NUM noun=POINT AT where=region")
-def points_outside_zones(number: Lex, noun: Lex, where: s.Selector) -> Impossible | None:  # noqa: ARG001  any number
+@construction("NUM POINT in_ where=region", "NUM POINT AT where=region")
+def points_outside_zones(where: s.Selector) -> Impossible | None:
     """Compose "3 points in row 4"."""
     if any(as_zone(part) is not None for part in where.walk()):
         return None
@@ -117,8 +115,8 @@ def points_outside_zones(number: Lex, noun: Lex, where: s.Selector) -> Impossibl
     )
 
 
-@construction("number=NUM RANDOM noun=POINT")
-def points_at_random(number: Lex, noun: Lex) -> Impossible:  # noqa: ARG001  any number
+@construction("NUM RANDOM POINT")
+def points_at_random() -> Impossible:
     """Compose "3 random points"."""
     return Impossible(
         message("points are spread evenly over a zone, not at random"),
@@ -126,22 +124,22 @@ def points_at_random(number: Lex, noun: Lex) -> Impossible:  # noqa: ARG001  any
     )
 
 
-@construction("ROW NEAREST [AT] to=place", "ROW FARTHEST FROM to=place", "ROW BESIDE to=place", "ROW NEXTTO to=place")
-def row_near_a_place(to: PlaceMeaning) -> Impossible:  # noqa: ARG001  any place
+@construction("ROW NEAREST [AT] place", "ROW FARTHEST FROM place", "ROW BESIDE place", "ROW NEXTTO place")
+def row_near_a_place() -> Impossible:
     """Compose "the row nearest to the charger"."""
     return Impossible(message("what is near, the tree or the row?"), message("name the row"))
 
 
-@construction("WITHIN far=amount OF rows=rows", "WITHIN far=amount FROM rows=rows", "in_ far=amount OF rows=rows")
-def distance_to_rows(far: Amount, rows: s.Selector) -> Impossible:  # noqa: ARG001  any distance, any rows
+@construction("WITHIN amount OF rows", "WITHIN amount FROM rows", "in_ amount OF rows")
+def distance_to_rows() -> Impossible:
     """Compose "within 10 m of row 3"."""
     return Impossible(
         message("distances have to be measured from a single place"), message("name a tree, a corner or a marker")
     )
 
 
-@construction("far=amount side=DIR OF to=place", "far=amount side=DIR FROM to=place")
-def distance_in_a_direction(far: Amount, side: Lex, to: PlaceMeaning) -> Impossible:  # noqa: ARG001  any of them
+@construction("amount DIR OF place", "amount DIR FROM place")
+def distance_in_a_direction() -> Impossible:
     """Compose "10 m north of tree 5"."""
     return Impossible(
         message("a distance in a direction is no place where a tree stands"),
@@ -149,14 +147,14 @@ def distance_in_a_direction(far: Amount, side: Lex, to: PlaceMeaning) -> Impossi
     )
 
 
-@construction("UPTO number=NUM things=things", "CMP number=NUM things=things")
-def up_to_so_many_captures(number: Lex, things: object) -> Impossible:  # noqa: ARG001  any of them
+@construction("UPTO NUM things", "CMP NUM things")
+def up_to_so_many_captures() -> Impossible:
     """Compose "up to 8 pictures"."""
     return Impossible(message("captures need one number"), message("say 'of up to 6 trees'"))
 
 
-@construction("aisle=AISLE")
-def in_an_aisle(aisle: Lex) -> Impossible:  # noqa: ARG001  the word alone
+@construction("AISLE")
+def in_an_aisle() -> Impossible:
     """Compose "the aisle"."""
     return Impossible(
         message("an aisle is not a place where something can be done"),
@@ -164,24 +162,24 @@ def in_an_aisle(aisle: Lex) -> Impossible:  # noqa: ARG001  the word alone
     )
 
 
-@construction("first=place near=NEAR to=place", "first=place NEAREST [AT] to=place")
-def single_and_near(first: PlaceMeaning, to: PlaceMeaning, near: Lex | None = None) -> Impossible | None:  # noqa: ARG001
+@construction("first=place NEAR place", "first=place NEAREST [AT] place")
+def single_and_near(first: PlaceMeaning) -> Impossible | None:
     """Compose "the northernmost tree near the charger"."""
     if first.shape != "one" or measures_distance(first.selector):
         return None
     return Impossible(message("it is not clear what is near to what"), message("say it in two steps"))
 
 
-@construction("rows=ROW OF inner=nominal")
-def rows_of_a_kind(rows: Lex, inner: Nominal) -> Impossible | None:  # noqa: ARG001  any row
+@construction("ROW OF inner=nominal")
+def rows_of_a_kind(inner: Nominal) -> Impossible | None:
     """Compose "rows of Carmel trees"."""
     if inner.selector == s.Trees():
         return None
     return Impossible(message("a row is not chosen by its trees"), message("name the rows, or say 'every Carmel tree'"))
 
 
-@construction("[DET] side=DIR noun=ROW")
-def rows_on_a_side(side: Lex, noun: Lex) -> Impossible:  # noqa: ARG001  any of them
+@construction("[DET] DIR ROW")
+def rows_on_a_side() -> Impossible:
     """Compose "the northern rows"."""
     return Impossible(
         message("it is not clear which rows"),
@@ -189,8 +187,8 @@ def rows_on_a_side(side: Lex, noun: Lex) -> Impossible:  # noqa: ARG001  any of 
     )
 
 
-@construction("number=NUM ROWSOVER", "number=NUM noun=ROW side=DIR", "number=NUM noun=ROW NEAR")
-def rows_over(number: Lex, noun: Lex | None = None, side: Lex | None = None) -> Impossible:  # noqa: ARG001
+@construction("NUM ROWSOVER", "NUM ROW DIR", "NUM ROW NEAR")
+def rows_over() -> Impossible:
     """Compose "two rows over from tree 80"."""
     return Impossible(
         message("it is not clear which tree of that row"), message("go to the tree first, then say 'go 2 rows east'")

@@ -68,7 +68,7 @@ class RequestReading:
 
 @dataclass(frozen=True, kw_only=True)
 class ReadRequest:
-    """What the grammar makes of a request.
+    """The result of reading a request with the grammar.
 
     Attributes:
         readings: Ways to read it as a whole, cheapest first; empty if the grammar does not cover it.

@@ -50,7 +50,7 @@ class UnknownWords:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Correction:
+class SpellingCorrection:
     """Unknown words with the words that were meant.
 
     Attributes:
@@ -62,7 +62,7 @@ class Correction:
     example: str
 
 
-def corrected(unknown: UnknownWords, plan: Plan) -> Correction | None:
+def corrected(unknown: UnknownWords, plan: Plan) -> SpellingCorrection | None:
     """Return the words that were meant, if all unknown words are misspelt and the request is understood with others."""
     words = unknown.words
     if not 0 < len(words) <= _MOST_MISSPELT:
@@ -79,7 +79,7 @@ def corrected(unknown: UnknownWords, plan: Plan) -> Correction | None:
     if not isinstance(outcome, Planned | Clarify):
         return None
     fits = isinstance(outcome, Planned) and not outcome.task.command.warnings
-    return Correction(meant=tuple((word.text, known) for word, known in meant), example=text if fits else "")
+    return SpellingCorrection(meant=tuple((word.text, known) for word, known in meant), example=text if fits else "")
 
 
 def _in_case_of(typed: str, known: str) -> str:
@@ -88,7 +88,7 @@ def _in_case_of(typed: str, known: str) -> str:
     return known.capitalize() if typed[:1].isupper() else known
 
 
-def reasons_of_unknown(unknown: UnknownWords, correction: Correction | None) -> Iterator[Reason]:
+def reasons_of_unknown(unknown: UnknownWords, correction: SpellingCorrection | None) -> Iterator[Reason]:
     """Yield what is known of the unknown words: misspelt, lacking on the site, or not understood."""
     site, robot = unknown.parsed.site, unknown.parsed.robot
     if correction is not None:
