@@ -28,9 +28,9 @@ FUNCTION_WORDS = _words(
 #: Courtesies.
 _COURTESY = _words(
     """
-    appreciated boss brilliant buddy cheers course dear fine folks glad great greetings guys happy hello hey hi
-    kind kindly lovely madam mate much nice ok okay pal perfect please pls plz sir sure ta thank thanks welcome
-    well yes
+    afternoon ah aha appreciated boss brilliant buddy cheers course dear eh er erm evening fine folks glad great
+    greetings guys happy hello hey hi hmm huh kind kindly lovely madam mate mind morning much nice oh ok okay pal
+    perfect please pls plz sir sure ta thank thanks uh uhm um welcome well yes
     """
 )
 #: Names for the robot and its equipment.
@@ -43,11 +43,12 @@ _ADDRESSED = _words(
 #: Verbs and phrases that only introduce the request.
 _LEADING = _words(
     """
-    able ask asked because before begin capture carry check choose collect come deploy do doing done drive driving
-    find get give go going head i'd i'll i'm it's keep kick know let's lets like likes look looking love make
+    able ahead ask asked because before begin capture carry check choose collect come deploy do doing done drive driving
+    find forget get give go going head i'd i'll i'm it's keep kick know let's lets like likes look looking love make
     measure measured measuring need needed needs off out over perform photograph photographing pick picture
-    pictures proceed reading readings record require required requires see send sent start take taken taking tell
-    that's there's through u use using visit want wanted wants way we'd we're what what's whats wish wishes you'd
+    pictures proceed reading readings record remember require required requires see send sent start started
+    take taken taking tell that's there's through u use using visit want wanted wants way we'd we're what what's
+    whats wish wishes you'd
     """
 )
 #: Words of little content, and nouns common to all requests.

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.grammar.chart import PhraseEdge
+from fieldhand.planning.grammar.list_marks import list_marks
 from fieldhand.task.plan import Span
 
 #: Categories of words that may ask for something, or forbid it, in whatever sentence they stand.
@@ -35,7 +36,7 @@ class Remarks:
     Attributes:
         words: Words that are left.
         spans: Character ranges of the remarks.
-        labels: Character ranges of the labels of steps ("Step 2:"), which ask for nothing but an order.
+        labels: Character ranges of the labels of steps ("Step 2:", "2."), which ask for nothing but an order.
     """
 
     words: tuple[Word, ...]
@@ -50,6 +51,8 @@ def without_remarks(words: Sequence[Word], edges: Iterable[PhraseEdge]) -> Remar
         words: Words of the request.
         edges: What its words and phrases can be.
     """
+    marks = list_marks(words)
+    words = [replace(word, kind="stop") if k in marks.ends else word for k, word in enumerate(words)]
     kinds: list[set[str]] = [set() for _ in words]
     reasons: set[int] = set()
     asides: set[int] = set()
@@ -58,11 +61,15 @@ def without_remarks(words: Sequence[Word], edges: Iterable[PhraseEdge]) -> Remar
             kinds[k].add(edge.category)
         if edge.category == "REASON":
             reasons.add(edge.start)
-        if edge.category == "ASIDE" and _stands_apart(words, edge):
+        if edge.category == "ASIDE" and ("anywhere" in edge.meaning.features or _stands_apart(words, edge)):
             asides.update(range(edge.start, edge.end))
-    left_out, labels = asides, set[int]()
-    for sentence in _parts(words, {"stop"}):
-        said = [k for k in sentence if words[k].kind != "comma"]
+    left_out, labels = asides, set(marks.marks)
+    sentences = list(_parts(words, {"stop"}))
+    ranked = [one for one in sentences if len(one) > 2 and "ORD" in kinds[one[0]] and words[one[1]].kind == "comma"]
+    if len(ranked) > 1:
+        labels.update(k for one in ranked for k in one[:2])  # "First: ... Second: ..."
+    for sentence in sentences:
+        said = [k for k in sentence if words[k].kind != "comma" and k not in labels]
         label = _label(words, sentence, kinds)
         labels.update(label)
         left_out.update(_wish(sentence, kinds))

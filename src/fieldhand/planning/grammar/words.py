@@ -22,6 +22,8 @@ _MARKERS = {"start": "START", "end": "FINISH", "charger": "CHARGER"}
 _SIGNS = {"comma": "COMMA", "dash": "DASH", "sign": "AND", "hash": "HASH", "stop": "FULLSTOP"}
 #: Category of words that always may be skipped.
 _SILENT = "FILLER"
+#: Category of what stands before a verb behind a wish ("I want you to").
+_INFINITIVE = "INORDERTO"
 #: Category of words that hint at an attribute which the site does not record ("taller than").
 LACKING = "LACKING"
 #: Maximum number of words of a filler.
@@ -149,8 +151,15 @@ def fillers_of(words: Sequence[Word], phrases: Phrases) -> frozenset[int]:
             phrase = tuple(word.norm for word in words[start:end])
             if any(entry.kind == _SILENT for entry in phrases.entries(phrase)):
                 found.update(range(start, end))
+                if "wishes" in phrases.features(phrase) and _is_kind(words[end : end + 1], _INFINITIVE, phrases):
+                    found.add(end)  # "I want you to ..."
     commas = {k for k, word in enumerate(words) if word.kind == "comma" and {k - 1, k + 1} & found}
     return frozenset(found | commas)
+
+
+def _is_kind(words: Sequence[Word], kind: str, phrases: Phrases) -> bool:
+    """Return True if words can be a phrase of a category."""
+    return any(entry.kind == kind for entry in phrases.entries(tuple(word.norm for word in words)))
 
 
 def _single(word: Word, at: int, phrases: Phrases) -> Iterator[PhraseEdge]:
