@@ -13,6 +13,7 @@ import pytest
 from hypothesis import settings
 
 from support.processes.certificates import certificate
+from support.requests.planned import keep_in
 
 TESTS = Path(__file__).parent
 
@@ -92,6 +93,13 @@ def _missions_of_the_tests(_no_private_environment: None, tmp_path_factory: pyte
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("FIELDHAND_MISSIONS", str(tmp_path_factory.mktemp("missions")))
         yield
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _plans_of_this_run(tmp_path_factory: pytest.TempPathFactory) -> None:
+    """What one process has planned, the others need not plan."""
+    own = tmp_path_factory.getbasetemp()
+    keep_in((own.parent if "PYTEST_XDIST_WORKER" in os.environ else own) / "plans")
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -15,7 +15,6 @@ from hypothesis import given, settings
 
 from fieldhand import mission
 from fieldhand.language import Message, open_language
-from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.loader import load_demo
@@ -24,6 +23,7 @@ from fieldhand.testing.generated.tasks import ROVER, Parts
 from fieldhand.testing.small_orchard import husky, orchard
 from fieldhand.wording.steps import write_lines
 from support.requests.english import PLANNED
+from support.requests.planned import outcome_of
 
 SPANISH = open_language("es")
 DEMO = load_demo()
@@ -92,7 +92,7 @@ def test_no_english_word_is_left_in_the_lines_of_any_task(task: Any) -> None:
 @pytest.mark.parametrize(("robot", "request_"), [(r, q) for r, q, _ in PLANNED[::16]], ids=lambda v: str(v)[:40])
 def test_whole_read_backs_of_requests_are_spanish(robot: str, request_: str) -> None:
     """Steps, limits, faults, assumptions, notes, totals and problems; also of the Task that was read from its file."""
-    outcome = EnglishPlanner().plan(request_, DEMO, ROBOTS[robot], ())
+    outcome = outcome_of(robot, request_)
     assert isinstance(outcome, Planned)
     assert all(isinstance(text, Message) for text in outcome.task.command.assumptions)
     again = decode(encode(outcome.task), source="task")
@@ -112,7 +112,7 @@ GOLDEN = (Path(__file__).parents[1] / "data" / "spanish_read_backs.txt").read_te
 
 
 def whole(robot: str, request_: str) -> str:
-    outcome = EnglishPlanner().plan(request_, DEMO, ROBOTS[robot], ())
+    outcome = outcome_of(robot, request_)
     assert isinstance(outcome, Planned), outcome
     review = mission.review(outcome.task, DEMO, ROBOTS[robot])
     assert review.read_back is not None

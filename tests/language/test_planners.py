@@ -16,19 +16,12 @@ from fieldhand.site.loader import load_demo
 from fieldhand.site.model import Site
 from language.silent_language import silent_language, words_left, words_of
 from support.requests import english as english_requests
-from support.requests import orchards as planted
 from support.requests import rows as row_requests
+from support.requests.planned import outcome_of, site_of
 
 SILENT, SPANISH = silent_language(), open_language("es")
 DEMO = load_demo()
 ROBOTS = {name: load_robot(name) for name in ("husky", "amiga")}
-SITES = {
-    "blocks": planted.two_blocks(),
-    "crossed": planted.crossed(),
-    "named": planted.named_rows(),
-    "east-west": planted.east_west(),
-    "scattered": planted.scattered(),
-}
 ON_THE_DEMO = [
     (robot, request)
     for table in (english_requests.ASKED, english_requests.REFUSED, row_requests.ASKED, row_requests.REFUSED)
@@ -64,7 +57,7 @@ def left(request: str, outcome: Outcome, site: Site, robot: RobotProfile) -> lis
 
 @pytest.mark.parametrize(("robot", "request_"), ON_THE_DEMO)
 def test_no_question_or_refusal_is_without_translation(robot: str, request_: str) -> None:
-    outcome = EnglishPlanner().plan(request_, DEMO, ROBOTS[robot])
+    outcome = outcome_of(robot, request_)
     assert not isinstance(outcome, Planned)
     assert list(said(outcome))
     assert not left(request_, outcome, DEMO, ROBOTS[robot])
@@ -75,9 +68,9 @@ def test_no_question_or_refusal_is_without_translation(robot: str, request_: str
     [(site, request) for site, request, becomes in row_requests.ELSEWHERE if becomes[:4] in ("asks", "refu")],
 )
 def test_nor_where_rows_and_blocks_are_others(site: str, request_: str) -> None:
-    outcome = EnglishPlanner().plan(request_, SITES[site], ROBOTS["husky"])
+    outcome = outcome_of("husky", request_, site)
     assert not isinstance(outcome, Planned)
-    assert not left(request_, outcome, SITES[site], ROBOTS["husky"])
+    assert not left(request_, outcome, site_of(site), ROBOTS["husky"])
 
 
 @pytest.mark.parametrize("request_", ["Fly to the moon.", "Toma una foto de todos los arboles", "Photograph tree 999."])

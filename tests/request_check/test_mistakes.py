@@ -9,7 +9,6 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from fieldhand.places import selectors as s
-from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
 from fieldhand.request_check import mismatches
 from fieldhand.robot.loader import load_robot
@@ -21,6 +20,7 @@ from fieldhand.testing.generated.tasks import ROVER, Parts
 from request_check.plan_mutants import mutants
 from support.requests import english as english_requests
 from support.requests import rows as row_requests
+from support.requests.planned import outcome_of
 
 DEMO = open_site("demo")
 ROBOTS = {name: load_robot(name) for name in ("husky", "amiga")}
@@ -39,7 +39,7 @@ LEAST = {
 
 
 def plan(request: str, robot: str = "husky") -> Task:
-    outcome = EnglishPlanner().plan(request, DEMO, ROBOTS[robot])
+    outcome = outcome_of(robot, request)
     assert isinstance(outcome, Planned), outcome
     return outcome.task
 

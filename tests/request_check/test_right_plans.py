@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from dataclasses import fields, is_dataclass, replace
-from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -31,6 +30,7 @@ from fieldhand.task.codec import TaskDraft
 from fieldhand.task.frames import Task
 from support.requests import english as english_requests
 from support.requests import rows as row_requests
+from support.requests.planned import outcome_of
 from support.sites.grids import grid
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -48,9 +48,8 @@ REQUESTS = list(
 )
 
 
-@cache
 def planned(robot: str, request: str) -> Task:
-    outcome = EnglishPlanner().plan(request, DEMO, ROBOTS[robot])
+    outcome = outcome_of(robot, request)
     assert isinstance(outcome, Planned), outcome
     return outcome.task
 

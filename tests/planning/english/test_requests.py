@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import pytest
 
 from fieldhand.approval.account import unaccounted
 from fieldhand.planning.english.planner import EnglishPlanner
-from fieldhand.planning.planner import Clarify, Outcome, Planned, Refused
+from fieldhand.planning.planner import Clarify, Planned, Refused
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.loader import open_site
@@ -18,19 +16,15 @@ from fieldhand.task.references import references
 from fieldhand.task.schema import validate
 from planning.english.outlines import outline
 from support.requests.english import ASKED, PLANNED, REFUSED, WARNED
+from support.requests.planned import outcome_of
 
 SITE = open_site("demo")
 ROBOTS = {name: load_robot(name) for name in ("husky", "amiga")}
 
 
-@cache
-def planned_first(robot: str, request: str) -> Outcome:
-    return EnglishPlanner().plan(request, SITE, ROBOTS[robot])
-
-
 @pytest.mark.parametrize(("robot", "request_", "plan"), PLANNED, ids=lambda v: str(v)[:50])
 def test_a_request_becomes_this_plan_and_a_whole_task(robot: str, request_: str, plan: str) -> None:
-    outcome = planned_first(robot, request_)
+    outcome = outcome_of(robot, request_)
     assert isinstance(outcome, Planned), outcome
     assert outline(outcome.task) == plan
     capabilities = capabilities_of(ROBOTS[robot])
@@ -44,7 +38,7 @@ def test_a_request_becomes_this_plan_and_a_whole_task(robot: str, request_: str,
 
 @pytest.mark.parametrize(("robot", "request_", "plan"), PLANNED, ids=lambda v: str(v)[:50])
 def test_planning_twice_gives_the_same_and_every_step_says_its_words(robot: str, request_: str, plan: str) -> None:
-    first = planned_first(robot, request_)
+    first = outcome_of(robot, request_)
     assert first == EnglishPlanner().plan(request_, SITE, ROBOTS[robot])
     assert isinstance(first, Planned)
     for node in walk(first.task.composition.plan):
@@ -55,13 +49,13 @@ def test_planning_twice_gives_the_same_and_every_step_says_its_words(robot: str,
 
 @pytest.mark.parametrize(("robot", "request_", "question"), ASKED, ids=lambda v: str(v)[:50])
 def test_what_can_be_read_in_two_ways_is_asked(robot: str, request_: str, question: str) -> None:
-    outcome = EnglishPlanner().plan(request_, SITE, ROBOTS[robot])
+    outcome = outcome_of(robot, request_)
     assert isinstance(outcome, Clarify), outcome
     assert outcome.question == question
 
 
 @pytest.mark.parametrize(("robot", "request_", "why"), REFUSED, ids=lambda v: str(v)[:50])
 def test_what_cannot_be_done_is_refused_with_its_reason(robot: str, request_: str, why: str) -> None:
-    outcome = EnglishPlanner().plan(request_, SITE, ROBOTS[robot])
+    outcome = outcome_of(robot, request_)
     assert isinstance(outcome, Refused), outcome
     assert outcome.reasons[0].what == why

@@ -13,18 +13,12 @@ from fieldhand.task.codec import decode, encode
 from fieldhand.task.references import references
 from fieldhand.task.schema import validate
 from planning.english.outlines import outline
-from support.requests import orchards as planted
+from support.requests.planned import outcome_of, site_of
 from support.requests.rows import ASKED, ELSEWHERE, PLANNED, REFUSED
 
 DEMO = open_site("demo")
 ROBOTS = {name: load_robot(name) for name in ("husky", "amiga")}
-SITES = {
-    "blocks": planted.two_blocks(),
-    "crossed": planted.crossed(),
-    "named": planted.named_rows(),
-    "east-west": planted.east_west(),
-    "scattered": planted.scattered(),
-}
+BLOCKS = site_of("blocks")
 
 
 def said(outcome: Outcome) -> str:
@@ -39,7 +33,7 @@ def said(outcome: Outcome) -> str:
 
 @pytest.mark.parametrize(("robot", "request_", "plan"), PLANNED, ids=lambda v: str(v)[:60])
 def test_a_request_about_rows_becomes_this_plan_and_a_whole_task(robot: str, request_: str, plan: str) -> None:
-    outcome = EnglishPlanner().plan(request_, DEMO, ROBOTS[robot])
+    outcome = outcome_of(robot, request_)
     assert isinstance(outcome, Planned), outcome
     assert outline(outcome.task) == plan
     capabilities = capabilities_of(ROBOTS[robot])
@@ -68,22 +62,22 @@ def test_an_area_and_trees_with_a_comma_alone_between_them_are_the_trees_there(f
 
 @pytest.mark.parametrize(("robot", "request_", "question"), ASKED, ids=lambda v: str(v)[:60])
 def test_what_may_mean_two_things_along_rows_is_asked(robot: str, request_: str, question: str) -> None:
-    assert said(EnglishPlanner().plan(request_, DEMO, ROBOTS[robot])) == f"asks {question}"
+    assert said(outcome_of(robot, request_)) == f"asks {question}"
 
 
 @pytest.mark.parametrize(("robot", "request_", "why"), REFUSED, ids=lambda v: str(v)[:60])
 def test_what_cannot_be_said_of_rows_is_refused_with_its_reason(robot: str, request_: str, why: str) -> None:
-    assert said(EnglishPlanner().plan(request_, DEMO, ROBOTS[robot])) == f"refuses {why}"
+    assert said(outcome_of(robot, request_)) == f"refuses {why}"
 
 
 @pytest.mark.parametrize(("site", "request_", "expected"), ELSEWHERE, ids=lambda v: str(v)[:60])
 def test_blocks_names_and_the_way_of_the_rows_matter(site: str, request_: str, expected: str) -> None:
-    found = said(EnglishPlanner().plan(request_, SITES[site], ROBOTS["husky"]))
+    found = said(outcome_of("husky", request_, site))
     assert found.startswith(expected) if expected.startswith("refuses") else found == expected
 
 
 def test_a_row_in_several_blocks_is_asked_with_the_blocks_to_choose_from() -> None:
-    outcome = EnglishPlanner().plan("take pictures of row 3", SITES["blocks"], ROBOTS["husky"])
+    outcome = EnglishPlanner().plan("take pictures of row 3", BLOCKS, ROBOTS["husky"])
     assert isinstance(outcome, Clarify)
     assert [choice.partition(":")[0] for choice in outcome.choices] == [
         "At each of the trees of row 3 of block A",
@@ -91,7 +85,7 @@ def test_a_row_in_several_blocks_is_asked_with_the_blocks_to_choose_from() -> No
     ]
     for choice, block in zip(outcome.choices, "AB", strict=True):
         answer = Answer(question=outcome.question, answer=choice)
-        answered = EnglishPlanner().plan("take pictures of row 3", SITES["blocks"], ROBOTS["husky"], (answer,))
+        answered = EnglishPlanner().plan("take pictures of row 3", BLOCKS, ROBOTS["husky"], (answer,))
         assert isinstance(answered, Planned)
         assert said(answered) == f"for Rows(3, 3, of InBlock({block})): [picture]"
 
@@ -119,4 +113,4 @@ def test_an_assumption_says_which_way_is_counted() -> None:
     ],
 )
 def test_what_is_said_of_each_block_is_done_in_each(request_: str, plan: str) -> None:
-    assert said(EnglishPlanner().plan(request_, SITES["blocks"], ROBOTS["husky"])) == f"for {plan}: [picture]"
+    assert said(EnglishPlanner().plan(request_, BLOCKS, ROBOTS["husky"])) == f"for {plan}: [picture]"

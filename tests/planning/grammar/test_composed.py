@@ -19,9 +19,11 @@ from fieldhand.site.model import Site
 from planning.english.outlines import outline
 from planning.english.vineyards import vineyard
 from support.requests import english, rows
+from support.requests.inserted import with_word
 
 ROBOTS = {name: load_robot(name) for name in ("husky", "amiga")}
 KNOWN = [case[:3] for case in (*english.PLANNED, *rows.PLANNED)]
+UNKNOWN = ("gently", "purple", "xyzzy", "backwards", "maybe")
 #: Requests in words of other people, and what they become.
 MORE = {
     "demo": [
@@ -77,13 +79,11 @@ def test_what_is_open_or_not_possible_is_not_planned(request_: str) -> None:
     assert not isinstance(EnglishPlanner().plan(request_, site_of("vineyard"), ROBOTS["husky"]), Planned)
 
 
-@pytest.mark.parametrize("word", ["gently", "purple", "xyzzy", "backwards", "maybe"])
+@pytest.mark.parametrize("word", UNKNOWN)
 def test_an_unknown_word_anywhere_ends_it(word: str) -> None:
-    for _, request, _ in KNOWN[::40]:
-        words = request.split()
-        for k in range(len(words)):
-            changed = " ".join([*words[:k], word, *words[k:]])
-            assert not isinstance(composed(changed, site_of("demo"), ROBOTS["husky"]), Planned), changed
+    """At each position of each request one of the words, in turn; each of them with the thorough profile."""
+    for changed in with_word(word, UNKNOWN, [request for _, request, _ in KNOWN[::40]]):
+        assert not isinstance(composed(changed, site_of("demo"), ROBOTS["husky"]), Planned), changed
 
 
 def test_a_place_that_is_understood_and_not_there_is_said_to_be_missing() -> None:

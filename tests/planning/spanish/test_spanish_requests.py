@@ -18,8 +18,10 @@ from fieldhand.site.loader import open_site
 from planning.english.outlines import outline
 from planning.spanish.requests import EXPERIMENTS, NOT_PLANNED, PLANNED
 from support.requests import english, orchards, rows
+from support.requests.inserted import with_word
 
 DEMO = open_site("demo")
+UNKNOWN = ("despacio", "mañana", "púrpura", "quizás", "xyzzy", "nunca")
 HUSKY, AMIGA = load_robot("husky"), load_robot("amiga")
 
 
@@ -70,13 +72,11 @@ def test_a_plan_of_another_spanish_request_contradicts_it(wrong: str, right: str
     assert mismatches(replace(outcome.task, command=command), DEMO, HUSKY) != ()
 
 
-@pytest.mark.parametrize("word", ["despacio", "mañana", "púrpura", "quizás", "xyzzy", "nunca"])
+@pytest.mark.parametrize("word", UNKNOWN)
 def test_an_unknown_word_anywhere_ends_it(word: str) -> None:
-    for request, _ in PLANNED[::5]:
-        words = request.split()
-        for k in range(len(words)):
-            changed = " ".join([*words[:k], word, *words[k:]])
-            assert not isinstance(BuiltinPlanner().plan(changed, DEMO, HUSKY), Planned), changed
+    """At each position of each request one of the words, in turn; each of them with the thorough profile."""
+    for changed in with_word(word, UNKNOWN, [request for request, _ in PLANNED[::5]]):
+        assert not isinstance(BuiltinPlanner().plan(changed, DEMO, HUSKY), Planned), changed
 
 
 def test_english_requests_are_read_as_english() -> None:
