@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.special import gammainc, gammaincc, gammainccinv, gammaincinv, ndtr, ndtri
 
 Floats = NDArray[np.float64]
 
@@ -25,6 +24,8 @@ def overrun_probability(mean: ArrayLike, variance: ArrayLike, third: ArrayLike, 
         mean, variance, third: Cumulants of the sum: mean, variance, third central moment.
         left: Amount left; below 0 the probability is 1.
     """
+    from scipy.special import gammainc, gammaincc, ndtr
+
     m, v, t, x = np.broadcast_arrays(*(np.asarray(a, dtype=np.float64) for a in (mean, variance, third, left)))
     certain = (x - m < -1e-9 * (1.0 + np.abs(x))).astype(np.float64)
     moving = (v > 0.0) & np.isfinite(m)
@@ -42,6 +43,8 @@ def overrun_probability(mean: ArrayLike, variance: ArrayLike, third: ArrayLike, 
 
 def quantile_table(chance: float) -> Floats:
     """Return standardised Pearson III quantiles at an exceedance probability, by skewness from -4 to 8."""
+    from scipy.special import gammainccinv, gammaincinv, ndtri
+
     skewness = np.arange(-4.0, 8.0 + 1e-9, 1.0 / 16.0)
     skewed = np.abs(skewness) > _SYMMETRIC
     safe = np.where(skewed, skewness, 1.0)

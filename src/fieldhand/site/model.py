@@ -222,12 +222,12 @@ class Site:
     @cached_property
     def spacing_m(self) -> float:
         """Return the median distance from a tree to its nearest neighbour, in metres; 5 for a single tree."""
-        from scipy.spatial import cKDTree
+        from fieldhand.site.point_index import PointIndex
 
         if len(self.trees) < 2:
             return 5.0
         some = self.xy[:: max(1, len(self.trees) // _ENOUGH_TREES)]
-        nearest = np.asarray(cKDTree(self.xy).query(some, k=[2])[0])
+        nearest = PointIndex(self.xy).nearest_few(some, 2)[0][:, 1]
         apart = nearest[nearest > 0.01]  # exclude trees entered twice
         return float(np.median(apart)) if apart.size else 5.0
 

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 from shapely.geometry.base import BaseGeometry
 
 from fieldhand.places.place_group import PlaceGroup
 from fieldhand.site.model import Site
+from fieldhand.site.point_index import PointIndex
 from fieldhand.terms import Side
 
 Floats = NDArray[np.float64]
@@ -51,7 +50,7 @@ def distance_to(spots: PlaceGroup, origin: Origin) -> Floats:
         return np.asarray(shapely.distance(origin.area, shapely.points(spots.xy)))
     if len(origin) == 1:
         return np.asarray(np.hypot(*(spots.xy - origin.xy[0]).T))
-    return np.asarray(_index(origin).query(spots.xy)[0])
+    return PointIndex(origin.xy).nearest(spots.xy)[0]
 
 
 def nearest_of(origin: Origin, spots: PlaceGroup) -> Floats:
@@ -59,7 +58,7 @@ def nearest_of(origin: Origin, spots: PlaceGroup) -> Floats:
     if isinstance(origin, ZoneArea):
         lines = shapely.shortest_line(origin.area, shapely.points(spots.xy))
         return np.asarray(shapely.get_coordinates(lines)[::2])
-    return np.asarray(origin.xy[np.atleast_1d(_index(origin).query(spots.xy)[1])])
+    return np.asarray(origin.xy[PointIndex(origin.xy).nearest(spots.xy)[1]])
 
 
 def apart_from(spots: PlaceGroup, origin: Origin) -> PlaceGroup:
@@ -71,7 +70,7 @@ def apart_from(spots: PlaceGroup, origin: Origin) -> PlaceGroup:
         return left
     if len(origin) == 1:
         return left.keep(distance_to(left, origin) > _SAME_SPOT_M)
-    return left.keep(_index(origin).query(left.xy, distance_upper_bound=_SAME_SPOT_M)[0] > _SAME_SPOT_M)
+    return left.keep(PointIndex(origin.xy).nearest(left.xy, within=_SAME_SPOT_M)[0] > _SAME_SPOT_M)
 
 
 def next_to(spots: PlaceGroup, to: Origin, count: int) -> PlaceGroup:
@@ -100,7 +99,7 @@ def on_side(spots: PlaceGroup, to: Origin, side: Side, *, next_to: bool) -> Plac
         kept &= np.hypot(*step.T) <= _BAND * to.site.spacing_m + 1e-9
     elif next_to and isinstance(to, PlaceGroup):
         reach = np.array([_BAND * _apart_at(to, k) for k in range(len(to))])
-        kept &= np.hypot(*step.T) <= reach[np.atleast_1d(_index(to).query(spots.xy)[1])] + 1e-9
+        kept &= np.hypot(*step.T) <= reach[PointIndex(to.xy).nearest(spots.xy)[1]] + 1e-9
     return spots.keep(kept)
 
 
@@ -121,7 +120,7 @@ def within(spots: PlaceGroup, to: Origin, distance_m: float) -> PlaceGroup:
     if not len(spots) or isinstance(to, ZoneArea) or len(to) == 1:
         return spots.keep(distance_to(spots, to) <= distance_m) if len(spots) else spots
     reach = distance_m + 1e-9  # the query excludes its bound
-    return spots.keep(_index(to).query(spots.xy, distance_upper_bound=reach)[0] <= distance_m)
+    return spots.keep(PointIndex(to.xy).nearest(spots.xy, within=reach)[0] <= distance_m)
 
 
 def side_by_side(spots: PlaceGroup, near: Origin, count: int) -> PlaceGroup:
@@ -171,14 +170,14 @@ def short_drive(spots: PlaceGroup, here: tuple[float, float], count: int) -> Pla
     """Return ``count`` places, each the nearest to the previous one, starting from here."""
     xy, order = spots.xy, spots.file_order
     left = np.arange(len(spots))
-    index = _index(spots)
+    index = PointIndex(xy)
     gone = np.zeros(len(spots), dtype=bool)
     taken: list[int] = []
     at = np.array(here)
     while len(taken) < count:
         if gone[left].sum() > max(32, len(left) // 2):  # rebuild the index without the places already taken
             left = left[~gone[left]]
-            index = cKDTree(xy[left], balanced_tree=False, compact_nodes=False)
+            index = PointIndex(xy[left])
         found = _nearest_left(index, left, gone, at)
         away = np.round(np.hypot(*(xy[found] - at).T), 4)
         best = int(found[np.lexsort((order[found], away))[0]])
@@ -189,13 +188,13 @@ def short_drive(spots: PlaceGroup, here: tuple[float, float], count: int) -> Pla
 
 
 def _nearest_left(
-    index: cKDTree, left: NDArray[np.intp], gone: NDArray[np.bool_], at: NDArray[np.float64]
+    index: PointIndex, left: NDArray[np.intp], gone: NDArray[np.bool_], at: NDArray[np.float64]
 ) -> NDArray[np.intp]:
     """Return the remaining places nearest to a point, including all ties."""
     k = 8
     while True:
         k = min(k, len(left))
-        away, which = (np.atleast_1d(a) for a in index.query(at, k=k))
+        (away,), (which,) = index.nearest_few(at[None], k)
         found = ~gone[left[which]]
         if found.any() and (k == len(left) or away[found][0] < away[-1] - _TIE_M):
             return np.asarray(left[which[found]])
@@ -210,8 +209,3 @@ def _straight_on(xy: NDArray[np.float64], taken: list[int], band: NDArray[np.int
     step = xy[band] - xy[taken[-1]]
     lengths = np.hypot(*line) * np.hypot(*step.T)
     return np.asarray(step @ line >= _STRAIGHT_COS * lengths)
-
-
-def _index(spots: PlaceGroup) -> Any:
-    """Return a spatial index of the places that is cheap to build, since it is queried once."""
-    return cKDTree(spots.xy, balanced_tree=False, compact_nodes=False)

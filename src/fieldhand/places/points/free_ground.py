@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 from shapely.geometry import LineString, MultiPoint, Polygon
 from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
@@ -21,6 +20,7 @@ from fieldhand.site.counting import find_block
 from fieldhand.site.feature_kinds import phrase
 from fieldhand.site.model import Place, Site
 from fieldhand.site.names import short
+from fieldhand.site.point_index import PointIndex
 
 #: Preferred distance in metres of free points from keep-out zones and the boundary.
 MARGIN_M = 1.0
@@ -90,16 +90,16 @@ def segments(geometry: BaseGeometry) -> list[LineString]:
     return [p for p in pieces if isinstance(p, LineString) and p.length > 0]
 
 
-def tree_index(site: Site) -> Any:
+def tree_index(site: Site) -> PointIndex:
     """Return a spatial index of the trees, cached with the site."""
     if "tree index" not in site.cache:
-        site.cache["tree index"] = cKDTree(site.xy, balanced_tree=False, compact_nodes=False)
-    return site.cache["tree index"]
+        site.cache["tree index"] = PointIndex(site.xy)
+    return cast(PointIndex, site.cache["tree index"])
 
 
 def off_trees(site: Site, xy: Floats) -> Floats:
     """Return the distance of each point to the nearest tree in metres, capped at the preferred distance."""
-    return np.asarray(np.minimum(tree_index(site).query(xy)[0], OFF_TREES_M))
+    return np.asarray(np.minimum(tree_index(site).nearest(xy)[0], OFF_TREES_M))
 
 
 def _open_ground(site: Site, margin_m: float) -> Any:

@@ -258,5 +258,5 @@ def _clear(site: Site, pieces: Sequence[LineString]) -> float:
     xy = np.vstack(
         [shapely.get_coordinates(shapely.line_interpolate_point(p, t)) for p, t in zip(pieces, along, strict=True)]
     )
-    nearest = float(np.min(tree_index(site).query(xy)[0]))
+    nearest = float(np.min(tree_index(site).nearest(xy)[0]))
     return round(2 * min(nearest, site.spacing_m / 2)) / 2

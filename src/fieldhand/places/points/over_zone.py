@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 from shapely.geometry.base import BaseGeometry
 
 from fieldhand import language
@@ -25,6 +24,7 @@ from fieldhand.places.points.free_ground import (
 from fieldhand.places.resolution_notes import ResolutionNotes
 from fieldhand.site.model import Site
 from fieldhand.site.names import short
+from fieldhand.site.point_index import PointIndex
 
 if TYPE_CHECKING:
     from fieldhand.places.points.points_in import PointsIn
@@ -111,7 +111,7 @@ def _spread(raster: Floats, count: int) -> Floats:
     """Return raster points that are centres of their Voronoi cells (Lloyd 1982), starting with an even choice."""
     centres = raster[((np.arange(count) + 0.5) * len(raster) / count).astype(np.intp)]
     for _ in range(_ROUNDS):
-        nearest = np.asarray(cKDTree(centres).query(raster)[1])
+        nearest = PointIndex(centres).nearest(raster)[1]
         shares = np.bincount(nearest, minlength=count)
         middles = np.column_stack([np.bincount(nearest, raster[:, k], count) for k in (0, 1)]) / shares[:, None]
         order = np.lexsort((np.round(np.hypot(*(raster - middles[nearest]).T), 6), nearest))

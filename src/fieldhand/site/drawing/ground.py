@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from fieldhand.site.drawing import colours
 from fieldhand.site.drawing.blocks import draw_blocks
 from fieldhand.site.model import Place, Site, Zone
+from fieldhand.site.point_index import PointIndex
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -74,12 +75,10 @@ def tree_size(ax: Axes, site: Site) -> float:
 
 def disc_diameter(ax: Axes, xy: NDArray[np.float64], most: float) -> float:
     """Return the diameter in points of discs at some places, smaller if the places are close on the map."""
-    from scipy.spatial import cKDTree
-
     places = np.unique(xy, axis=0)
     if len(places) < 2:
         return most
-    away, _ = cKDTree(places).query(places, k=[2])
+    away = PointIndex(places).nearest_few(places, 2)[0][:, 1]
     apart = float(np.median(away)) * points_a_metre(ax)
     return float(np.clip(_PART * apart, min(_LEAST_DISC, most), most))
 
@@ -229,7 +228,6 @@ def _draw_rows(ax: Axes, site: Site) -> None:
 def open_spots(site: Site, zone: Zone) -> list[XY]:
     """Return points of a grid inside a zone for its name, those farthest from trees, markers and the edge first."""
     import shapely
-    from scipy.spatial import cKDTree
 
     west, south, east, north = zone.polygon.bounds
     inset = 0.3 * (east - west)
@@ -241,7 +239,7 @@ def open_spots(site: Site, zone: Zone) -> list[XY]:
     grid = np.column_stack([x, y])[inside]
     taken = np.vstack([site.xy, *(np.array([p.xy]) for p in site.markers.values())])
     to_edge = shapely.distance(zone.polygon.boundary, shapely.points(grid))
-    room = np.minimum(cKDTree(taken).query(grid)[0], to_edge)
+    room = np.minimum(PointIndex(taken).nearest(grid)[0], to_edge)
     return [(float(x), float(y)) for x, y in grid[np.argsort(-room, kind="stable")]]
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.hidden_characters import visible
+from fieldhand.site.point_index import PointIndex
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -33,14 +34,13 @@ class Labels:
 
     def __init__(self, ax: Axes, dots: NDArray[np.float64], dot_radius: float) -> None:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from scipy.spatial import cKDTree
 
         self._ax = ax
         figure = ax.get_figure(root=True)
         assert figure is not None  # noqa: S101  (an Axes without a figure cannot be drawn at all)
         self._renderer: RendererAgg = FigureCanvasAgg(figure).get_renderer()  # type: ignore[no-untyped-call]
         self._points_a_pixel = 72.0 / figure.dpi
-        self._trees = cKDTree(np.asarray(ax.transData.transform(dots)) * self._points_a_pixel)
+        self._trees = PointIndex(np.asarray(ax.transData.transform(dots)) * self._points_a_pixel)
         self._radius = dot_radius
         #: Centre of the last name.
         self.last: XY = (0.0, 0.0)
@@ -61,11 +61,9 @@ class Labels:
 
     def avoid(self, ways: Iterable[Sequence[XY]]) -> None:
         """Treat lines through places in metres like trees: names cover them only if no other spot is free."""
-        from scipy.spatial import cKDTree
-
         points = [point for way in ways for point in _along([self.at(xy) for xy in way])]
         if points:
-            self._trees = cKDTree(np.vstack([self._trees.data, np.array(points)]))
+            self._trees = PointIndex(np.vstack([self._trees.points, np.array(points)]))
 
     def size(self, text: str, font: float, *, bold: bool = False) -> XY:
         """Return width and height of a text on one line."""
@@ -150,9 +148,9 @@ class Labels:
             return False
         if over_trees:
             return True
-        middle, half = ((x0 + x1) / 2, (y0 + y1) / 2), ((x1 - x0) / 2, (y1 - y0) / 2)
-        near = self._trees.query_ball_point(middle, math.hypot(*half) + self._radius)
-        away = np.maximum(np.abs(self._trees.data[near] - middle) - half, 0.0)
+        middle, half = np.array([(x0 + x1) / 2, (y0 + y1) / 2]), ((x1 - x0) / 2, (y1 - y0) / 2)
+        near = self._trees.close_to(middle[None], math.hypot(*half) + self._radius)[:, 1]
+        away = np.maximum(np.abs(self._trees.points[near] - middle) - half, 0.0)
         return not (np.hypot(away[:, 0], away[:, 1]) < self._radius).any()
 
     def _write(

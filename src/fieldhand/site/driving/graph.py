@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from heapq import heappop, heappush
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_matrix
-from scipy.sparse.csgraph import dijkstra
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_matrix
 
 Points = NDArray[np.float64]
 Indices = NDArray[np.intp]
+
+#: Searches times edges for which a graph is searched in Python, at about 0.4 µs each. After that it is searched with
+#: scipy, which is faster but whose import takes 0.4 s.
+_FEW_EDGES = 50_000
 
 #: Least length of an edge in metres: corners may coincide, and a sparse matrix drops zeros.
 _SHORTEST_M = 1e-9
@@ -62,6 +70,7 @@ class Graph:
         ends, first = np.unique(ends[order], return_index=True)
         self._head, self._tail = np.divmod(ends, max(count, 1))
         self._length = length[order][first]
+        self._searched = 0
 
     def ways(self, first: int) -> tuple[Indices, Indices, Points]:
         """Return the end nodes and the length of each edge, once per edge; nodes are numbered from ``first``."""
@@ -70,6 +79,8 @@ class Graph:
 
     @cached_property
     def _matrix(self) -> csr_matrix:
+        from scipy.sparse import csr_matrix
+
         return csr_matrix((self._length, (self._head, self._tail)), shape=(self.count, self.count))
 
     def lengths(self, rows: Sequence[Links], columns: Sequence[Links] | None = None) -> Points:
@@ -82,7 +93,7 @@ class Graph:
             row_of = np.full(self.count, -1)
             row_of[nodes] = np.arange(len(nodes))
             links = [Links(row_of[a.nodes], a.metres) for a in rows]
-            metres = between(np.asarray(dijkstra(self._matrix, indices=nodes)).T, links).T
+            metres = between(self._from_nodes(nodes).T, links).T
         else:
             metres = self.rows(rows).metres
         found = between(np.ascontiguousarray(metres), rows if columns is None else columns)
@@ -95,14 +106,59 @@ class Graph:
         n, p = self.count, len(places)
         if n == 0 or p == 0:
             return ShortestWays(np.zeros((p, n)), np.zeros((p, n), dtype=np.int32))
+        if self._searches_few(p):
+            found = [self._search(Links(a.nodes, np.maximum(a.metres, _SHORTEST_M))) for a in places]
+            steps = np.array([before for _, before in found], dtype=np.int32)
+            return ShortestWays(np.array([metres for metres, _ in found]), steps)
+        from scipy.sparse import csr_matrix
+        from scipy.sparse.csgraph import dijkstra
+
         own = np.cumsum([len(a.nodes) for a in places])
-        starts = np.concatenate([self._matrix.indptr, self._matrix.indptr[-1] + own]).astype(np.int32)
+        first = np.concatenate([self._matrix.indptr, self._matrix.indptr[-1] + own]).astype(np.int32)
         tails = np.concatenate([self._matrix.indices, *(a.nodes.astype(np.int32) for a in places)])
         lengths = np.concatenate([self._matrix.data, *(np.maximum(a.metres, _SHORTEST_M) for a in places)])
-        matrix = csr_matrix((lengths, tails, starts), shape=(n + p, n + p))
+        matrix = csr_matrix((lengths, tails, first), shape=(n + p, n + p))
         metres, before = dijkstra(matrix, directed=True, indices=np.arange(n, n + p), return_predecessors=True)
         before = np.where(before >= n, -1, before)
         return ShortestWays(np.ascontiguousarray(metres[:, :n]), np.ascontiguousarray(before[:, :n], dtype=np.int32))
+
+    def _from_nodes(self, nodes: Indices) -> Points:
+        """Return the lengths of the shortest paths from some nodes to all, shape (k, n)."""
+        if self._searches_few(len(nodes)):
+            return np.array([self._search(Links(nodes[k : k + 1], np.zeros(1)))[0] for k in range(len(nodes))])
+        from scipy.sparse.csgraph import dijkstra
+
+        return np.asarray(dijkstra(self._matrix, indices=nodes))
+
+    def _searches_few(self, searches: int) -> bool:
+        """Return True if the graph is small enough, and was searched seldom enough, to search it in Python."""
+        self._searched += searches * len(self._length)
+        return self._searched <= _FEW_EDGES
+
+    def _search(self, place: Links) -> tuple[list[float], list[int]]:
+        """Return the metres from a place to every node, and the node before it, by Dijkstra's algorithm."""
+        metres, before = [math.inf] * self.count, [-1] * self.count
+        queue: list[tuple[float, int]] = []
+        for node, away in zip(place.nodes.tolist(), place.metres.tolist(), strict=True):
+            metres[node] = min(away, metres[node])
+            heappush(queue, (away, node))
+        while queue:
+            reached, node = heappop(queue)
+            if reached > metres[node]:
+                continue
+            for other, length in self._edges_from[node]:
+                if (further := reached + length) < metres[other]:
+                    metres[other], before[other] = further, node
+                    heappush(queue, (further, other))
+        return metres, before
+
+    @cached_property
+    def _edges_from(self) -> list[list[tuple[int, float]]]:
+        """Return the ends and lengths of the edges from each node."""
+        found: list[list[tuple[int, float]]] = [[] for _ in range(self.count)]
+        for head, tail, length in zip(self._head.tolist(), self._tail.tolist(), self._length.tolist(), strict=True):
+            found[head].append((tail, length))
+        return found
 
 
 def between(rows: Points, links: Sequence[Links]) -> Points:

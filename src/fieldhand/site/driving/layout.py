@@ -10,7 +10,6 @@ from functools import cached_property
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 from shapely.geometry import Point
 from shapely.ops import unary_union
 
@@ -19,6 +18,7 @@ from fieldhand.site.driving.free_space import Area, free_space
 from fieldhand.site.driving.graph import Indices, Links, Points, ShortestWays, chain
 from fieldhand.site.driving.visibility_graph import VisibilityGraph
 from fieldhand.site.model import Site
+from fieldhand.site.point_index import PointIndex
 
 XY = tuple[float, float]
 
@@ -299,9 +299,8 @@ class _Feet:
 def _beside(one: _Feet, two: _Feet) -> tuple[Indices, Indices]:
     """Return index pairs of spots of ``one`` off the drivable ground and nearby spots of ``two``, beside a row."""
     off = np.flatnonzero(one.spur > 0.0)
-    near = cKDTree(one.at[off]).query_ball_tree(cKDTree(two.at), _BESIDE_M)
-    found = [(i, j) for i, some in zip(off.tolist(), near, strict=True) for j in some]
-    i, j = np.array(found, dtype=np.intp).reshape(-1, 2).T
+    near = PointIndex(two.at).close_to(one.at[off], _BESIDE_M)
+    i, j = off[near[:, 0]], near[:, 1]
     on_one_part = one.part[i] == two.part[j]
     return i[on_one_part], j[on_one_part]
 

@@ -9,8 +9,6 @@ from typing import Literal
 
 import numpy as np
 import shapely
-from scipy.sparse import csr_matrix
-from scipy.sparse.csgraph import connected_components
 from shapely.geometry import LineString
 from shapely.geometry.base import BaseGeometry
 from shapely.ops import nearest_points
@@ -20,6 +18,7 @@ from fieldhand.site.driving.aisles import Aisle, RowGroup
 from fieldhand.site.driving.graph import Points
 from fieldhand.site.driving.layout import XY, Layout
 from fieldhand.site.model import Gate, Site
+from fieldhand.site.rows.labels import linked
 
 LineKind = Literal["aisle", "headland", "gate", "link"]
 
@@ -132,8 +131,7 @@ def _links(layout: Layout, driven: Sequence[NetworkLine]) -> Iterator[NetworkLin
     if not len(lines):
         return
     one, two = shapely.STRtree(lines).query(lines, predicate="dwithin", distance=_MEET_M)
-    meeting = csr_matrix((np.ones(len(one)), (one, two)), shape=(len(lines), len(lines)))
-    part = connected_components(meeting, directed=False)[1]
+    part = linked(len(lines), one, two)
     parts = [shapely.union_all(lines[part == k]) for k in range(part.max() + 1)]
     pairs = sorted((float(parts[i].distance(parts[j])), i, j) for i, j in itertools.combinations(range(len(parts)), 2))
     joined = list(range(len(parts)))

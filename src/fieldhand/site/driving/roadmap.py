@@ -13,13 +13,12 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_matrix
-from scipy.sparse.csgraph import connected_components
-from scipy.spatial import cKDTree
 
 from fieldhand.site.driving.graph import Indices, Points
 from fieldhand.site.driving.layout import Layout
 from fieldhand.site.model import Place
+from fieldhand.site.point_index import PointIndex
+from fieldhand.site.rows.labels import linked
 
 #: Along an aisle a stand is joined to the stands at these offsets in order.
 _STEPS = (1, 2, 3, 4, 5, 7)
@@ -56,8 +55,7 @@ class Roadmap:
         n = len(self.at)
         if self.straight or not self.places:
             return None
-        matrix = csr_matrix((np.ones(len(self.ways)), self.ways.T), shape=(n, n))
-        parts = connected_components(matrix, directed=False)[1][: len(self.places)]
+        parts = linked(n, self.ways[:, 0], self.ways[:, 1])[: len(self.places)]
         apart = np.flatnonzero(parts != parts[0])
         return int(apart[0]) if len(apart) else None
 
@@ -116,7 +114,7 @@ def _neighbours(layout: Layout, at: Points) -> Iterator[tuple[Indices, Indices]]
 
 def _about(layout: Layout, at: Points, which: Indices) -> tuple[Indices, Indices]:
     """Return pairs of each of these points on open ground and the nearest visible point in every direction."""
-    near = cKDTree(at).query(at[which], k=min(_ABOUT + 1, len(at)))[1].reshape(len(which), -1)
+    near = PointIndex(at).nearest_few(at[which], _ABOUT + 1)[1]
     i, j = np.repeat(which, near.shape[1]), near.ravel()
     i, j = i[i != j], j[i != j]
     sector = (np.arctan2(*(at[j] - at[i]).T) // (2.0 * np.pi / _DIRECTIONS)).astype(np.intp)

@@ -9,13 +9,13 @@ from functools import cached_property
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 from shapely.ops import nearest_points
 
 from fieldhand.site.driving.aisles import Aisle
 from fieldhand.site.driving.graph import Indices, Points
 from fieldhand.site.driving.layout import XY, Layout
 from fieldhand.site.model import Gate, Place, Site
+from fieldhand.site.point_index import PointIndex
 
 #: Lane of a stand: (group, line, line) of the aisle that it lies in; on the outer side of an outer row one line is -1
 #: or one past the last.
@@ -125,8 +125,8 @@ class StandCandidates:
         }
 
     @cached_property
-    def _trees(self) -> cKDTree:
-        return cKDTree(self._site.xy)
+    def _trees(self) -> PointIndex:
+        return PointIndex(self._site.xy)
 
     def _beside(self, trees: Indices, group: int, line: int, side: int) -> list[Candidate]:
         """Return the candidates on one side of a row; side -1 is that of lesser v."""
@@ -230,7 +230,7 @@ class StandCandidates:
         turn = 2.0 * np.pi * np.arange(_DIRECTIONS) / _DIRECTIONS
         offsets = self._standoff_m * np.column_stack([np.sin(turn), np.cos(turn)])
         around = self._site.xy[trees][:, None] + offsets
-        away = np.asarray(self._trees.query(around.reshape(-1, 2), k=min(2, len(self._site.xy)))[0])
+        away = self._trees.nearest_few(around.reshape(-1, 2), 2)[0]
         away = away.reshape(len(trees), _DIRECTIONS, -1)
         other = np.where(away[:, :, 0] < self._standoff_m * 0.999, away[:, :, 0], away[:, :, -1])
         order = np.argsort(-np.round(other, 3), axis=1, kind="stable")

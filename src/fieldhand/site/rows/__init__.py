@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.site.planting import Planting
+from fieldhand.site.point_index import PointIndex
 from fieldhand.site.rows.assemble import assemble
 from fieldhand.site.rows.combine import combine
 from fieldhand.site.rows.labels import linked
@@ -64,12 +65,10 @@ def _seen(xy: NDArray[np.float64]) -> list[InferredBlock]:
 
 def first_entries(xy: NDArray[np.float64]) -> NDArray[np.intp]:
     """Return for each tree the index of the first tree of the file at the same place."""
-    from scipy.spatial import cKDTree
-
-    tree = cKDTree(xy)
-    apart = np.asarray(tree.query(xy, k=2)[0])[:, 1] if len(xy) > 1 else np.ones(len(xy))
+    index = PointIndex(xy)
+    apart = index.nearest_few(xy, 2)[0][:, 1] if len(xy) > 1 else np.ones(len(xy))
     usual = float(np.median(apart[apart > 0])) if (apart > 0).any() else _TWICE_M
-    pairs = tree.query_pairs(min(_TWICE_M, 0.25 * usual), output_type="ndarray")
+    pairs = index.pairs(min(_TWICE_M, 0.25 * usual))
     if not len(pairs):
         return np.arange(len(xy), dtype=np.intp)
     label = linked(len(xy), pairs[:, 0], pairs[:, 1])

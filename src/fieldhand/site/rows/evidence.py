@@ -8,6 +8,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from fieldhand.site.point_index import PointIndex
+
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
@@ -76,8 +78,6 @@ def _about_its_line(across: Floats) -> float:
 
 def _in_the_lanes(xy: Floats, rows: Sequence[Indices], way: Floats, spacing: float) -> int:
     """Return the number of trees in the lanes beside trees of the rows."""
-    from scipy.spatial import cKDTree
-
     own = np.concatenate(rows)
     row_of = np.full(len(xy), -1, dtype=np.intp)
     row_of[own] = np.repeat(np.arange(len(rows)), [len(r) for r in rows])
@@ -85,7 +85,7 @@ def _in_the_lanes(xy: Floats, rows: Sequence[Indices], way: Floats, spacing: flo
     low, high = local[own].min(axis=0) - 2 * spacing, local[own].max(axis=0) + 2 * spacing
     about = np.flatnonzero(((local >= low) & (local <= high)).all(axis=1))
     scaled = local / (spacing * np.array([_LANE[1], 0.6]))
-    pairs = about[cKDTree(scaled[about]).query_pairs(1.0, p=np.inf, output_type="ndarray")]
+    pairs = about[PointIndex(scaled[about]).pairs(1.0, each_axis=True)]
     i, j = pairs[:, 0], pairs[:, 1]
     beside = (np.abs(local[i, 0] - local[j, 0]) > _LANE[0] * spacing) & (row_of[i] != row_of[j])
     return int((row_of[i][beside] >= 0).sum() + (row_of[j][beside] >= 0).sum())

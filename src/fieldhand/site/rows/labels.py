@@ -9,12 +9,21 @@ Indices = NDArray[np.intp]
 
 
 def linked(count: int, one: Indices, two: Indices) -> Indices:
-    """Return the label, from 0, of the connected component of each of ``count`` things, given connected pairs."""
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
+    """Return the label, from 0, of the connected component of each of ``count`` things, given connected pairs.
 
-    graph = coo_matrix((np.ones(len(one), dtype=np.int8), (one, two)), shape=(count, count))
-    return np.asarray(connected_components(graph, directed=False)[1], dtype=np.intp)
+    Components are numbered in the order of their first things.
+    """
+    first = np.arange(count, dtype=np.intp)
+    while True:
+        # Of two connected groups, the first thing of the one becomes the first of the other.
+        lower = np.minimum(first[one], first[two])
+        spread = first.copy()
+        np.minimum.at(spread, first[one], lower)
+        np.minimum.at(spread, first[two], lower)
+        spread = spread[spread]
+        if (spread == first).all():
+            return np.asarray(np.unique(first, return_inverse=True)[1], dtype=np.intp)
+        first = spread
 
 
 def groups(labels: Indices, count: int) -> list[Indices]:

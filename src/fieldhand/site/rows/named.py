@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.site.feature_kinds import BLOCK_KEYS, COLUMN_KEYS, POSITION_KEYS, text_of
+from fieldhand.site.point_index import PointIndex
 from fieldhand.site.rows.labels import groups, linked
 from fieldhand.terms import Value
 
@@ -113,11 +114,9 @@ def _lines(xy: Floats, names: Sequence[str], within: Sequence[str]) -> tuple[Ind
 
 def _nearest(xy: Floats) -> float:
     """Return the median distance to the nearest tree; 1 without neighbours."""
-    from scipy.spatial import cKDTree
-
     if len(xy) < 2:
         return 1.0
-    apart = np.asarray(cKDTree(xy).query(xy, k=2)[0])[:, 1]
+    apart = PointIndex(xy).nearest_few(xy, 2)[0][:, 1]
     apart = apart[apart > 0.01]
     return float(np.median(apart)) if len(apart) else 1.0
 
@@ -143,11 +142,9 @@ def is_line(points: Floats, spacing: float) -> bool:
 
 def _pieces(xy: Floats, own: Indices, spacing: float) -> list[Indices]:
     """Split the trees of one name into groups connected by steps of a few spacings."""
-    from scipy.spatial import cKDTree
-
     points = xy[own]
-    tree = cKDTree(points)
-    step = max(float(np.median(np.asarray(tree.query(points, k=2)[0])[:, 1])), spacing)
-    pairs = tree.query_pairs(3.0 * step, output_type="ndarray")
+    index = PointIndex(points)
+    step = max(float(np.median(index.nearest_few(points, 2)[0][:, 1])), spacing)
+    pairs = index.pairs(3.0 * step)
     label = linked(len(own), pairs[:, 0], pairs[:, 1])
     return [own[trees] for trees in groups(label, int(label.max()) + 1)]

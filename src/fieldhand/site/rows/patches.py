@@ -13,6 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fieldhand.site.point_index import PointIndex
+
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
@@ -59,14 +61,12 @@ class Patches:
 
 def patches_of(xy: Floats, trees: Indices, most: int = PATCH) -> Patches:
     """Return patches of at most so many trees, spread over at least two trees, containing only these trees."""
-    from scipy.spatial import cKDTree
-
     points = xy[trees]
-    tree = cKDTree(points)
+    index = PointIndex(points)
     size = min(most, len(points))
     middle = _spread(points, MOST_PATCHES)
-    near = np.asarray(tree.query(points[middle], k=size)[1])
-    apart = np.asarray(tree.query(points[near.ravel()], k=2)[0])[:, 1].reshape(near.shape)
+    near = index.nearest_few(points[middle], size)[1]
+    apart = index.nearest_few(points[near.ravel()], 2)[0][:, 1].reshape(near.shape)
     unit = np.maximum(np.median(apart, axis=1), 1e-6)
     offsets = (points[near] - points[middle][:, None, :]) / unit[:, None, None]
     first, second, power, second_power, count = _clearest(offsets)

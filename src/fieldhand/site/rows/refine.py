@@ -8,6 +8,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from fieldhand.site.point_index import PointIndex
+
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
@@ -114,10 +116,7 @@ class RowRefinement:
         return min(found)[1] if found else None
 
     def _near(self, trees: Indices) -> list[Indices]:
-        from scipy.spatial import cKDTree
-
-        size = min(24, len(self._xy))
-        return list(np.asarray(cKDTree(self._xy).query(self._xy[trees], k=size)[1]).reshape(len(trees), size))
+        return list(PointIndex(self._xy).nearest_few(self._xy[trees], 24)[1])
 
     def _assign_single_trees(self) -> None:
         """Assign trees in no row to the row that they are in line with, repeating for trees next to them."""
@@ -136,8 +135,6 @@ class RowRefinement:
 
     def _join_pieces(self) -> None:
         """Join pieces of rows of different blocks that continue each other, and merge blocks joined by several rows."""
-        from scipy.spatial import cKDTree
-
         ends, ways, rows = self._ends()
         if len(ends) < 2:
             return
@@ -146,7 +143,7 @@ class RowRefinement:
         reach = _JOINED_ALONE * float(spacing.max())
         met: Counter[tuple[int, int]] = Counter()
         joins = []
-        for i, j in cKDTree(ends).query_pairs(reach, output_type="ndarray").tolist():
+        for i, j in PointIndex(ends).pairs(reach).tolist():
             a, b = rows[i], rows[j]
             if self._block_of[a] == self._block_of[b] or ways[i] @ ways[j] > -_ONE_WAY:
                 continue

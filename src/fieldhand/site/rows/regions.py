@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from fieldhand.site.point_index import PointIndex
 from fieldhand.site.rows.labels import groups, linked
 from fieldhand.site.rows.patches import Patches
 from fieldhand.site.rows.tracing import spacing_along, turned
@@ -60,9 +61,7 @@ class Region:
         turn = np.abs(np.sin(_angle(self.waves) - _angle(self.wave[None, :])))
         if len(self.seeds) < 5 or np.median(turn) < np.sin(np.radians(1.5)):
             return np.broadcast_to(self.wave, places.shape)
-        from scipy.spatial import cKDTree
-
-        distance, near = cKDTree(xy[self.seeds]).query(places, k=min(5, len(self.seeds)))
+        distance, near = PointIndex(xy[self.seeds]).nearest_few(places, 5)
         weight = 1.0 / (distance**2 + np.median(distance) ** 2)
         return np.asarray(np.einsum("nk,nkx->nx", weight, self.waves[near]) / weight.sum(axis=1)[:, None])
 
@@ -84,12 +83,10 @@ def line_regions(xy: Floats, patches: Patches, clear: Floats) -> list[Region]:
 
 
 def _agreeing(xy: Floats, centre: Indices, first: Floats, second: Floats, power: Floats) -> list[Region]:
-    from scipy.spatial import cKDTree
-
     good = np.arange(len(centre))
     if not len(good):
         return []
-    near = np.asarray(cKDTree(xy[centre]).query(xy[centre], k=min(9, len(good)))[1]).reshape(len(good), -1)
+    near = PointIndex(xy[centre]).nearest_few(xy[centre], 9)[1]
     i, j = np.repeat(np.arange(len(good)), near.shape[1]), near.ravel()
     # In a nearly square lattice the two waves may be swapped. A patch across a road may have one wave of each side, so
     # both waves must match, and have nearly the same length.
@@ -226,22 +223,16 @@ def assign_trees(xy: Floats, trees: Indices, regions: list[Region]) -> Indices:
 
     It is the region of the nearest seeds; if these differ, the one whose waves fit the surrounding trees best.
     """
-    from scipy.spatial import cKDTree
-
     points = xy[trees]
     seeds = np.concatenate([r.seeds for r in regions])
     owner = np.repeat(np.arange(len(regions)), [len(r.seeds) for r in regions])
-    k = min(6, len(seeds))
-    near = np.asarray(cKDTree(xy[seeds]).query(points, k=k)[1]).reshape(len(points), k)
-    candidates = owner[near]
+    candidates = owner[PointIndex(xy[seeds]).nearest_few(points, 6)[1]]
     chosen = candidates[:, 0].copy()
     contested = np.flatnonzero((candidates != candidates[:, :1]).any(axis=1))
     if not len(contested):
         return np.asarray(chosen)
     size = min(_VOTERS, len(points))
-    tree = cKDTree(points)
-    distance, around = tree.query(points[contested], k=size)
-    distance, around = np.asarray(distance).reshape(-1, size), np.asarray(around).reshape(-1, size)
+    distance, around = PointIndex(points).nearest_few(points[contested], size)
     weight = 1.0 / (1.0 + (distance / np.maximum(distance[:, size // 2, None], 1e-9)) ** 2)
     scores = np.full((len(contested), len(regions)), -1.0)
     for k_, region in enumerate(regions):
@@ -261,19 +252,17 @@ def merge_small_regions(points: Floats, owner: Indices, regions: list[Region]) -
 
     Patches across a road have the row direction of both sides, but the width of the road as row spacing.
     """
-    from scipy.spatial import cKDTree
-
     count = np.bincount(owner, minlength=len(regions))
     order = [k for k in np.argsort(count, kind="stable").tolist() if count[k]]
     if len(order) < 2:
         return owner
     owner = owner.copy()
-    tree = cKDTree(points)
+    index = PointIndex(points)
     for k in order[:-1]:
         own = np.flatnonzero(owner == k)
         if len(own) > _PART * count.max():
             break
-        near = owner[np.asarray(tree.query(points[own], k=min(12, len(points)))[1])]
+        near = owner[index.nearest_few(points[own], 12)[1]]
         beside = np.bincount(near[near != k], minlength=len(regions))
         into = int(np.argmax(beside))
         if not beside[into] or len(own) > _PART * (owner == into).sum():

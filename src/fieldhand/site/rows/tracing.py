@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from fieldhand.site.point_index import PointIndex
 from fieldhand.site.rows.assemble import tree_spacing
 from fieldhand.site.rows.labels import groups, linked
 
@@ -34,12 +35,10 @@ def turned(points: Floats, wave: Floats) -> Floats:
 
 def spacing_along(local: Floats, row_spacing: float) -> float:
     """Return the approximate tree spacing along the rows: the median distance to the nearest tree in line."""
-    from scipy.spatial import cKDTree
-
     if len(local) < 2:
         return row_spacing
     stretched = local * np.array([3.0, 1.0])
-    near = np.asarray(cKDTree(stretched).query(stretched, k=2)[1])[:, 1]
+    near = PointIndex(stretched).nearest_few(stretched, 2)[1][:, 1]
     steps = np.abs(local[near] - local)
     in_line = steps[steps[:, 0] < 0.3 * row_spacing, 1]
     return float(np.median(in_line)) if len(in_line) else row_spacing
@@ -53,14 +52,12 @@ def trace(local: Floats, slope: Floats, spacing: float) -> Indices:
         slope: Slope of the rows at each tree: metres across for each metre along, shape (n,).
         spacing: Tree spacing along the rows in metres.
     """
-    from scipy.spatial import cKDTree
-
     n = len(local)
     if n < 2:
         return np.zeros(n, dtype=np.intp)
     reach = float(np.abs(slope).max()) * _WINDOW if n else 0.0
     scaled = local / (spacing * np.array([_ACROSS + reach, _WINDOW]))
-    pairs = cKDTree(scaled).query_pairs(1.0, p=np.inf, output_type="ndarray")
+    pairs = PointIndex(scaled).pairs(1.0, each_axis=True)
     i, j = pairs[:, 0], pairs[:, 1]
     along = local[j, 1] - local[i, 1]
     aside = local[j, 0] - local[i, 0] - along * 0.5 * (slope[i] + slope[j])
@@ -99,8 +96,6 @@ def join_across_gaps(local: Floats, slope: Floats, label: Indices, spacing: floa
 
 
 def _joined_once(local: Floats, slope: Floats, label: Indices, spacing: float) -> Indices:
-    from scipy.spatial import cKDTree
-
     pieces = groups(label, int(label.max(initial=-1)) + 1)
     count = len(pieces)
     head, tail = np.empty((count, 3)), np.empty((count, 3))
@@ -110,9 +105,7 @@ def _joined_once(local: Floats, slope: Floats, label: Indices, spacing: float) -
     # Search along the row from the tail of each piece for heads of others.
     scale = spacing * np.array([0.5, LONGEST_GAP / 2])
     ahead = tail[:, :2] + np.column_stack([tail[:, 2], np.ones(count)]) * (LONGEST_GAP / 2 * spacing)
-    lists: list[list[int]] = list(cKDTree(head[:, :2] / scale).query_ball_point(ahead / scale, 1.0, p=np.inf))  # type: ignore[arg-type]
-    a = np.repeat(np.arange(count), [len(x) for x in lists])
-    b = np.array([x for found in lists for x in found], dtype=np.intp)
+    a, b = PointIndex(head[:, :2] / scale).close_to(ahead / scale, 1.0, each_axis=True).T
     gap = head[b, 1] - tail[a, 1]
     miss = np.abs(head[b, 0] - tail[a, 0] - gap * 0.5 * (tail[a, 2] + head[b, 2]))
     size = np.array([len(own) for own in pieces])
