@@ -80,8 +80,9 @@ def amounts(said: Sequence[Token], nouns: dict[int, Noun], units: frozenset[str]
     for number in _numbers(said):
         amount = _amount(said, number, nouns, units)
         before = found[-1] if found else None
-        if amount.kind == "plain" and before is not None and _listed(said, before, number):
-            amount = replace(amount, kind=before.kind)
+        ends_list = amount.kind == "plain" or (amount.kind == "captures" and number.end not in nouns)
+        if ends_list and before is not None and _listed(said, before, number):
+            amount = replace(amount, kind=before.kind, actions=frozenset())
             if any(said[k].text in _RANGES for k in range(before.index + 1, number.start)) and len(amount.values) == 1:
                 found[-1] = replace(before, through=int(amount.values[0]))
         found.append(amount)
@@ -146,6 +147,8 @@ def _open(said: Sequence[Token], k: int) -> bool:
 
 def _amount(said: Sequence[Token], number: _Number, nouns: dict[int, Noun], units: frozenset[str]) -> StatedAmount:
     value, k = number.value, number.end
+    if [token.text for token in said[k : k + 1]] == ["-"]:
+        k += 1  # "two-year-old"
     after = said[k].text if k < len(said) else ""
     words = w.quoted(said[number.start : min(k + 1, len(said))])
     made = StatedAmount(

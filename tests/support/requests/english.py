@@ -6,6 +6,7 @@ Longer than other files because it is a table.
 # ruff: noqa: E501 - a request and its plan stand on one line each
 
 PLANNED = [
+    ("husky", "Take a picture and then 2 CO2 readings at tree 9", "picture @ TreeIs(9); co2 x2"),
     ("husky", "Take three CO2 readings about 15 m apart.", "for Spaced(15, 3): [co2]"),
     (
         "husky",
@@ -1061,7 +1062,6 @@ ASKED = [
     ),
     ("husky", "Take a picture of all 12 trees.", "'Take a picture of all 12 trees': which is meant?"),
     ("husky", "Survey the orchard.", "'Survey the orchard': which is meant?"),
-    ("husky", "Take a picture and then 2 CO2 readings at tree 9", "'Take a picture': at which tree or trees?"),
     ("husky", "Photograph the western edge.", "'Photograph the western edge': which is meant?"),
     ("husky", "take a picture of the northern half", "'take a picture of the northern half': which is meant?"),
     ("husky", "Photograph the whole orchard.", "'Photograph the whole orchard': which is meant?"),

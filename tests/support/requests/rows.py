@@ -6,6 +6,7 @@
 # ruff: noqa: E501 - a request and its plan stand on one line each
 
 PLANNED = [
+    ("husky", "Photograph row 2 from end to end.", "for Rows(2, 2): [picture]"),
     ("husky", "Take a picture of every row's first tree.", "for InRow(1, 1, of Rows): [picture]"),
     (
         "husky",
@@ -1258,11 +1259,6 @@ REFUSED = [
         "husky",
         "drive along the northern edge and take a picture every 10 m",
         "'take a picture every 10 m': it is not clear along which row",
-    ),
-    (
-        "husky",
-        "Photograph row 2 from end to end.",
-        "'from end to end' does not fit at this point in 'Photograph row 2 from end to end'",
     ),
     (
         "husky",

@@ -40,7 +40,7 @@ class Word:
 
 
 def words_of(request: str) -> list[Word]:
-    """The words of a request, in order. Nothing is left out but white space and quotation marks."""
+    """Return the words of a request, in order, without white space, quotation marks, and brackets before a mark."""
     found: list[Word] = []
     for match in _TOKEN.finditer(request):
         kind = match.lastgroup or "other"
@@ -51,4 +51,9 @@ def words_of(request: str) -> list[Word]:
         )
         norm = norm.rstrip(".") if kind == "word" else norm  # "the air temp. at tree 4"
         found.append(Word(kind=kind, text=match.group(), norm=norm, start=match.start(), end=match.end()))
-    return found
+    return [word for k, word in enumerate(found) if not _closes_sentence(word, found[k + 1 : k + 2])]
+
+
+def _closes_sentence(word: Word, following: list[Word]) -> bool:
+    """Return True for a closing bracket with a mark or nothing behind it: it parts nothing."""
+    return word.text == ")" and all(one.kind in ("stop", "comma") for one in following)

@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from fieldhand.language import joined, message
+from fieldhand.language import Number, joined, message
 from fieldhand.planning.planner import Answer, Planned, Reason
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -68,7 +68,7 @@ def _question_of_branch(
     depths = [[line.indent for line in lines] for lines in written]
     first = next((k for k in range(min(map(len, depths))) if len({depth[k] for depth in depths}) > 1), None)
     if first is None:
-        return None
+        return _question_of_limits(plans, request)
     left: dict[str, tuple[Planned, ...]] = {}
     for plan, lines in zip(plans, written, strict=True):
         line = lines[first]
@@ -76,6 +76,29 @@ def _question_of_branch(
         answer = joined(" ", (heads[-1], line.text)) if heads else message("In each case: {step}", step=line.text)
         left[answer] = (*left.get(answer, ()), plan)
     start, end = _said(plans, [lines[first] for lines in written], request)
+    asked = message("'{said}': which is meant?", context="question", said=request[start:end])
+    return PlanQuestion(question=asked, said=(start, end), plans=left)
+
+
+def _question_of_limits(plans: Sequence[Planned], request: str) -> PlanQuestion | None:
+    """Return the question between plans of the same steps that use or leave so much of the battery."""
+    left: dict[str, tuple[Planned, ...]] = {}
+    spans: list[Span] = []
+    for plan in plans:
+        limits = plan.task.constraints
+        spans += (*limits.reserve_said, *(span for budget in limits.budgets for span in budget.said))
+        used = next((budget.limit for budget in limits.budgets if budget.kind == "energy_percent"), None)
+        if limits.reserve_percent is not None:
+            kept = Number(f"{limits.reserve_percent:g}")
+            answer = message("At least {percent} % of the battery is left at the end.", percent=kept)
+        elif used is not None:
+            answer = message("The mission uses at most {percent} % of the battery.", percent=Number(f"{used:g}"))
+        else:
+            return None
+        left[answer] = (*left.get(answer, ()), plan)
+    if len(left) < 2:
+        return None
+    start, end = min(start for start, _ in spans), max(end for _, end in spans)
     asked = message("'{said}': which is meant?", context="question", said=request[start:end])
     return PlanQuestion(question=asked, said=(start, end), plans=left)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 
 from fieldhand.errors import PlaceError
@@ -15,14 +15,14 @@ from fieldhand.site.planting import Block
 from fieldhand.task import plan as p
 
 
-def in_each_block(plan: p.Node, site: Site) -> Sequence[p.Node]:
+def in_each_block(plan: p.Node, site: Site) -> Mapping[str, p.Node]:
     """Return a plan for each block whose rows may be meant; only the plan itself if its rows are known by their names.
 
     All rows that are named without a block are of the same one.
     """
     blocks = site.planting.blocks
     if len(blocks) < 2:
-        return [plan]
+        return {"": plan}
     named = [
         rows
         for node in p.walk(plan)
@@ -31,9 +31,9 @@ def in_each_block(plan: p.Node, site: Site) -> Sequence[p.Node]:
         if rows.first and not is_in_block(rows.of)
     ]
     if not named:
-        return [plan]
+        return {"": plan}
     fitting = [block for block in blocks if all(_has(site, block, rows) for rows in named)]
-    return [_of_block(plan, block) for block in fitting] if len(fitting) > 1 else [plan]
+    return {block.name: _of_block(plan, block) for block in fitting} if len(fitting) > 1 else {"": plan}
 
 
 def leaves_block_open(selector: s.Selector, site: Site) -> bool:

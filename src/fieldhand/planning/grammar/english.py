@@ -129,6 +129,8 @@ def more_words() -> Mapping[Phrase, tuple[NameEntry, ...]]:
         found[split(plural_of(phrase))].append(NameEntry(kind="PICTURE", plural=True))
     for phrase, value in own["derived"].items():
         found[split(phrase)].append(NameEntry(kind="SUPER", value=tuple(value)))
+    for phrase, part in own["parts"].items():
+        found[split(phrase)].append(NameEntry(kind="PART", value=part))
     for phrase, value in own["bounds"].items():
         found[split(phrase)].append(NameEntry(kind="BOUND", value=tuple(value)))
     for kind, phrases in own["verbs"].items():

@@ -180,6 +180,7 @@ class DriveCommand:
         returns: True if the robot comes back there.
         along: Direction along a row, if the robot drives along it.
         picks: True if the places are only chosen ("take three trees").
+        ends: True if nothing is done behind it ("ending at the charger").
     """
 
     place: PlaceMeaning
@@ -188,6 +189,7 @@ class DriveCommand:
     returns: bool = False
     picks: bool = False
     along: Along = ""
+    ends: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -235,9 +237,10 @@ class Home:
 
 @dataclass(frozen=True, slots=True)
 class StopCommand:
-    """The end of the mission at this point."""
+    """The end of the mission at this point, where the robot also stays with ``stays``."""
 
     used: int
+    stays: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -234,8 +234,12 @@ def _likely(found: Sequence[RequestReading], request: str, site: Site, robot: Ro
         meant = _meant(reading, request)
         if any(_same(one, meant) for one in known):
             continue
-        known.append(meant)
-        for candidate in _candidates(reading, meant, request, site, robot):
+        candidates = _candidates(reading, meant, request, site, robot)
+        if not all(one.lost for one in candidates):
+            known.append(
+                meant
+            )  # a reading that leaves words out may be followed by one of the same meaning that has them
+        for candidate in candidates:
             (lossy if candidate.lost and not whole else whole).append(candidate)
     return whole or [one for one in lossy if one.reading.cost < lossy[0].reading.cost + _MARGIN]
 
@@ -244,12 +248,28 @@ def _candidates(
     reading: RequestReading, meant: Meant, request: str, site: Site, robot: RobotProfile
 ) -> Sequence[_Candidate]:
     """Return a reading with its plan; with several plans if its rows may be those of several blocks."""
+    plans = in_each_block(meant.plan, site)
+    outcomes = {block: _outcome_of(replace(meant, plan=plan), request, site, robot) for block, plan in plans.items()}
+    planned = [block for block, outcome in outcomes.items() if isinstance(outcome, Planned)]
+    if len(plans) > 1 and len(planned) == 1:  # "five Syrah vines in row 30", where only one block has Syrah
+        (block,) = planned
+        outcomes = {
+            block: _outcome_of(_in_only(replace(meant, plan=plans[block]), block, request), request, site, robot)
+        }
     found: list[_Candidate] = []
-    for plan in in_each_block(meant.plan, site):
-        outcome = _outcome_of(replace(meant, plan=plan), request, site, robot)
+    for outcome in outcomes.values():
         lost = _lost_words(outcome, reading.remarks) if isinstance(outcome, Planned) else ()
         found.append(_Candidate(reading=reading, outcome=outcome, lost=lost))
     return [one for one in found if one.plan is not None] or found[:1]
+
+
+def _in_only(meant: Meant, block: str, request: str) -> Meant:
+    """Return a meaning whose rows can only be those of one block, and which says so."""
+    sentence = message(
+        "The rows are those of block {block}: in no other are there such trees.", context="assumption", block=block
+    )
+    read_as = f"{(meant.read_as or request).rstrip(' .')} (block {block})"
+    return replace(meant, assumptions=(*meant.assumptions, sentence), read_as=read_as)
 
 
 def _chosen(

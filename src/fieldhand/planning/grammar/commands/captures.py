@@ -17,7 +17,15 @@ from fieldhand.planning.grammar.meaning import (
     Thing,
 )
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import as_every_nth, as_some, as_zone, is_across, specifies_part
+from fieldhand.planning.selections import (
+    are_rows,
+    as_every_nth,
+    as_some,
+    as_zone,
+    is_across,
+    is_one_row,
+    specifies_part,
+)
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -143,11 +151,14 @@ def place_passive(place: PlaceMeaning, verb: Lex, used: int) -> CaptureCommand:
     "capture: things=things PER noun=ROW",
     "capture: verb things=things PER noun=ROW in_ block=block",
     "capture: things=things PER noun=ROW in_ block=block",
+    "capture: [verb] things=things PER noun=ROW in_ rows=rows",
     cost=0.3,
 )
-def per_row(things: tuple[Thing, ...], noun: Lex, used: int, block: s.Selector | None = None) -> CaptureCommand | None:
+def per_row(
+    things: tuple[Thing, ...], noun: Lex, used: int, block: s.Selector | None = None, rows: s.Selector | None = None
+) -> CaptureCommand | None:
     """Compose "take a picture per row"."""
-    rows = s.Rows() if block is None else s.Rows(of=block)
+    rows = rows or (s.Rows() if block is None else s.Rows(of=block))
     return None if noun.plural else CaptureCommand(things, PlaceMeaning(s.Trees(), "area", each=True, per=rows), used)
 
 
@@ -238,7 +249,40 @@ def go_for(place: PlaceMeaning, things: tuple[Thing, ...], used: int) -> Capture
     return CaptureCommand(things, place, used, relation="lead" if place.shape == "one" else "at")
 
 
-@construction("capture: act=capture [COMMA] EACH noun=TREE", "capture: act=capture ONEBYONE", cost=0.3)
+@construction("capture: act=capture [COMMA] EACH", "capture: act=capture EACH [OFTHEM]", cost=0.2)
+def of_each(act: CaptureCommand, used: int) -> CaptureCommand | None:
+    """Compose "photograph trees 4 and 9, two pictures each"."""
+    if act.place is None or act.place.shape != "several" or act.place.each or not all(one.count for one in act.things):
+        return None
+    return replace(act, place=replace(act.place, each=True), used=used)
+
+
+@construction("capture: [verb] things=things EACH relation place=place", cost=0.2)
+def each_of_them(things: tuple[Thing, ...], place: PlaceMeaning, used: int) -> CaptureCommand | None:
+    """Compose "3 pictures each of trees 4 and 9"."""
+    return of_each(CaptureCommand(things, place, used), used)
+
+
+@construction("capture: CAUSE place=place verb=ACTV", cost=0.3)
+def have_it_done(place: PlaceMeaning, verb: Lex, used: int) -> CaptureCommand | None:
+    """Compose "I want tree 4 photographed"."""
+    return act_on(verb, place, used) if "participle" in verb.features else None
+
+
+@construction("capture: USE things=things relation place=place", cost=0.4)
+def use_camera(things: tuple[Thing, ...], place: PlaceMeaning, used: int) -> CaptureCommand | None:
+    """Compose "use the thermal camera on tree 4"."""
+    if place.shape == "area" or any(one.count is not None for one in things):
+        return None
+    return CaptureCommand(things, place, used)
+
+
+@construction(
+    "capture: act=capture [COMMA] [relation] EACH noun=TREE",
+    "capture: act=capture ONEBYONE",
+    "capture: act=capture [COMMA] ENTIRE",
+    cost=0.3,
+)
 def at_every_tree(act: CaptureCommand, used: int, noun: Lex | None = None) -> CaptureCommand | None:
     """Compose "measure CO2 along row 4, every tree" and "measure CO2 along row 4 tree by tree"."""
     if (noun is not None and noun.plural) or act.place is None or act.place.shape != "area":
@@ -269,6 +313,7 @@ def far_away_for(
     "capture: act=capture [COMMA] n=count POINT REMAINS",
     "capture: act=capture [COMMA] n=count TREE REMAINS",
     "capture: act=capture [COMMA] n=count [OFTHEM] REMAINS",
+    "capture: act=capture [COMMA] AT n=count POINT",
     cost=0.2,
 )
 def at_so_many(act: CaptureCommand, n: int, used: int) -> CaptureCommand | None:
@@ -280,7 +325,19 @@ def at_so_many(act: CaptureCommand, n: int, used: int) -> CaptureCommand | None:
     return replace(act, things=tuple(replace(one, count=n, plural=True) for one in act.things), used=used)
 
 
-@construction("capture: act=capture [COMMA] ANY [TREE] REMAINS", cost=0.2)
+@construction("capture: act=capture [COMMA] EVENLYSPACED", cost=0.2)
+def evenly_spaced(act: CaptureCommand, used: int) -> CaptureCommand | None:
+    """Compose "5 CO2 readings in row 3, evenly spread"."""
+    counts = {one.count for one in act.things}
+    rows = None if act.place is None or act.place.shape != "area" or act.place.per is not None else act.place.selector
+    count = counts.pop()
+    if rows is None or counts or count is None or count < 2 or not (are_rows(rows) and is_one_row(rows)):
+        return None
+    place = PlaceMeaning(s.Evenly(count=count, of=rows), "several", count=count)
+    return replace(act, things=tuple(replace(one, count=None) for one in act.things), place=place, used=used)
+
+
+@construction("capture: act=capture [COMMA] ANY [TREE] REMAINS", "capture: act=capture [COMMA] FREECHOICE", cost=0.2)
 def whichever_it_is(act: CaptureCommand, used: int) -> CaptureCommand | None:
     """Compose "one CO2 reading in each row, any tree is good"."""
     if act.place is None or act.place.shape == "those":
@@ -350,9 +407,9 @@ def measure_for(place: PlaceMeaning, things: tuple[Thing, ...], used: int) -> Ca
 
 
 @construction(
-    "capture: verb ASMANY things=things relation place=place ASCAN",
-    "capture: verb ASMANY things=things ASCAN relation place=place",
-    "capture: verb ASMANY things=things ASCAN",
+    "capture: verb ASMANY things=things relation place=place as_can",
+    "capture: verb ASMANY things=things as_can relation place=place",
+    "capture: verb ASMANY things=things as_can",
     "capture: verb ASMANY things=things relation place=place",
     cost=0.3,
 )
@@ -362,9 +419,10 @@ def as_many_captures(things: tuple[Thing, ...], used: int, place: PlaceMeaning |
         return None
     if place is None:
         place = PlaceMeaning(s.Trees(), "several")
-    if place.shape not in ("several", "area") or place.count is not None:
+    named = all(one.named_tree for one in place.selector.members)
+    if place.shape not in ("several", "area") or (place.count is not None and not named):
         return None
-    return CaptureCommand(things, replace(place, shape="several", optional=True), used)
+    return CaptureCommand(things, replace(place, shape="several", optional=True, count=None), used)
 
 
 @construction("capture: things=things word=relation place=place", cost=1.2)
@@ -571,7 +629,7 @@ def elsewhere_so_often(place: PlaceMeaning, times: Lex, used: int) -> CaptureCom
     return CaptureCommand((Thing(LAST_THING),), place, used, times=times.value)
 
 
-@construction("capture: ASMANY [DET] inner=nominal ASCAN verb=ACTV", cost=0.3)
+@construction("capture: ASMANY [DET] inner=nominal as_can verb=ACTV", cost=0.3)
 def as_many_as_it_can(inner: Nominal, verb: Lex, used: int) -> CaptureCommand | None:
     """Compose "as many of the yellow trees as it can photograph"."""
     if inner.single or not inner.plural:

@@ -22,7 +22,7 @@ from fieldhand.planning.grammar.meaning import (
     Thing,
 )
 from fieldhand.planning.grammar.places.compass import AWAY_FROM
-from fieldhand.planning.grammar.places.groups import both
+from fieldhand.planning.grammar.places.groups import at_random, both
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_some, is_row_of_place
 
@@ -62,6 +62,19 @@ def drive_to(place: PlaceMeaning, used: int, verb: Lex | None = None, along: Lex
     return DriveCommand(place, used, begins=verb is not None and "begins" in verb.features)
 
 
+@construction("drive: word=AT place=place", cost=1.0)
+def on_to(word: Lex, place: PlaceMeaning, used: int) -> DriveCommand | None:
+    """Compose "to tree 9" behind "drive to tree 4 and measure CO2, then"."""
+    return DriveCommand(place, used) if "motion" in word.features and place.shape == "one" else None
+
+
+@construction("drive: RANDOMLY TAKE n=count inner=nominal", cost=0.2)
+def pick_at_random(n: int, inner: Nominal, used: int) -> DriveCommand | None:
+    """Compose "randomly select 10 trees"."""
+    place = at_random(n, inner)
+    return None if place is None else DriveCommand(place, used, picks=True)
+
+
 @construction("drive: verb=MEASURE place=place", "drive: verb=TAKE place=place", cost=2.0)
 def look_at(place: PlaceMeaning, verb: Lex, used: int) -> DriveCommand | None:
     """Compose "inspect row 4" before what is done there."""
@@ -94,12 +107,13 @@ def begin_with(place: PlaceMeaning, used: int) -> DriveCommand | None:
     return DriveCommand(place, used, begins=True) if place.shape == "one" else None
 
 
-@construction("drive: RETURN AT place=place", cost=0.5)
-def come_back_to(place: PlaceMeaning, used: int) -> DriveCommand | None:
-    """Compose "come back to tree 4"."""
+@construction("drive: word=RETURN [AT] place=place", cost=0.5)
+def come_back_to(place: PlaceMeaning, word: Lex, used: int) -> DriveCommand | None:
+    """Compose "come back to tree 4" and "ending at the charger"."""
     if place.selector.named_marker not in ("", "charger"):
         return None  # the end of the mission
-    return DriveCommand(place, used, returns=True) if place.shape == "one" else None
+    ends = "ends_there" in word.features
+    return DriveCommand(place, used, returns=True, ends=ends) if place.shape == "one" else None
 
 
 @construction("drive: GO way=ALONG where=region", "drive: GO AT where=region", "drive: GO where=region", cost=0.2)
@@ -247,7 +261,7 @@ def enough_places(place: PlaceMeaning, used: int) -> Lead | None:
 @construction("home: word=GOHOME", "home: word=RETURN", "home: word=RETURN AT DET PLOT", cost=0.3)
 def go_home(word: Lex, used: int) -> Home | None:
     """Compose "go home", to where the robot started."""
-    return None if "ends" in word.features else Home(None, used)
+    return None if {"ends", "needs_place"} & word.features else Home(None, used)
 
 
 @construction("home: RETURN AT marker=marker", "home: RETURN marker=marker", "home: GOHOME AT marker=marker", cost=0.2)
@@ -262,6 +276,12 @@ def return_to(marker: s.Selector, used: int) -> Home | None:
 def home_in_the_end(way: Home, word: Lex, used: int) -> Home | None:
     """Compose "come back when done"."""
     return Home(way.then, used, when_done=True) if "when_done" in word.features else None
+
+
+@construction("home: way=home [COMMA] done_first", cost=0.2)
+def home_when_done(way: Home, used: int) -> Home:
+    """Compose "come back once that's done"."""
+    return Home(way.then, used, when_done=True)
 
 
 @construction("home: RETURN AT it=IT", cost=0.5)
@@ -280,6 +300,12 @@ def finish(noun: Lex, used: int) -> StopCommand | None:
 def halt(used: int) -> StopCommand:
     """Compose "stop"."""
     return StopCommand(used)
+
+
+@construction("halt: STAY", cost=0.2)
+def stay(used: int) -> StopCommand:
+    """Compose "stay there" and "don't come back"."""
+    return StopCommand(used, stays=True)
 
 
 @construction("again: REPEAT", "again: REPEAT relation place=place", cost=0.2)

@@ -3,34 +3,13 @@
 from __future__ import annotations
 
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Amount, LimitClause, VisitLimit
+from fieldhand.planning.grammar.meaning import Amount, Home, LimitClause, VisitLimit
 from fieldhand.planning.grammar.words import Lex
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
 _LIMITED = ("metres", "seconds", "percent")
-
-
-@construction(
-    "limit: INSIDE most=amount [of_what]",
-    "limit: word=AT most=amount [of_what]",
-    "limit: USE [less] most=amount [of_what]",
-    "limit: GO less most=amount [of_what]",
-    "limit: INSIDE most=amount OF GO",
-    cost=0.4,
-)
-def at_most(most: Amount, used: int, word: Lex | None = None) -> LimitClause | None:
-    """Compose "within 500 m"."""
-    if most.unit not in _LIMITED or (word is not None and ("in_time" not in word.features or most.unit != "seconds")):
-        return None
-    return LimitClause(most, False, used)
-
-
-@construction("limit: HAVE most=amount [of_what]", cost=0.3)
-def given_so_much(most: Amount, used: int) -> LimitClause | None:
-    """Compose "you have 20 minutes"."""
-    return LimitClause(most, False, used) if most.unit in _LIMITED else None
 
 
 @construction("less: word=UPTO", "less: word=CMP", cost=0.0)
@@ -43,87 +22,189 @@ def less(word: Lex) -> str | None:
     "of_what: OF BATTERY",
     "of_what: BATTERY",
     "of_what: LIMIT",
-    "of_what: OF DET BATTERY",
+    "of_what: OF [DET] BATTERY",
     "of_what: AT LIMIT",
     cost=0.1,
 )
 def of_what() -> str:
-    """Compose "of battery"."""
+    """Compose "of battery" and "of driving"."""
     return "of"
 
 
 @construction(
-    "limit: WITHOUT GO check=CMP most=amount [of_what]",
-    "limit: WITHOUT USE check=CMP most=amount [of_what]",
-    "limit: WITHOUT check=CMP most=amount [of_what]",
-    cost=0.3,
+    "at_most: less most=amount [of_what]",
+    "at_most: UPTO CMP most=amount [of_what]",
+    "at_most: most=amount TOPS",
+    "at_most: most=amount of_what TOPS",
+    cost=0.1,
 )
-def not_more_than(check: Lex, most: Amount, used: int) -> LimitClause | None:
-    """Compose "without driving more than 100 m"."""
-    return LimitClause(most, False, used) if check.value[0] in ("gt", "ge") and most.unit in _LIMITED else None
+def at_most(most: Amount) -> Amount | None:
+    """Compose "no more than 500 m of driving" and "20 minutes tops"."""
+    return most if most.unit in _LIMITED else None
+
+
+@construction("so_much: most=at_most", "so_much: most=amount", "so_much: most=amount of_what", cost=0.1)
+def so_much(most: Amount) -> Amount | None:
+    """Compose an amount where it can only be the largest one ("within 20 minutes")."""
+    return most if most.unit in _LIMITED else None
 
 
 @construction(
-    "limit: KEEP least=amount [of_what] [LEFT]",
-    "limit: KEEP check=CMP least=amount [of_what] [LEFT]",
-    "limit: KEEP least=amount [of_what] [LEFT] word=THEN",
-    "limit: KEEP check=CMP least=amount [of_what] [LEFT] word=THEN",
-    "limit: KEEP [DET] BATTERY check=CMP least=amount",
-    "limit: BEFORE BATTERY [IS] [at] least=amount [LEFT]",
-    "limit: [DET] BATTERY STAYSOVER least=amount",
-    "limit: NEVERLET [DET] BATTERY GOUNDER least=amount",
+    "limit: INSIDE most=so_much",
+    "limit: INSIDE most=so_much OF GO",
+    "limit: [subject] [MUST] USE most=so_much",
+    "limit: USE most=so_much ON",
+    "limit: [subject] [MUST] GO most=at_most",
+    "limit: [subject] [MUST] TAKES most=at_most",
+    "limit: most=amount [COMMA] EARLIEST",
+    "limit: HAVE most=so_much",
+    "limit: AT most=at_most",
+    "limit: FOR most=at_most",
+    "limit: WITH most=at_most",
+    "limit: WITH most=amount AS UPPERLIMIT",
+    "limit: most=amount [of_what] TOPS",
+    "limit: [WITH] subject [IS] LIMITEDTO most=amount",
+    "limit: [subject] LIMITEDTO most=amount GO",
+    "limit: [WITH] [DET] UPPERLIMIT [IS] [OF] [COMMA] most=so_much",
+    "limit: [AT] [DET] UPPERLIMIT OF most=so_much",
+    "limit: INSIDE [DET] most=amount UPPERLIMIT",
+    "limit: AT [DET] most=amount UPPERLIMIT",
+    "limit: CMP [DET] most=amount UPPERLIMIT",
+    "limit: [DET] most=amount UPPERLIMIT",
+    "limit: BEFORE most=amount OVERDUE",
+    "limit: AT [DET] most=amount LIMIT",
     cost=0.3,
 )
-def keep(least: Amount, used: int, check: Lex | None = None, word: Lex | None = None) -> LimitClause | None:
+def limited_to(most: Amount, used: int) -> LimitClause | None:
+    """Compose "within 500 m", "it must take no more than 20 minutes" and "time limit: 20 minutes"."""
+    return LimitClause(most, False, used) if most.unit in _LIMITED else None
+
+
+@construction("limit: UPTO most=amount [of_what]", "limit: less most=amount of_what", cost=0.5)
+def at_most_so_much(most: Amount, used: int) -> LimitClause | None:
+    """Compose "max 20 minutes" and "less than 100 m of driving"."""
+    return limited_to(most, used)
+
+
+@construction("limit: word=AT most=amount [of_what]", cost=0.4)
+def in_time(word: Lex, most: Amount, used: int) -> LimitClause | None:
+    """Compose "in 20 minutes" and "on 20 % of the battery"."""
+    if most.unit == "seconds" and "in_time" in word.features:
+        return LimitClause(most, False, used)
+    return LimitClause(most, False, used) if most.unit == "percent" and "on_charge" in word.features else None
+
+
+@construction("limit: word=THEN most=at_most", cost=0.3)
+def after_at_most(word: Lex, most: Amount, used: int) -> LimitClause | None:
+    """Compose "(come back) after at most 20 minutes"."""
+    return LimitClause(most, False, used) if "after_doing" in word.features and most.unit == "seconds" else None
+
+
+@construction("subject: [DET] DRIVEN", "subject: MISSION", "subject: [DET] BATTERY USE", cost=0.1)
+def subject() -> str:
+    """Compose what is limited: "the driving distance", "the whole thing"."""
+    return "it"
+
+
+@construction(
+    "limit: [subject] WITHOUT USE check=CMP most=amount [of_what]",
+    "limit: [subject] WITHOUT GO check=CMP most=amount [of_what]",
+    "limit: [subject] WITHOUT [TAKES] check=CMP most=amount [of_what]",
+    cost=0.3,
+)
+def not_more_than(check: Lex, most: Amount, used: int) -> LimitClause | None:
+    """Compose "without driving more than 100 m" and "don't take longer than 20 minutes"."""
+    return LimitClause(most, False, used) if check.value[0] in ("gt", "ge") and most.unit in _LIMITED else None
+
+
+@construction("reserve: least=amount", "reserve: least=amount of_what", "reserve: BATTERY COMMA least=amount", cost=0.1)
+def reserve(least: Amount) -> Amount | None:
+    """Compose "30 % of the battery"."""
+    return least if least.unit == "percent" else None
+
+
+@construction("reserve: check=CMP least=amount [of_what]", "reserve: [DET] BATTERY check=CMP least=amount", cost=0.1)
+def at_least(check: Lex, least: Amount) -> Amount | None:
+    """Compose "at least 30 % of the battery"."""
+    return least if least.unit == "percent" and check.value[0] in ("gt", "ge") else None
+
+
+@construction(
+    "limit: KEEP least=reserve [LEFT]",
+    "limit: KEEP least=reserve [LEFT] word=THEN",
+    "limit: WITH least=reserve LEFT [word=THEN]",
+    "limit: WANT least=reserve LEFT [word=THEN]",
+    "limit: least=reserve KEPT [word=THEN]",
+    "limit: BEFORE [DET] BATTERY [IS] [at] least=amount [LEFT]",
+    "limit: UNTIL [DET] BATTERY [IS] at least=amount [LEFT]",
+    "limit: UNTIL [DET] BATTERY REACHES least=amount",
+    "limit: STOP in_case [DET] BATTERY REACHES least=amount",
+    "limit: STOP in_case [DET] BATTERY [IS] at least=amount",
+    "limit: [DET] BATTERY STAYSOVER least=amount",
+    "limit: NEVERLET [DET] BATTERY GOUNDER least=amount",
+    "limit: WITHOUT GOUNDER least=reserve",
+    cost=0.3,
+)
+def keep(least: Amount, used: int, word: Lex | None = None) -> LimitClause | None:
     """Compose "keep at least 30 % battery" and "the battery must not go under 30 %"."""
-    if least.unit != "percent" or (check is not None and check.value[0] not in ("gt", "ge")):
+    if least.unit != "percent" or (word is not None and "when_done" not in word.features):
         return None
-    return None if word is not None and "when_done" not in word.features else LimitClause(least, True, used)
+    return LimitClause(least, True, used)
 
 
-@construction("limit: RETURN BEFORE BATTERY [IS] [at] least=amount [LEFT]", cost=0.2)
+@construction("limit: WITH least=amount of_what", "limit: WITH least=share", cost=0.4)
+def with_so_much(least: Amount, used: int) -> list[LimitClause] | None:
+    """Compose "with 30 % of the battery", which may be used or has to be left."""
+    return [LimitClause(least, keep, used) for keep in (False, True)] if least.unit == "percent" else None
+
+
+@construction("limit: back=home WITH least=reserve [LEFT]", cost=0.2)
+def home_with(back: Home, least: Amount, used: int) -> LimitClause | None:
+    """Compose "be back with 30 % of the battery"."""
+    return LimitClause(least, True, used, back=True) if back.then != "return_to_end" and not back.to_it else None
+
+
+@construction("limit: RETURN BEFORE [DET] BATTERY [IS] [at] least=amount [LEFT]", cost=0.2)
 def back_before(least: Amount, used: int) -> LimitClause | None:
     """Compose "be back before the battery is at 30 %"."""
     return LimitClause(least, True, used, back=True) if least.unit == "percent" else None
 
 
 @construction(
-    "limit: home IF [DET] BATTERY [IS] check=CMP least=amount",
-    "limit: IF [DET] BATTERY [IS] check=CMP least=amount [COMMA] home",
+    "limit: home in_case [DET] BATTERY [IS] check=CMP least=amount",
+    "limit: in_case [DET] BATTERY [IS] check=CMP least=amount [COMMA] home",
+    "limit: home in_case [DET] BATTERY REACHES least=amount",
     cost=0.2,
 )
-def home_below(check: Lex, least: Amount, used: int) -> LimitClause | None:
+def home_below(least: Amount, used: int, check: Lex | None = None) -> LimitClause | None:
     """Compose "return if the battery drops below 25 %"."""
-    if check.value[0] not in ("lt", "le") or least.unit != "percent":
+    if (check is not None and check.value[0] not in ("lt", "le")) or least.unit != "percent":
         return None
     return LimitClause(least, True, used, back=True)
 
 
-@construction("limit: less most=amount of_what", cost=0.5)
-def at_most_of_driving(most: Amount, used: int) -> LimitClause | None:
-    """Compose "at most 100 m of driving"."""
-    return LimitClause(most, False, used) if most.unit in _LIMITED else None
+@construction("share: part=PART [OF] [DET] BATTERY", cost=0.1)
+def part_of_battery(part: Lex) -> Amount:
+    """Compose "a quarter of the battery"."""
+    return Amount(number=round(100 * part.value, 2), unit="percent")
+
+
+@construction("amount: part=share", cost=0.0)
+def share(part: Amount) -> Amount:
+    """Compose a part of the battery as an amount."""
+    return part
+
+
+@construction("in_case: IF", "in_case: WHERE", "in_case: ASSOONAS", cost=0.0)
+def in_case() -> str:
+    """Compose "if" and "when" before a state of the battery."""
+    return "if"
 
 
 @construction("at: AT", "at: CMP", cost=0.0)
 def at_word() -> str:
     """Compose "at"."""
     return "at"
-
-
-@construction(
-    "limit: AT less most=amount [of_what]",
-    "limit: FOR less most=amount [of_what]",
-    "limit: WITH most=amount AS UPPERLIMIT",
-    "limit: WITH [DET] DRIVEN LIMITEDTO most=amount",
-    "limit: [DET] DRIVEN [IS] LIMITEDTO most=amount",
-    "limit: HAVE most=amount TOPS",
-    "limit: most=amount TOPS",
-    cost=0.3,
-)
-def limited_to(most: Amount, used: int) -> LimitClause | None:
-    """Compose "with the driving distance limited to 80 m"."""
-    return LimitClause(most, False, used) if most.unit in _LIMITED else None
 
 
 @construction(

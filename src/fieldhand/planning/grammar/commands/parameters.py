@@ -27,6 +27,7 @@ _SIZES: Mapping[str, Mapping[str, float]] = {
     "parameter: word=AT amount=amount",
     "parameter: word=AT amount=amount name=PARAMETER",
     "parameter: amount=amount name=PARAMETER",
+    "parameter: amount=amount DOWNTO",
     "parameter: word=AT [DET] name=PARAMETER OF amount=amount",
     "parameter: WITH [DET] name=PARAMETER OF amount=amount",
     "parameter: [DET] name=PARAMETER OF amount=amount",
@@ -90,6 +91,8 @@ def act_on_part(
 
 @construction(
     "capture: said=capture [COMMA] how=parameter",
+    "capture: said=capture COMMA INEACH how=parameter",
+    "capture: how=parameter COMMA said=capture",
     "capture: said=capture COMMA amount=amount",
     cost=0.5,
     given=("robot",),
@@ -112,14 +115,43 @@ def capture_with(
     return replace(said, things=things, used=used)
 
 
-@construction("things: one=thing first=parameter AND second=parameter", cost=0.3, given=("robot",))
+@construction("parameters: first=parameter AND second=parameter", cost=0.1)
+def two_parameters(first: ParameterValue, second: ParameterValue) -> tuple[ParameterValue, ParameterValue]:
+    """Compose "at 10 cm and at 50 cm"."""
+    return first, second
+
+
+@construction(
+    "parameters: word=AT number=NUM AND second=amount",
+    "parameters: word=AT PARAMETER [OF] number=NUM AND second=amount",
+    cost=0.1,
+)
+def one_unit_of_two(word: Lex, number: Lex, second: Amount) -> tuple[ParameterValue, ParameterValue] | None:
+    """Compose "at 10 and 50 cm"; metres, into which every length is turned, hide the unit of the first number."""
+    if "setting" not in word.features or second.unit != "metres" or not 0 < second.number < 1:
+        return None
+    first = replace(second, number=round(number.value / 100, 6))
+    return ParameterValue(first.number, first.unit, ()), ParameterValue(second.number, second.unit, ())
+
+
+@construction("things: one=thing both=parameters", cost=0.3, given=("robot",))
 def thing_at_both(
-    one: Thing, first: ParameterValue, second: ParameterValue, robot: RobotProfile
+    one: Thing, both: tuple[ParameterValue, ParameterValue], robot: RobotProfile
 ) -> tuple[Thing, ...] | None:
     """Compose "soil moisture at 10 cm and at 50 cm"."""
-    made = tuple(with_parameter(one, value, robot) for value in (first, second))
+    made = tuple(with_parameter(one, value, robot) for value in both)
     things = tuple(thing for thing in made if thing is not None)
-    return things if len(things) == len(made) and first != second else None
+    return things if len(things) == len(made) and both[0] != both[1] else None
+
+
+@construction("capture: said=capture both=parameters", cost=0.4, given=("robot",))
+def capture_at_both(
+    said: CaptureCommand, both: tuple[ParameterValue, ParameterValue], used: int, robot: RobotProfile
+) -> CaptureCommand | None:
+    """Compose "measure moisture at tree 5 at depths of 20 and 40 cm"."""
+    made = [thing_at_both(one, both, robot) for one in said.things]
+    things = tuple(thing for both_of_one in made if both_of_one is not None for thing in both_of_one)
+    return replace(said, things=things, used=used) if len(things) == 2 * len(made) else None
 
 
 def with_parameter(thing: Thing, value: ParameterValue, robot: RobotProfile) -> Thing | None:

@@ -198,6 +198,12 @@ def home_when_done(last: Home, rest: Said) -> Said | None:
     return Said((*rest.clauses, LinkedCommand(None, last))) if last.when_done else None
 
 
+@construction("said: last=drive COMMA rest=said", "said: last=drive FULLSTOP rest=said", cost=0.2)
+def ending_there(last: DriveCommand, rest: Said) -> Said | None:
+    """Compose "finish at the charger: photograph tree 4"."""
+    return Said((*rest.clauses, LinkedCommand(None, last))) if last.ends else None
+
+
 @construction("joint: word=BEFORE", cost=0.3)
 def before_doing(word: Lex, used: int) -> Connective | None:
     """Compose "before"."""
@@ -210,6 +216,36 @@ def then(word: Lex) -> str | None:
     if "after_doing" in word.features:
         return None
     return "from here" if "from_here" in word.features else "then"
+
+
+@construction("joint: [COMMA] WHILE", cost=0.3)
+def meanwhile(used: int) -> Connective:
+    """Compose "while", before another capture at the same place."""
+    return Connective(False, False, used, both=True)
+
+
+@construction("then: done_first", cost=0.0)
+def when_that_is_done() -> str:
+    """Compose "once that's done", before what follows."""
+    return "then"
+
+
+@construction(
+    "done_first: WHERE [MISSION] [IS] DONE",
+    "done_first: ASSOONAS [MISSION] [IS] DONE",
+    "done_first: WHERE CONTRACTED DONE",
+    "done_first: ASSOONAS CONTRACTED DONE",
+    cost=0.1,
+)
+def done_first() -> str:
+    """Compose "once that's done"."""
+    return "done"
+
+
+@construction("drive: way=drive [COMMA] done_first", cost=0.2)
+def drive_when_done(way: DriveCommand, used: int) -> DriveCommand:
+    """Compose "go to the charger when you're finished"."""
+    return replace(way, used=used)
 
 
 @construction(

@@ -48,6 +48,7 @@ def reading_of(noun: Lex) -> Thing | None:
 @construction(
     "thing: HOWMUCH [DET] noun=NOUN",
     "thing: HOWMUCH [DET] noun=NOUN IS AT DET GROUND",
+    "thing: HOWMUCH [DET] noun=NOUN THEREIS",
     "thing: HOW LEVEL IS [DET] noun=NOUN",
     "thing: HOW LEVEL [DET] noun=NOUN IS",
     cost=0.1,
@@ -114,10 +115,42 @@ def more_things(first: tuple[Thing, ...], second: tuple[Thing, ...]) -> tuple[Th
     return (*first, *second) if len(set(names)) == len(names) else None
 
 
+@construction("things: [FIRSTONE] first=things [COMMA] [AND] then [COMMA] second=things", cost=0.6)
+def things_in_turn(first: tuple[Thing, ...], second: tuple[Thing, ...]) -> tuple[Thing, ...] | None:
+    """Compose "first CO2, then a picture", at one place."""
+    return more_things(first, second)
+
+
+@construction("things: BOTH first=things AND second=things", cost=0.1)
+def both_things(first: tuple[Thing, ...], second: tuple[Thing, ...]) -> tuple[Thing, ...] | None:
+    """Compose "both CO2 and the air temperature"."""
+    return more_things(first, second)
+
+
 @construction("verb: TAKE", "verb: MEASURE", "verb: CLIP", cost=0.0)
 def capture_verb() -> str:
     """Compose "take"."""
     return "take"
+
+
+@construction("relation: arrived AT", cost=0.2)
+def on_arrival() -> str:
+    """Compose "when you get to"."""
+    return "at"
+
+
+@construction(
+    "arrived: WHERE [MISSION] [IS]",
+    "arrived: WHILE [MISSION] [IS]",
+    "arrived: ASSOONAS [MISSION] [IS]",
+    "arrived: WHERE [MISSION] GO",
+    "arrived: ASSOONAS [MISSION] GO",
+    "arrived: ARRIVE",
+    cost=0.1,
+)
+def arrived() -> str:
+    """Compose "when you are" before a place."""
+    return "when"
 
 
 @construction(

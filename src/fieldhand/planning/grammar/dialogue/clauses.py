@@ -196,14 +196,18 @@ def _read(
                     )
                 )  # "two trees get a picture"
             again = any(thing.action == LAST_THING for thing in command.things)
-            if command.relation == "bare" and _continues(state, joint):
+            if command.relation == "bare" and _continues(state, joint, again=again):
                 command = replace(command, relation="at")  # "at tree 40 a picture, then CO2"
+            elif command.relation == "bare" and state.lead is not None and joint is not None and not joint.both:
+                command = replace(command, relation="at")  # "at every tree of row 3, a picture and CO2"
             if command.relation == "bare" and (not state.open or (again and state.choice is None)):
                 raise NotComposed(message("it does not say what to do with it", context="fault"))
             return capture(setting, state, command)
         case DriveCommand():
             if command.picks and not any(isinstance(one.command, CaptureCommand | CaptureWhere) for one in following):
                 raise NotComposed(message("it does not say what to do with them", context="fault"))
+            if command.ends and any(not isinstance(one.command, LimitClause) for one in following):
+                raise NotComposed(message("something follows the end of the mission", context="fault"))
             return drive(setting, state, command)
         case Lead():
             if joint is not None and not (joint.full or joint.then or joint.both):
@@ -212,7 +216,7 @@ def _read(
         case Home():
             return go_home(setting, state, command)
         case StopCommand():
-            return with_step(state, p.StopMission(id="", said=setting.spans_of(command.used)))
+            return _stop(setting, state, command)
         case When():
             return when(setting, state, command, _rest_of_sentence(following))
         case CaptureWhere():
@@ -246,10 +250,24 @@ def _read(
             raise AssertionError("these are resolved before the clauses are read")
 
 
-def _continues(state: DialogueState, joint: Connective | None) -> bool:
-    """Return True behind "then" if the last step of the plan is a capture at one place."""
-    follows = joint is not None and joint.then and not joint.full and not state.scope and not state.awaits_command
-    return follows and bool(state.plan.steps) and state.plan.steps[-1].act is not None
+def _stop(setting: Setting, state: DialogueState, command: StopCommand) -> DialogueState:
+    """Return the state after the end of the mission."""
+    said = setting.spans_of(command.used)
+    if command.stays and not state.scope:
+        return replace(state, nominal="stay", nominal_said=said)
+    state = with_step(state, p.StopMission(id="", said=said))
+    return replace(state, in_case="stay") if command.stays else state
+
+
+def _continues(state: DialogueState, joint: Connective | None, *, again: bool) -> bool:
+    """Return True behind "then" and "and" if the last step is a capture; ``again`` if the same is captured again."""
+    follows = joint is not None and (joint.then or joint.both) and not joint.full
+    if not follows or state.scope or state.awaits_command or not state.plan.steps:
+        return False
+    last = state.plan.steps[-1]
+    if joint is not None and joint.both:
+        return not again and (last.act is not None or last.visits_each)
+    return last.act is not None
 
 
 def _has_own_place(command: Command) -> bool:

@@ -205,12 +205,29 @@ def at_random(n: int, inner: Nominal, where: s.Selector | None = None) -> PlaceM
     return PlaceMeaning(s.RandomSample(count=n, of=of), "one" if n == 1 else "several", count=n)
 
 
-@construction("place: ASMANY [DET] inner=nominal ASCAN", "place: ASMANY [DET] inner=nominal ASFIT", cost=0.2)
+@construction("place: ASMANY [DET] inner=nominal as_can", cost=0.2)
 def as_many(inner: Nominal) -> PlaceMeaning | None:
     """Compose "as many trees as you can"."""
     if inner.single or not inner.plural:
         return None
     return PlaceMeaning(inner.selector, "several", optional=True)
+
+
+@construction(
+    "as_can: ASCAN",
+    "as_can: ASFIT",
+    "as_can: ASCAN ACTV",
+    "as_can: ASCAN TAKE",
+    "as_can: ASCAN MEASURE",
+    "as_can: ASCAN VISIT",
+    "as_can: ASCAN GO [AT]",
+    "as_can: AS means ALLOW [IT]",
+    "as_can: AS FITS AT means",
+    cost=0.0,
+)
+def as_can() -> str:
+    """Compose "as you can get to" and "as the battery allows"."""
+    return "as possible"
 
 
 @construction("place: UPTO n=count inner=nominal", cost=0.2)

@@ -38,6 +38,20 @@ def one_unit(word: Lex, unit: Lex) -> Amount | None:
     return amount(Lex(1.0, False, "1"), unit) if "one" in word.features else None
 
 
+@construction("amount: number=NUM AND DET HALF unit=UNIT", "amount: DET unit=UNIT AND DET HALF", cost=0.1)
+def and_a_half(unit: Lex, number: Lex | None = None) -> Amount:
+    """Compose "two and a half hours" and "an hour and a half"."""
+    return amount(Lex(0.5 + (1.0 if number is None else number.value), False, ""), unit)
+
+
+@construction("amount: first=amount [AND] second=amount", cost=0.3)
+def hours_and_minutes(first: Amount, second: Amount) -> Amount | None:
+    """Compose "1 h 30 min"."""
+    if {first.unit, second.unit} != {"seconds"} or first.number % 3600 or not 0 < second.number < 3600:
+        return None
+    return Amount(number=first.number + second.number, unit="seconds")
+
+
 @construction("count: number=NUM", cost=0.0)
 def count(number: Lex) -> int | None:
     """Compose "5"."""

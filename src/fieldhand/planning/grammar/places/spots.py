@@ -97,10 +97,11 @@ def start_marker() -> s.Selector:
     return s.Marker(name="start")
 
 
-@construction("marker: noun=FINISH", "marker: DET FINISH", cost=0.1)
-def end_marker(noun: Lex | None = None) -> s.Selector | None:
-    """Compose "the end"."""
-    return None if noun is not None and "ends" in noun.features else s.Marker(name="end")
+@construction("marker: [word=DET] noun=FINISH", cost=0.1)
+def end_marker(noun: Lex, word: Lex | None = None) -> s.Selector | None:
+    """Compose "the end"; "the ends" are those of a row."""
+    verb = word is None and "ends" in noun.features
+    return None if verb or noun.plural else s.Marker(name="end")
 
 
 @construction("marker: noun=FINISH", cost=1.6)

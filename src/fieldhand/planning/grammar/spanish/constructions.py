@@ -12,7 +12,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.grammar import commands, places
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands import captures, conditions, driving, limits, things
-from fieldhand.planning.grammar.meaning import Amount, LimitClause, Nominal, PlaceMeaning, Thing
+from fieldhand.planning.grammar.meaning import Amount, Nominal, PlaceMeaning, Thing
 from fieldhand.planning.grammar.places import groups, nouns, numbers, positions, rows, spots, steps
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.words import Lex
@@ -30,7 +30,7 @@ _ENGLISH = (
     groups.each_of_group,
     numbers.and_tree_number,
     rows.longer_row_list,
-    limits.at_most,
+    limits.limited_to,
     conditions.if_it_fits,
 )
 
@@ -185,24 +185,17 @@ def way_along_row(side: Lex) -> Side | None:
     return side.value if side.value in SIDES else None
 
 
+construction("limit: word=AT most=amount [of_what]", cost=0.4)(limits.in_time)
 construction(
-    "limit: word=AT most=amount [of_what]",
-    "limit: AT less most=amount [of_what]",
-    "limit: USE [less] most=amount [of_what]",
-    "limit: GO less most=amount [of_what]",
-    cost=0.4,
-)(limits.at_most)
-
-
-@construction(
     "limit: UPTO most=amount [of_what]",
     "limit: most=amount ATMOST [of_what]",
     "limit: WITH UPTO most=amount [of_what]",
+    "limit: USE [UPTO] most=amount [of_what]",
+    "limit: USE ATMOST most=amount [of_what]",
+    "limit: GO UPTO most=amount [of_what]",
+    "limit: GO ATMOST most=amount [of_what]",
     cost=0.4,
-)
-def at_most(most: Amount, used: int) -> LimitClause | None:
-    """Compose "a lo sumo 200 metros"."""
-    return limits.at_most(most, used)
+)(limits.at_most_so_much)
 
 
 @construction("thing: [DET] word=READING OF [DET] noun=NOUN", cost=0.2)
