@@ -49,7 +49,7 @@ def fieldhand(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.Ca
     monkeypatch.setenv("FIELDHAND_CONFIG", str(tmp_path / "config"))
     monkeypatch.chdir(tmp_path)
     commands = _commands()
-    monkeypatch.setattr(app, "assemble", lambda *_: commands)
+    monkeypatch.setattr(app, "assemble", lambda *_, **__: commands)
 
     def command(*words: str, typed: str = "") -> Run:
         monkeypatch.setattr(sys, "argv", ["fieldhand", *words])

@@ -10,7 +10,7 @@ from fieldhand.cli import app, main
 
 
 def test_a_traceback_hides_nothing(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    def fail(*_: object) -> None:
+    def fail(*_: object, **__: object) -> None:
         raise ValueError("\x9b2J\nfieldhand: all is well\u202e")
 
     monkeypatch.setattr(app, "assemble", fail)

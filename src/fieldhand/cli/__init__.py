@@ -30,7 +30,7 @@ def main(*others: Callable[..., None]) -> None:
     misused: type[Exception] = typer.BadParameter.__mro__[1]  # typer exports only its subclasses
     try:
         # In standalone mode, typer prints usage errors itself, in a box.
-        status = assemble(*others)(standalone_mode=False)
+        status = assemble(*others, only=next(iter(sys.argv[1:]), None))(standalone_mode=False)
         if status == _INTERRUPTED:
             raise KeyboardInterrupt
         sys.exit(status if isinstance(status, int) else 0)

@@ -3,38 +3,52 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Annotated
+from importlib import import_module
+from typing import Annotated, Any, Final
 
 import typer
 
-from fieldhand.cli.approve import approve
-from fieldhand.cli.check import check
-from fieldhand.cli.demo import demo
-from fieldhand.cli.export import export
-from fieldhand.cli.import_tree import import_tree
-from fieldhand.cli.inspect import inspect
-from fieldhand.cli.keys import keys
-from fieldhand.cli.missions import missions
-from fieldhand.cli.order import order
-from fieldhand.cli.outbox import outbox
-from fieldhand.cli.plan import plan
 from fieldhand.cli.plugin_commands import CommandsWithPlugins
-from fieldhand.cli.plugins import plugins
-from fieldhand.cli.replay import replay
-from fieldhand.cli.report import report
-from fieldhand.cli.resume import resume
-from fieldhand.cli.robot import robot
-from fieldhand.cli.run import run
-from fieldhand.cli.send import send
-from fieldhand.cli.sim_robot import sim_robot
-from fieldhand.cli.site import site
-from fieldhand.cli.status import status
-from fieldhand.cli.tell import abort, come_home, pause
-from fieldhand.cli.watch import watch
+
+#: The commands in the order of the help, each with its module in this package.
+_COMMANDS: Final = {
+    "plan": "plan",
+    "check": "check",
+    "approve": "approve",
+    "inspect": "inspect",
+    "run": "run",
+    "resume": "resume",
+    "status": "status",
+    "pause": "tell",
+    "abort": "tell",
+    "missions": "missions",
+    "report": "report",
+    "replay": "replay",
+    "export": "export",
+    "send": "send",
+    "outbox": "outbox",
+    "watch": "watch",
+    "order": "order",
+    "site": "site",
+    "sim_robot": "sim_robot",
+    "plugins": "plugins",
+    "demo": "demo",
+}
+
+#: Commands whose names Python reserves: the module and the function of each.
+_RENAMED: Final = {"import": ("import_tree", "import_tree"), "return": ("tell", "come_home")}
+
+#: Groups of commands, each with its module.
+_GROUPS: Final = {"robot": "robot", "keys": "keys"}
 
 
-def assemble(*others: Callable[..., None]) -> typer.Typer:
-    """Return the application: the commands of this package, then ``others``, then those of plugins."""
+def assemble(*others: Callable[..., None], only: str | None = None) -> typer.Typer:
+    """Return the application: the commands of this package, then ``others``, then those of plugins.
+
+    Args:
+        others: Further commands.
+        only: Name of the command that will be run: if this package has it, no other is imported.
+    """
     app = typer.Typer(
         name="fieldhand",
         cls=CommandsWithPlugins,
@@ -43,38 +57,34 @@ def assemble(*others: Callable[..., None]) -> typer.Typer:
         pretty_exceptions_enable=False,
         context_settings={"help_option_names": ["-h", "--help"]},
     )
-    commands: tuple[Callable[..., None], ...] = (
-        plan,
-        check,
-        approve,
-        inspect,
-        run,
-        resume,
-        status,
-        pause,
-        abort,
-        missions,
-        report,
-        replay,
-        export,
-        send,
-        outbox,
-        watch,
-        order,
-        site,
-        sim_robot,
-        plugins,
-        demo,
-        *others,
-    )
-    for command in commands:
+    wanted = {only} if only in _names() else _names()
+    for name, module in _COMMANDS.items():
+        if _typed(name) in wanted:
+            app.command()(_imported(module, name))
+    for command in others if only not in wanted else ():
         app.command()(command)
-    app.command("import")(import_tree)
-    app.command("return")(come_home)
-    app.add_typer(robot)
-    app.add_typer(keys)
+    for name, (module, function) in _RENAMED.items():
+        if name in wanted:
+            app.command(name)(_imported(module, function))
+    for name, module in _GROUPS.items():
+        if name in wanted:
+            app.add_typer(_imported(module, name))
     app.callback()(_top)
     return app
+
+
+def _names() -> set[str]:
+    """Return the names of this package's commands, as they are typed."""
+    return {*map(_typed, _COMMANDS), *_RENAMED, *_GROUPS}
+
+
+def _typed(function: str) -> str:
+    """Return the name of the command that a function implements."""
+    return function.replace("_", "-")
+
+
+def _imported(module: str, name: str) -> Any:
+    return getattr(import_module(f"fieldhand.cli.{module}"), name)
 
 
 def _version(wanted: bool) -> None:

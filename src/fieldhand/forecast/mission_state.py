@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 from fieldhand.places.context import Context
 from fieldhand.site.model import Place
-from fieldhand.task.results import ShedCause
 
 if TYPE_CHECKING:
+    from fieldhand.task.results import ShedCause
     from fieldhand.task.run import StackFrame
 
 

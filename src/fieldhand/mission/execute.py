@@ -11,7 +11,6 @@ from fieldhand.mission.run import Run
 from fieldhand.mission.seeds import checked_seed
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
-from fieldhand.task.results import Event
 
 if TYPE_CHECKING:
     from fieldhand.execution.drivers.simulation.world import World
@@ -19,6 +18,7 @@ if TYPE_CHECKING:
     from fieldhand.execution.journal.records import InputLog
     from fieldhand.execution.operator_commands import OperatorCommand
     from fieldhand.execution.vehicle import Vehicle
+    from fieldhand.task.results import Event
 
 
 def _ignore(_: Event) -> None:

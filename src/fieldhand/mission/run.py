@@ -14,15 +14,15 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.short_repr import short_repr
 from fieldhand.site.model import Site
 from fieldhand.task.authorization import AuthorizedTask
-from fieldhand.task.exceeded import Exceeded
 from fieldhand.task.frames import Task
-from fieldhand.task.results import Event, GoalOutcome, MissionStatus
 
 if TYPE_CHECKING:
     from fieldhand.evaluation.report.observations import ObservationRow
     from fieldhand.evaluation.report.writing import ReportFiles
     from fieldhand.execution.mission_runner import Result
     from fieldhand.forecast.estimate import Estimate
+    from fieldhand.task.exceeded import Exceeded
+    from fieldhand.task.results import Event, GoalOutcome, MissionStatus
 
 
 @dataclass(frozen=True, kw_only=True)

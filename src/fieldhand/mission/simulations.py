@@ -12,10 +12,10 @@ from fieldhand.mission.approve import ApprovedMission
 from fieldhand.mission.execute import simulate
 from fieldhand.mission.records import Records
 from fieldhand.mission.seeds import checked_seed
-from fieldhand.task.results import Acted, Ended, MissionStatus
 
 if TYPE_CHECKING:
     from fieldhand.execution.drivers.simulation.world import World
+    from fieldhand.task.results import MissionStatus
 
 
 #: Figures of a simulation that have quantiles.
@@ -118,6 +118,8 @@ def fly_many(
 
 
 def _simulated(seed: int, mission: ApprovedMission, world: World | None) -> Simulation:
+    from fieldhand.task.results import Acted, Ended
+
     run = simulate(mission, world=world, seed=seed)
     ended = next(event for event in reversed(run.events) if isinstance(event, Ended))
     return Simulation(

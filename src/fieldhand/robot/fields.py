@@ -64,7 +64,7 @@ Unit = Annotated[str, AfterValidator(_unit)]
 class Keyed(BaseModel):
     """The base model of profile parts; it rejects unknown keys."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
 
     @model_validator(mode="before")
     @classmethod
