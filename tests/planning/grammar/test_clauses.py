@@ -239,6 +239,11 @@ PLANNED = [
     ),
     (
         "husky",
+        "Photograph as many trees as possible, but always keep a quarter of the battery.",
+        "for Trees optional: [picture] | reserve 25",
+    ),
+    (
+        "husky",
         "Photograph as many trees as possible and keep a third of the battery.",
         "for Trees optional: [picture] | reserve 33.33",
     ),
@@ -300,6 +305,7 @@ PLANNED = [
         "for UnionOf(RandomSample(2, of Rows(1, 1))+RandomSample(2, 1, of Rows(2, 2))+RandomSample(2, 2, of Rows(3, 3))+RandomSample(2, 3, of Rows(4, 4))): [picture]",
     ),
     ("husky", "Pictures of any 10 trees of row 3.", "for Take(10, of Rows(3, 3)): [picture]"),
+    ("husky", "Pictures of 10 trees of your choice in row 3.", "for Take(10, of Rows(3, 3)): [picture]"),
     ("husky", "Pick 10 trees of row 3 and photograph them.", "for Take(10, of Rows(3, 3)): [picture]"),
     (
         "husky",
@@ -340,6 +346,133 @@ PLANNED = [
     ("husky", "Drive along row 3 photographing every third tree.", "for EveryNth(3, of Rows(3, 3)): [picture]"),
     ("husky", "Drive through row 3, taking a picture of each tree.", "for Rows(3, 3): [picture]"),
     ("husky", "Walk row 3 and photograph each tree.", "for Rows(3, 3): [picture]"),
+    (
+        "husky",
+        "Take a thermal picture at the four corner trees, and where the canopy is hotter than 36 °C measure CO2 too; be back before the battery is at 30 %.",
+        "for Corners: [picture = r1; if r1 > 36 degC: [co2]] | reserve 30 | return_to_start",
+    ),
+    (
+        "husky",
+        "Go to row 5, take a picture of the first tree, the middle tree and the last tree, then come home.",
+        "for UnionOf(InRow(1, 1, of Rows(5, 5))+Middle(of Rows(5, 5))+InRow(-1, -1, of Rows(5, 5))): [picture] | return_to_start",
+    ),
+    (
+        "amiga",
+        "Take the soil moisture at every fourth tree of rows 2 and 3. If it is below 15 %, take a leaf sample there as well. Don't drive more than 800 m.",
+        "for EveryNth(4, of UnionOf(Rows(2, 2)+Rows(3, 3))): [moisture = r1; if r1 < 15 percent: [sample_leaf]] | distance_m 800",
+    ),
+    ("amiga", "Sample one leaf from each of the five youngest trees.", "for Top(age_years, 5, True): [sample_leaf]"),
+    (
+        "husky",
+        "Photograph the trees along the northern edge of the orchard, then measure the air temperature at the charger.",
+        "for Edge(north): [picture]; air @ Marker(charger)",
+    ),
+    (
+        "husky",
+        "Start in the northwest corner and photograph ten trees.",
+        "go Corners(nw); for Take(10, of Trees): [picture]",
+    ),
+    (
+        "husky",
+        "Photograph all the yellow trees, but not the ones in row 9.",
+        "for Excluding(Rows(9, 9), of Where(leaf_color, eq, yellow)): [picture]",
+    ),
+    (
+        "husky",
+        "Photograph the yellow trees of all rows but row 9.",
+        "for Excluding(Rows(9, 9), of Where(leaf_color, eq, yellow, of Rows)): [picture]",
+    ),
+    (
+        "husky",
+        "Take pictures at trees 5, 15 and 25; if one of them is over 36 °C measure the CO2 at that one.",
+        "for UnionOf(TreeIs(5)+TreeIs(15)+TreeIs(25)): [picture = r1; if r1 > 36 degC: [co2]]",
+    ),
+    (
+        "husky",
+        "Take the air temperature at the start, at tree 50 and at tree 100.",
+        "air @ Marker(start); air @ TreeIs(50); air @ TreeIs(100)",
+    ),
+    (
+        "husky",
+        "Take the air temperature at tree 85 and, if it is above 30 °C, a thermal picture as well.",
+        "air @ TreeIs(85) = r1; if r1 > 30 degC: [picture]",
+    ),
+    (
+        "husky",
+        "Photograph row 2 in the direction from north to south.",
+        "for Ordered(north_to_south, of Rows(2, 2)) given: [picture]",
+    ),
+    ("husky", "Photograph row 2 from north to south.", "for Ordered(north_to_south, of Rows(2, 2)) given: [picture]"),
+    ("husky", "Photograph row 2 going north.", "for Ordered(south_to_north, of Rows(2, 2)) given: [picture]"),
+    ("husky", "Photograph row 2 southwards.", "for Ordered(north_to_south, of Rows(2, 2)) given: [picture]"),
+    ("husky", "Photograph every tree of row 3 twice.", "for Rows(3, 3): [picture x2]"),
+    ("husky", "Look at trees 5 and 9 with the thermal camera.", "for UnionOf(TreeIs(5)+TreeIs(9)): [picture]"),
+    ("husky", "Measure the CO2 at the start and at the end.", "co2 @ Marker(start); co2 @ Marker(end)"),
+    ("husky", "Measure the CO2 in the middle of the orchard.", "co2 @ Middle"),
+    ("husky", "Measure the CO2 in the centre of the northern half.", "co2 @ Middle(of Half(north))"),
+    ("husky", "Measure the CO2 at the centre tree of row 5.", "co2 @ Middle(of Rows(5, 5))"),
+    (
+        "husky",
+        "Measure the CO2 at each end of each row.",
+        "for UnionOf(InRow(1, 1, of Rows)+InRow(-1, -1, of Rows)): [co2]",
+    ),
+    ("husky", "Measure the CO2 at the southern end of each row.", "for InRow(1, 1, south, of Rows): [co2]"),
+    ("husky", "Measure the CO2 at the second tree from the south of row 3.", "co2 @ InRow(2, 2, south, of Rows(3, 3))"),
+    (
+        "husky",
+        "Measure the CO2 at the third tree of row 3, counting from the north.",
+        "co2 @ InRow(3, 3, north, of Rows(3, 3))",
+    ),
+    ("husky", "Measure the CO2 at the third last tree of row 3.", "co2 @ InRow(-3, -3, of Rows(3, 3))"),
+    ("husky", "Measure the CO2 at the second to last tree of row 3.", "co2 @ InRow(-2, -2, of Rows(3, 3))"),
+    (
+        "husky",
+        "Measure the CO2 at the tenth tree of each of the rows 2 to 5.",
+        "for InRow(10, 10, of Rows(2, 5)): [co2]",
+    ),
+    ("husky", "Measure the CO2 at tree number ten of row 3.", "co2 @ InRow(10, 10, of Rows(3, 3))"),
+    ("husky", "Measure the CO2 at tree 10 in row 3.", "co2 @ InRow(10, 10, of Rows(3, 3))"),
+    ("husky", "Photograph trees 5-9.", "for UnionOf(TreeIs(5)+TreeIs(6)+TreeIs(7)+TreeIs(8)+TreeIs(9)): [picture]"),
+    ("husky", "Photograph trees 5 - 9.", "for UnionOf(TreeIs(5)+TreeIs(6)+TreeIs(7)+TreeIs(8)+TreeIs(9)): [picture]"),
+    ("husky", "Photograph rows 2-4, each tree.", "for Rows(2, 4): [picture]"),
+    ("husky", "Photograph tree 4 - no, tree 9.", "picture @ TreeIs(9)"),
+    (
+        "husky",
+        "Photograph trees 5 - 9 - and CO2 at tree 3.",
+        "for UnionOf(TreeIs(5)+TreeIs(6)+TreeIs(7)+TreeIs(8)+TreeIs(9)): [picture]; co2 @ TreeIs(3)",
+    ),
+    ("husky", "Tree 5 - a picture.", "picture @ TreeIs(5)"),
+    (
+        "husky",
+        "Photograph the trees of row 2 southwards.",
+        "for Ordered(north_to_south, of Rows(2, 2)) given: [picture]",
+    ),
+    (
+        "husky",
+        "Photograph the trees of row 2 in the direction from north to south.",
+        "for Ordered(north_to_south, of Rows(2, 2)) given: [picture]",
+    ),
+    (
+        "husky",
+        "Photograph every tree of row 2, working north.",
+        "for Ordered(south_to_north, of Rows(2, 2)) given: [picture]",
+    ),
+    (
+        "husky",
+        "Photograph every tree in row 2 heading south.",
+        "for Ordered(north_to_south, of Rows(2, 2)) given: [picture]",
+    ),
+    (
+        "husky",
+        "Go to tree 40. Move five trees to the north and photograph it.",
+        "go TreeIs(40); go AlongRow(5, north); picture",
+    ),
+    ("husky", "Photograph 10 trees of your choice in row 3.", "for Take(10, of Rows(3, 3)): [picture]"),
+    (
+        "husky",
+        "Photograph as many trees as possible, but always keep a quarter of the battery.",
+        "for Trees optional: [picture] | reserve 25",
+    ),
 ]
 
 

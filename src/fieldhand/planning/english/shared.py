@@ -75,6 +75,12 @@ def _compass_orders(v: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
             yield by, form.format(a, b)
         for form in ("{}ernmost first", "the {}ernmost first", "the {}ernmost one first", "{}most first"):
             yield by, form.format(a)
+        for form in ("{}wards", "{}ward", "going {}", "going {}wards", "heading {}", "driving {}", "working {}",
+                     "working {}wards", "in the direction of the {}", "in {}erly direction", "towards the {}ern end",
+                     "towards the {} end"):  # fmt: skip
+            yield by, form.format(b)
+        yield by, f"in the direction from {a} to {b}"
+        yield by, f"in the direction {a} to {b}"
         for begin in ("starting", "beginning", "working", "going"):
             for where in ("from", "at", "in", "on"):
                 for word in v["sides"][a]:

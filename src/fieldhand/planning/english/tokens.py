@@ -12,7 +12,7 @@ _TOKEN = re.compile(
     r"|(?P<word>(?:temps?|approx|deg|avg)\.(?=\s+(?-i:[a-z0-9]))(?!\s+(?:take|go|drive|snap|then|if|photo|get|grab|move|after|when|once|otherwise|repeat|and\sthen)\w*\b)|(?:l|ml|g|kg|m|km)/(?:ha|h|s|min|m2|tree)\b|[^\W\d_][\w\u2080-\u2089]*(?:['\u2019][^\W\d_]+)?)"
     r"|(?P<unit>%|°\s?[cCfF]\b|°)"
     r"|(?P<stop>[.;!?\n]+)"
-    r"|(?P<comma>[,:()]|\s[-\u2013\u2014]+\s|[-=]>|\u2192)"
+    r"|(?P<comma>[,:()]|(?<!\d)\s[-\u2013\u2014]+\s|\s[-\u2013\u2014]+\s(?![a-z]?\d)|[-=]>|\u2192)"
     r"|(?P<dash>[-\u2013])"
     r"|(?P<sign>[&+])"
     r"|(?P<hash>#)"

@@ -182,7 +182,11 @@ def _names(words: Sequence[Word], start: int, phrases: Phrases) -> Iterator[Phra
         word = words[end - 1]
         if word.kind not in ("word", "number", "dash", "rank"):
             break
-        spelt += "".join(split(word.text)) if word.kind != "dash" else ""
+        if word.kind == "dash":
+            if end == start + 1:
+                break
+            continue  # a dash is part of a name between its words only: "N100-N120" holds two names
+        spelt += "".join(split(word.text))
         tree = lexicon.trees.get(spelt) or (_missing_tree(word, phrases) if end == start + 1 else None)
         for kind, name in (
             ("TREEID", tree),

@@ -16,6 +16,12 @@ GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
 
+@construction("nominal: inner=nominal FREECHOICE", cost=0.2)
+def of_your_choice(inner: Nominal) -> Nominal | None:
+    """Compose "trees of your choice", of which something else says how many."""
+    return None if inner.single or inner.complete or not inner.plural else inner
+
+
 @construction("place: word=DET inner=nominal", "place: word=DET n=count inner=nominal", cost=0.4, given=("site",))
 def those_there(word: Lex, inner: Nominal, site: Site, n: int | None = None) -> list[PlaceMeaning] | None:
     """Compose "the yellow tree" and "the three yellow trees": all of them, or any so many if there are more."""
