@@ -1,7 +1,5 @@
 """Ways to say a limit on time, distance and battery, and where a mission ends."""
 
-
-
 from __future__ import annotations
 
 import pytest
