@@ -6,6 +6,7 @@ import gc
 import os
 import socket
 from collections.abc import Iterator
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -80,10 +81,15 @@ def _no_private_environment(tmp_path_factory: pytest.TempPathFactory) -> Iterato
 def _no_authority_of_the_world(
     _no_private_environment: None, tmp_path_factory: pytest.TempPathFactory
 ) -> Iterator[None]:
-    """Trust one certificate that signs nothing, where a client would read the 150 of the system for each connection."""
+    """Trust one certificate that signs nothing, where a client would read the 150 of the world for each connection.
+
+    A client that ignores the environment reads those of certifi, also to connect without encryption.
+    """
     cert, _, _ = certificate(tmp_path_factory.mktemp("authority"), "nobody")
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("SSL_CERT_FILE", str(cert))
+        if find_spec("certifi") is not None:
+            patch.setattr("certifi.where", lambda: str(cert))
         yield
 
 

@@ -1,11 +1,11 @@
 """The expectation over one leg: exact for functions that are linear between the points of the grid."""
 
 import numpy as np
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fieldhand.orienteering.kernels.order_value import drive, gather
+from support.arrays import assert_near
 
 SIZE, STEP = 17, 0.25
 NONE = np.zeros(0)
@@ -32,7 +32,7 @@ def test_a_leg_is_integrated_exactly(leg, alpha, work, seed):
     # Where exactly the least cost is left, the function jumps to 0, and rounding says on which side that is.
     clear = np.abs(grid - (work + leg * alpha)) > 1e-9
     # The sum over costs is off by what one of them weighs at the jump.
-    assert found[clear] == pytest.approx(np.array(expected)[clear], abs=1e-3)
+    assert_near(found[clear], np.array(expected)[clear], within=1e-3)
 
 
 @given(leg=legs, alpha=certain, work=works, seed=st.integers(0, 100))
@@ -43,4 +43,6 @@ def test_going_forward_is_the_transpose_of_going_backward(leg, alpha, work, seed
     choice = rng.integers(0, 2, SIZE)
     points = np.array([alpha, 1.0 - alpha])
     gather(mass, choice, 1, into, leg, work, STEP, points, NONE, np.empty(SIZE))
-    assert into @ function == pytest.approx((mass * (choice == 1)) @ over_a_leg(function, leg, alpha, work))
+    assert_near(
+        into @ function, (mass * (choice == 1)) @ over_a_leg(function, leg, alpha, work), rel=1e-6, within=1e-12
+    )

@@ -16,6 +16,7 @@ from fieldhand.orienteering.problem import Limit, Problem, remaining_problem
 from fieldhand.orienteering.route import StoppingCriterion
 from fieldhand.orienteering.simulated_mission import simulate_mission
 from fieldhand.orienteering.table import MOST
+from support.arrays import assert_near
 
 seeds = st.integers(0, 10_000)
 
@@ -53,7 +54,7 @@ def test_distances_are_symmetric_and_those_in_double_precision(seed, ways):
     single, double = network.table(chosen).distances, network.distances(chosen)
     assert (single == single.T).all()
     assert (np.isinf(single) == np.isinf(double)).all()
-    assert single[np.isfinite(single)] == pytest.approx(double[np.isfinite(double)], rel=1e-7, abs=1e-30)
+    assert_near(single[np.isfinite(single)], double[np.isfinite(double)], rel=1e-7, within=1e-30)
 
 
 @given(seed=seeds, start=st.integers(0, 29))
@@ -62,7 +63,7 @@ def test_loops_and_problem_see_the_same_lengths_in_both_precisions(seed, start):
     double, single = both(sparse(30, seed), np.ones(30), start, start, Limit(budget=1.0))
     first, second = prepare_problem(double), prepare_problem(single)
     for u in range(31):
-        assert second.row(u) == pytest.approx(first.row(u), rel=1e-6)
+        assert_near(second.row(u), first.row(u), rel=1e-6, within=1e-12)
         for v in range(31):
             assert length(second.lengths, u, v) == pytest.approx(length(first.lengths, u, v), rel=1e-6)
     assert single.length(3, 17) == pytest.approx(double.length(3, 17), rel=1e-6)
@@ -77,7 +78,7 @@ def test_neighbours_are_the_nearest_along_the_ways(seed):
     for v in range(60):
         near = [u for u in near_[v] if u != v]
         nearest = np.sort(away[v][np.isfinite(away[v])])[: near_.shape[1]]
-        assert away[v][near] == pytest.approx(nearest, abs=1e-9)
+        assert_near(away[v][near], nearest, within=1e-9)
         assert len(set(near)) == len(near)
 
 

@@ -38,6 +38,7 @@ from fieldhand.places.selectors import (
 )
 from fieldhand.site.loader import load_site
 from fieldhand.site.model import Place, Site, Tree
+from support.examples import examples
 from support.sites.points import at_start
 
 SHARED = Path(__file__).parents[3] / "shared"
@@ -107,7 +108,7 @@ def test_places_of_the_extent_hold(farm, selector, place):
 def test_neighbours_and_far_trees_hold(farm):
     """Of every tree; on a large farm of each so many, since the referee measures to all trees for each of them."""
     site, holds = farm
-    for tree in site.trees[:: max(1, len(site.trees) // 150)]:
+    for tree in site.trees[:: max(1, len(site.trees) // examples(50, thorough=150))]:
         me, label = TreeIs(tree=tree.place.id), {"A": tree.index}
         assert all(holds({"near": "A"}, k, label) for k in ids(Nearest(to=me, count=6), site))
         assert holds({"far": "A"}, resolve_one(Farthest(origin=me), site, at_start(site)).id, label)

@@ -21,6 +21,7 @@ from fieldhand.site.driving.roadmap import Roadmap
 from fieldhand.site.driving.visibility_graph import VisibilityGraph
 from fieldhand.site.model import Site
 from fieldhand.testing.generated.orchards import orchard_sites
+from support.arrays import assert_near
 from support.sites.planted import generated, planted, scattered, upright
 from support.sites.points import place_at
 
@@ -66,7 +67,7 @@ def test_stands_and_lengths_do_not_depend_on_earlier_queries(site, seed):
     lengths = fresh.lengths(standing)
     some, others = rng.permutation(len(places))[:6].tolist(), rng.permutation(len(places))[:5].tolist()
     table = asked.lengths([standing[k] for k in some], [standing[k] for k in others])
-    assert table == pytest.approx(lengths[np.ix_(some, others)], abs=1e-9)
+    assert_near(table, lengths[np.ix_(some, others)], within=1e-9)
     for i in some[:3]:
         for j in others[:3]:
             assert asked.between(standing[i], standing[j]).length_m == pytest.approx(lengths[i, j], abs=1e-6)
@@ -96,7 +97,7 @@ def test_lengths_computed_place_by_place_equal_those_computed_at_once(site):
         table.between(places[:k])
     whole = table.between(places)
     assert (whole == whole.T).all()
-    assert whole == pytest.approx(drives.lengths(places), abs=1e-9)
+    assert_near(whole, drives.lengths(places), within=1e-9)
 
 
 # --- road map ----------------------------------------------------------------------------------------------------
@@ -148,7 +149,7 @@ def test_on_open_ground_all_drives_are_straight_and_the_roadmap_is_empty():
         roads = drives_on(site).roadmap([t.place for t in site.trees])
         assert roads.straight
         assert (len(roads.ways), len(roads.lengths), len(roads.at)) == (0, 0, 20)
-        assert over(roads) == pytest.approx(drives_on(site).lengths(roads.places))
+        assert_near(over(roads), drives_on(site).lengths(roads.places), rel=1e-6, within=1e-12)
     pond = ("pond", "keep_out", Point(40.0, 40.0).buffer(3.0))
     site = planted([], lone=[t for t in trees if Point(t).distance(pond[2]) > 1.0], zones=[pond])
     assert not drives_on(site).roadmap([t.place for t in site.trees]).straight
@@ -221,7 +222,7 @@ def test_the_corners_linked_to_a_point_are_those_at_which_a_path_may_turn(world)
     visibility = VisibilityGraph(ground, axes)
     shortest = visibility.graph.lengths(visibility.links(at))
     everything = VisibilityGraph(ground, np.empty((0, 2, 2)))
-    assert shortest == pytest.approx(everything.graph.lengths(everything.links(at)), abs=1e-9)
+    assert_near(shortest, everything.graph.lengths(everything.links(at)), within=1e-9)
 
 
 def pairs_of(batches) -> set[tuple[int, int]]:
