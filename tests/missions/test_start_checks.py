@@ -116,6 +116,19 @@ def test_a_charge_that_does_not_last_is_said_before_a_wheel_turns() -> None:
         missions.require_charged(review, site, low, 21.0, confirm=True)
 
 
+def test_a_mission_is_not_examined_again_for_the_battery_it_was_examined_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    site = orchard()
+    review = mission.review(task_for(ForEach(id="", select=Trees(), body=Act(id="", action="read_co2"))), site, ROBOT)
+
+    def examined_again(*args: object, **options: object) -> None:
+        raise AssertionError
+
+    monkeypatch.setattr(mission, "review", examined_again)
+    missions.require_charged(review, site, ROBOT, 100.0)
+    with pytest.raises(AssertionError):
+        missions.require_charged(review, site, ROBOT, 99.0)
+
+
 @dataclass
 class Robot:
     """A robot that outlasts the program: it is what its driver drives, also after that was killed."""

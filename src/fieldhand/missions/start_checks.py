@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 #: Distance from the nearest tree or marker, in metres, beyond which a robot is not on a site without a boundary.
 FAR_M = 100.0
+#: Charge for which missions are reviewed, in percent.
+FULL_PERCENT = 100.0
 
 
 def require_in_place(site: Site, robot: RobotProfile, driver: Driver) -> float:
@@ -76,6 +78,8 @@ def require_charged(
 ) -> None:
     """Require that the charge of the robot is enough for a mission, which was approved for a full battery.
 
+    The mission is examined again only if the battery is not full.
+
     Args:
         promised: Review that was approved.
         site: Site of the mission.
@@ -87,6 +91,8 @@ def require_charged(
         NotApprovedError: The charge is not enough.
         NotConfirmedError: The charge may not be enough.
     """
+    if charge_percent >= FULL_PERCENT:
+        return
     known = {problem.line() for problem in promised.problems}
     seen = mission.review(promised.task, site, robot, charge_percent=charge_percent)
     new = [problem for problem in seen.problems if problem.line() not in known]
