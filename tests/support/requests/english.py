@@ -7,6 +7,11 @@ Longer than other files because it is a table.
 
 PLANNED = [
     ("husky", "Take a picture and then 2 CO2 readings at tree 9", "picture @ TreeIs(9); co2 x2"),
+    (
+        "husky",
+        "Take a picture at tree 4 if the CO2 there is low.",
+        "co2 @ TreeIs(4) = r1; if r1 low: [picture]",
+    ),
     ("husky", "Take three CO2 readings about 15 m apart.", "for Spaced(15, 3): [co2]"),
     (
         "husky",
@@ -1207,11 +1212,6 @@ REFUSED = [
         "husky",
         "Take a picture of every tree in the pond",
         "nothing on this site matches the trees inside the zone “pond”",
-    ),
-    (
-        "husky",
-        "Take a picture at tree 4 if the CO2 there is low.",
-        "'if the CO2 there is low': nothing before it measures that",
     ),
     ("husky", "Take a picture of trees aged 12.", "not understood: 'aged'"),
     (

@@ -7,6 +7,11 @@
 
 PLANNED = [
     ("husky", "Photograph row 2 from end to end.", "for Rows(2, 2): [picture]"),
+    (
+        "husky",
+        "Walk down row 3 and if a tree is yellow take a picture.",
+        "for Rows(3, 3): [if leaf_color = yellow: [picture]]",
+    ),
     ("husky", "Take a picture of every row's first tree.", "for InRow(1, 1, of Rows): [picture]"),
     (
         "husky",
@@ -1266,11 +1271,6 @@ REFUSED = [
         "'at the head of' does not fit at this point in 'Take a photo of the tree at the head of row 5'",
     ),
     ("husky", "Take pictures of all trees in the outermost rows.", "not understood: 'outermost'"),
-    (
-        "husky",
-        "Walk down row 3 and if a tree is yellow take a picture.",
-        "'if a tree is yellow': it is not clear at which of two places this is done",
-    ),
     (
         "husky",
         "Take a picture of tree 40. Turn around and go 3 trees back.",

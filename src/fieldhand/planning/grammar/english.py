@@ -79,6 +79,10 @@ class EnglishPhrases:
             same = None if meant is None else self.lexicon.entry(split(meant))
             if same is not None:
                 yield same
+        medium = _own()["media"].get(" ".join(phrase))
+        reading = None if medium is None else self.lexicon.entry(split(medium))
+        if reading is not None:
+            yield replace(reading, kind="MEDIUM")
         kind = "" if known is None else known.kind
         if known is None and len(phrase) == 1 and phrase[0] in self.lexicon.short_values:
             yield NameEntry(kind="ATTRVAL", value=(self.lexicon.short_values[phrase[0]],))
@@ -133,6 +137,9 @@ def more_words() -> Mapping[Phrase, tuple[NameEntry, ...]]:
         found[split(phrase)].append(NameEntry(kind="PART", value=part))
     for phrase, value in own["bounds"].items():
         found[split(phrase)].append(NameEntry(kind="BOUND", value=tuple(value)))
+    for check, phrases in own["bare_comparisons"].items():
+        for phrase in phrases:
+            found[split(phrase)].append(NameEntry(kind="BARECMP", value=check))
     for kind, phrases in own["verbs"].items():
         for phrase in phrases:
             for form in forms_of(phrase):

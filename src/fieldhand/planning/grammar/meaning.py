@@ -22,6 +22,8 @@ Along = Literal["", "along", "down", "up"]
 #: How many of several readings pass a test.
 OfLast = Literal["", "all", "any", "none"] | int
 
+#: Threshold of a test that says no other than the last one ("below that", "lower").
+SAME_THRESHOLD = "="
 #: Action of a capture that refers to the last one ("another one").
 LAST_THING = "*"
 #: Action of a capture that is not named ("check tree 4").
@@ -299,12 +301,14 @@ class When:
         measured_at: Place at which the tested reading is taken first, if the condition names one.
         among: What it may choose from: the trees of an area ("wherever a tree is yellow"), or the places visited last
             ("those above 30 degC").
+        terse: True for a test without "if" ("above 30 degC: a picture").
     """
 
     tests: AllTests
     used: int
     measured_at: PlaceMeaning | None = None
     among: Literal["", "area", "visited"] = ""
+    terse: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -426,9 +430,28 @@ class InAnOrder:
 
 @dataclass(frozen=True, slots=True)
 class Otherwise:
-    """The case in which the last condition is false."""
+    """The case in which the last condition is false.
+
+    Attributes:
+        used: Tokens of the phrase.
+        in_all: True for "in all other cases", in which each of the conditions before it is false.
+    """
 
     used: int
+    in_all: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class PassOn:
+    """Nothing that is done in a case ("leave it", "carry on with the next tree").
+
+    Attributes:
+        used: Tokens of the phrase.
+        to_next: True if it is said of one of several places that are visited.
+    """
+
+    used: int
+    to_next: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -441,6 +464,7 @@ class Connective:
         both: True if it contains "and".
         first: True if it says that what follows is to be done before ("but first").
         from_here: True if what follows begins where the robot is then ("from there").
+        bare: True if it is only a comma.
     """
 
     full: bool
@@ -449,6 +473,7 @@ class Connective:
     first: bool = False
     both: bool = False
     from_here: bool = False
+    bare: bool = False
 
 
 Command = (
@@ -461,6 +486,7 @@ Command = (
     | When
     | CaptureWhere
     | Otherwise
+    | PassOn
     | Allowed
     | UntilCondition
     | VisitLimit

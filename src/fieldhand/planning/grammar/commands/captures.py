@@ -279,7 +279,7 @@ def use_camera(things: tuple[Thing, ...], place: PlaceMeaning, used: int) -> Cap
 
 @construction(
     "capture: act=capture [COMMA] [relation] EACH noun=TREE",
-    "capture: act=capture ONEBYONE",
+    "capture: act=capture [COMMA] ONEBYONE",
     "capture: act=capture [COMMA] ENTIRE",
     cost=0.3,
 )
@@ -553,10 +553,19 @@ def measure_by(place: PlaceMeaning, act: CaptureCommand, used: int) -> CaptureCo
     return replace(act, place=place, used=used, relation="at") if act.place is None and act.spacing is None else None
 
 
-@construction("capture: MEASURE IT place=here", cost=0.4)
-def measure_it(place: PlaceMeaning, used: int) -> CaptureCommand:
-    """Compose "measure it there"."""
-    return CaptureCommand((Thing(LAST_THING),), place, used)
+@construction("capture: MEASURE IT place=here", "capture: MEASURE IT AT place=place", cost=0.4)
+def measure_it(place: PlaceMeaning, used: int) -> CaptureCommand | None:
+    """Compose "measure it there" and "measure it at tree 4"."""
+    return CaptureCommand((Thing(LAST_THING),), place, used) if place.shape != "area" else None
+
+
+@construction("capture: verb=ACTV word=DET", "capture: verb=ACTV several=GROUPALL", cost=0.8)
+def act_on_those(verb: Lex, used: int, word: Lex | None = None, several: Lex | None = None) -> CaptureCommand | None:
+    """Compose "photograph that" and "photograph both"."""
+    if word is not None and not {"demonstrative", "those"} & word.features:
+        return None
+    of_several = several is not None or (word is not None and "those" in word.features)
+    return act_on(verb, PlaceMeaning(s.Here(), "those" if of_several else "here"), used)
 
 
 @construction("capture: MEASURE place=place", "capture: MEASURE AT place=place", cost=4.0)

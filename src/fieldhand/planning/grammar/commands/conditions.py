@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from typing import Any
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import (
     FIRST_READING,
+    SAME_THRESHOLD,
     Allowed,
     AllTests,
     Amount,
@@ -20,6 +22,7 @@ from fieldhand.planning.grammar.meaning import (
     Nominal,
     OfLast,
     Otherwise,
+    PassOn,
     PlaceMeaning,
     ReadingQuestion,
     Test,
@@ -29,6 +32,7 @@ from fieldhand.planning.grammar.meaning import (
 )
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_some
+from fieldhand.robot.model import RobotProfile
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -95,10 +99,40 @@ def not_measured(asked: tuple[str, PlaceMeaning], test: Test) -> tuple[PlaceMean
     return (asked[1], replace(test, quantity=asked[0], negated=not test.negated))
 
 
-@construction("when: IF one=measured", cost=0.3)
-def when_measured(one: tuple[PlaceMeaning, Test], used: int) -> When:
+@construction("when: IF one=measured", "when: WHERE one=measured", "when: word=UNLESS one=measured", cost=0.3)
+def when_measured(one: tuple[PlaceMeaning, Test], used: int, word: Lex | None = None) -> When:
     """Compose "if the temperature at tree 4 is above 30 degC"."""
-    return When(AllTests((one[1],)), used, measured_at=one[0])
+    test = one[1] if word is None else replace(one[1], negated=not one[1].negated)
+    return When(AllTests((test,)), used, measured_at=one[0])
+
+
+@construction("terse: test=predicate", "terse: test=test", cost=0.6)
+def terse(test: Test, used: int) -> When:
+    """Compose "above 30 degC", behind which stands what is done then."""
+    return When(AllTests((test,)), used, terse=True)
+
+
+@construction("measured: [DET] noun=MEDIUM relation place=place [IS] test=predicate", cost=0.2)
+def medium_measured(noun: Lex, place: PlaceMeaning, test: Test) -> tuple[PlaceMeaning, Test] | None:
+    """Compose "the air at tree 4 is hotter than 30 degC"."""
+    asked = quantity_at(noun, place)
+    return None if asked is None else measured(asked, test)
+
+
+@construction("measured: place=place [IS] test=predicate", cost=0.5, given=("robot",))
+def tree_measured(place: PlaceMeaning, test: Test, robot: RobotProfile) -> list[tuple[PlaceMeaning, Test]] | None:
+    """Compose "tree 14 is hotter than 36 degC": which readings are in that unit?"""
+    if place.shape != "one" or as_some(place.selector) is not None or test.value == SAME_THRESHOLD:
+        return None
+    measured_by_it = [name for action in robot.actions for name in action.measures]
+    found = [name for name in measured_by_it if test.unit in ("", robot.quantity[name].unit)]
+    return [(place, replace(test, quantity=name)) for name in found]
+
+
+@construction("question: IS one=measured [FULLSTOP]", cost=0.2)
+def is_it_there(one: tuple[PlaceMeaning, Test], used: int) -> ReadingQuestion:
+    """Compose "is tree 4 hotter than 36 degC?"."""
+    return ReadingQuestion(AllTests((one[1],)), one[0], used)
 
 
 @construction(
@@ -129,8 +163,34 @@ def compared(check: Lex, value: tuple[float, str]) -> Test | None:
         return Test("", "le", value[0], value[1])
     if check.value[1]:
         return None
-    denied = "denies" in check.features
-    return Test("", _OPPOSITE[check.value[0]] if denied else check.value[0], value[0], value[1], negated=denied)
+    denied, unit = "denies" in check.features, _unit_said(check)
+    if unit and value[1] not in ("", unit):
+        return None
+    check_ = _OPPOSITE[check.value[0]] if denied else check.value[0]
+    return Test("", check_, value[0], value[1] or unit, negated=denied)
+
+
+def _unit_said(word: Lex) -> str:
+    """Return the unit of the readings of which a word is said ("hotter than"); empty if it is said of any."""
+    return next((unit for name, unit in _SAID_OF.items() if name in word.features), "")
+
+
+@construction(
+    "predicate: word=BARECMP",
+    "predicate: [DET] word=BARECMP ONE",
+    "predicate: word=BARECMP that=DET",
+    "predicate: word=CMP that=DET",
+    "predicate: word=CMP IT",
+    cost=0.6,
+)
+def than_that(word: Lex, that: Lex | None = None) -> Test | None:
+    """Compose "lower" and "below that", of the threshold that was said last."""
+    if that is not None and "demonstrative" not in that.features:
+        return None
+    check: Any = word.value
+    if isinstance(word.value, tuple) and not word.value[1] and "denies" not in word.features:
+        check = word.value[0]
+    return Test("", check, SAME_THRESHOLD, _unit_said(word)) if check in ("lt", "gt") else None
 
 
 @construction(
@@ -153,6 +213,19 @@ def between_in_unit(low: Lex, high: Lex, unit: Lex) -> Test | None:
     return Test("", "between", (first, second), name) if first < second else None
 
 
+@construction(
+    "predicate: word=OUTSIDE low=threshold range_to high=threshold",
+    "predicate: word=OUTSIDE BETWEEN low=threshold range_to high=threshold",
+    "predicate: word=OUTSIDE BETWEEN low=threshold AND high=threshold",
+    "predicate: low=threshold range_to high=threshold",
+    cost=0.1,
+)
+def outside(low: tuple[float, str], high: tuple[float, str], word: Lex | None = None) -> Test | None:
+    """Compose "outside 20 to 30 degC" and "20 to 30 degC"."""
+    inside = between(low, high)
+    return inside if inside is None or word is None else replace(inside, negated=True)
+
+
 @construction("predicate: [AT] value=threshold bound=BOUND", cost=0.1)
 def bounded(value: tuple[float, str], bound: Lex) -> Test | None:
     """Compose "30 degC or more"."""
@@ -168,7 +241,7 @@ def still(test: Test) -> Test:
 @construction("predicate: level=LEVEL", "predicate: [DET] level=LEVEL READING", cost=0.1)
 def at_level(level: Lex) -> Test:
     """Compose "high"; "hot" is said of a temperature only, and "dry" of moisture."""
-    return Test("", "level", level.value, next((unit for name, unit in _SAID_OF.items() if name in level.features), ""))
+    return Test("", "level", level.value, _unit_said(level))
 
 
 @construction("predicate: NOT test=predicate", cost=0.1)
@@ -192,6 +265,13 @@ def reading_is(test: Test, subject: str = "") -> Test:
 def reading_is_not(test: Test, subject: str = "") -> Test:
     """Compose "it is not above 30 degC"."""
     return replace(test, quantity=subject, negated=not test.negated)
+
+
+@construction("test: [DET] noun=MEDIUM [IS] test=predicate", cost=0.3)
+def medium_is(noun: Lex, test: Test) -> list[Test]:
+    """Compose "the air is hotter than 30 degC"."""
+    naming: Naming = noun.value
+    return [replace(test, quantity=name) for name in naming.quantities]
 
 
 @construction("tests: test=test", cost=0.0)
@@ -395,8 +475,8 @@ def if_it_cannot(things: tuple[Thing, ...], used: int) -> Failing | None:
 @construction("when: IF place=place [IS] value=ATTRVAL", "when: IF place=place IS DET value=ATTRVAL", cost=0.3)
 def when_tree_is(place: PlaceMeaning, value: Lex, used: int) -> list[When] | None:
     """Compose "if tree 6 is yellow"."""
-    if place.shape != "one":
-        return None
+    if place.shape != "one" or as_some(place.selector) is not None:
+        return None  # "if a tree is yellow": of those visited
     return [When(AllTests((test,)), used, measured_at=place) for test in tree_is(value)]
 
 
@@ -419,12 +499,20 @@ def level_explained(test: Test) -> Test:
     "tested: EACH inner=nominal WHICH [IS] test=predicate",
     "tested: EACH inner=nominal WHERE [IT] [IS] test=predicate",
     "tested: DET test=predicate ONE",
+    "tested: word=DET test=predicate",
+    "tested: [DET] noun=ONE [WHICH] [IS] test=predicate",
+    "tested: ANY test=predicate",
+    "tested: EACH word=DET test=predicate",
+    "tested: EACH word=DET WHICH [IS] test=predicate",
+    "tested: EVERYTHING [WHICH] [IS] test=predicate",
     cost=0.2,
 )
 def those_tested(
-    test: Test, inner: Nominal | None = None, word: Lex | None = None
+    test: Test, inner: Nominal | None = None, word: Lex | None = None, noun: Lex | None = None
 ) -> tuple[AllTests, PlaceMeaning | None] | None:
     """Compose "those that are hot" and "any tree of row 4 that is hot"."""
+    if noun is not None and not noun.plural and "plural" not in noun.features:
+        return None
     if word is not None and "those" not in word.features:
         return None
     if inner is not None and (inner.single or inner.complete):
@@ -514,10 +602,24 @@ def those_get(things: tuple[Thing, ...], tests: tuple[AllTests, PlaceMeaning | N
     return capture_where(things, tests, used)
 
 
-@construction("until: UNTIL tests=tests", "until: ASSOONAS tests=tests [COMMA] STOP", cost=0.3)
+@construction(
+    "until: UNTIL tests=tests",
+    "until: ASSOONAS tests=tests [COMMA] STOP",
+    "until: WHERE tests=tests [COMMA] STOP",
+    "until: HALTWHEN tests=tests",
+    cost=0.3,
+)
 def until(tests: AllTests, used: int) -> UntilCondition:
     """Compose "until it is high"."""
     return UntilCondition(tests, used)
+
+
+@construction("until: [KEEPON] STAYING tests=tests", cost=0.3)
+def while_it_holds(tests: AllTests, used: int) -> UntilCondition | None:
+    """Compose "keep going while it stays below 420 ppm"."""
+    if len(tests.tests) > 1 or tests.of_last:
+        return None
+    return UntilCondition(AllTests((replace(tests.tests[0], negated=not tests.tests[0].negated),)), used)
 
 
 @construction(
@@ -535,10 +637,33 @@ def those_that_are(test: Test, used: int, word: Lex | None = None, noun: Lex | N
     return When(AllTests((test,)), used, among="visited")
 
 
-@construction("otherwise: OTHERWISE [MEANING]", "otherwise: OTHERS [SHOULD]", cost=0.2)
-def otherwise(used: int) -> Otherwise:
+@construction(
+    "otherwise: word=OTHERWISE [MEANING]",
+    "otherwise: OTHERS [SHOULD]",
+    "otherwise: FOR OTHERS",
+    "otherwise: AT OTHERS",
+    cost=0.2,
+)
+def otherwise(used: int, word: Lex | None = None) -> Otherwise:
     """Compose "otherwise"."""
-    return Otherwise(used)
+    return Otherwise(used, in_all=word is None or "in_all_cases" in word.features)
+
+
+@construction("pass_on: PASSON", cost=0.3)
+def pass_on(used: int) -> PassOn:
+    """Compose "leave it"."""
+    return PassOn(used)
+
+
+@construction(
+    "pass_on: PASSTO [DET] NEXTONE",
+    "pass_on: PASSTO [DET] NEXTONE ONE",
+    "pass_on: PASSTO [DET] NEXTONE TREE",
+    cost=0.3,
+)
+def pass_to_next(used: int) -> PassOn:
+    """Compose "carry on with the next one"."""
+    return PassOn(used, to_next=True)
 
 
 @construction(

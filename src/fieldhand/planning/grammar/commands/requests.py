@@ -23,6 +23,7 @@ from fieldhand.planning.grammar.meaning import (
     LimitClause,
     LinkedCommand,
     Otherwise,
+    PassOn,
     PlaceMeaning,
     RankCommand,
     ReadingQuestion,
@@ -48,6 +49,7 @@ _LEADS_ON = When | Otherwise | Lead | LimitClause | Allowed | InAnOrder | Failin
     "command: one=when",
     "command: one=capture_where",
     "command: one=otherwise",
+    "command: one=pass_on",
     "command: one=limit",
     "command: one=allow",
     "command: one=until",
@@ -91,7 +93,8 @@ def but_first(used: int) -> Connective:
 @construction("joint: [COMMA] both=and_or_but [after=then]", "joint: COMMA [after=then]", "joint: after=then", cost=0.2)
 def joint(used: int, after: str = "", both: Lex | None = None) -> Connective | None:
     """Compose "and", and "then" that adds another place ("a picture of row 3, then of row 4")."""
-    return None if after == "from here" else Connective(False, False, used, both=both is not None)
+    bare = not after and both is None
+    return None if after == "from here" else Connective(False, False, used, both=both is not None, bare=bare)
 
 
 @construction("joint: [before=COMMA] [both=and_or_but] then=then [COMMA]", cost=0.1)
@@ -315,6 +318,12 @@ def next_command(before: Said, joint: Connective, one: Command) -> Said | None:
     return Said((*before.clauses, LinkedCommand(joint, one)))
 
 
+@construction("said: before=said joint=joint one=terse", cost=0.4)
+def next_terse(before: Said, joint: Connective, one: When) -> Said | None:
+    """Compose ". Above 30 degC", behind which stands what is done then."""
+    return None if isinstance(before.clauses[-1].command, When) else Said((*before.clauses, LinkedCommand(joint, one)))
+
+
 @construction("said: before=said one=command", cost=0.8)
 def without_joint(before: Said, one: Command) -> Said | None:
     """Compose "take a picture if it is high"."""
@@ -325,7 +334,9 @@ def without_joint(before: Said, one: Command) -> Said | None:
         case Otherwise():
             follows = any(isinstance(clause.command, When) for clause in before.clauses)
         case Lead():
-            follows = isinstance(last, Otherwise)
+            follows = isinstance(last, Otherwise | Allowed)
+        case PassOn():
+            follows = isinstance(last, When | Otherwise)
         case CaptureCommand():
             follows = isinstance(last, _LEADS_ON | DriveCommand)
         case StopCommand() | DriveCommand() | Home():

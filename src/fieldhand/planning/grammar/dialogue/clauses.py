@@ -9,7 +9,15 @@ from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.allowances import allowed, failing
 from fieldhand.planning.grammar.dialogue.capturing import capture, capture_again, capture_elided, meant_things
-from fieldhand.planning.grammar.dialogue.conditions import captured_where, otherwise, question, until, when
+from fieldhand.planning.grammar.dialogue.conditions import (
+    captured_where,
+    in_no_case,
+    otherwise,
+    pass_on,
+    question,
+    until,
+    when,
+)
 from fieldhand.planning.grammar.dialogue.driving import (
     drive,
     driven_home,
@@ -23,7 +31,7 @@ from fieldhand.planning.grammar.dialogue.driving import (
 from fieldhand.planning.grammar.dialogue.faults import Fork
 from fieldhand.planning.grammar.dialogue.fitting import in_area, is_spoken_of
 from fieldhand.planning.grammar.dialogue.likewise import with_known_place
-from fieldhand.planning.grammar.dialogue.plans import EMPTY, as_for_each, walk
+from fieldhand.planning.grammar.dialogue.plans import EMPTY, as_for_each, is_idle_case, walk, without_idle_cases
 from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
     NotComposed,
@@ -52,6 +60,7 @@ from fieldhand.planning.grammar.meaning import (
     LimitClause,
     LinkedCommand,
     Otherwise,
+    PassOn,
     PlaceMeaning,
     RankCommand,
     ReadingQuestion,
@@ -121,6 +130,7 @@ def _ended(state: DialogueState) -> DialogueState:
     """
     if state.open or state.awaits_command or state.order is not None:
         raise NotComposed(_IDLE, advice=_WHAT_THERE)
+    state = _without_idle(state)
     if all(step.ends_plan for step in state.plan.steps):
         raise NotComposed(message("it asks for nothing to be done", context="fault"))
     for _, node in walk(state.plan):
@@ -142,6 +152,15 @@ def _ended(state: DialogueState) -> DialogueState:
     if state.nominal is None and state.returned and state.plan.steps[-1].only_drives:
         return replace(state, nominal="stay")
     return state
+
+
+def _without_idle(state: DialogueState) -> DialogueState:
+    """Return the state without conditions of which nothing depends ("if it is low, leave it")."""
+    idle = [node for _, node in walk(state.plan) if is_idle_case(node)]
+    if not idle:
+        return state
+    state = with_joints(state, tuple(span for node in idle for span in node.said))
+    return replace(state, plan=without_idle_cases(state.plan))
 
 
 def _ended_in_case(state: DialogueState) -> DialogueState:
@@ -218,12 +237,17 @@ def _read(
         case StopCommand():
             return _stop(setting, state, command)
         case When():
-            return when(setting, state, command, _rest_of_sentence(following))
+            return when(setting, state, command, [*_way_home(following), *_rest_of_sentence(following)])
         case CaptureWhere():
             return captured_where(setting, state, command)
+        case Otherwise() if following and isinstance(following[0].command, PassOn):
+            return in_no_case(state, setting.spans_of(command.used))
+        case PassOn():
+            return pass_on(setting, state, command)
         case Otherwise():
             runs_on = joint is None  # without a comma or a full stop nothing shows where the case ends
-            return replace(otherwise(setting, state, setting.spans_of(command.used)), runs_on=runs_on)
+            said = setting.spans_of(command.used)
+            return replace(otherwise(setting, state, said, in_all=command.in_all), runs_on=runs_on)
         case LimitClause():
             return _limit(setting, state, command)
         case Allowed():
@@ -277,6 +301,14 @@ def _has_own_place(command: Command) -> bool:
     return command.place is not None and command.place.shape == "one" and not command.place.selector.relative
 
 
+def _way_home(following: Sequence[LinkedCommand]) -> list[LinkedCommand]:
+    """Return the return that directly follows a condition, which then decides it ("if it is hot, come home")."""
+    first = following[0] if following else None
+    if first is None or not isinstance(first.command, Home):
+        return []
+    return [first] if first.before is None or first.before.bare else []
+
+
 def _rest_of_sentence(following: Sequence[LinkedCommand]) -> list[LinkedCommand]:
     """Return the clauses up to the end of the sentence that are neither limits nor the end of the mission."""
     found: list[LinkedCommand] = []
@@ -294,7 +326,7 @@ def _new_sentence(setting: Setting, state: DialogueState, command: Command) -> D
     if state.open or (state.lead is not None and state.lead.relation != "topic"):
         raise NotComposed(_IDLE, advice=_WHAT_THERE)
     place = command.place if isinstance(command, CaptureCommand) else None
-    if state.area is not None and not is_there(setting, state.area, place):
+    if state.area is not None and not isinstance(command, When) and not is_there(setting, state.area, place):
         state = enter(setting, state, state.area)
     scope = state.scope if isinstance(command, Otherwise) else ()
     return replace(state, scope=scope, commands_in_sentence=0, within=None, runs_on=False)

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from fieldhand.language import message
 from fieldhand.language.words import say_action
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.capturing import capture, capture_once
-from fieldhand.planning.grammar.dialogue.driving import drive
+from fieldhand.planning.grammar.dialogue.driving import drive, visits
 from fieldhand.planning.grammar.dialogue.plans import (
     EMPTY,
     Path,
@@ -27,6 +27,7 @@ from fieldhand.planning.grammar.dialogue.state import (
     NotComposed,
     Setting,
     Spans,
+    done_at,
     with_assumption,
     with_joints,
     with_last_step,
@@ -34,22 +35,32 @@ from fieldhand.planning.grammar.dialogue.state import (
 )
 from fieldhand.planning.grammar.dialogue.tested import TREE_TESTS, condition_of, reading_before
 from fieldhand.planning.grammar.meaning import (
+    SAME_THRESHOLD,
     AllTests,
     CaptureCommand,
     CaptureWhere,
+    Check,
     DriveCommand,
     Lead,
     LinkedCommand,
     Otherwise,
+    PassOn,
     PlaceMeaning,
     ReadingQuestion,
+    Test,
     Thing,
     UntilCondition,
     When,
 )
+from fieldhand.planning.selections import as_some
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
+
+#: Comparisons to the other side of a threshold, by comparison.
+_OPPOSITES: Mapping[Check, tuple[Check, ...]] = {"lt": ("gt", "ge"), "gt": ("lt", "le")}
+#: A threshold is of the size of a quantity if it is less than so many times as high or low as the quantity's levels.
+_SIZES = 4
 
 
 def when(setting: Setting, state: DialogueState, command: When, following: Sequence[LinkedCommand]) -> DialogueState:
@@ -65,7 +76,9 @@ def when(setting: Setting, state: DialogueState, command: When, following: Seque
         NotComposed: What is tested, or what depends on it, is unclear.
     """
     decides_last = state.commands_in_sentence > 0 and (not following or isinstance(following[0].command, Otherwise))
-    command = replace(command, tests=_of_quantity(setting, command.tests))
+    if command.terse and (decides_last or not following):
+        raise NotComposed(message("it does not say what depends on it", context="fault"))
+    command = replace(command, tests=_of_last_threshold(state, _of_quantity(setting, command.tests)))
     if (place := command.measured_at) is not None:
         if decides_last:
             raise NotComposed(message("it does not say what depends on it", context="fault"))
@@ -78,12 +91,14 @@ def when(setting: Setting, state: DialogueState, command: When, following: Seque
         raise NotComposed(message("it is not clear which of them", context="fault"))
     command = replace(command, tests=_for_each_place(state, command.tests, following))
     said, robot = setting.spans_of(command.used), setting.robot
+    if not decides_last and command.among != "area":
+        state = _at_each_of_area(setting, state, command)
     vague = [test for test in command.tests.tests if not test.quantity and not test.attribute]
     state = _with_tested_thing(setting, state, command) if vague else state
     if not decides_last:
         state = _measured_here(setting, state, command)
     if decides_last:
-        return _decide_last(state, command, said, robot)
+        return _decide_last(setting, state, command, said)
     if state.awaits_command:
         return _only_some(state, command)
     if _is_opposite(state, command.tests):
@@ -91,11 +106,59 @@ def when(setting: Setting, state: DialogueState, command: When, following: Seque
     inner = state.captured is not None and is_conditional(state.captured)
     if inner and state.decided is not None and any(not test.unit for test in vague):
         before = _capture_of_choice(state)
-        ways = [state.captured, before] if before is not None else []
+        ways: list[Path] = [state.captured, before] if state.captured is not None and before is not None else []
         if not ways:
             raise NotComposed(message("nothing before it measures that", context="fault"))
+        ways = [path for path in ways if _may_be_of(state, path, command.tests, robot)] or ways
         state = replace(state, captured=setting.either("which reading is tested?", command.used, ways))
-    return _choice(state, command.tests, said, robot)
+    return _choice(setting, state, command, said)
+
+
+def _of_last_threshold(state: DialogueState, tests: AllTests) -> AllTests:
+    """Return tests with the threshold that was said last for "below that" and "lower".
+
+    Raises:
+        NotComposed: There is none, or the test is not the opposite of the last one.
+    """
+    if not any(test.value == SAME_THRESHOLD for test in tests.tests):
+        return tests
+    last = None if state.decided is None or len(state.decided.tests) != 1 else state.decided.tests[0]
+    test = tests.tests[0]
+    if last is None or len(tests.tests) > 1 or last.check not in _OPPOSITES[test.check] or last.negated:
+        raise NotComposed(message("it is not clear with what it is compared", context="fault"))
+    return AllTests((replace(last, negated=True),))
+
+
+def _may_be_of(state: DialogueState, path: Path, tests: AllTests, robot: RobotProfile) -> bool:
+    """Return True if the thresholds of tests are of the size of what a capture measures."""
+    act = node_at(state.plan, path).act
+    measures = () if act is None else robot.action[act.action].measures
+    return bool(measures) and all(_is_plausible(test, measures[0], robot) for test in tests.tests)
+
+
+def _is_plausible(test: Test, quantity: str, robot: RobotProfile) -> bool:
+    """Return True if a threshold is of the size of a quantity's levels, as far as the profile has some."""
+    levels = [level.value for level in robot.quantity[quantity].levels.values()]
+    if not levels or test.check == "level":
+        return True
+    values = test.value if isinstance(test.value, tuple) else (test.value,)
+    return all(min(levels) / _SIZES <= value <= max(levels) * _SIZES for value in values)
+
+
+def _at_each_of_area(setting: Setting, state: DialogueState, command: When) -> DialogueState:
+    """Return the state at each tree of the area before a condition, where the condition is on each by itself.
+
+    "Go along row 4 and if a tree is yellow, ..." and "at each tree of row 4, if the CO2 is high, ...".
+    """
+    before, tests = state.area or state.lead, command.tests.tests
+    if before is None or before.place.per is not None or (isinstance(before, Lead) and before.relation == "topic"):
+        return state
+    if before.place.shape not in ("area", "several") or not all(test.attribute or test.quantity for test in tests):
+        return state
+    place = replace(before.place, shape="several", each=True)
+    inside = (*state.next_step, "body")
+    state = with_step(replace(state, area=None, lead=None), visits(place, setting.spans_of(before.used)))
+    return replace(done_at(state, place), loop=inside)
 
 
 def _only_some(state: DialogueState, command: When) -> DialogueState:
@@ -128,7 +191,7 @@ def captured_where(setting: Setting, state: DialogueState, command: CaptureWhere
     state = when(setting, replace(state, commands_in_sentence=0), When(command.tests, 0), (clause,))
     state = capture(setting, state, command.capture)
     done = state.commands_in_sentence + 1
-    return replace(state, scope=scope, loop=loop, choice=None, decided=None, commands_in_sentence=done)
+    return replace(state, scope=scope, loop=loop, decided=None, commands_in_sentence=done)
 
 
 def _measured_here(setting: Setting, state: DialogueState, command: When) -> DialogueState:
@@ -142,7 +205,8 @@ def _measured_here(setting: Setting, state: DialogueState, command: When) -> Dia
     steps = state.block.steps
     if action is None or command.measured_at is not None or command.tests.of_last or not steps:
         return state
-    if not steps[-1].only_drives or any(_measures(node, action) for _, node in walk(state.plan)):
+    visited = state.loop is not None and block_at(state.plan, state.loop) == EMPTY
+    if not (visited or steps[-1].only_drives) or any(_measures(node, action) for _, node in walk(state.plan)):
         return state
     state = _assumed_first(setting, state, action, command.used)
     return capture(setting, state, CaptureCommand((Thing(action),), None, command.used))
@@ -257,28 +321,47 @@ def _for_each_place(state: DialogueState, tests: AllTests, following: Sequence[L
     return tests
 
 
-def _choice(state: DialogueState, tests: AllTests, said: Spans, robot: RobotProfile) -> DialogueState:
+def _choice(setting: Setting, state: DialogueState, command: When, said: Spans) -> DialogueState:
     """Return the state in which the next commands depend on tests."""
-    condition, state = condition_of(state, tests, robot)
-    scope = _scope_of_test(state)
+    tests = command.tests
+    condition, state = condition_of(state, tests, setting.robot)
+    scope = _scope_of_test(setting, state, command)
     path = (*scope, len(block_at(state.plan, scope).steps))
     state = with_step(replace(state, scope=scope), p.If(id="", condition=condition, then=EMPTY, said=said))
     tested_at = (state.where, state.where_scope)
     return replace(state, scope=(*path, "then"), choice=path, decided=tests, open=True, tested_at=tested_at)
 
 
-def _scope_of_test(state: DialogueState) -> Path:
-    """Return the block in which the tested capture stands: the condition comes behind it."""
+def _scope_of_test(setting: Setting, state: DialogueState, command: When) -> Path:
+    """Return the block in which the tested capture stands: the condition comes behind it.
+
+    Raises:
+        NotComposed: Which tree is tested is unclear.
+    """
+    if all(test.attribute for test in command.tests.tests):
+        return _scope_at_tree(setting, state, command)
     if state.captured is not None:
         return state.captured[:-1]
     return state.loop if state.loop is not None else state.scope
 
 
-def _decide_last(state: DialogueState, command: When, said: Spans, robot: RobotProfile) -> DialogueState:
+def _scope_at_tree(setting: Setting, state: DialogueState, command: When) -> Path:
+    """Return the block of a condition on the tree: that of the visit, and not of a condition before it."""
+    around = state.loop if state.loop is not None else ()
+    scope = state.scope if is_inside(state.scope, around) else around
+    if state.where_scope is not None and not is_inside(scope, state.where_scope) and is_conditional(state.where_scope):
+        raise NotComposed(message("it is not clear which tree is meant", context="fault"))
+    ways = [scope, around] if is_conditional(scope[len(around) :]) else [scope]
+    return setting.either("in that case only, or in each?", command.used, ways)
+
+
+def _decide_last(setting: Setting, state: DialogueState, command: When, said: Spans) -> DialogueState:
     """Return the state in which a condition decides the last command."""
-    steps = state.block.steps
+    steps, robot = state.block.steps, setting.robot
     if not steps:
         raise NotComposed(message("nothing depends on the condition", context="fault"))
+    if (measured := _measured_before_last(setting, state, command, said)) is not None:
+        return measured
     inside = (*state.scope, len(steps) - 1)
     if (at_each := _decide_last_at_each(state, command, said, robot)) is not None:
         return at_each
@@ -293,6 +376,41 @@ def _decide_last(state: DialogueState, command: When, said: Spans, robot: RobotP
     return replace(state, choice=inside, decided=command.tests, loop=None, tested_at=(state.where, state.where_scope))
 
 
+def _measured_before_last(setting: Setting, state: DialogueState, command: When, said: Spans) -> DialogueState | None:
+    """Return the state in which a reading that was not taken yet is taken first, and decides the last captures.
+
+    "Measure CO2 at tree 30 only if the canopy temperature is above 36 degC." None if the reading was taken already.
+    """
+    quantities = {test.quantity for test in command.tests.tests}
+    action = setting.action_measuring(next(iter(quantities))) if len(quantities) == 1 else None
+    *rest, last = state.block.steps
+    if action is None or command.tests.of_last or any(_measures(node, action) for _, node in walk(state.plan)):
+        return None
+    if last.visits_each and last.children[0].children and all(step.act for step in last.children[0].children):
+        place, body = None, last.children[0]
+        inside: Path = (*state.scope, len(rest), "body")
+    elif last.act is not None and len(state.things) == 1 and (last.act.at is not None or state.where is not None):
+        place, body = last.act, p.InOrder(id="", steps=(replace(last.act, at=None, at_said=()),))
+        inside = state.scope
+    else:
+        return None
+    state = _assumed_first(setting, state, action, command.used)
+    first = p.Act(id="", action=action, count=1, parameters=(), said=said)
+    if place is not None:
+        first = replace(first, at=place.at, at_said=place.at_said)
+        path: Path = (*inside, len(rest))
+        plan = with_node(state.plan, state.scope, p.InOrder(id="", steps=(*rest, first)))
+    else:
+        path = (*inside, 0)
+        plan = with_node(state.plan, inside, p.InOrder(id="", steps=(first,)))
+    condition, state = condition_of(replace(state, plan=plan, captured=path), command.tests, setting.robot)
+    block = block_at(state.plan, inside)
+    choice = p.If(id="", condition=condition, then=body, said=said)
+    plan = with_node(state.plan, inside, replace(block, steps=(*block.steps, choice)))
+    made = replace(state, plan=plan, choice=(*inside, len(block.steps)), decided=command.tests)
+    return replace(made, tested_at=(state.where, state.where_scope))
+
+
 def _decide_last_at_tree(state: DialogueState, condition: c.Condition, said: Spans) -> DialogueState:
     """Return the state in which a condition on the tree decides the last capture, at the tree or at each of several."""
     *rest, last = state.block.steps
@@ -300,6 +418,8 @@ def _decide_last_at_tree(state: DialogueState, condition: c.Condition, said: Spa
         choice = p.If(id="", condition=condition, then=last.children[0], said=said)
         steps: tuple[p.Node, ...] = (*rest, last.with_children([p.InOrder(id="", steps=(choice,))]))
         path: Path = (*state.scope, len(rest), "body", 0)
+    elif last.act is not None and last.act.at is not None and as_some(last.act.at) is not None:
+        return _decide_last_at_tree(_each_of_area(state), condition, said)
     elif last.act is not None and last.act.at is not None:
         here = replace(last.act, at=None, at_said=())
         choice = p.If(id="", condition=condition, then=p.InOrder(id="", steps=(here,)), said=said)
@@ -309,6 +429,25 @@ def _decide_last_at_tree(state: DialogueState, condition: c.Condition, said: Spa
         raise NotComposed(message("it is not clear which tree is meant", context="fault"))
     plan = with_node(state.plan, state.scope, p.InOrder(id="", steps=steps))
     return replace(state, plan=plan, choice=path, decided=None, loop=None, captured=None)
+
+
+def _each_of_area(state: DialogueState) -> DialogueState:
+    """Return the state after the last capture at each tree of the area that the robot was sent along.
+
+    "Drive along row 5 and take a picture if the vine is a Merlot", "go down row 4 measuring CO2 until it is high".
+
+    Raises:
+        NotComposed: It is no capture in such an area.
+    """
+    *rest, last = state.block.steps
+    some = None if last.act is None or last.act.at is None else as_some(last.act.at)
+    if last.act is None or some is None or some.count != 1 or some.of != state.within or len(state.things) != 1:
+        raise NotComposed(message("it is not clear which tree is meant", context="fault"))
+    body = p.InOrder(id="", steps=(replace(last.act, at=None, at_said=()),))
+    each = p.ForEach(id="", select=some.of, body=body, said=last.act.at_said)
+    plan = with_node(state.plan, state.scope, p.InOrder(id="", steps=(*rest, each)))
+    inside = (*state.scope, len(rest), "body")
+    return replace(state, plan=plan, loop=inside, captured=(*inside, 0), where=PlaceMeaning(some.of, "several"))
 
 
 def _is_opposite(state: DialogueState, tests: AllTests) -> bool:
@@ -321,8 +460,18 @@ def _is_opposite(state: DialogueState, tests: AllTests) -> bool:
     return one == negated and one.quantity in ("", other.quantity)
 
 
-def otherwise(setting: Setting, state: DialogueState, said: Spans) -> DialogueState:
-    """Return the state in which the next commands are done if the last condition is false."""
+def otherwise(setting: Setting, state: DialogueState, said: Spans, *, in_all: bool = False) -> DialogueState:
+    """Return the state in which the next commands are done if the last condition is false.
+
+    Args:
+        setting: Robot and site that the request is read for.
+        state: State before it.
+        said: Words that say so.
+        in_all: True if every condition before it is false ("in all other cases").
+
+    Raises:
+        NotComposed: To which condition it belongs is unclear.
+    """
     if state.choice is None and state.asked is not None:
         test = state.asked.tests[0]
         opposite = AllTests((replace(test, negated=not test.negated),))
@@ -331,20 +480,58 @@ def otherwise(setting: Setting, state: DialogueState, said: Spans) -> DialogueSt
     if state.choice is None or choice is None or choice.otherwise is not None:
         raise NotComposed(message("to which 'if' does it belong?", context="fault"))
     steps, number = block_at(state.plan, state.choice[:-1]).steps, state.choice[-1]
-    if isinstance(number, int) and number > 0 and steps[number - 1].is_choice:
-        raise NotComposed(message("to which 'if' does it belong?", context="fault"))
+    case, branch = state.choice, "otherwise"
     both = replace(choice, otherwise=EMPTY, said=(*choice.said, *said))
+    if choice.then == EMPTY:  # "if it is low, leave it, otherwise ..."
+        both, branch = replace(both, condition=_denied(choice.condition), otherwise=None), "then"
     plan = with_node(state.plan, state.choice, both)
+    if isinstance(number, int) and number > 0 and steps[number - 1].is_choice:
+        before = as_choice(steps[number - 1])
+        if not in_all or before is None or before.otherwise is not None or number != len(steps) - 1:
+            raise NotComposed(message("to which 'if' does it belong?", context="fault"))
+        nested = replace(before, otherwise=p.InOrder(id="", steps=(both,)))
+        plan = with_node(plan, state.choice[:-1], p.InOrder(id="", steps=(*steps[: number - 1], nested)))
+        case = (*state.choice[:-1], number - 1, "otherwise", 0)
     where, where_scope = state.tested_at  # the robot stands where it was when the condition was tested
     return replace(
         state,
         plan=plan,
-        scope=(*state.choice, "otherwise"),
+        choice=case,
+        scope=(*case, branch),
         open=True,
         loop=_loop_around(state),
         where=where,
         where_scope=where_scope,
     )
+
+
+def _denied(condition: c.Condition) -> c.Condition:
+    """Return the condition that is true where another one is not."""
+    return condition.condition if isinstance(condition, c.Not) else c.Not(condition=condition)
+
+
+def pass_on(setting: Setting, state: DialogueState, command: PassOn) -> DialogueState:
+    """Return the state after a case in which nothing is done.
+
+    Raises:
+        NotComposed: It is said of no case, and of none of several places.
+    """
+    if command.to_next and state.loop is None:
+        raise NotComposed(message("it is not clear which one is next", context="fault"))
+    return replace(in_no_case(state, setting.spans_of(command.used)), open=False)
+
+
+def in_no_case(state: DialogueState, said: Spans) -> DialogueState:
+    """Return the state after words of the last condition on which nothing depends.
+
+    Raises:
+        NotComposed: There is no condition.
+    """
+    choice = None if state.choice is None else as_choice(node_at(state.plan, state.choice))
+    if state.choice is None or choice is None:
+        raise NotComposed(message("to which 'if' does it belong?", context="fault"))
+    more = replace(choice, said=(*choice.said, *said))
+    return replace(state, plan=with_node(state.plan, state.choice, more))
 
 
 def _loop_around(state: DialogueState) -> Path | None:
@@ -354,6 +541,8 @@ def _loop_around(state: DialogueState) -> Path | None:
 
 def until(setting: Setting, state: DialogueState, command: UntilCondition) -> DialogueState:
     """Return the state in which a reading taken in the last for-each ends it."""
+    if state.loop is None and state.within is not None and state.block.steps:
+        state = _each_of_area(state)
     if state.loop is None or state.captured is None or not is_inside(state.captured, state.loop):
         raise NotComposed(message("it is not clear what ends then", context="fault"))
     path = state.loop[:-1]

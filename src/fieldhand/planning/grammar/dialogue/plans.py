@@ -139,6 +139,24 @@ def with_selector(node: p.Node, selector: s.Selector) -> p.Node:
     return made
 
 
+def is_idle_case(node: p.Node) -> bool:
+    """Return True for a condition on which nothing depends ("if it is low, leave it")."""
+    case = as_choice(node)
+    return case is not None and case.then == EMPTY and case.otherwise is None
+
+
+def without_idle_cases(plan: p.InOrder) -> p.InOrder:
+    """Return a plan without conditions on which nothing depends."""
+    return cast(p.InOrder, _without_idle(plan))
+
+
+def _without_idle(node: p.Node) -> p.Node:
+    """Return a node without the conditions inside it on which nothing depends."""
+    if isinstance(node, p.InOrder):
+        return replace(node, steps=tuple(_without_idle(step) for step in node.steps if not is_idle_case(step)))
+    return node.with_children([_without_idle(child) for child in node.children])
+
+
 def with_seeds(node: p.Node, seeds: Iterator[int]) -> p.Node:
     """Return a plan in which each draw at random has a seed of its own, so that two draws are independent."""
     selector = node.selector
