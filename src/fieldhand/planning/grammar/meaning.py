@@ -465,6 +465,7 @@ class Connective:
         first: True if it says that what follows is to be done before ("but first").
         from_here: True if what follows begins where the robot is then ("from there").
         bare: True if it is only a comma.
+        purpose: True for "to" before what is done at the place.
     """
 
     full: bool
@@ -474,6 +475,7 @@ class Connective:
     both: bool = False
     from_here: bool = False
     bare: bool = False
+    purpose: bool = False
 
 
 Command = (

@@ -16,6 +16,7 @@ from fieldhand.planning.grammar.meaning import (
     PlaceMeaning,
     Thing,
 )
+from fieldhand.planning.grammar.places.numbers import named_trees
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
     are_rows,
@@ -26,6 +27,7 @@ from fieldhand.planning.selections import (
     is_one_row,
     specifies_part,
 )
+from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -269,6 +271,28 @@ def have_it_done(place: PlaceMeaning, verb: Lex, used: int) -> CaptureCommand | 
     return act_on(verb, place, used) if "participle" in verb.features else None
 
 
+@construction(
+    "capture: READING relation place=place COMMA things=things",
+    "capture: things=things COMMA trees=numbers",
+    "capture: [verb] things=things AT trees=numbers",
+    cost=0.9,
+    given=("site",),
+)
+def by_numbers(
+    things: tuple[Thing, ...],
+    used: int,
+    site: Site,
+    place: PlaceMeaning | None = None,
+    trees: tuple[str, ...] = (),
+) -> CaptureCommand | None:
+    """Compose "readings at trees 5 to 8: CO2" and "CO2 at 5, 6 and 7" on a site whose trees have numbers."""
+    if place is None:
+        if not all(name in site.by_id for name in trees):
+            return None
+        place = named_trees(trees)
+    return CaptureCommand(things, place, used)
+
+
 @construction("capture: USE things=things relation place=place", cost=0.4)
 def use_camera(things: tuple[Thing, ...], place: PlaceMeaning, used: int) -> CaptureCommand | None:
     """Compose "use the thermal camera on tree 4"."""
@@ -280,6 +304,8 @@ def use_camera(things: tuple[Thing, ...], place: PlaceMeaning, used: int) -> Cap
 @construction(
     "capture: act=capture [COMMA] [relation] EACH noun=TREE",
     "capture: act=capture [COMMA] ONEBYONE",
+    "capture: act=capture FULLSTOP EACH noun=TREE",
+    "capture: act=capture FULLSTOP ENTIRE",
     "capture: act=capture [COMMA] ENTIRE",
     cost=0.3,
 )

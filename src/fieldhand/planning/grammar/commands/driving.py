@@ -62,7 +62,7 @@ def drive_to(place: PlaceMeaning, used: int, verb: Lex | None = None, along: Lex
     return DriveCommand(place, used, begins=verb is not None and "begins" in verb.features)
 
 
-@construction("drive: word=AT place=place", cost=1.0)
+@construction("drive_on: word=AT place=place", cost=1.0)
 def on_to(word: Lex, place: PlaceMeaning, used: int) -> DriveCommand | None:
     """Compose "to tree 9" behind "drive to tree 4 and measure CO2, then"."""
     return DriveCommand(place, used) if "motion" in word.features and place.shape == "one" else None

@@ -131,7 +131,7 @@ def full_stop_then(used: int, then: str) -> Connective:
 @construction("joint: INORDERTO", cost=1.0)
 def in_order_to(used: int) -> Connective:
     """Compose "to", before what is done at the place."""
-    return Connective(False, True, used)
+    return Connective(False, True, used, purpose=True)
 
 
 @construction("opening: FIRSTONE", cost=0.0)
@@ -313,6 +313,8 @@ def who_does(one: CaptureCommand | DriveCommand | Home) -> Command:
 @construction("said: before=said joint=joint one=command", cost=0.3)
 def next_command(before: Said, joint: Connective, one: Command) -> Said | None:
     """Compose "take a picture and go to tree 4"."""
+    if joint.purpose and isinstance(one, Lead):
+        return None  # "from tree 30 to tree 37"
     if joint.then and isinstance(one, Lead) and one.relation == "of" and one.place.shape == "area":
         return None  # "the tree at the end of row 3"
     return Said((*before.clauses, LinkedCommand(joint, one)))
@@ -322,6 +324,12 @@ def next_command(before: Said, joint: Connective, one: Command) -> Said | None:
 def next_terse(before: Said, joint: Connective, one: When) -> Said | None:
     """Compose ". Above 30 degC", behind which stands what is done then."""
     return None if isinstance(before.clauses[-1].command, When) else Said((*before.clauses, LinkedCommand(joint, one)))
+
+
+@construction("said: before=said joint=joint one=drive_on", cost=0.3)
+def then_on_to(before: Said, joint: Connective, one: DriveCommand) -> Said | None:
+    """Compose "(drive to tree 4 and measure CO2), then to tree 9"."""
+    return Said((*before.clauses, LinkedCommand(joint, one))) if joint.then else None
 
 
 @construction("said: before=said one=command", cost=0.8)

@@ -121,6 +121,12 @@ def things_in_turn(first: tuple[Thing, ...], second: tuple[Thing, ...]) -> tuple
     return more_things(first, second)
 
 
+@construction("things: first=things COMMA AND second=things COMMA", cost=0.4)
+def things_aside(first: tuple[Thing, ...], second: tuple[Thing, ...]) -> tuple[Thing, ...] | None:
+    """Compose "a photo (and a CO2 sample)" before its place."""
+    return more_things(first, second)
+
+
 @construction("things: BOTH first=things AND second=things", cost=0.1)
 def both_things(first: tuple[Thing, ...], second: tuple[Thing, ...]) -> tuple[Thing, ...] | None:
     """Compose "both CO2 and the air temperature"."""

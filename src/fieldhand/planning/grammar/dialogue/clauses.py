@@ -284,12 +284,12 @@ def _stop(setting: Setting, state: DialogueState, command: StopCommand) -> Dialo
 
 
 def _continues(state: DialogueState, joint: Connective | None, *, again: bool) -> bool:
-    """Return True behind "then" and "and" if the last step is a capture; ``again`` if the same is captured again."""
-    follows = joint is not None and (joint.then or joint.both) and not joint.full
+    """Return True behind "then", "and" and a comma if a capture was the last step; ``again`` if it is repeated."""
+    follows = joint is not None and not joint.full
     if not follows or state.scope or state.awaits_command or not state.plan.steps:
         return False
     last = state.plan.steps[-1]
-    if joint is not None and joint.both:
+    if joint is not None and not joint.then:
         return not again and (last.act is not None or last.visits_each)
     return last.act is not None
 

@@ -414,6 +414,8 @@ def of_a_side(side: Lex, inner: Nominal) -> Nominal | None:
     """Compose "northern trees"."""
     if inner.single or inner.complete or inner.kind != "tree" or "adjective" not in side.features:
         return None
+    if inner.pronoun:
+        return None  # "the southern ones", of corners that were named before
     part = s.Quarter(quarter=side.value) if side.value in CORNERS else s.Half(side=side.value)
     return replace(inner, selector=replace(part, of=inner.selector), of_side=True)
 
