@@ -123,3 +123,40 @@ def test_what_depends_on_a_reading_or_on_the_tree(request_: str, plan: str) -> N
 )
 def test_a_condition_that_is_left_open_is_not_guessed(request_: str) -> None:
     assert plan_of(request_) is None
+
+
+@pytest.mark.parametrize(
+    ("request_", "plan"),
+    [
+        ("Measure the CO2 at tree 4. If it's above 450 take a picture. Do the same for trees 5 and 6.", "co2 @ TreeIs(4) = r1; if r1 > 450 ppm: [picture]; for UnionOf(TreeIs(5)+TreeIs(6)): [co2 = r2; if r2 > 450 ppm: [picture]]"),
+        ("Photograph tree 4 twice and tree 5 once.", "picture x2 @ TreeIs(4); picture @ TreeIs(5)"),
+        ("Photograph tree 4, then measure CO2, then photograph it again.", "picture @ TreeIs(4); co2; picture"),
+        ("Photograph tree 4 and measure CO2 at tree 9. Then do the whole thing again.", f"{BOTH}; {BOTH}"),
+        ("Do this three times: photograph tree 4 and measure CO2 at tree 9.", f"3 times: [{BOTH}]"),
+        ("Do the following twice: photograph tree 4, measure CO2 at tree 9.", f"2 times: [{BOTH}]"),
+        ("Twice: photograph tree 4. Then measure CO2 at tree 9.", "2 times: [picture @ TreeIs(4)]; co2 @ TreeIs(9)"),
+        ("Having photographed tree 4, measure CO2 at tree 9.", BOTH),
+        ("Once you've photographed tree 4, measure CO2 at tree 9.", BOTH),
+    ],
+)  # fmt: skip
+def test_what_is_done_again_or_before(request_: str, plan: str) -> None:
+    assert plan_of(request_) == plan
+
+
+@pytest.mark.parametrize(
+    ("request_", "plan"),
+    [
+        ("Photograph tree 40, no, 4.", PICTURE),
+        ("Photograph tree 40, hang on, tree 4.", PICTURE),
+        ("Photograph trees 4 and 5, sorry, 4 and 6.", "for UnionOf(TreeIs(4)+TreeIs(6)): [picture]"),
+        ("Measure CO2 at tree 4. If it's above 400, sorry, 450 ppm, photograph it.", "co2 @ TreeIs(4) = r1; if r1 > 450 ppm: [picture]"),
+        ("Photograph five, I mean six, trees in row 3.", "for Take(6, of Rows(3, 3)): [picture]"),
+    ],
+)  # fmt: skip
+def test_a_number_that_is_corrected_is_replaced(request_: str, plan: str) -> None:
+    assert plan_of(request_) == plan
+
+
+@pytest.mark.parametrize("request_", ["Photograph 5 trees in row 3, make that 6.", "Photograph trees 4, 5, no, 6."])
+def test_a_correction_of_one_of_several_numbers_is_left_open(request_: str) -> None:
+    assert plan_of(request_) is None

@@ -366,12 +366,14 @@ class Again:
         used: Tokens of the phrase.
         times: Number of repetitions of all that was done so far; 0 if the phrase gives none.
         in_all: True if the number includes what was done so far.
+        whole: True if the phrase says that all of it is repeated, from the first place on.
     """
 
     place: PlaceMeaning | None
     used: int
     times: int = 0
     in_all: bool = False
+    whole: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -55,6 +55,7 @@ class RequestReading:
         labels: Labels of steps, which say an order.
         assumed: What was assumed, as sentences.
         mended: What was read as another word, as sentences.
+        corrected: Ranges of numbers that others behind them correct.
     """
 
     state: DialogueState
@@ -64,6 +65,12 @@ class RequestReading:
     labels: tuple[Span, ...] = ()
     assumed: tuple[str, ...] = ()
     mended: tuple[str, ...] = ()
+    corrected: tuple[Span, ...] = ()
+
+    @property
+    def edits(self) -> Edits:
+        """What corrections change in the request."""
+        return (*self.state.edits, *((span, "") for span in self.corrected))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -124,6 +131,7 @@ def _read_words(
                 skipped=_skipped(words, edge),
                 remarks=remarks.spans,
                 labels=remarks.labels,
+                corrected=remarks.corrected,
                 assumed=(*assumed_ways(state.plan, request, sides, site), *assumed_wholes(state.plan, request)),
             )
             for state in states
@@ -214,9 +222,7 @@ def composed(
         and (candidate.reading.cost == likely[0].reading.cost or _is_whole(plan, remarks, site, robot))
     ]
     return (
-        _chosen(plans, likely[0].reading.state.edits, remarks, request, site, robot, answers)
-        if plans
-        else likely[0].outcome
+        _chosen(plans, likely[0].reading.edits, remarks, request, site, robot, answers) if plans else likely[0].outcome
     )
 
 
@@ -412,7 +418,7 @@ def _meant(reading: RequestReading, request: str) -> Meant:
         no_part=tuple(no_part),
         assumptions=(*state.assumed, *reading.assumed, *remarked),
         warnings=reading.mended,
-        read_as=_edited(request, state.edits) if state.edits else "",
+        read_as=_edited(request, reading.edits) if reading.edits else "",
     )
 
 

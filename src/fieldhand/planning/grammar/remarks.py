@@ -37,11 +37,13 @@ class Remarks:
         words: Words that are left.
         spans: Character ranges of the remarks.
         labels: Character ranges of the labels of steps ("Step 2:", "2."), which ask for nothing but an order.
+        corrected: Character ranges of numbers that others behind them correct, up to these.
     """
 
     words: tuple[Word, ...]
     spans: tuple[Span, ...]
     labels: tuple[Span, ...] = ()
+    corrected: tuple[Span, ...] = ()
 
 
 def without_remarks(words: Sequence[Word], edges: Iterable[PhraseEdge]) -> Remarks:
@@ -80,12 +82,16 @@ def without_remarks(words: Sequence[Word], edges: Iterable[PhraseEdge]) -> Remar
             aside = _reason(clause, reasons, kinds) or _aside(clause, kinds)
             if aside and len(aside) < len(said):
                 left_out.update(aside)
+    corrected = [found for part in sentences if (found := _corrected_numbers(words, kinds, part))]
+    left_out.update(k for one in corrected for k in one)
+    left_out.update(comma for one in corrected for comma in _comma_inside(words, kinds, one))
     left_out |= {k for k, word in enumerate(words) if word.kind == "comma" and _sets_off(words, k, left_out)}
     left_out -= labels
     if len(left_out | labels) == len(words):
         left_out, labels = set(), set()
     left = tuple(word for k, word in enumerate(words) if k not in left_out | labels)
-    return Remarks(words=left, spans=_spans(words, left_out), labels=_spans(words, labels))
+    edited = tuple((words[one[0]].start, words[one[-1] + 1].start) for one in corrected)
+    return Remarks(words=left, spans=_spans(words, left_out), labels=_spans(words, labels), corrected=edited)
 
 
 def _spans(words: Sequence[Word], chosen: set[int]) -> tuple[Span, ...]:
@@ -117,6 +123,42 @@ def _label(words: Sequence[Word], sentence: Sequence[int], kinds: Sequence[set[s
     if comma == 0 or "LABEL" not in kinds[sentence[0]] or (comma == 2 and "NUM" not in kinds[sentence[1]]):
         return ()
     return sentence[: comma + 1]
+
+
+def _corrected_numbers(words: Sequence[Word], kinds: Sequence[set[str]], sentence: Sequence[int]) -> Sequence[int]:
+    """Return the only numbers of a sentence up to those that correct them ("above 400, sorry, 450 ppm")."""
+    begin = next((k for k in sentence[2:] if "CORRECTION" in kinds[k] and words[k - 1].kind == "comma"), None)
+    if begin is None:
+        return ()
+    end = begin
+    while end <= sentence[-1] and ("CORRECTION" in kinds[end] or words[end].kind == "comma"):
+        end += 1
+    last = begin - 3 if "UNIT" in kinds[begin - 2] else begin - 2
+    old, new = _numbers_from(words, kinds, last, -1), _numbers_from(words, kinds, end, 1)
+    if not old or len(old) != len(new) or any("NUM" in kinds[k] for k in range(sentence[0], old[-1])):
+        return ()
+    return range(old[-1], end)
+
+
+def _comma_inside(words: Sequence[Word], kinds: Sequence[set[str]], corrected: Sequence[int]) -> Sequence[int]:
+    """Return the comma between a number that corrects another and its noun ("five, no, six, trees"), if any."""
+    comma = corrected[-1] + 2
+    inside = comma + 1 < len(words) and words[comma].kind == "comma" and kinds[comma + 1] & {"TREE", "ROW", "NOUN"}
+    return (comma,) if inside else ()
+
+
+def _numbers_from(words: Sequence[Word], kinds: Sequence[set[str]], start: int, step: int) -> list[int]:
+    """Return the run of numbers, and of what joins them, that begins at a word in a direction."""
+    run: list[int] = []
+    while 0 <= start < len(words) and "NUM" in kinds[start]:
+        run.append(start)
+        joint, start = start + step, start + 2 * step
+        if not 0 <= start < len(words) or "NUM" not in kinds[start]:
+            break
+        if "AND" not in kinds[joint] and words[joint].kind != "comma":
+            break
+        run.append(joint)
+    return run
 
 
 def _wish(sentence: Sequence[int], kinds: Sequence[set[str]]) -> Sequence[int]:

@@ -478,8 +478,9 @@ def so_often(act: CaptureCommand, times: Lex, used: int) -> CaptureCommand | Non
 
 @construction("capture: act=capture AGAIN", cost=0.2)
 def once_more(act: CaptureCommand, used: int) -> CaptureCommand | None:
-    """Compose "sample CO2 again", where the robot is."""
-    return replace(act, used=used) if act.place is None and act.relation == "at" else None
+    """Compose "sample CO2 again", where the robot is, and "photograph it again"."""
+    known = act.place is None or act.place.shape in ("here", "one")
+    return replace(act, used=used) if known and act.relation in ("at", "of") else None
 
 
 @construction("every: EACH far=amount", cost=0.1)
@@ -656,7 +657,7 @@ def of_trees_apart(
     return CaptureCommand(things, PlaceMeaning(apart, "several", count=count), used)
 
 
-@construction("capture: relation place=place times=COUNT", cost=1.0)
+@construction("capture: relation place=place times=COUNT", "capture: place=place times=COUNT", cost=1.0)
 def elsewhere_so_often(place: PlaceMeaning, times: Lex, used: int) -> CaptureCommand | None:
     """Compose "at tree 6 twice" behind "at tree 5 three times"."""
     if place.shape not in ("one", "several"):

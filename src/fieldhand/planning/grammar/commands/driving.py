@@ -314,6 +314,12 @@ def again(used: int, place: PlaceMeaning | None = None) -> Again:
     return Again(place, used)
 
 
+@construction("again: word=REPEAT [AGAIN]", cost=0.1)
+def all_again(word: Lex, used: int) -> Again | None:
+    """Compose "do the whole thing again"."""
+    return Again(None, used, times=1, whole=True) if "whole" in word.features else None
+
+
 @construction(
     "more_times: ANOTHER times=COUNT",
     "more_times: times=COUNT MORE",

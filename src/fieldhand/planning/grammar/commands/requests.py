@@ -262,10 +262,16 @@ def next_task_is() -> str:
     return "then"
 
 
-@construction("after: word=THEN done=capture", "after: word=THEN done=drive", cost=0.2)
-def after_doing(word: Lex, done: CaptureCommand | DriveCommand, used: int) -> After | None:
-    """Compose "after photographing tree 4"."""
-    return After(done, used) if "after_doing" in word.features else None
+@construction(
+    "after: word=THEN done=capture",
+    "after: word=THEN done=drive",
+    "after: HAVINGDONE done=capture",
+    "after: HAVINGDONE done=drive",
+    cost=0.2,
+)
+def after_doing(done: CaptureCommand | DriveCommand, used: int, word: Lex | None = None) -> After | None:
+    """Compose "after photographing tree 4" and "having photographed tree 4"."""
+    return After(done, used) if word is None or "after_doing" in word.features else None
 
 
 @construction("opened: OPENER [COMMA]", "opened: OPENER [COMMA] then [COMMA]", cost=0.0)
@@ -352,6 +358,16 @@ def without_joint(before: Said, one: Command) -> Said | None:
         case _:
             follows = True
     return Said((*before.clauses, LinkedCommand(None, one))) if follows else None
+
+
+@construction("said: REPEAT times=COUNT COMMA rest=said", "said: times=COUNT COMMA rest=said", cost=0.3)
+def so_often_first(times: Lex, rest: Said, used: int) -> Said:
+    """Compose "do this three times: photograph tree 4 and measure CO2 at tree 9"."""
+    own = used
+    for clause in rest.clauses:
+        own &= ~(clause.command.used | (clause.before.used if clause.before is not None else 0))
+    again = Again(None, own, times=int(times.value), in_all=True, whole=True)
+    return Said((LinkedCommand(None, again), *rest.clauses))
 
 
 @construction("stops_at_end: FULLSTOP [FULLSTOP]", cost=0.0)

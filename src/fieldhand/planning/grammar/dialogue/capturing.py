@@ -23,6 +23,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
     block_at,
     captures_at_last_place,
     for_each_at,
+    is_conditional,
     is_inside,
     node_at,
     with_node,
@@ -204,8 +205,15 @@ def meant_things(state: DialogueState, things: tuple[Thing, ...]) -> tuple[Thing
         raise NotComposed(message("it is not clear what another one is meant", context="fault"))
     if may_be_left_out(state):
         raise NotComposed(message("it is not clear whether that may be left out too", context="fault"))
+    if things[0].count is None and _depends(state):
+        raise NotComposed(message("it is not clear whether the same condition decides that", context="fault"))
     last = state.things[0]
     return (replace(things[0], action=last.action, parameters=last.parameters),)
+
+
+def _depends(state: DialogueState) -> bool:
+    """Return True if a condition decides the last capture, and does not decide the next one."""
+    return state.captured is not None and is_conditional(state.captured[len(state.scope) :])
 
 
 def _place_of(

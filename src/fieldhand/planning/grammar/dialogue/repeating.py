@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 from fieldhand.language import message
 from fieldhand.places import selectors as s
-from fieldhand.planning.grammar.dialogue.driving import drive
+from fieldhand.planning.grammar.dialogue.driving import drive, visits
 from fieldhand.planning.grammar.dialogue.plans import (
     EMPTY,
     Path,
@@ -18,7 +18,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
     with_node,
     with_selector,
 )
-from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, with_step
+from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, done_at, with_step
 from fieldhand.planning.grammar.meaning import Again, DriveCommand, PlaceMeaning
 from fieldhand.planning.selections import is_one_row, replaceable_area, swapped
 from fieldhand.task import conditions as c
@@ -34,6 +34,8 @@ def process_again(setting: Setting, state: DialogueState, command: Again) -> Dia
     Raises:
         NotComposed: What is repeated, or where, is unclear.
     """
+    if command.place is not None and command.place.shape == "several" and command.place.per is None:
+        return _process_at_each(setting, state, command, command.place)
     if command.place is not None:
         if command.place.shape != "one":
             raise NotComposed(message("it is not clear what is repeated, and where", context="fault"))
@@ -64,6 +66,28 @@ def process_again(setting: Setting, state: DialogueState, command: Again) -> Dia
     )  # fmt: skip
 
 
+def _process_at_each(setting: Setting, state: DialogueState, command: Again, place: PlaceMeaning) -> DialogueState:
+    """Return the state after the process since the last place was repeated at each of several places.
+
+    Raises:
+        NotComposed: What is repeated is unclear.
+    """
+    if state.awaits_command or state.open or state.scope:
+        raise NotComposed(message("it is not clear what is repeated, and where", context="fault"))
+    process = _process_before(state.plan, state.scope, len(state.block.steps))
+    if not process or not _can_be_repeated(process):
+        raise NotComposed(message("it is not clear what is repeated", context="fault"))
+    said, names = setting.spans_of(command.used), _Names(state.readings)
+    body = p.InOrder(id="", steps=tuple(_renamed(step, names, said) for step in process))
+    inside = (*state.next_step, "body")
+    state = with_step(state, replace(visits(place, said), body=body))
+    captured = next(
+        (path for path, node in walk(state.plan) if node.act is not None and path[: len(inside)] == inside), None
+    )
+    done = replace(state, readings=names.last, captured=captured, choice=None, decided=None, things=())
+    return done_at(replace(done, loop=inside), place)
+
+
 def done_more_times(setting: Setting, state: DialogueState, command: Again) -> DialogueState:
     """Return the state after all that was done so far, at one place or at each of several, was done several times.
 
@@ -73,13 +97,16 @@ def done_more_times(setting: Setting, state: DialogueState, command: Again) -> D
     steps = state.plan.steps
     if state.scope or state.awaits_command or state.open or not steps or not _can_be_repeated(steps):
         raise NotComposed(message("it is not clear what is repeated", context="fault"))
-    if steps[0].selector is None or any(step.selector is not None for step in steps[1:]):
+    if steps[0].selector is None or (not command.whole and any(step.selector is not None for step in steps[1:])):
         raise NotComposed(message("it is not clear from which place on", context="fault"))
     said, names = setting.spans_of(command.used), _Names(state.readings)
     if command.in_all:
         every = p.Repeat(id="", times=command.times, body=state.plan, said=said)
         return replace(with_step(replace(state, plan=EMPTY), every), captured=None, loop=None, choice=None, things=())
     body = p.InOrder(id="", steps=tuple(_renamed(step, names, said) for step in steps))
+    if command.times == 1 and command.whole:
+        state = replace(state, plan=replace(state.plan, steps=(*steps, *body.steps)))
+        return replace(state, readings=names.last, captured=None, loop=None, choice=None, things=())
     state = with_step(state, p.Repeat(id="", times=command.times, body=body, said=said))
     return replace(state, readings=names.last, captured=None, loop=None, choice=None, things=())
 

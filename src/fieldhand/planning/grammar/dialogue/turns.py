@@ -9,6 +9,7 @@ from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.state import Edits, NotComposed, Setting
 from fieldhand.planning.grammar.meaning import (
+    Again,
     CaptureCommand,
     Connective,
     Correction,
@@ -40,7 +41,17 @@ def as_meant(setting: Setting, clauses: Sequence[LinkedCommand]) -> tuple[tuple[
         corrected, changed = _corrected(setting, found.pop(), clause, clause.command)
         found.append(corrected)
         edits = (*edits, *changed)
-    return _in_turn(found), edits
+    return _in_turn(_repeated_first(found)), edits
+
+
+def _repeated_first(clauses: Sequence[LinkedCommand]) -> Sequence[LinkedCommand]:
+    """Return clauses with a repetition at their beginning ("three times: ...") behind the sentence that it is of."""
+    if not clauses or not isinstance(clauses[0].command, Again):
+        return clauses
+    again, rest = replace(clauses[0], before=Connective(True, True, 0)), clauses[1:]
+    ends = (k for k, clause in enumerate(rest) if k > 0 and clause.before is not None and clause.before.full)
+    end = next(ends, len(rest))
+    return (*rest[:end], again, *rest[end:])
 
 
 def _unclear(correction: Correction) -> NotComposed:
