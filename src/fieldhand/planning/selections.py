@@ -91,6 +91,13 @@ def are_rows(selector: s.Selector) -> bool:
     return all(isinstance(part, s.Rows | s.RowOf) for part in selector.members)
 
 
+def rows_kept(selector: s.Selector) -> s.Selector | None:
+    """Return the rows of which a selector leaves some out ("all rows except 3"); None for another selector."""
+    if isinstance(selector, s.Excluding) and are_rows(selector.of) and are_rows(selector.places):
+        return selector.of
+    return None
+
+
 def replaceable_area(selector: s.Selector, area: s.Selector) -> s.Selector | None:
     """Return the part of a selector that another area of the same kind can take the place of; None if none can."""
     if are_rows(selector) and are_rows(area):

@@ -16,11 +16,13 @@ AmountKind = Literal[
 ]  # fmt: skip
 
 #: Words between the numbers of a list of names ("trees 4, 9 and 12").
-_JOINS = frozenset({",", "and", "or", "&", "to", "-", "\u2013", "through", "thru", "then", "#"})
-_RANGES = frozenset({"to", "-", "\u2013", "through", "thru"})
-_NUMBERED = frozenset({"#", "number", "no", "nr", "id", "ids", "numbers"})
+_RANGES = frozenset({"to", "-", "\u2013", "through", "thru", "until", "till"})
+_NUMBERED = frozenset({"#", "number", "no", "nr", "id", "ids", "numbers", "numbered", "nos"})
+_JOINS = _RANGES | _NUMBERED | {",", "and", "or", "&", "then", "up"}
 #: Maximum number of digits of an amount.
 _LONGEST = 15
+#: Maximum number of words between two numbers of a list.
+_LONGEST_JOINT = 4
 #: Maximum distance in tokens of a comparison word before its number.
 _COMPARED = 5
 
@@ -80,8 +82,8 @@ def amounts(said: Sequence[Token], nouns: dict[int, Noun], units: frozenset[str]
     for number in _numbers(said):
         amount = _amount(said, number, nouns, units)
         before = found[-1] if found else None
-        ends_list = amount.kind == "plain" or (amount.kind == "captures" and number.end not in nouns)
-        if ends_list and before is not None and _listed(said, before, number):
+        bare = amount.kind == "plain" or (amount.kind == "captures" and number.end not in nouns)
+        if before is not None and (bare or amount.kind == before.kind) and _listed(said, before, number):
             amount = replace(amount, kind=before.kind, actions=frozenset())
             if any(said[k].text in _RANGES for k in range(before.index + 1, number.start)) and len(amount.values) == 1:
                 found[-1] = replace(before, through=int(amount.values[0]))
@@ -173,13 +175,13 @@ def _amount(said: Sequence[Token], number: _Number, nouns: dict[int, Noun], unit
         return replace(made, kind="temperature", values=_celsius(value, said, k))
     if after in units:
         return replace(made, kind="unit", unit=after)
-    if after in w.AGES:
+    if after in w.AGES or (after == "-" and said[k + 1 : k + 2] and said[k + 1].text in w.AGES):
         return replace(made, kind="attribute")
     if after in ("times", "x"):
         return replace(made, kind="times")
     if after in w.ROWS:
         return replace(made, kind="rows")
-    name = _name(said[max(0, number.start - 2) : number.start])
+    name = _name(said[max(0, number.start - 3) : number.start])
     if name == "row" or (name and after not in w.TREES):
         return replace(made, kind=name)
     counted = _counted(said, k, nouns)
@@ -195,15 +197,17 @@ def _pace(said: Sequence[Token], k: int) -> float:
 def _name(before: Sequence[Token]) -> AmountKind | None:
     """Return the kind of name that a number is by the words before it: "tree 7", "row #3"."""
     texts = [token.text for token in before]
+    marked = texts[-1:] == ["#"]
+    if texts and texts[-1] in _NUMBERED:
+        texts.pop()
     if len(texts) > 1 and texts[-1] == "from":
         texts.pop()  # "the trees from 20 to 30"
-    numbered = bool(texts) and texts[-1] in _NUMBERED
-    head = "" if not texts else texts[0] if numbered and len(texts) > 1 else texts[-1]
+    head = texts[-1] if texts else ""
     if head in w.ROWS:
         return "row"
     if head in ("block", "blocks", "plot", "parcel", "zone", "section"):
         return "name"
-    if head in ("tree", "trees", "vine", "vines", "plant", "plants") or texts[-1:] == ["#"]:
+    if head in ("tree", "trees", "vine", "vines", "plant", "plants") or marked:
         return "id"
     return None
 
@@ -259,7 +263,12 @@ def _listed(said: Sequence[Token], before: StatedAmount, number: _Number) -> boo
     if before.kind not in ("id", "row", "name") or number.ordinal:
         return False
     between = [t.text for t in said[before.index + 1 : number.start]]
-    return 0 < len(between) <= 2 and all(text in _JOINS for text in between)
+    behind = [t.text for t in said[number.end : number.end + 2]]
+    if before.kind == "row" and len(behind) == 2 and behind[0] in ("in", "from", "of") and behind[1] in w.ROWS:
+        return False  # "one tree in row 3 and two in row 5"
+    if number.value <= before.values[0] and not _RANGES.isdisjoint(between):
+        return False  # "row 3 until one of them"
+    return 0 < len(between) <= _LONGEST_JOINT and all(text in _JOINS | w.TREES | w.ROWS for text in between)
 
 
 def _shared_units(found: Sequence[StatedAmount], said: Sequence[Token]) -> Iterator[StatedAmount]:

@@ -27,6 +27,8 @@ from fieldhand.task.frames import Task
 
 #: Maximum number of consecutive steps whose counts are added.
 _MOST_STEPS = 40
+#: Words of parts of a row.
+_PARTS = frozenset({"half", "third", "quarter", "middle", "centre", "center"})
 #: Kinds of numbers that count nothing, and those that count no captures.
 _NAMES = frozenset({"id", "row", "name", "length", "time", "percent", "temperature", "speed", "unit", "attribute"})
 _PLACES = _NAMES | {"trees", "corners", "rows", "ordinal"}
@@ -175,6 +177,8 @@ def _allowed(said: RequestFacts, number: PlannedNumber) -> set[int]:
     request_facts = {n for a in said.amounts if a.kind not in others for n in numbers_of(a)}
     request_facts |= {n for word, n in w.MULTIPLES.items() if word in said.words}
     found = set(request_facts)
+    if number.what.startswith("along row"):
+        found |= set(range(max(request_facts, default=0) + 1))  # "the next five trees"
     if not captures:
         found |= {n + 1 for n in request_facts} | {n - 1 for n in request_facts}
     if said.words & {"another", "again", "second", "repeat", "same", "more", "also", "other", "alternate"}:
@@ -190,4 +194,6 @@ def _allowed(said: RequestFacts, number: PlannedNumber) -> set[int]:
 
 def _by_itself(said: RequestFacts, what: str) -> bool:
     """Return True if a number follows without being stated, such as one row of "each row"."""
+    if what.startswith(("in row ", "inrow ")) and said.words & _PARTS:
+        return True  # the trees of the first half of a row
     return said.vague or (what.startswith(("rows ", "inrow ")) and bool(said.words & {"each", "every", "all", "per"}))

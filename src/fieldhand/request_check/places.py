@@ -297,7 +297,7 @@ def _attributes(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
         words = {t.text for t in _tokens(str(value))}
         if said.words & _EACH_KIND and stems & {w.singular(t.text) for t in _tokens(attribute)}:
             continue  # the plan covers each variety
-        if isinstance(value, str) and not words & said.words:
+        if isinstance(value, str) and not words & (said.words | stems):
             yield PlanMismatch(
                 kind="attribute",
                 what=message(

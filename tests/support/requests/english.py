@@ -12,6 +12,7 @@ PLANNED = [
         "Take a picture at tree 4 if the CO2 there is low.",
         "co2 @ TreeIs(4) = r1; if r1 low: [picture]",
     ),
+    ("husky", "Take a picture of trees aged 12.", "for Where(age_years, eq, 12): [picture]"),
     ("husky", "Take three CO2 readings about 15 m apart.", "for Spaced(15, 3): [co2]"),
     (
         "husky",
@@ -1213,7 +1214,6 @@ REFUSED = [
         "Take a picture of every tree in the pond",
         "nothing on this site matches the trees inside the zone “pond”",
     ),
-    ("husky", "Take a picture of trees aged 12.", "not understood: 'aged'"),
     (
         "husky",
         "Take a picture every 5 minutes.",

@@ -12,6 +12,7 @@ PLANNED = [
         "Walk down row 3 and if a tree is yellow take a picture.",
         "for Rows(3, 3): [if leaf_color = yellow: [picture]]",
     ),
+    ("husky", "Take pictures of all trees in the outermost rows.", "for UnionOf(Rows(1, 1)+Rows(-1, -1)): [picture]"),
     ("husky", "Take a picture of every row's first tree.", "for InRow(1, 1, of Rows): [picture]"),
     (
         "husky",
@@ -1270,7 +1271,6 @@ REFUSED = [
         "Take a photo of the tree at the head of row 5.",
         "'at the head of' does not fit at this point in 'Take a photo of the tree at the head of row 5'",
     ),
-    ("husky", "Take pictures of all trees in the outermost rows.", "not understood: 'outermost'"),
     (
         "husky",
         "Take a picture of tree 40. Turn around and go 3 trees back.",

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 _TOKEN = re.compile(
     r"(?P<rank>\d+(?:st|nd|rd|th)\b)"
     r"|(?P<number>\d{1,3}(?:,\d{3})+(?![\d])|\d+(?:\.\d+)?|(?<![\w.])\.\d+)"
-    r"|(?P<word>(?:temps?|approx|deg|avg)\.(?=\s+(?-i:[a-z0-9]))(?!\s+(?:take|go|drive|snap|then|if|photo|get|grab|move|after|when|once|otherwise|repeat|and\sthen)\w*\b)|(?:l|ml|g|kg|m|km)/(?:ha|h|s|min|m2|tree)\b|[^\W\d_][\w\u2080-\u2089]*(?:['\u2019][^\W\d_]+)?)"
+    r"|(?P<word>(?<=\d)['\u2019]s\b|(?:nos?|nr)\.(?=\s*[a-z]?\d)|(?:temps?|approx|deg|avg)\.(?=\s+(?-i:[a-z0-9]))(?!\s+(?:take|go|drive|snap|then|if|photo|get|grab|move|after|when|once|otherwise|repeat|and\sthen)\w*\b)|(?:l|ml|g|kg|m|km)/(?:ha|h|s|min|m2|tree)\b|[^\W\d_][\w\u2080-\u2089]*(?:['\u2019][^\W\d_]+)?)"
     r"|(?P<unit>%|°\s?[cCfF]\b|°)"
     r"|(?P<stop>[.;!?\n]+)"
     r"|(?P<comma>[,:()]|(?<!\d)\s[-\u2013\u2014]+\s|\s[-\u2013\u2014]+\s(?![a-z]?\d)|[-=]>|\u2192)"

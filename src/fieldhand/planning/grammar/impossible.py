@@ -170,6 +170,30 @@ def single_and_near(first: PlaceMeaning) -> Impossible | None:
     return Impossible(message("it is not clear what is near to what"), message("say it in two steps"))
 
 
+@construction(
+    "[DET] VAGUEADJ TREE",
+    "[DET] OLD TREE",
+    "TREE OF VAGUEADJ ATTR",
+    "TREE WITH VAGUEADJ ATTR",
+    "VAGUEADJ [DASH] ATTR TREE",
+)
+def without_a_value() -> Impossible:
+    """Compose "the old trees" and "vines of low vigor"."""
+    return Impossible(
+        message("it does not say from which value on"),
+        message("say 'older than 8 years', or 'the ten oldest trees'"),
+    )
+
+
+@construction("GRID")
+def on_a_grid() -> Impossible:
+    """Compose "on a grid"."""
+    return Impossible(
+        message("places on a grid are not possible yet"),
+        message("say 'ten trees spread over the orchard', or 'every fifth tree of every other row'"),
+    )
+
+
 @construction("ROW OF inner=nominal")
 def rows_of_a_kind(inner: Nominal) -> Impossible | None:
     """Compose "rows of Carmel trees"."""

@@ -70,14 +70,17 @@ class Likewise:
     """A side that is named by one named before it: "the other half", "the southern one"; or the best of those ranked.
 
     Attributes:
-        kind: Half, quarter or corner, or ``ranked``; empty if it is of the kind of the one before.
+        kind: Half, quarter or corner, ``ranked``, ``rest`` for the others of those, ``nth`` for one of several
+            that were named, or ``those`` for others of that description; empty if it is of the kind of the one before.
+        number: Which one of several, from 1 on; -1 for the last.
         side: Side of the compass; empty for the opposite side.
         holds: True if the places are inside it.
     """
 
-    kind: Literal["", "half", "quarter", "corner", "ranked"]
+    kind: Literal["", "half", "quarter", "corner", "ranked", "rest", "nth", "those"]
     side: str = ""
     holds: bool = False
+    number: int = 0
 
 
 @dataclass(frozen=True, slots=True)

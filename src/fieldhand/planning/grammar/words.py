@@ -26,6 +26,8 @@ _SILENT = "FILLER"
 _INFINITIVE = "INORDERTO"
 #: Category of words that hint at an attribute which the site does not record ("taller than").
 LACKING = "LACKING"
+#: Ending of an English name that owns what follows.
+_POSSESSIVE = re.compile("(?<=.)['\N{RIGHT SINGLE QUOTATION MARK}]s$")
 #: Maximum number of words of a filler.
 _LONGEST_FILLER = 7
 
@@ -178,15 +180,16 @@ def _names(words: Sequence[Word], start: int, phrases: Phrases) -> Iterator[Phra
     """Names of trees, rows and blocks that begin at a word."""
     lexicon = phrases.lexicon
     spelt = ""
+    if words[start].kind == "dash":
+        return
     for end in range(start + 1, min(start + 5, len(words) + 1)):
         word = words[end - 1]
         if word.kind not in ("word", "number", "dash", "rank"):
             break
         if word.kind == "dash":
-            if end == start + 1:
-                break
             continue  # a dash is part of a name between its words only: "N100-N120" holds two names
-        spelt += "".join(split(word.text))
+        possessive = _POSSESSIVE.search(word.text)
+        spelt += "".join(split(word.text[: possessive.start()] if possessive else word.text))
         tree = lexicon.trees.get(spelt) or (_missing_tree(word, phrases) if end == start + 1 else None)
         for kind, name in (
             ("TREEID", tree),
@@ -194,7 +197,9 @@ def _names(words: Sequence[Word], start: int, phrases: Phrases) -> Iterator[Phra
             ("BLOCKNAME", lexicon.block_names.get(spelt)),
         ):
             if name is not None and not (end == start + 1 and _is_article(word, name, phrases)):
-                yield _edge(kind, start, end, Lex(name, False, spelt))
+                yield _edge(f"{kind}POSS" if possessive else kind, start, end, Lex(name, False, spelt))
+        if possessive:
+            break
     for kind, name in lexicon.site.marker_names:
         phrase = split(name)
         if phrase and tuple(w.norm for w in words[start : start + len(phrase)]) == phrase:

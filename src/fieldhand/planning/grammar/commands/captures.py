@@ -546,6 +546,7 @@ def spacing_of_many(dist: float) -> tuple[float, bool]:
     "capture: AT dist=spaced relation place=place [COMMA] verb things=things",
     "capture: relation place=place [COMMA] dist=spaced [COMMA] verb things=things",
     "capture: verb=ACTV dist=spaced relation place=place",
+    "capture: verb=ACTV place=place [COMMA] dist=spaced",
     cost=0.3,
 )
 def at_spacing(

@@ -71,7 +71,7 @@ def on_to(word: Lex, place: PlaceMeaning, used: int) -> DriveCommand | None:
 @construction("drive: RANDOMLY TAKE n=count inner=nominal", cost=0.2)
 def pick_at_random(n: int, inner: Nominal, used: int) -> DriveCommand | None:
     """Compose "randomly select 10 trees"."""
-    place = at_random(n, inner)
+    place = at_random(inner, n)
     return None if place is None else DriveCommand(place, used, picks=True)
 
 

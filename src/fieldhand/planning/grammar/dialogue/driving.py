@@ -30,6 +30,7 @@ from fieldhand.planning.selections import (
     chooses_from_trees,
     is_next_to_here,
     is_one_row,
+    measures_distance,
     starts_here,
 )
 from fieldhand.site.model import Site
@@ -127,6 +128,8 @@ def require_known(setting: Setting, state: DialogueState, place: PlaceMeaning | 
     """
     if place is not None and place.shape == "unknown":
         said = setting.quoted(used)
+        if measures_distance(place.selector):
+            raise OpenQuestion(message("'{said}': within how many metres?", context="question", said=said))
         several = message("'{said}': which rows?", context="question", said=said)
         raise OpenQuestion(several if place.count else message("'{said}': which row?", context="question", said=said))
     if place is not None and place.shape == "nowhere":

@@ -20,8 +20,10 @@ from fieldhand.planning.selections import (
     as_some,
     chooses_from_trees,
     counts_in_row,
+    is_in_block,
     is_one_row,
     over,
+    rows_kept,
     swapped,
 )
 
@@ -66,6 +68,9 @@ def in_area(setting: Setting, before: Lead | DriveCommand, place: PlaceMeaning |
         selector = over(place.selector, area)
         of_each_row = are_several_rows(area) and all(counts_in_row(part) for part in selector.members)
         return replace(place, selector=selector, shape="several" if of_each_row else place.shape)
+    within_block = is_in_block(area) and not is_in_block(place.selector) and chooses_from_trees(place.selector)
+    if place.shape == "area" and place.per is None and within_block:
+        return replace(place, selector=over(place.selector, area))  # "in the north block, ... rows 3 to 5"
     of_the_row = swapped(place.selector, s.RowOf(), s.Trees())
     if are_rows(area) and of_the_row != place.selector and chooses_from_trees(of_the_row):
         return in_each_row(area, replace(place, selector=of_the_row))
@@ -262,7 +267,8 @@ def _of_rows(
         return PlaceMeaning(rows, "several")
     if place.shape == "area" and relation == "of" and setting.either("every tree, or how many?", used, (True, False)):
         return PlaceMeaning(rows, "several")
-    single = one_by_one(rows, setting.site) if are_rows(rows) else rows.members
+    counted = are_rows(rows) or rows_kept(rows) is not None
+    single = one_by_one(rows, setting.site) if counted else rows.members
     if not single or len(single) > MOST_ONE_BY_ONE:
         raise NotComposed(message("rows are visited one after the other here only if they are named", context="fault"))
     selector = s.Take(count=count or 1, of=s.Trees()) if place.shape == "area" else place.selector

@@ -18,7 +18,7 @@ from fieldhand.planning.grammar.meaning import (
     PlaceMeaning,
 )
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
-from fieldhand.planning.selections import as_some, named_places, over, side_named
+from fieldhand.planning.selections import as_some, is_by_attribute, named_places, over, side_named
 from fieldhand.task import plan as p
 
 _OPPOSITE = {"n": "s", "s": "n", "e": "w", "w": "e", "north": "south", "south": "north", "east": "west", "west": "east"}
@@ -37,7 +37,41 @@ def with_known_place(state: DialogueState, command: Command) -> Command:
     place = command.place
     if isinstance(place.selector, s.Top) and place.like is not None:
         return _best_of_ranked(state, command, place.selector)
+    if place.like is not None and place.like.kind == "those":
+        return replace(command, place=replace(place, like=None))
+    if place.like is not None and place.like.kind == "rest":
+        return replace(command, place=replace(place, selector=_rest(state, place.selector), like=None))
+    if place.like is not None and place.like.kind == "nth":
+        return replace(command, place=replace(place, selector=_nth(state, place.like.number), like=None))
     return command if place.like is None else replace(command, place=_likewise(state, place, place.like))
+
+
+def _rest(state: DialogueState, area: s.Selector) -> s.Selector:
+    """Return the other trees of an area, or of the group, of which some were named last.
+
+    Raises:
+        NotComposed: The group is unclear.
+    """
+    last = None if state.where is None or state.where.shape != "several" else state.where.selector
+    if any(node.tested is not None for node in p.walk(state.plan)):
+        last = None  # "those above 35 degrees ..., the others ...": those that did not pass
+    group = getattr(last, "of", None) if area == s.Trees() else area
+    if last is None or group is None or last.relative or is_by_attribute(group) or as_some(last) is not None:
+        raise NotComposed(message("it is not clear which others are meant", context="fault"))
+    return s.Excluding(places=last, of=group)
+
+
+def _nth(state: DialogueState, number: int) -> s.Selector:
+    """Return one of the places that were named last.
+
+    Raises:
+        NotComposed: There are fewer, or they were not named one by one.
+    """
+    last = None if state.where is None else state.where.selector
+    named = () if last is None else named_places(last)
+    if not 1 < len(named) >= number or not all(place.single and not place.relative for place in named):
+        raise NotComposed(message("it is not clear which one is meant", context="fault"))
+    return named[number - 1 if number > 0 else -1]
 
 
 def _best_of_ranked(state: DialogueState, command: _WithPlace, best: s.Top) -> Command:
@@ -52,6 +86,8 @@ def _best_of_ranked(state: DialogueState, command: _WithPlace, best: s.Top) -> C
             if command.place is None
             else replace(command, place=replace(command.place, selector=best, like=None))
         )
+    if ranking is None and best.attribute and command.place is not None:
+        return replace(command, place=replace(command.place, like=None))  # "the oldest five", of all trees
     if ranking is None or best.attribute not in ("", ranking.attribute) or command.place is None:
         raise NotComposed(message("it is not clear by what they are ranked", context="fault"))
     best = replace(best, attribute=ranking.attribute, of=ranking.trees.selector)

@@ -6,7 +6,7 @@ from fieldhand.errors import PlaceError, TaskError
 from fieldhand.places import selectors as s
 from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve
-from fieldhand.planning.selections import as_rows, is_in_block
+from fieldhand.planning.selections import as_rows, is_in_block, rows_kept
 from fieldhand.site.model import Site
 
 #: Maximum number of rows that are planned one by one.
@@ -22,7 +22,7 @@ def one_by_one(selector: s.Selector, site: Site) -> tuple[s.Selector, ...]:
     planting = site.planting
     index = [site.by_id[place.id].index for place in places if place.id in site.by_id]
     numbers = sorted({int(k) for k in planting.row_of[index] if k >= 0})
-    parts = selector.members
+    parts = (rows_kept(selector) or selector).members
     named_rows = [named_by for part in parts if (named_by := as_rows(part)) is not None]
     inner_most = {part.of for part in named_rows}
     plain = len(inner_most) == 1 and len(named_rows) == len(parts)

@@ -7,8 +7,9 @@ from typing import Any, cast
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
+from fieldhand.planning.grammar.meaning import Likewise, Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
+from fieldhand.planning.grammar.places.nouns import extreme
 from fieldhand.planning.grammar.places.numbers import name_of
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
@@ -16,6 +17,7 @@ from fieldhand.planning.selections import (
     are_meant_each,
     are_rows,
     as_edge,
+    as_half,
     as_zone,
     chooses_from_trees,
     counts_in_row,
@@ -60,6 +62,19 @@ def edge(side: Lex) -> s.Selector | None:
     return s.Edge(side=side.value) if side.value in SIDES else None
 
 
+@construction("nominal: EDGE noun=TREE", "nominal: OUTER noun=TREE", "nominal: side=DIR EDGE noun=TREE", cost=0.2)
+def edge_trees(noun: Lex, side: Lex | None = None) -> Nominal | None:
+    """Compose "edge trees" and "northern edge trees"."""
+    where = edges() if side is None else edge(side)
+    return None if where is None or not noun.plural else Nominal(where, plural=True)
+
+
+@construction("nominal: inner=nominal in_ DET FAR side=DIR", cost=0.2)
+def in_the_far_north(inner: Nominal, side: Lex) -> Nominal | None:
+    """Compose "tree in the far north"."""
+    return None if inner.plural else extreme(side, inner)
+
+
 @construction("region: [DET] EDGE", cost=0.3)
 def edges() -> s.Selector:
     """Compose "the edges"."""
@@ -81,6 +96,16 @@ def zone(zone: Lex) -> s.Selector:
 def block(name: Lex, noun: Lex) -> s.Selector | None:
     """Compose "block 2"."""
     return s.InBlock(block=name_of(name)) if "block" in noun.features else None
+
+
+@construction(
+    "owned_block: [DET] name=BLOCKNAME PLOTPOSS",
+    "owned_block: [DET] [PLOT] name=BLOCKNAMEPOSS",
+    cost=0.1,
+)
+def owned_block(name: Lex) -> s.Selector:
+    """Compose "the north block's"."""
+    return s.InBlock(block=name_of(name))
 
 
 @construction(
@@ -214,10 +239,12 @@ def _is_larger(whole: s.Selector, part: s.Selector) -> bool:
     return not (are_rows(whole) and not are_rows(part))
 
 
-@construction("in_: word=AT", "in_: word=INSIDE", "in_: word=OF", cost=0.0)
-def in_word(word: Lex) -> str | None:
-    """Compose "in" and "throughout"."""
-    return "in" if "within" in word.features else None
+@construction("in_: word=AT", "in_: word=INSIDE", "in_: of=OF", cost=0.0)
+def in_word(word: Lex | None = None, of: Lex | None = None) -> str | None:
+    """Compose "in", "throughout" and "of"."""
+    if of is not None:
+        return "of" if "within" in of.features else None
+    return "in" if word is not None and "within" in word.features else None
 
 
 @construction("in_: word=FROM", cost=0.0)
@@ -238,6 +265,7 @@ def the_site(noun: Lex, site: Site, word: Lex | None = None) -> str | None:
     "region: first=region AND second=region",
     "region: first=region COMMA second=region",
     "region: first=region COMMA AND second=region",
+    "region: first=region AND in_ second=region",
     cost=0.4,
 )
 def both_areas(first: s.Selector, second: s.Selector) -> s.Selector | None:
@@ -275,6 +303,8 @@ def inside(inner: Nominal, where: s.Selector, way: str) -> Nominal | None:
         return None  # "the corners of blocks A and B": of each of them
     if way == "from" and measures_from_here(inner.selector):
         return None  # "the tree farthest from the pond"
+    if way == "of" and are_rows(where) and any(as_half(part) is not None for part in inner.selector.walk()):
+        return None  # "the trees in the northern half of row 4": of that row, not of the orchard
     if inner.of_side and are_rows(where):
         of_rows = cast(Any, inner.selector)  # "the northern trees of row 4": of that row, not of the orchard
         return replace(inner, selector=replace(of_rows, of=over(of_rows.of, where)))
@@ -330,6 +360,20 @@ def whole_area(where: s.Selector) -> PlaceMeaning:
     return PlaceMeaning(where, "several", each=True)
 
 
+@construction("place: whole=place in_ where=region", cost=0.4)
+def restricted(whole: PlaceMeaning, where: s.Selector) -> PlaceMeaning | None:
+    """Compose "as many trees as possible in row 3" and "one tree per row in the northern half"."""
+    if whole.per is not None:
+        if whole.per != s.Rows() or not chooses_from_trees(where):
+            return None
+        if are_rows(where):
+            return replace(whole, per=where)
+        return replace(whole, per=over(whole.per, where)) if len(where.members) == 1 else None
+    if not whole.optional or whole.there or not chooses_from_trees(whole.selector):
+        return None
+    return replace(whole, selector=over(whole.selector, where))
+
+
 @construction("place: whole=place COMMA where=region", cost=0.3)
 def in_area_behind(whole: PlaceMeaning, where: s.Selector) -> PlaceMeaning | None:
     """Compose "the ten weakest vines, south block" and "every third tree, rows 2 to 5"."""
@@ -347,7 +391,8 @@ def area(where: s.Selector) -> PlaceMeaning:
 @construction("place: word=DET in_ where=region", cost=0.4)
 def those_in(word: Lex, where: s.Selector) -> PlaceMeaning | None:
     """Compose "those in row 4"."""
-    return PlaceMeaning(where, "several") if "stands_for_noun" in word.features else None
+    like = Likewise("those")
+    return PlaceMeaning(where, "several", like=like) if "stands_for_noun" in word.features else None
 
 
 @construction(
@@ -360,7 +405,12 @@ def sticking_to(whole: PlaceMeaning, where: s.Selector) -> PlaceMeaning | None:
     return replace(whole, selector=over(whole.selector, where))
 
 
-@construction("nominal: where=block inner=nominal", "nominal: where=bare_block inner=nominal", cost=0.3)
+@construction(
+    "nominal: where=block inner=nominal",
+    "nominal: where=bare_block inner=nominal",
+    "nominal: where=owned_block inner=nominal",
+    cost=0.3,
+)
 def of_block(where: s.Selector, inner: Nominal) -> Nominal | None:
     """Compose "north block vines"."""
     if not chooses_from_trees(inner.selector):

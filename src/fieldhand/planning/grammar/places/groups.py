@@ -8,15 +8,18 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning, Shape
 from fieldhand.planning.grammar.places.numbered import ids_of
+from fieldhand.planning.grammar.places.rows import rows_at
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
     are_rows,
+    are_several_rows,
     as_in_row,
     as_some,
     as_top,
     blocks_of,
     chooses_from_trees,
     is_by_attribute,
+    is_description,
     is_end_of_site,
     is_in_block,
     is_one_row,
@@ -24,6 +27,8 @@ from fieldhand.planning.selections import (
     landmark_of,
     measures_distance,
     over,
+    replaceable_area,
+    rows_of,
     specifies_part,
     swapped,
 )
@@ -181,7 +186,7 @@ def trees_spread(n: int, inner: Nominal, where: s.Selector | None = None) -> Pla
 )
 def at_random_anywhere(n: int, inner: Nominal) -> PlaceMeaning | None:
     """Compose "five trees at random in the orchard"."""
-    return at_random(n, inner)
+    return at_random(inner, n)
 
 
 @construction("over_site: word=OPPOSITE site", cost=0.2)
@@ -192,14 +197,16 @@ def across_the_site(word: Lex) -> str | None:
 
 @construction(
     "place: [DET] n=count RANDOM inner=nominal",
+    "place: DET RANDOM inner=nominal",
+    "place: DET RANDOM inner=nominal in_ where=region",
     "place: [DET] SAMPLE OF n=count inner=nominal",
     "place: [DET] n=count inner=nominal RANDOM",
     "place: [DET] n=count inner=nominal RANDOM in_ where=region",
     cost=0.2,
 )
-def at_random(n: int, inner: Nominal, where: s.Selector | None = None) -> PlaceMeaning | None:
+def at_random(inner: Nominal, n: int = 1, where: s.Selector | None = None) -> PlaceMeaning | None:
     """Compose "five random trees"."""
-    if inner.single or inner.complete:
+    if inner.single or inner.complete or inner.plural != (n > 1):
         return None
     of = inner.selector if where is None else over(inner.selector, where)
     return PlaceMeaning(s.RandomSample(count=n, of=of), "one" if n == 1 else "several", count=n)
@@ -270,10 +277,10 @@ def _unvisited(selector: s.Selector) -> s.Selector:
     return s.NotVisited(of=selector)
 
 
-@construction("except: [COMMA] EXCEPT [FOR]", cost=0.0)
-def except_word() -> str:
-    """Compose "except for"."""
-    return "except"
+@construction("except: [COMMA] EXCEPT [FOR]", "except: [COMMA] word=WITHOUT", "except: COMMA NOT", cost=0.0)
+def except_word(word: Lex | None = None) -> str | None:
+    """Compose "except for" and "without"."""
+    return "except" if word is None or "leaves_out" in word.features else None
 
 
 @construction("but_not: except", "but_not: [COMMA] BUT [NOT]", cost=0.0)
@@ -307,8 +314,46 @@ def named_except_numbers(whole: PlaceMeaning, trees: tuple[str, ...], site: Site
     return replace(whole, selector=s.Excluding(places=out, of=whole.selector), shape="several")
 
 
-@construction("place: whole=place but_not [DET] value=ATTRVAL ONE", cost=0.2)
-def except_those_of_a_kind(whole: PlaceMeaning, value: Lex) -> list[PlaceMeaning] | None:
+@construction("rows_out_of_all: out=left_out [ROW]", cost=0.0, given=("site",))
+def positions_left_out(out: tuple[tuple[int, int], ...], site: Site) -> tuple[s.Rows, ...]:
+    """Compose "the last" behind "all rows but"."""
+    return tuple(rows_at(*at, site) for at in out)
+
+
+@construction("place: whole=place but_not out=numbers", "place: whole=place but_not ends=rows_out_of_all", cost=0.2)
+def except_rows(whole: PlaceMeaning, out: tuple[str, ...] = (), ends: tuple[s.Rows, ...] = ()) -> PlaceMeaning | None:
+    """Compose "all rows except 3 and 4"."""
+    if whole.shape != "area" or whole.count is not None or whole.like is not None or whole.per is not None:
+        return None
+    left = each_row_but(whole.selector, out, ends)
+    return None if left is None else replace(whole, selector=left)
+
+
+@construction(
+    "each_row: rows=each_row but_not out=numbers", "each_row: rows=each_row but_not ends=rows_out_of_all", cost=0.2
+)
+def each_row_but(rows: s.Selector, out: tuple[str, ...] = (), ends: tuple[s.Rows, ...] = ()) -> s.Selector | None:
+    """Compose "each row but the last"."""
+    blocks = set(blocks_of(rows))
+    if (
+        not are_several_rows(rows)
+        or len(blocks) > 1
+        or (ends and any(row.every > 1 or row.first for row in rows_of(rows)))
+    ):
+        return None  # "rows 3 to 7 except the first": the third, or the first of the block?
+    named = (s.Rows(first=name, last=name) for name in out)
+    parts = tuple(over(row, next(iter(blocks))) if blocks else row for row in (*named, *ends))
+    return s.Excluding(places=parts[0] if len(parts) == 1 else s.UnionOf(parts=parts), of=rows)
+
+
+@construction(
+    "place: whole=place but_not [DET] value=ATTRVAL ONE",
+    "place: whole=place but_not [DET] value=ATTRVAL ONE in_ where=region",
+    cost=0.2,
+)
+def except_those_of_a_kind(
+    whole: PlaceMeaning, value: Lex, where: s.Selector | None = None
+) -> list[PlaceMeaning] | None:
     """Compose "row 3 except the yellow ones"."""
     if not _may_leave_out(whole):
         return None
@@ -316,7 +361,7 @@ def except_those_of_a_kind(whole: PlaceMeaning, value: Lex) -> list[PlaceMeaning
         replace(
             whole,
             selector=s.Excluding(
-                places=s.Where(attribute=name, test="eq", value=text, of=whole.selector), of=whole.selector
+                places=s.Where(attribute=name, test="eq", value=text, of=where or whole.selector), of=whole.selector
             ),
         )
         for name, text in value.value
@@ -405,6 +450,7 @@ def except_for(whole: PlaceMeaning, part: PlaceMeaning, site: Site) -> PlaceMean
         or part.shape not in ("one", "several", "area")
     ):
         return None
+    part = replace(part, like=None) if part.like is not None and part.like.kind == "those" else part
     if whole.selector != s.Trees() and any(is_end_of_site(one) or one.named_marker for one in part.selector.members):
         return None  # the first, the last or the ends of these, not of the site
     trees = {one.tree for one in part.selector.walk() if isinstance(one, s.TreeIs)}
@@ -445,6 +491,8 @@ def both(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | list[Place
     """Compose "tree 12 and the charger"."""
     if first.per is not None or second.per is not None or first.like is not None:
         return None
+    if second.like is not None and second.like.kind == "those":
+        second = replace(second, selector=_of_that_kind(first.selector, second.selector), like=None)
     if second.like is not None:
         if (opposite := _other_end(first.selector, second.selector)) is None:
             return None
@@ -471,6 +519,14 @@ def both(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | list[Place
     # "The first tree and the last tree of row 4": is the first that of the row, too?
     in_row = tuple(over(part, counted.of) if is_end_of_site(part) else part for part in parts)
     return [whole, replace(whole, selector=s.UnionOf(parts=in_row))]
+
+
+def _of_that_kind(first: s.Selector, area: s.Selector) -> s.Selector:
+    """Return the trees of an area that fit the description of others: "those in row 5" behind "the yellow trees"."""
+    if not is_description(first):
+        return area
+    before = replaceable_area(first, area)
+    return over(first, area) if before is None else swapped(first, before, area)
 
 
 def _other_end(first: s.Selector, second: s.Selector) -> s.Selector | None:
@@ -511,6 +567,13 @@ def there(word: Lex) -> PlaceMeaning:
 def those(word: Lex) -> PlaceMeaning | None:
     """Compose "those"."""
     return PlaceMeaning(s.Here(), "those") if "those" in word.features else None
+
+
+@construction("place: DET SAME noun=TREE", "place: DET SAME noun=ONE", cost=0.3)
+def the_same(noun: Lex) -> PlaceMeaning:
+    """Compose "the same trees"."""
+    several = noun.plural or "plural" in noun.features
+    return PlaceMeaning(s.Here(), "those") if several else PlaceMeaning(s.Here(), "here", one_tree=True)
 
 
 @construction("place: word=IT", cost=0.3)
@@ -603,13 +666,15 @@ def largest_number(inner: Nominal) -> PlaceMeaning | None:
     "place: n=count inner=nominal OF EACH kind=ATTR",
     "place: n=count inner=nominal FOR EACH kind=ATTR",
     "place: n=count inner=nominal FROM EACH kind=ATTR",
+    "place: n=count random=RANDOM inner=nominal OF EACH kind=ATTR",
+    "place: n=count random=RANDOM inner=nominal PER kind=ATTR",
     "place: n=count inner=nominal PER kind=ATTR in_ where=region",
     "place: n=count inner=nominal OF EACH kind=ATTR in_ where=region",
     cost=0.2,
     given=("site",),
 )
 def so_many_of_each_kind(
-    n: int, inner: Nominal, kind: Lex, site: Site, where: s.Selector | None = None
+    n: int, inner: Nominal, kind: Lex, site: Site, where: s.Selector | None = None, random: Lex | None = None
 ) -> list[PlaceMeaning] | None:
     """Compose "5 vines per variety": so many of each of the kinds that the site records."""
     if inner.single or inner.complete or inner.pronoun or kind.plural:
@@ -623,6 +688,9 @@ def so_many_of_each_kind(
             parts = [part for part in described if ids_of(part, site)]
             if not parts:
                 continue
-            each = s.UnionOf(parts=tuple(s.Take(count=n, of=part) for part in parts))
+            chosen = [
+                s.Take(count=n, of=part) if random is None else s.RandomSample(count=n, of=part) for part in parts
+            ]
+            each = s.UnionOf(parts=tuple(chosen))
             made.append(PlaceMeaning(each, "several", each=True))
     return made or None

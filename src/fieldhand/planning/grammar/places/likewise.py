@@ -45,6 +45,39 @@ def likewise(like: Likewise) -> list[PlaceMeaning]:
     return [one, area] if not like.kind else [one] if like.kind == "corner" else [area]
 
 
+@construction("place: OTHERS", cost=4.0)
+@construction("place: DET OTHER noun=TREE", cost=0.5)
+def the_rest(noun: Lex | None = None) -> PlaceMeaning | None:
+    """Compose "the others", of trees that were named before."""
+    if noun is not None and not noun.plural:
+        return None
+    return PlaceMeaning(s.Trees(), "several", like=Likewise("rest"))
+
+
+@construction("place: OTHERS OF where=region", "place: DET OTHER noun=TREE in_ where=region", cost=0.3)
+def rest_of_area(where: s.Selector, noun: Lex | None = None) -> PlaceMeaning | None:
+    """Compose "the rest of row 4"."""
+    if noun is not None and not noun.plural:
+        return None
+    return PlaceMeaning(where, "several", like=Likewise("rest"))
+
+
+@construction(
+    "place: DET rank=ORD noun=ONE",
+    "place: DET last=LATTER",
+    "place: DET FORMER",
+    cost=0.5,
+)
+def one_of_those_named(
+    rank: Lex | None = None, last: Lex | None = None, noun: Lex | None = None
+) -> PlaceMeaning | None:
+    """Compose "the first one" and "the latter", of places that were named before."""
+    if noun is not None and "plural" in noun.features:
+        return None
+    number = -1 if last is not None else 1 if rank is None else rank.value
+    return PlaceMeaning(s.Trees(), "one", like=Likewise("nth", number=number))
+
+
 @construction("place: whole=place in_ like=likewise", cost=0.3)
 def in_likewise(whole: PlaceMeaning, like: Likewise) -> PlaceMeaning | None:
     """Compose "two trees in the other half"."""

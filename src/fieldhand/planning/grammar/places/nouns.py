@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any, cast
+from typing import Any, Literal, cast
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
@@ -21,6 +21,12 @@ from fieldhand.terms import Test
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
+#: Attribute, test and value: a pair for "between", alternatives for "any".
+AttributeTest = tuple[str, Test | Literal["between", "any"], Any]
+
+#: Word in the name of the attribute that an amount is about, by its unit.
+_ATTRIBUTE_BY_UNIT = {"years": "age", "kg": "yield"}
+
 
 @construction("nominal: noun=TREE", "owner: noun=TREEPOSS", cost=0.0)
 def tree(noun: Lex) -> Nominal:
@@ -28,11 +34,19 @@ def tree(noun: Lex) -> Nominal:
     return Nominal(s.Trees(), plural=noun.plural)
 
 
+@construction("which_is: WHICH [IS]", "which_is: IS", cost=0.0)
+def which_is() -> str:
+    """Compose "that are" before a description."""
+    return "which"
+
+
 @construction(
     "nominal: inner=nominal WHICH [IS] NOT value=ATTRVAL",
     "nominal: inner=nominal WHICH ISNOT value=ATTRVAL",
     "nominal: inner=nominal WHICH NOT value=ATTRVAL",
     "nominal: inner=nominal WHICHPOSS NOT value=ATTRVAL",
+    "nominal: inner=nominal WITHOUT value=ATTRVAL ATTR",
+    "nominal: NON [DASH] value=ATTRVAL inner=nominal",
     cost=0.3,
 )
 def without_attribute(inner: Nominal, value: Lex) -> list[Nominal] | None:
@@ -68,6 +82,7 @@ def pronoun(noun: Lex) -> Nominal:
     "owner: value=ATTRVAL inner=owner",
     "nominal: inner=nominal OF value=ATTRVAL",
     "nominal: inner=nominal OF [DET] ATTR value=ATTRVAL",
+    "nominal: value=ATTRVAL [DASH] LEAVED inner=nominal",
     cost=0.2,
 )
 def described(value: Lex, inner: Nominal) -> list[Nominal] | None:
@@ -96,9 +111,37 @@ def of_a_kind(inner: Nominal, value: Lex, attribute: Lex) -> list[Nominal] | Non
     ]
 
 
+@construction("value_list: first=ATTRVAL OR second=ATTRVAL", "value_list: first=ATTRVAL AND second=ATTRVAL", cost=0.1)
+def either_value(first: Lex, second: Lex) -> list[tuple[tuple[str, str], ...]]:
+    """Compose "yellow or pale green": values of one attribute."""
+    return [(one, other) for one in first.value for other in second.value if one[0] == other[0] and one != other]
+
+
+@construction("value_list: first=ATTRVAL COMMA rest=value_list", cost=0.1)
+def longer_value_list(first: Lex, rest: tuple[tuple[str, str], ...]) -> list[tuple[tuple[str, str], ...]]:
+    """Compose "yellow, green or pale green"."""
+    return [(one, *rest) for one in first.value if one[0] == rest[0][0] and one not in rest]
+
+
+@construction("nominal: values=value_list inner=nominal", cost=0.2)
+def of_several_kinds(values: tuple[tuple[str, str], ...], inner: Nominal) -> Nominal | None:
+    """Compose "yellow or pale green trees"."""
+    if inner.single or inner.complete or inner.pronoun or inner.tested or not inner.plural:
+        return None
+    return replace(inner, selector=_that_pass((values[0][0], "any", tuple(text for _, text in values)), inner.selector))
+
+
+@construction("attribute_test: values=value_list [ATTR]", cost=0.4)
+def attribute_is_one_of(values: tuple[tuple[str, str], ...]) -> AttributeTest:
+    """Compose "yellow or pale green" behind a noun."""
+    return (values[0][0], "any", tuple(text for _, text in values))
+
+
 @construction("region: DET value=ATTRVAL", cost=0.8, given=("site",))
-def where_a_variety_grows(value: Lex, site: Site) -> list[s.Selector]:
+def where_a_variety_grows(value: Lex, site: Site) -> list[s.Selector] | None:
     """Compose "the Merlot" as an area."""
+    if value.plural:
+        return None
     varieties = hinted_attributes("variety", site)
     return [s.Where(attribute=name, test="eq", value=text) for name, text in value.value if name in varieties]
 
@@ -110,65 +153,181 @@ def those_of_a_kind(value: Lex) -> list[Nominal]:
 
 
 @construction(
-    "nominal: inner=nominal [WHICH] [IS] test=attribute_test",
+    "nominal: inner=nominal [which_is] test=attribute_test",
     "nominal: inner=nominal [WITH] test=attribute_test",
+    "nominal: inner=nominal OF test=attribute_test",
+    "nominal: inner=nominal WHERE test=attribute_test",
 )
-def with_attribute(inner: Nominal, test: tuple[str, Test, Any]) -> Nominal | None:
+def with_attribute(inner: Nominal, test: AttributeTest) -> Nominal | None:
     """Compose "trees that are older than 8 years"."""
     if inner.single or inner.complete or not chooses_from_trees(inner.selector):
         return None
+    return replace(inner, selector=_that_pass(test, inner.selector), tested=True)
+
+
+def _that_pass(test: AttributeTest, of: s.Selector) -> s.Selector:
+    """Return the trees of a selection that pass a test of an attribute."""
     name, check, value = test
-    return replace(inner, selector=s.Where(attribute=name, test=check, value=value, of=inner.selector), tested=True)
+    if check == "any":
+        return s.UnionOf(parts=tuple(s.Where(attribute=name, test="eq", value=text, of=of) for text in value))
+    if check == "between":
+        low, high = value
+        return s.Where(attribute=name, test="le", value=high, of=s.Where(attribute=name, test="ge", value=low, of=of))
+    return s.Where(attribute=name, test=check, value=value, of=of)
 
 
 @construction(
-    "nominal: inner=nominal [WHICH] [IS] test=attribute_test AND [WHICH] [IS] second=attribute_test",
-    "nominal: inner=nominal WITH test=attribute_test AND [WITH] second=attribute_test",
+    "nominal: inner=nominal [which_is] test=attribute_test and_or_but [which_is] second=attribute_test",
+    "nominal: inner=nominal WITH test=attribute_test and_or_but [WITH] second=attribute_test",
     cost=0.2,
 )
-def with_two_attributes(inner: Nominal, test: tuple[str, Test, Any], second: tuple[str, Test, Any]) -> Nominal | None:
+def with_two_attributes(inner: Nominal, test: AttributeTest, second: AttributeTest) -> Nominal | None:
     """Compose "trees older than 8 years and younger than 12"."""
     first = with_attribute(inner, test)
     return None if first is None else with_attribute(first, second)
 
 
-@construction("place: whole=place [WHICH] [IS] test=attribute_test", cost=0.3)
-def those_with_attribute(whole: PlaceMeaning, test: tuple[str, Test, Any]) -> PlaceMeaning | None:
+@construction("place: word=DET [which_is] test=attribute_test", "place: word=DET WITH test=attribute_test", cost=0.4)
+def those_of_a_description(word: Lex, test: AttributeTest) -> PlaceMeaning | None:
+    """Compose "those older than 8 years"."""
+    return PlaceMeaning(_that_pass(test, s.Trees()), "several") if "stands_for_noun" in word.features else None
+
+
+@construction("place: whole=place [which_is] test=attribute_test", cost=0.3)
+def those_with_attribute(whole: PlaceMeaning, test: AttributeTest) -> PlaceMeaning | None:
     """Compose "every third tree in row 4 that is yellow"."""
     if as_every_nth(whole.selector) is None or whole.per is not None:
         return None
-    name, check, value = test
-    return replace(whole, selector=s.Where(attribute=name, test=check, value=value, of=whole.selector))
+    return replace(whole, selector=_that_pass(test, whole.selector))
 
 
 @construction(
-    "attribute_test: attribute=ATTR [IS] check=CMP value=NUM",
-    "attribute_test: attribute=ATTR [IS] check=CMP value=amount",
-    "attribute_test: [DET] attribute=ATTR [IS] check=CMP value=NUM",
+    "attribute_test: [DET] attribute=ATTR [OF] [IS] check=CMP value=NUM",
+    "attribute_test: [DET] attribute=ATTR [OF] [IS] check=CMP value=amount",
     "attribute_test: check=CMP value=NUM [OF] attribute=ATTR",
     "attribute_test: check=CMP value=amount [OF] attribute=ATTR",
     cost=0.2,
 )
-def attribute_compared(attribute: Lex, check: Lex, value: Any) -> list[tuple[str, Test, Any]] | None:
+def attribute_compared(attribute: Lex, check: Lex, value: Any) -> list[AttributeTest] | None:
     """Compose "yield above 10 kg" and "more than 0.9 vigor"."""
     return None if check.value[1] else [(name, check.value[0], _number(value)) for name in attribute.value]
 
 
-@construction("attribute_test: check=CMP value=NUM", "attribute_test: check=CMP value=amount", cost=0.2)
-def hinted_compared(check: Lex, value: Any) -> tuple[str, Test, Any] | None:
-    """Compose "older than 8 years"."""
-    name = check.value[1]
-    if isinstance(value, Amount) and value.unit not in ("years", "kg", "metres"):
-        return None
-    return (name, check.value[0], _number(value)) if name else None
+@construction(
+    "attribute_test: [DET] attribute=ATTR OF value=NUM",
+    "attribute_test: [DET] attribute=ATTR IS value=NUM",
+    "attribute_test: [DET] attribute=ATTR [OF] [IS] value=amount",
+    "attribute_test: value=amount OF attribute=ATTR",
+    cost=0.3,
+)
+def attribute_exactly(attribute: Lex, value: Any) -> list[AttributeTest]:
+    """Compose "an age of 12 years" and "two years of age"."""
+    return [(name, "eq", _number(value)) for name in attribute.value]
 
 
-@construction("attribute_test: value=NUM bound=BOUND", "attribute_test: value=amount bound=BOUND", cost=0.2)
-def bounded(value: Any, bound: Lex) -> tuple[str, Test, Any] | None:
-    """Compose "8 years or older"."""
-    if isinstance(value, Amount) and value.unit not in ("years", "kg", "metres"):
+@construction(
+    "attribute_test: AGED value=NUM",
+    "attribute_test: AGED value=amount",
+    "attribute_test: value=amount [DASH] OLD",
+    cost=0.2,
+    given=("site",),
+)
+def of_age(value: Any, site: Site) -> list[AttributeTest] | None:
+    """Compose "aged 2" and "two years old"."""
+    if isinstance(value, Amount) and value.unit != "years":
         return None
-    return (bound.value[1], bound.value[0], _number(value)) if bound.value[1] else None
+    return [(name, "eq", _number(value)) for name in hinted_attributes("age", site)]
+
+
+@construction("nominal: old=amount [DASH] OLD inner=nominal", cost=0.2, given=("site",))
+def old_trees(old: Amount, inner: Nominal, site: Site) -> list[Nominal] | None:
+    """Compose "four-year-old trees"."""
+    if inner.single or inner.complete:
+        return None
+    return [replace(inner, selector=_that_pass(test, inner.selector)) for test in of_age(old, site) or ()]
+
+
+@construction(
+    "attribute_test: AGED check=CMP value=NUM", "attribute_test: AGED check=CMP value=amount", cost=0.2, given=("site",)
+)
+def age_compared(check: Lex, value: Any, site: Site) -> list[AttributeTest] | None:
+    """Compose "aged over 5"."""
+    if isinstance(value, Amount) and value.unit != "years":
+        return None
+    return (
+        None if check.value[1] else [(name, check.value[0], _number(value)) for name in hinted_attributes("age", site)]
+    )
+
+
+@construction(
+    "value_range: BETWEEN low=NUM AND high=NUM",
+    "value_range: BETWEEN low=NUM AND high=amount",
+    "value_range: BETWEEN low=amount AND high=amount",
+    "value_range: [FROM] low=NUM range_to high=NUM",
+    "value_range: [FROM] low=NUM range_to high=amount",
+    "value_range: [FROM] low=amount range_to high=amount",
+    cost=0.1,
+)
+def value_range(low: Any, high: Any) -> tuple[float, float, str] | None:
+    """Compose "between 4 and 6 kg"."""
+    unit = high.unit if isinstance(high, Amount) else ""
+    if _number(low) >= _number(high) or (isinstance(low, Amount) and low.unit != unit):
+        return None
+    return (_number(low), _number(high), unit)
+
+
+@construction(
+    "attribute_test: [DET] attribute=ATTR [OF] [IS] span=value_range",
+    "attribute_test: span=value_range [OF] attribute=ATTR",
+    cost=0.2,
+)
+def attribute_between(attribute: Lex, span: tuple[float, float, str]) -> list[AttributeTest]:
+    """Compose "a yield between 4 and 6 kg"."""
+    return [(name, "between", span[:2]) for name in attribute.value]
+
+
+@construction(
+    "attribute_test: old=AGED span=value_range",
+    "attribute_test: span=value_range old=OLD",
+    "attribute_test: verb=ATTRVERB span=value_range",
+    "attribute_test: span=value_range",
+    cost=0.3,
+    given=("site",),
+)
+def measured_between(
+    span: tuple[float, float, str], site: Site, old: Lex | None = None, verb: Lex | None = None
+) -> list[AttributeTest] | None:
+    """Compose "between 5 and 10 years old" and "yielded 4 to 6 kg"."""
+    unit = span[2] or ("years" if old is not None else "kg" if verb is not None else "")
+    if unit not in _ATTRIBUTE_BY_UNIT or (old is not None and unit != "years") or (verb is not None and unit != "kg"):
+        return None
+    return [(name, "between", span[:2]) for name in hinted_attributes(_ATTRIBUTE_BY_UNIT[unit], site)]
+
+
+@construction(
+    "attribute_test: check=CMP value=NUM", "attribute_test: check=CMP value=amount", cost=0.2, given=("site",)
+)
+def hinted_compared(check: Lex, value: Any, site: Site) -> list[AttributeTest] | None:
+    """Compose "older than 8 years" and "under 8 years"."""
+    unit = value.unit if isinstance(value, Amount) else ""
+    if unit not in ("", *_ATTRIBUTE_BY_UNIT, "metres"):
+        return None
+    names = (
+        [check.value[1]]
+        if check.value[1]
+        else hinted_attributes(_ATTRIBUTE_BY_UNIT[unit], site)
+        if unit in _ATTRIBUTE_BY_UNIT
+        else []
+    )
+    return [(name, check.value[0], _number(value)) for name in names]
+
+
+@construction(
+    "attribute_test: value=NUM bound=BOUND", "attribute_test: value=amount bound=BOUND", cost=0.2, given=("site",)
+)
+def bounded(value: Any, bound: Lex, site: Site) -> list[AttributeTest] | None:
+    """Compose "8 years or older" and "8 years and more"."""
+    return hinted_compared(bound, value, site)
 
 
 @construction(
@@ -176,7 +335,7 @@ def bounded(value: Any, bound: Lex) -> tuple[str, Test, Any] | None:
     "attribute_test: [DET] attribute=ATTR [OF] [IS] value=amount bound=BOUND",
     cost=0.2,
 )
-def attribute_bounded(attribute: Lex, value: Any, bound: Lex) -> list[tuple[str, Test, Any]] | None:
+def attribute_bounded(attribute: Lex, value: Any, bound: Lex) -> list[AttributeTest] | None:
     """Compose "vigor of 0.9 or more"."""
     return None if bound.value[1] else [(name, bound.value[0], _number(value)) for name in attribute.value]
 
@@ -187,52 +346,27 @@ def attribute_bounded(attribute: Lex, value: Any, bound: Lex) -> list[tuple[str,
     cost=0.2,
     given=("site",),
 )
-def yielded(check: Lex, value: Any, site: Site) -> list[tuple[str, Test, Any]] | None:
+def yielded(check: Lex, value: Any, site: Site) -> list[AttributeTest] | None:
     """Compose "yielded less than 5 kg"."""
     if check.value[1] or (isinstance(value, Amount) and value.unit != "kg"):
         return None
     return [(name, check.value[0], _number(value)) for name in hinted_attributes("yield", site)]
 
 
-@construction("attribute_test: attribute=ATTR IS value=ATTRVAL", cost=0.2)
-def attribute_is_value(attribute: Lex, value: Lex) -> list[tuple[str, Test, Any]]:
+@construction("attribute_test: [DET] attribute=ATTR IS value=ATTRVAL", cost=0.2)
+def attribute_is_value(attribute: Lex, value: Lex) -> list[AttributeTest]:
     """Compose "leaves are yellow"."""
     return [(name, "eq", text) for name, text in value.value if name in attribute.value]
 
 
 @construction(
-    "attribute_test: attribute=ATTR ISNOT value=ATTRVAL",
-    "attribute_test: attribute=ATTR IS NOT value=ATTRVAL",
+    "attribute_test: [DET] attribute=ATTR ISNOT value=ATTRVAL",
+    "attribute_test: [DET] attribute=ATTR IS NOT value=ATTRVAL",
     cost=0.2,
 )
-def attribute_is_not(attribute: Lex, value: Lex) -> list[tuple[str, Test, Any]]:
+def attribute_is_not(attribute: Lex, value: Lex) -> list[AttributeTest]:
     """Compose "leaves are not green"."""
     return [(name, "ne", text) for name, text in value.value if name in attribute.value]
-
-
-@construction(
-    "nominal: inner=nominal [WHICH] [DET] attribute=ATTR [IS] BETWEEN low=NUM AND high=NUM",
-    "nominal: inner=nominal WITH [DET] attribute=ATTR [OF] BETWEEN low=NUM AND high=NUM",
-    "nominal: inner=nominal WHICH [DET] attribute=ATTR OF BETWEEN low=NUM AND high=NUM",
-    cost=0.3,
-)
-def with_attribute_between(inner: Nominal, attribute: Lex, low: Lex, high: Lex) -> list[Nominal] | None:
-    """Compose "trees with a yield between 4 and 6"."""
-    if inner.single or inner.complete or low.value >= high.value or not chooses_from_trees(inner.selector):
-        return None
-    return [
-        replace(
-            inner,
-            selector=s.Where(
-                attribute=name,
-                test="le",
-                value=high.value,
-                of=s.Where(attribute=name, test="ge", value=low.value, of=inner.selector),
-            ),
-            tested=True,
-        )
-        for name in attribute.value
-    ]
 
 
 @construction(
@@ -242,11 +376,9 @@ def with_attribute_between(inner: Nominal, attribute: Lex, low: Lex, high: Lex) 
     "place_where: WHERE IT [IS] [DET] test=attribute_test in_ where=region",
     cost=0.3,
 )
-def where_so(test: tuple[str, Test, Any], where: s.Selector | None = None) -> PlaceMeaning | None:
+def where_so(test: AttributeTest, where: s.Selector | None = None) -> PlaceMeaning | None:
     """Compose "where vigor is under 0.35 in the south block"."""
-    name, check, value = test
-    of = s.Trees() if where is None else where
-    return PlaceMeaning(s.Where(attribute=name, test=check, value=value, of=of), "several")
+    return PlaceMeaning(_that_pass(test, s.Trees() if where is None else where), "several")
 
 
 @construction("place: where=place_where", cost=0.3)
@@ -256,7 +388,7 @@ def at_places_where(where: PlaceMeaning) -> PlaceMeaning:
 
 
 @construction("attribute_test: value=ATTRVAL", "attribute_test: value=ATTRVAL ATTR", cost=0.4)
-def attribute_is(value: Lex) -> list[tuple[str, Test, Any]]:
+def attribute_is(value: Lex) -> list[AttributeTest]:
     """Compose "yellow" behind a noun."""
     return [(name, "eq", text) for name, text in value.value]
 
@@ -287,7 +419,7 @@ def extreme(side: Lex, inner: Nominal) -> Nominal | None:
     return replace(inner, selector=made, single=not inner.plural)
 
 
-@construction("place: [DET] n=count side=MOST inner=nominal", cost=0.2)
+@construction("place: [DET] n=count side=MOST inner=nominal", "place: DET side=MOST n=count inner=nominal", cost=0.2)
 def so_many_extreme(n: int, side: Lex, inner: Nominal) -> PlaceMeaning | None:
     """Compose "the 3 northernmost trees"."""
     if inner.single or inner.complete or side.value in CORNERS or n < 2:
@@ -361,15 +493,55 @@ def ranked(rank: tuple[str, bool], inner: Nominal, n: int | None = None) -> Plac
     return PlaceMeaning(selector, "one") if number == 1 else PlaceMeaning(selector, "several", count=number)
 
 
-@construction("place: [DET] n=count inner=nominal WHICH ATTRVERB DET best=ranking", cost=0.2, given=("site",))
-def that_yielded(n: int, inner: Nominal, best: tuple[str, bool], site: Site) -> list[PlaceMeaning] | None:
-    """Compose "the ten trees that yielded the least"."""
-    if best[0] or inner.single or inner.complete:
+@construction(
+    "two_rankings: first=ranking AND [DET] [m=count] second=ranking",
+    "two_behind: WITH DET first=ranking AND [DET] [TREE] [WITH] [DET] second=ranking",
+    cost=0.1,
+)
+def two_rankings(
+    first: tuple[str, bool], second: tuple[str, bool], m: int | None = None
+) -> tuple[str, bool, bool, int | None] | None:
+    """Compose "oldest and the youngest": attribute, whether the lowest are meant first and second, and how many."""
+    name = first[0] or second[0]
+    if not name or second[0] not in ("", name) or first == second:
         return None
+    return (name, first[1], second[1], m)
+
+
+@construction(
+    "place: [DET] [n=count] best=two_rankings inner=nominal",
+    "place: [DET] inner=nominal best=two_behind",
+    cost=0.1,
+)
+def two_ranked(best: tuple[str, bool, bool, int | None], inner: Nominal, n: int = 1) -> PlaceMeaning | None:
+    """Compose "the oldest and the youngest tree in row 3" and "the tree with the highest and the lowest yield"."""
+    name, lowest_first, lowest_second, second_count = best
+    counts = (n, second_count or n)
+    if inner.single or inner.complete or (counts != (1, 1) and not inner.plural):
+        return None
+    parts = tuple(
+        s.Top(attribute=name, count=count, lowest=lowest, of=inner.selector)
+        for count, lowest in zip(counts, (lowest_first, lowest_second), strict=True)
+    )
+    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=sum(counts))
+
+
+@construction(
+    "place: [DET] [n=count] inner=nominal WHICH ATTRVERB [DET] best=ranking",
+    "place: [DET] best=ranking [n=count] YIELDER",
+    "place: [DET] n=count best=ranking YIELDER",
+    cost=0.2,
+    given=("site",),
+)
+def that_yielded(
+    best: tuple[str, bool], site: Site, n: int = 1, inner: Nominal | None = None
+) -> list[PlaceMeaning] | None:
+    """Compose "the ten trees that yielded the least" and "the top 10 yielders"."""
+    if best[0] or (inner is not None and (inner.single or inner.complete or inner.plural != (n > 1))):
+        return None
+    of = s.Trees() if inner is None else inner.selector
     return [
-        PlaceMeaning(
-            s.Top(attribute=name, count=n, lowest=best[1], of=inner.selector), "one" if n == 1 else "several", count=n
-        )
+        PlaceMeaning(s.Top(attribute=name, count=n, lowest=best[1], of=of), "one" if n == 1 else "several", count=n)
         for name in hinted_attributes("yield", site)
     ]
 
@@ -399,7 +571,9 @@ def nth_extreme(rank: Lex, side: Lex, inner: Nominal) -> Nominal | None:
     return replace(inner, selector=s.Extreme(side=side.value, of=of), single=True)
 
 
-@construction("nominal: rank=ORD best=ranking inner=nominal", cost=0.1)
+@construction(
+    "nominal: rank=ORD best=ranking inner=nominal", "nominal: inner=nominal WITH DET rank=ORD best=ranking", cost=0.1
+)
 def nth_ranked(rank: Lex, best: tuple[str, bool], inner: Nominal) -> Nominal | None:
     """Compose "second oldest tree"."""
     if inner.single or inner.complete or inner.plural or not best[0] or rank.value < 2:
@@ -420,7 +594,13 @@ def of_a_side(side: Lex, inner: Nominal) -> Nominal | None:
     return replace(inner, selector=replace(part, of=inner.selector), of_side=True)
 
 
-@construction("nominal: inner=nominal [WHICH] [IS] FARTHEST [AT] [DET] side=DIR", cost=0.2)
+@construction("farthest_side: FARTHEST [AT] [DET] side=DIR", cost=0.0)
+def farthest_side(side: Lex) -> Lex:
+    """Compose "farthest to the south" behind a noun."""
+    return side
+
+
+@construction("nominal: inner=nominal [which_is] side=farthest_side", cost=0.2)
 def farthest_to_side(inner: Nominal, side: Lex) -> Nominal | None:
     """Compose "tree that lies farthest to the south"."""
     return None if inner.plural else extreme(side, inner)
@@ -429,6 +609,7 @@ def farthest_to_side(inner: Nominal, side: Lex) -> Nominal | None:
 @construction(
     "nominal: inner=nominal WHICH [IS] NOT in_ where=region",
     "nominal: inner=nominal WHICH ISNOT in_ where=region",
+    "nominal: inner=nominal NOT in_ where=region",
     cost=0.3,
 )
 def not_in_area(inner: Nominal, where: s.Selector) -> Nominal | None:
@@ -439,59 +620,14 @@ def not_in_area(inner: Nominal, where: s.Selector) -> Nominal | None:
 
 
 @construction(
-    "nominal: inner=nominal [WHICH] WITH [DET] attribute=ATTR OF check=CMP value=NUM",
-    "nominal: inner=nominal [WHICH] WITH [DET] attribute=ATTR OF check=CMP value=amount",
-    "nominal: inner=nominal WHICH [DET] attribute=ATTR OF check=CMP value=amount",
-    "nominal: inner=nominal WHICH [DET] attribute=ATTR OF check=CMP value=NUM",
-    cost=0.2,
-)
-def with_attribute_of(inner: Nominal, attribute: Lex, check: Lex, value: Any) -> list[Nominal] | None:
-    """Compose "trees with a yield of more than 3 kg"."""
-    if inner.single or inner.complete or not chooses_from_trees(inner.selector):
-        return None
-    tests = attribute_compared(attribute, check, value) or []
-    return [
-        replace(inner, selector=s.Where(attribute=name, test=test, value=number, of=inner.selector), tested=True)
-        for name, test, number in tests
-    ]
-
-
-@construction("nominal: old=amount [DASH] OLD inner=nominal", cost=0.2, given=("site",))
-def of_age(old: Amount, inner: Nominal, site: Site) -> list[Nominal] | None:
-    """Compose "four year old trees"."""
-    if old.unit != "years" or inner.single or inner.complete:
-        return None
-    ages = hinted_attributes("age", site)
-    return [
-        replace(inner, selector=s.Where(attribute=name, test="eq", value=old.number, of=inner.selector))
-        for name in ages
-    ]
-
-
-@construction("nominal: inner=nominal [WHICH] [IS] BETWEEN low=NUM AND high=amount [OLD]", cost=0.2, given=("site",))
-def of_ages_between(inner: Nominal, low: Lex, high: Amount, site: Site) -> list[Nominal] | None:
-    """Compose "trees between 5 and 10 years old"."""
-    if high.unit != "years" or inner.single or inner.complete or low.value >= high.number:
-        return None
-    if not chooses_from_trees(inner.selector):
-        return None
-    found: list[Nominal] = []
-    for name in hinted_attributes("age", site):
-        older = s.Where(attribute=name, test="ge", value=low.value, of=inner.selector)
-        found.append(
-            replace(inner, selector=s.Where(attribute=name, test="le", value=high.number, of=older), tested=True)
-        )
-    return found
-
-
-@construction(
-    "place: [DET] best=ranking n=count inner=nominal BY attribute=ATTR",
+    "place: [DET] best=ranking [n=count] inner=nominal BY attribute=ATTR",
+    "place: [DET] n=count best=ranking inner=nominal BY attribute=ATTR",
     "place: [DET] n=count inner=nominal WITH DET best=ranking attribute=ATTR",
     cost=0.1,
 )
-def ranked_by(best: tuple[str, bool], n: int, inner: Nominal, attribute: Lex) -> list[PlaceMeaning] | None:
+def ranked_by(best: tuple[str, bool], inner: Nominal, attribute: Lex, n: int = 1) -> list[PlaceMeaning] | None:
     """Compose "the bottom 4 trees by yield"."""
-    if best[0] or inner.single or inner.complete:
+    if best[0] or inner.single or inner.complete or inner.plural != (n > 1):
         return None
     return [
         PlaceMeaning(

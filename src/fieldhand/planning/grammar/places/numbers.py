@@ -18,6 +18,8 @@ construction = GRAMMAR.construction
 VAGUE_NUMBERS = (3, 5, 10)
 #: Id of letters and a number.
 _CODED = re.compile(r"(\D*)([1-9]\d*)")
+#: Maximum number of trees of a range of numbers.
+_LONGEST_RANGE = 500
 
 
 def whole(number: float) -> int | None:
@@ -58,6 +60,13 @@ def count(number: Lex) -> int | None:
     return whole(number.value)
 
 
+@construction("count: first=NUM OR second=NUM", cost=0.3)
+def either_count(first: Lex, second: Lex) -> list[int] | None:
+    """Compose "three or four": a question between numbers."""
+    counts = [number for one in (first, second) if (number := whole(one.value)) is not None]
+    return counts if len(counts) == 2 else None
+
+
 @construction("count: VAGUE", cost=0.0)
 def vague_count() -> list[int]:
     """Compose "a few": a question between numbers."""
@@ -75,22 +84,65 @@ def coded_tree(tree: Lex) -> tuple[str, ...]:
     return (tree.value,)
 
 
+@construction("number_item: [HASH] number=NUM", "number_item: word=NUMBERED [HASH] number=NUM", cost=0.1)
+def one_tree_number(number: Lex, word: Lex | None = None) -> tuple[str, ...] | None:
+    """Compose "12" and "number 12", of trees."""
+    if whole(number.value) is None or (word is not None and "by_id" in word.features):
+        return None
+    return (name_of(number),)
+
+
+@construction("number_item: first=number_item range_to [TREE] last=number_item", cost=0.1)
+def number_range(first: tuple[str, ...], last: tuple[str, ...]) -> tuple[str, ...] | None:
+    """Compose "12 to 20", of trees."""
+    if len(first) != 1 or len(last) != 1:
+        return None
+    low, high = int(first[0]), int(last[0])
+    return tuple(str(k) for k in range(low, high + 1)) if low < high <= low + _LONGEST_RANGE else None
+
+
+@construction("code_item: one=tree_id", cost=0.0)
+def one_tree_code(one: tuple[str, ...]) -> tuple[str, ...]:
+    """Compose "A12" in a list."""
+    return one
+
+
+@construction("code_item: first=tree_id range_to [TREE] last=tree_id", cost=0.0, given=("site",))
+def code_range(first: tuple[str, ...], last: tuple[str, ...], site: Site) -> tuple[str, ...] | None:
+    """Compose "N300 through N310", where the ids differ by their number only."""
+    low, high = (_CODED.fullmatch(one[0]) for one in (first, last))
+    if low is None or high is None or low[1] != high[1]:
+        return None
+    begin, end = int(low[2]), int(high[2])
+    if not begin < end <= begin + _LONGEST_RANGE:
+        return None
+    names = tuple(f"{low[1]}{number}" for number in range(begin, end + 1))
+    return names if all(name in site.by_id for name in names) else None
+
+
 @construction(
-    "tree_ids: TREE [HASH] number=NUM",
-    "tree_ids: TREE [NUMBERED] [HASH] named=tree_id",
-    cost=0.2,
+    "tree_ids: TREE [start=FROM] item=number_item",
+    "tree_ids: TREE [start=FROM] item=code_item",
+    "tree_ids: start=FROM item=code_item",
+    "tree_ids: start=FROM TREE item=number_item",
+    "tree_ids: TREE NUMBERED [HASH] item=code_item",
+    cost=0.1,
 )
-def tree_by_number(number: Lex | None = None, named: tuple[str, ...] = ()) -> tuple[str, ...] | None:
-    """Compose "tree 12"."""
-    if number is None:
-        return named
-    return None if whole(number.value) is None else (name_of(number),)
+def trees_by_number(item: tuple[str, ...], start: Lex | None = None) -> tuple[str, ...] | None:
+    """Compose "tree 12", "trees 12 to 20" and "trees from N300 to N310"."""
+    return None if start is not None and len(item) == 1 else item
 
 
-@construction("tree_ids: TREE word=NUMBERED [HASH] number=NUM", cost=0.2)
-def tree_with_number(word: Lex, number: Lex) -> tuple[str, ...] | None:
-    """Compose "tree number 7"."""
-    return None if "by_id" in word.features else tree_by_number(number)
+@construction("tree_ids: item=code_item", cost=0.4)
+def bare_code(item: tuple[str, ...]) -> tuple[str, ...]:
+    """Compose "A12" without the word "tree"."""
+    return item
+
+
+@construction("tree_ids: word=NUMBERED [HASH] number=NUM", cost=0.8)
+def bare_number(word: Lex, number: Lex) -> tuple[str, ...] | None:
+    """Compose "number 140" without the word "tree"."""
+    return None if "negates" in word.features else one_tree_number(number)
 
 
 @construction("place: [DET] TREE word=NUMBERED [HASH] number=NUM", cost=0.3)
@@ -113,44 +165,13 @@ def except_tree_with_id(whole: PlaceMeaning, word: Lex, number: Lex) -> PlaceMea
 
 
 @construction(
-    "tree_ids: first=tree_ids [COMMA] [AND] [HASH] number=NUM",
-    "tree_ids: first=tree_ids [COMMA] [AND] TREE [HASH] number=NUM",
-    cost=0.3,
+    "tree_ids: first=tree_ids [COMMA] [AND] [TREE] item=number_item",
+    "tree_ids: first=tree_ids [COMMA] [AND] [TREE] item=code_item",
+    cost=0.2,
 )
-def and_tree_number(first: tuple[str, ...], number: Lex) -> tuple[str, ...] | None:
-    """Compose "trees 12, 15 and 20"."""
-    return None if whole(number.value) is None else (*first, name_of(number))
-
-
-@construction("tree_ids: first=tree_ids [COMMA] [AND] more=tree_id", cost=0.3)
-def and_tree_code(first: tuple[str, ...], more: tuple[str, ...]) -> tuple[str, ...]:
-    """Compose "trees A12 and B3"."""
-    return (*first, *more)
-
-
-@construction("tree_ids: first=tree_id", cost=0.4)
-def bare_code(first: tuple[str, ...]) -> tuple[str, ...]:
-    """Compose "A12" without the word "tree"."""
-    return first
-
-
-@construction("tree_ids: TREE [FROM] [NUMBERED] number=NUM range_to last=NUM", cost=0.3)
-def tree_range(number: Lex, last: Lex) -> tuple[str, ...] | None:
-    """Compose "trees 12 to 20"."""
-    low, high = whole(number.value), whole(last.value)
-    if low is None or high is None or not low < high <= low + 500:
-        return None
-    return tuple(str(k) for k in range(low, high + 1))
-
-
-@construction("tree_ids: [TREE] first=tree_id range_to [TREE] last=tree_id", cost=0.2, given=("site",))
-def code_range(first: tuple[str, ...], last: tuple[str, ...], site: Site) -> tuple[str, ...] | None:
-    """Compose "N300 through N310", where the ids differ by their number only."""
-    low, high = (_CODED.fullmatch(one[0]) for one in (first, last))
-    if low is None or high is None or low[1] != high[1] or not int(low[2]) < int(high[2]) <= int(low[2]) + 500:
-        return None
-    names = tuple(f"{low[1]}{number}" for number in range(int(low[2]), int(high[2]) + 1))
-    return names if all(name in site.by_id for name in names) else None
+def longer_tree_list(first: tuple[str, ...], item: tuple[str, ...]) -> tuple[str, ...]:
+    """Compose "trees 12, 15 and 20 to 25"."""
+    return (*first, *item)
 
 
 @construction(
@@ -189,13 +210,15 @@ def until_word() -> str:
     return "to"
 
 
-@construction("range_to: word=AT", "range_to: word=ALONG", "range_to: word=DASH", cost=0.0)
-def range_word(word: Lex) -> str | None:
+@construction(
+    "range_to: word=AT", "range_to: word=ALONG", "range_to: word=DASH", "range_to: UNTIL", "range_to: RANGETO", cost=0.0
+)
+def range_word(word: Lex | None = None) -> str | None:
     """Compose "to" and "through"."""
-    return "to" if "range" in word.features else None
+    return "to" if word is None or "range" in word.features else None
 
 
-@construction("place: [DET] trees=tree_ids", cost=0.1)
+@construction("place: [DET] trees=tree_ids", "place: EACH [DET] trees=tree_ids", cost=0.1)
 def named_trees(trees: tuple[str, ...]) -> PlaceMeaning:
     """Compose "the trees 12 and 15"."""
     if len(trees) == 1:
@@ -203,16 +226,42 @@ def named_trees(trees: tuple[str, ...]) -> PlaceMeaning:
     return PlaceMeaning(s.UnionOf(parts=tuple(s.TreeIs(tree=t) for t in trees)), "several", count=len(trees))
 
 
-@construction("numbers: first=NUM", cost=0.0)
-def one_number(first: Lex) -> tuple[str, ...] | None:
+@construction(
+    "between_trees: BETWEEN [TREE] first=number_item AND [TREE] last=number_item",
+    "between_trees: BETWEEN [TREE] first=tree_id AND [TREE] last=tree_id",
+    cost=0.1,
+    given=("site",),
+)
+def between_trees(first: tuple[str, ...], last: tuple[str, ...], site: Site) -> tuple[str, ...] | None:
+    """Compose "between 20 and 30", of trees."""
+    return number_range(first, last) if first[0].isdigit() else code_range(first, last, site)
+
+
+@construction("place: [DET] noun=TREE every=between_trees", "place: EACH [DET] noun=TREE every=between_trees", cost=0.2)
+def trees_between(noun: Lex, every: tuple[str, ...]) -> list[PlaceMeaning] | None:
+    """Compose "the trees between 20 and 30": with these two, or without them?"""
+    return [named_trees(every), named_trees(every[1:-1])] if len(every) > 3 and noun.plural else None
+
+
+@construction("owned_by: [DET] trees=tree_ids POSS", "owned_by: [DET] [TREE] code=TREEIDPOSS", cost=0.1)
+def owned_by_tree(trees: tuple[str, ...] = (), code: Lex | None = None) -> PlaceMeaning | None:
+    """Compose "tree 40's"."""
+    names = trees if code is None else (code.value,)
+    return named_trees(names) if len(names) == 1 else None
+
+
+@construction("numbers: first=number_item", cost=0.0)
+def one_number(first: tuple[str, ...]) -> tuple[str, ...]:
     """Compose "12" without the word "tree"."""
-    return None if whole(first.value) is None else (name_of(first),)
+    return first
 
 
-@construction("numbers: first=numbers [COMMA] AND number=NUM", "numbers: first=numbers COMMA number=NUM", cost=0.1)
-def more_numbers(first: tuple[str, ...], number: Lex) -> tuple[str, ...]:
+@construction(
+    "numbers: first=numbers [COMMA] AND item=number_item", "numbers: first=numbers COMMA item=number_item", cost=0.1
+)
+def more_numbers(first: tuple[str, ...], item: tuple[str, ...]) -> tuple[str, ...]:
     """Compose "12, 15 and 20"."""
-    return (*first, name_of(number))
+    return (*first, *item)
 
 
 @construction(

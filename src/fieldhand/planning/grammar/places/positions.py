@@ -8,9 +8,11 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning, Shape
 from fieldhand.planning.grammar.places.compass import AWAY_FROM, SIDES
+from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import are_rows, as_every_nth, as_in_row, chooses_from_trees, is_one_row, over
-from fieldhand.terms import Side
+from fieldhand.site.model import Site
+from fieldhand.terms import CountedFrom, Side
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -44,9 +46,7 @@ def last_position() -> tuple[int, int]:
 
 
 @construction(
-    "place: [DET] where=position inner=nominal in_ rows=rows",
-    "place: [DET] where=position inner=nominal in_ rows=each_row",
-    "place: [DET] where=position inner=nominal in_ rows=rows_of_block",
+    "place: [DET] where=position inner=nominal in_ rows=any_rows",
     "place: [DET] where=position inner=nominal in_ rows=rows AND in_ more=rows",
     cost=0.2,
 )
@@ -69,10 +69,9 @@ def span(at: tuple[int, int]) -> tuple[int, int]:
 
 
 @construction(
-    "place: [DET] first=span AND [DET] second=span inner=nominal in_ rows=rows",
-    "place: [DET] first=span AND [DET] second=span inner=nominal in_ rows=each_row",
-    "place: DET first=span AND AT DET second=span inner=nominal in_ rows=rows",
-    "place: DET first=span AND OF DET second=span inner=nominal in_ rows=rows",
+    "place: [DET] first=span AND [DET] second=span inner=nominal in_ rows=any_rows",
+    "place: DET first=span AND AT DET second=span inner=nominal in_ rows=any_rows",
+    "place: DET first=span AND OF DET second=span inner=nominal in_ rows=any_rows",
     cost=0.2,
 )
 def two_trees_of_row(
@@ -87,7 +86,7 @@ def two_trees_of_row(
     return PlaceMeaning(s.UnionOf(parts=parts), "several", count=count)
 
 
-@construction("place: [DET] first=span one=nominal AND [DET] second=span [other=nominal] in_ rows=rows", cost=0.2)
+@construction("place: [DET] first=span one=nominal AND [DET] second=span [other=nominal] in_ rows=any_rows", cost=0.2)
 def two_positions_of_row(
     first: tuple[int, int], one: Nominal, second: tuple[int, int], rows: s.Selector, other: Nominal | None = None
 ) -> PlaceMeaning | None:
@@ -114,8 +113,7 @@ def more_positions(first: tuple[int, ...], other: Lex) -> tuple[int, ...]:
 
 
 @construction(
-    "place: [DET] at=position_list inner=nominal in_ rows=rows",
-    "place: [DET] at=position_list inner=nominal in_ rows=rows_of_block",
+    "place: [DET] at=position_list inner=nominal in_ rows=any_rows",
     cost=0.2,
 )
 def trees_at_positions(at: tuple[int, ...], inner: Nominal, rows: s.Selector) -> PlaceMeaning | None:
@@ -136,6 +134,12 @@ def first_so_many(rank: Lex, n: int) -> tuple[int, int] | None:
     return (1, n) if rank.value == 1 and n > 1 else None
 
 
+@construction("positions: first=ORD range_to [DET] LAST", cost=0.0)
+def from_rank_to_last(first: Lex) -> tuple[int, int]:
+    """Compose "third to the last"."""
+    return (first.value, -1)
+
+
 @construction("positions: first=ORD range_to [DET] last=ORD", cost=0.0)
 def from_rank_to_rank(first: Lex, last: Lex) -> tuple[int, int] | None:
     """Compose "tenth to the twentieth"."""
@@ -149,19 +153,20 @@ def last_so_many(n: int) -> tuple[int, int] | None:
 
 
 @construction(
-    "place: [DET] where=positions inner=nominal in_ rows=rows",
-    "place: [DET] where=positions inner=nominal in_ rows=each_row",
-    "place: [DET] where=positions inner=nominal in_ rows=rows_of_block",
-    "place: [DET] inner=nominal FROM [DET] where=positions in_ rows=rows",
-    "place: [DET] inner=nominal FROM [DET] where=positions ONE in_ rows=rows",
-    "place: [DET] inner=nominal in_ rows=rows FROM [DET] where=positions",
+    "place: [DET] where=positions inner=nominal in_ rows=any_rows",
+    "place: [DET] inner=nominal FROM [DET] where=positions in_ rows=any_rows",
+    "place: [DET] inner=nominal FROM [DET] where=positions ONE in_ rows=any_rows",
+    "place: [DET] inner=nominal in_ rows=any_rows FROM [DET] where=positions",
+    "place: EACH inner=nominal in_ rows=any_rows FROM [DET] where=positions",
+    "place: rows=rows FROM [DET] where=positions [TREE]",
     cost=0.2,
 )
-def trees_of_row(where: tuple[int, int], inner: Nominal, rows: s.Selector) -> PlaceMeaning | None:
+def trees_of_row(where: tuple[int, int], rows: s.Selector, inner: Nominal = _TREES) -> PlaceMeaning | None:
     """Compose "the first three trees in row 4"."""
     if inner.single or not chooses_from_trees(inner.selector):
         return None
-    count = where[1] - where[0] + 1 if is_one_row(rows) else None
+    known = is_one_row(rows) and where[0] * where[1] > 0
+    count = where[1] - where[0] + 1 if known else None
     return PlaceMeaning(s.InRow(first=where[0], last=where[1], of=over(inner.selector, rows)), "several", count=count)
 
 
@@ -187,8 +192,7 @@ def trees_of_row_named_before(where: tuple[int, int], inner: Nominal) -> PlaceMe
 
 
 @construction(
-    "place: [DET] at=span inner=nominal FROM [DET] side=DIR [FINISH] in_ rows=rows",
-    "place: [DET] at=span inner=nominal FROM [DET] side=DIR [FINISH] in_ rows=each_row",
+    "place: [DET] at=span inner=nominal FROM [DET] side=DIR [FINISH] in_ rows=any_rows",
     cost=0.1,
 )
 def trees_from_side(at: tuple[int, int], inner: Nominal, side: Lex, rows: s.Selector) -> PlaceMeaning | None:
@@ -202,18 +206,25 @@ def trees_from_side(at: tuple[int, int], inner: Nominal, side: Lex, rows: s.Sele
     return PlaceMeaning(selector, "one") if number == 1 else PlaceMeaning(selector, "several", count=number)
 
 
-@construction("place: [DET] rank=ORD inner=nominal FROM DET FINISH in_ rows=rows", cost=0.1)
-def tree_from_end(rank: Lex, inner: Nominal, rows: s.Selector) -> PlaceMeaning | None:
-    """Compose "the third tree from the end of row 4"."""
+@construction(
+    "place: [DET] rank=ORD inner=nominal FROM DET FINISH in_ rows=any_rows",
+    "place: [DET] rank=ORD inner=nominal FROM each=EACH FINISH in_ rows=any_rows",
+    cost=0.1,
+)
+def tree_from_end(rank: Lex, inner: Nominal, rows: s.Selector, each: Lex | None = None) -> PlaceMeaning | None:
+    """Compose "the third tree from the end of row 4" and "the second tree from each end of row 4"."""
     if inner.plural or inner.single or inner.selector != s.Trees():
         return None
+    if each is not None:
+        parts = tuple(s.InRow(first=k, last=k, of=rows) for k in (rank.value, -rank.value))
+        return PlaceMeaning(s.UnionOf(parts=parts), "several", count=2 if is_one_row(rows) else None)
     one: Shape = "one" if is_one_row(rows) else "several"
     return PlaceMeaning(s.InRow(first=-rank.value, last=-rank.value, of=rows), one)
 
 
 @construction(
-    "place: [DET] side=DIR FINISH [TREE] in_ rows=rows",
-    "place: [DET] side=DIR FINISH [TREE] in_ rows=each_row",
+    "place: [DET] side=DIR FINISH [TREE] in_ rows=any_rows",
+    "place: rows=each_rows side=DIR FINISH [TREE]",
     cost=0.1,
 )
 def end_of_row(side: Lex, rows: s.Selector) -> PlaceMeaning | None:
@@ -226,6 +237,103 @@ def end_of_row(side: Lex, rows: s.Selector) -> PlaceMeaning | None:
     )
 
 
+@construction(
+    "place: [DET] n=count inner=nominal in_ DET [side=DIR] noun=FINISH in_ rows=any_rows",
+    "place: [DET] n=count inner=nominal in_ each=EACH noun=FINISH in_ rows=any_rows",
+    cost=0.1,
+)
+def trees_at_end(
+    n: int, inner: Nominal, noun: Lex, rows: s.Selector, side: Lex | None = None, each: Lex | None = None
+) -> PlaceMeaning | None:
+    """Compose "the two trees at the southern end of row 4" and "two trees at each end of row 4"."""
+    if inner.single or inner.plural != (n > 1) or not chooses_from_trees(inner.selector):
+        return None
+    if (side is not None and side.value not in SIDES) or (noun.plural and each is None):
+        return None
+    of = over(inner.selector, rows)
+    if each is not None:
+        ends = (s.InRow(first=1, last=n, of=of), s.InRow(first=-n, last=-1, of=of))
+        return PlaceMeaning(s.UnionOf(parts=ends), "several", count=2 * n if is_one_row(rows) else None)
+    run = (
+        s.InRow(first=-n, last=-1, of=of) if side is None else s.InRow(first=1, last=n, counted_from=side.value, of=of)
+    )
+    one = n == 1 and is_one_row(rows)
+    return PlaceMeaning(run, "one" if one else "several", count=n if is_one_row(rows) else None)
+
+
+@construction("fraction: HALF", cost=0.0)
+def half_share() -> int:
+    """Compose "half" of a row."""
+    return 2
+
+
+@construction("fraction: QUARTER", cost=0.0)
+def quarter_share() -> int:
+    """Compose "quarter" of a row."""
+    return 4
+
+
+@construction("fraction: rank=ORD", cost=0.0)
+def third_share(rank: Lex) -> int | None:
+    """Compose "third" of a row."""
+    return 3 if rank.value == 3 else None
+
+
+@construction(
+    "row_part: [DET] rank=ORD of=fraction",
+    "row_part: [DET] last=LAST of=fraction",
+    "row_part: [DET] MIDDLE of=fraction",
+    "row_part: [DET] side=DIR of=fraction",
+    cost=0.1,
+)
+def row_part(
+    of: int, rank: Lex | None = None, last: Lex | None = None, side: Lex | None = None
+) -> tuple[int, int, CountedFrom] | None:
+    """Compose "first third" and "northern half" of a row: which part, of how many, and from where they are counted."""
+    if side is not None:
+        return (1, of, side.value) if side.value in SIDES else None
+    number = of if last is not None else rank.value if rank is not None else 2
+    if number > of or (last is None and rank is None and of != 3):
+        return None
+    return (number, of, "usual")
+
+
+@construction("region: part=row_part in_ rows=rows", cost=0.1, given=("site",))
+def part_of_row(part: tuple[int, int, CountedFrom], rows: s.Selector, site: Site) -> s.Selector | None:
+    """Compose "the northern half of row 2"; a tree in its middle belongs to both halves."""
+    number, of, side = part
+    there = ids_of(s.InRow(first=1, last=1, counted_from=side, of=rows), site) if is_one_row(rows) else None
+    length = len(ids_of(rows, site) or ())
+    if not there or length < of:
+        return None
+    first, last = length * (number - 1) // of + 1, -(-length * number // of)
+    if number == of and number > 1:
+        return s.InRow(first=first - length - 1, last=-1, of=rows)
+    return s.InRow(first=first, last=last, counted_from=side, of=rows)
+
+
+@construction(
+    "place: DET MIDDLE n=count inner=nominal in_ rows=rows",
+    "place: DET n=count MIDDLE inner=nominal in_ rows=rows",
+    "place: DET n=count inner=nominal in_ DET MIDDLE in_ rows=rows",
+    cost=0.1,
+    given=("site",),
+)
+def middle_trees_of_row(n: int, inner: Nominal, rows: s.Selector, site: Site) -> list[PlaceMeaning] | None:
+    """Compose "the middle five trees of row 4": of an even number of trees there are two such runs."""
+    left = len(ids_of(rows, site) or ()) - n
+    if inner.selector != s.Trees() or not inner.plural or n < 2 or left < 0 or not is_one_row(rows):
+        return None
+    starts = {left // 2 + 1, (left + 1) // 2 + 1}
+    return [PlaceMeaning(s.InRow(first=k, last=k + n - 1, of=rows), "several", count=n) for k in sorted(starts)]
+
+
+@construction("place: rows=rows FROM [DET] rank=ORD [TREE] ONWARDS", cost=0.1)
+def row_from_position(rows: s.Selector, rank: Lex) -> PlaceMeaning | None:
+    """Compose "row 4 from the fifth tree on"."""
+    return PlaceMeaning(s.InRow(first=rank.value, last=-1, of=rows), "several") if is_one_row(rows) else None
+
+
 @construction("ends: noun=FINISH", "ends: FINISH noun=TREE", cost=0.0)
 def ends(noun: Lex) -> Lex:
     """Compose "ends" and "end trees", of rows."""
@@ -233,15 +341,13 @@ def ends(noun: Lex) -> Lex:
 
 
 @construction(
-    "place: noun=ends in_ rows=rows",
-    "place: EACH noun=ends in_ rows=rows",
-    "place: EACH noun=ends in_ rows=each_row",
-    "place: [DET] n=count noun=ends in_ rows=rows",
-    "place: [DET] n=count noun=ends in_ rows=each_row",
-    "place: DET noun=ends in_ rows=rows",
-    "place: [DET] noun=ends in_ rows=each_row",
-    "place: TREE AT EACH noun=FINISH in_ rows=rows",
-    "place: DET TREE AT EACH noun=FINISH in_ rows=rows",
+    "place: noun=ends in_ rows=any_rows",
+    "place: rows=each_rows noun=ends",
+    "place: EACH noun=ends in_ rows=any_rows",
+    "place: [DET] n=count noun=ends in_ rows=any_rows",
+    "place: DET noun=ends in_ rows=any_rows",
+    "place: TREE AT EACH noun=FINISH in_ rows=any_rows",
+    "place: DET TREE AT EACH noun=FINISH in_ rows=any_rows",
     cost=0.1,
 )
 def both_ends(noun: Lex, rows: s.Selector, n: int = 2) -> PlaceMeaning | None:
@@ -358,8 +464,7 @@ def end_tree(noun: Lex, rows: s.Selector) -> PlaceMeaning | None:
 
 
 @construction(
-    "place: [DET] TREE AT DET side=DIR FINISH in_ rows=rows",
-    "place: [DET] TREE AT DET side=DIR FINISH in_ rows=each_row",
+    "place: [DET] TREE AT DET side=DIR FINISH in_ rows=any_rows",
     cost=0.1,
 )
 def tree_at_end(side: Lex, rows: s.Selector) -> PlaceMeaning | None:
@@ -368,10 +473,8 @@ def tree_at_end(side: Lex, rows: s.Selector) -> PlaceMeaning | None:
 
 
 @construction(
-    "place: EACH noun=FINISH OF rows=rows",
-    "place: EACH noun=FINISH OF rows=each_row",
-    "place: [DET] TREE AT [DET] ends=FINISH in_ rows=rows",
-    "place: [DET] TREE AT [DET] ends=FINISH in_ rows=each_row",
+    "place: EACH noun=FINISH OF rows=any_rows",
+    "place: [DET] TREE AT [DET] ends=FINISH in_ rows=any_rows",
     cost=0.2,
 )
 def each_end(rows: s.Selector, noun: Lex | None = None, ends: Lex | None = None) -> PlaceMeaning | None:
@@ -407,10 +510,16 @@ def every_so_many(word: Lex, n: int, inner: Nominal) -> PlaceMeaning | None:
     "place: [DET] n=count OUTOF EACH m=count inner=nominal",
     "place: [DET] n=count OF EACH m=count inner=nominal",
     "place: [DET] n=count AT EACH m=count inner=nominal",
+    "place: n=count inner=nominal word=AT m=count",
+    "place: n=count inner=nominal word=AT m=count in_ rows=rows",
     cost=0.1,
 )
-def some_of_every(n: int, inner: Nominal, m: int, rows: s.Selector | None = None) -> PlaceMeaning | None:
-    """Compose "one tree out of every three" and "3 of every 5 trees"."""
+def some_of_every(
+    n: int, inner: Nominal, m: int, rows: s.Selector | None = None, word: Lex | None = None
+) -> PlaceMeaning | None:
+    """Compose "one tree out of every three", "3 of every 5 trees" and "one tree in three"."""
+    if word is not None and "in_time" not in word.features:
+        return None
     if n >= m or inner.single or inner.complete or inner.kind != "tree":
         return None
     if rows is not None and not chooses_from_trees(inner.selector):
@@ -422,8 +531,7 @@ def some_of_every(n: int, inner: Nominal, m: int, rows: s.Selector | None = None
 
 
 @construction(
-    "place: EACH n=ORD inner=nominal FROM [DET] side=DIR in_ rows=rows",
-    "place: EACH n=ORD inner=nominal FROM [DET] side=DIR in_ rows=each_row",
+    "place: EACH n=ORD inner=nominal FROM [DET] side=DIR in_ rows=any_rows",
     cost=0.1,
 )
 def every_nth_from(n: Lex, inner: Nominal, side: Lex, rows: s.Selector) -> PlaceMeaning | None:
@@ -458,7 +566,7 @@ def first_and_last(
 
 
 @construction(
-    "place: n=count inner=nominal EVENLYALONG rows=rows",
+    "place: [DET] n=count inner=nominal [COMMA] EVENLYALONG rows=rows",
     "place: n=count POINT EVENLYALONG rows=rows",
     "place: n=count POINT EVENLYSPACED in_ rows=rows",
     "place: n=count POINT EVENLYSPACED along rows=rows",
@@ -480,16 +588,18 @@ def evenly_along(n: int, inner: Nominal = _TREES, rows: s.Selector | None = None
     return PlaceMeaning(s.Evenly(count=n, of=of), "several", count=n)
 
 
-@construction("each_rows: EACH ROWPOSS", cost=0.0)
-def each_rows() -> s.Selector:
-    """Compose "every row's"."""
-    return s.Rows()
+@construction("each_rows: EACH ROWPOSS", "each_rows: rows=rows POSS", cost=0.0)
+def each_rows(rows: s.Selector | None = None) -> s.Selector:
+    """Compose "every row's" and "row 3's"."""
+    return rows or s.Rows()
 
 
 @construction("place: rows=each_rows where=span inner=nominal", cost=0.2)
 def trees_of_each_rows(rows: s.Selector, where: tuple[int, int], inner: Nominal) -> PlaceMeaning | None:
     """Compose "every row's first tree"."""
-    return None if inner.plural != (where[0] != where[1]) else trees_of_row(where, inner, rows)
+    if inner.plural != (where[0] != where[1]):
+        return None
+    return trees_of_row(where, rows, inner) if inner.plural else tree_of_row(where, inner, rows)
 
 
 @construction(

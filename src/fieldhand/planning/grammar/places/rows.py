@@ -12,6 +12,8 @@ from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.places.numbers import name_of, whole
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
+    are_rows,
+    as_rows,
     chooses_from_trees,
     counts_in_row,
     is_in_block,
@@ -20,10 +22,14 @@ from fieldhand.planning.selections import (
 )
 from fieldhand.site.counting import find_row, rows_from
 from fieldhand.site.model import Site
+from fieldhand.site.planting import Block
 from fieldhand.terms import Towards
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
+
+#: Opposite sides.
+_ACROSS = {"north": "south", "south": "north", "east": "west", "west": "east"}
 
 
 @construction("row_name: name=NUM", "row_name: name=ROWNAME", cost=0.0)
@@ -40,15 +46,60 @@ def row_name(name: Lex) -> Lex:
 )
 def two_rows(first: tuple[int, int], second: tuple[int, int], site: Site) -> s.Selector:
     """Compose "the first and third rows"."""
-    return s.UnionOf(parts=tuple(_at_position(n, n, site) for n in (first[0], second[0])))
+    return s.UnionOf(parts=tuple(rows_at(n, n, site) for n in (first[0], second[0])))
 
 
-@construction("rows: [DET] [n=count] side=MOST noun=ROW", "rows: DET side=MOST n=count noun=ROW", cost=0.1)
+@construction(
+    "rows: [DET] [n=count] side=MOST noun=ROW",
+    "rows: DET side=MOST n=count noun=ROW",
+    "rows: [DET] [n=count] noun=ROW [which_is] side=farthest_side",
+    cost=0.1,
+)
 def outermost_rows(side: Lex, noun: Lex, n: int | None = None) -> s.Selector | None:
     """Compose "the two northernmost rows"."""
     if side.value not in SIDES or noun.plural != (n is not None):
         return None
     return s.Rows(first="1", last=str(n or 1), counted_from=side.value)
+
+
+@construction("rows: [DET] [n=count] OUTER noun=ROW", "rows: [DET] [n=count] EDGE noun=ROW", cost=0.2)
+def outer_rows(noun: Lex, n: int = 2) -> s.Selector | None:
+    """Compose "the outer rows"."""
+    if not noun.plural or n != 2:
+        return None
+    return s.UnionOf(parts=(s.Rows(first="1", last="1"), s.Rows(first="-1", last="-1")))
+
+
+@construction(
+    "rows: DET noun=ROW NEXTTO row=rows",
+    "rows: DET noun=ROW BESIDE row=rows",
+    "rows: DET noun=ROW side=on_side OF row=rows",
+    cost=0.2,
+    given=("site",),
+)
+def rows_next_to(noun: Lex, row: s.Selector, site: Site, side: str = "") -> s.Selector | list[s.Selector] | None:
+    """Compose "the rows on either side of row 3"; "the row next to row 3" may be either of the two."""
+    named = as_rows(row)
+    blocks = [one for one in site.planting.blocks if row_of_block(named, one)]
+    if named is None or not is_one_row(named) or named.counted_from != "usual" or len(blocks) != 1:
+        return None
+    counted, first_side = rows_from(site, blocks[0], "usual")
+    names = [one.name for one in counted]
+    if named.first not in names or (
+        side and (_ACROSS.get(first_side) is None or side not in (first_side, _ACROSS[first_side]))
+    ):
+        return None
+    steps = (-1, 1) if not side else (-1,) if side == first_side else (1,)
+    at = names.index(named.first)
+    found = [replace(named, first=names[at + k], last=names[at + k]) for k in steps if 0 <= at + k < len(names)]
+    if not noun.plural:
+        return list(found)
+    return s.UnionOf(parts=tuple(found)) if len(found) == 2 else None
+
+
+def row_of_block(rows: s.Rows | None, block: Block) -> bool:
+    """Return True if rows may be those of a block."""
+    return rows is not None and rows.of in (s.Trees(), s.InBlock(block=block.name))
 
 
 @construction("rows: [DET] rank=ORD ROW FROM [DET] side=DIR", cost=0.1)
@@ -95,30 +146,34 @@ def between_rows(inner: Nominal, noun: Lex, first: Lex, last: Lex) -> list[Nomin
     ]
 
 
-@construction("row_list: [DET] noun=ROW first=row_name", cost=0.0)
-def row_list(noun: Lex, first: Lex) -> tuple[str, ...] | None:
+@construction("row_item: first=row_name", "row_item: first=row_name range_to [ROW] last=row_name", cost=0.1)
+def row_item(first: Lex, last: Lex | None = None) -> s.Rows:
+    """Compose "5" and "5 to 7" in a list of rows."""
+    return s.Rows(first=name_of(first), last=name_of(last or first))
+
+
+@construction("row_list: [DET] noun=ROW [NUMBERED] first=row_item", cost=0.0)
+def row_list(noun: Lex, first: s.Rows) -> tuple[s.Rows, ...] | None:
     """Compose "rows 3", the beginning of "rows 3, 5 and 7"."""
-    return (name_of(first),) if noun.plural else None
+    return (first,) if noun.plural else None
 
 
-@construction("row_list: ROW first=row_name [COMMA] [AND] ROW number=row_name", cost=0.0)
-def two_in_row_list(first: Lex, number: Lex) -> tuple[str, ...]:
+@construction("row_list: ROW first=row_item [COMMA] [AND] ROW item=row_item", cost=0.0)
+def two_in_row_list(first: s.Rows, item: s.Rows) -> tuple[s.Rows, ...]:
     """Compose "row 3 and row 5", the beginning of "row 3, row 5 and row 7"."""
-    return (name_of(first), name_of(number))
+    return (first, item)
 
 
-@construction("row_list: rows=row_list [COMMA] [AND] [ROW] number=row_name", cost=0.1)
-def longer_row_list(rows: tuple[str, ...], number: Lex) -> tuple[str, ...]:
-    """Compose "rows 3, 5 and 7"."""
-    return (*rows, name_of(number))
+@construction("row_list: rows=row_list [COMMA] [AND] [ROW] item=row_item", cost=0.1)
+def longer_row_list(rows: tuple[s.Rows, ...], item: s.Rows) -> tuple[s.Rows, ...]:
+    """Compose "rows 3, 5 and 7 to 9"."""
+    return (*rows, item)
 
 
 @construction("rows: rows=row_list", cost=0.1)
-def listed_rows(rows: tuple[str, ...]) -> s.Selector | None:
+def listed_rows(rows: tuple[s.Rows, ...]) -> s.Selector | None:
     """Compose "rows 3 and 5" as rows."""
-    if len(rows) < 2:
-        return None
-    return s.UnionOf(parts=tuple(s.Rows(first=name, last=name) for name in rows))
+    return s.UnionOf(parts=rows) if len(rows) > 1 else None
 
 
 @construction("rows: EACH n=ORD ROW", cost=0.8)
@@ -151,7 +206,16 @@ def same_row() -> s.Selector:
     return s.RowOf()
 
 
-@construction("rows: DET ROW OF tree=place", cost=0.2)
+@construction(
+    "rows: DET ROW OF tree=place",
+    "rows: DET ROW WITH tree=place",
+    "rows: DET ROW HOLDING tree=place",
+    "rows: DET ROW [WHICH] tree=place IS in_",
+    "rows: DET ROW in_ WHICH tree=place IS",
+    "rows: DET ROW WHERE tree=place IS",
+    "rows: tree=owned_by ROW",
+    cost=0.2,
+)
 def row_of_tree(tree: PlaceMeaning) -> s.Selector | None:
     """Compose "the row of tree 12"."""
     return s.RowOf(origin=tree.selector) if tree.selector == s.Here() or isinstance(tree.selector, s.TreeIs) else None
@@ -258,16 +322,16 @@ def _parity(noun: Lex, first: Lex, last: Lex, remainder: int) -> s.Selector | No
     return s.Rows(first=str(low + (low % 2 != remainder)), last=str(high), every=2)
 
 
-@construction("rows: [DET] rank=ORD n=count noun=ROW", cost=0.1, given=("site",))
-def first_rows(rank: Lex, n: int, noun: Lex, site: Site) -> s.Selector | None:
-    """Compose "the first three rows"."""
-    return _at_position(1, n, site) if noun.plural and rank.value == 1 and n > 1 else None
+@construction("rows: [DET] at=positions noun=ROW", cost=0.1, given=("site",))
+def rows_at_positions(at: tuple[int, int], noun: Lex, site: Site) -> s.Selector | None:
+    """Compose "the first three rows", "the last two rows" and "the third to fifth rows"."""
+    return rows_at(*at, site) if noun.plural else None
 
 
-@construction("rows: [DET] LAST n=count noun=ROW", cost=0.1)
-def last_rows(n: int, noun: Lex) -> s.Selector | None:
-    """Compose "the last two rows"."""
-    return s.Rows(first=str(-n), last="-1") if noun.plural and n > 1 else None
+@construction("rows: [DET] at=position_list ROW", cost=0.1, given=("site",))
+def listed_positions_of_rows(at: tuple[int, ...], site: Site) -> s.Selector:
+    """Compose "the third, fifth and seventh rows"."""
+    return s.UnionOf(parts=tuple(rows_at(n, n, site) for n in at))
 
 
 @construction("rows: [DET] LAST noun=ROW", cost=0.2)
@@ -279,10 +343,10 @@ def last_row(noun: Lex) -> s.Selector | None:
 @construction("rows: [DET] rank=ORD noun=ROW", cost=0.2, given=("site",))
 def ranked_row(rank: Lex, noun: Lex, site: Site) -> s.Selector | None:
     """Compose "the third row": where the rows have names, the third from the side where counting begins."""
-    return None if noun.plural else _at_position(rank.value, rank.value, site)
+    return None if noun.plural else rows_at(rank.value, rank.value, site)
 
 
-def _at_position(first: int, last: int, site: Site) -> s.Rows:
+def rows_at(first: int, last: int, site: Site) -> s.Rows:
     """Return rows by their positions: counted from a side where the rows have names, and none is that number."""
     blocks = site.planting.blocks
     if len(blocks) != 1 or first < 0:
@@ -319,16 +383,34 @@ def each_of_rows(rows: s.Selector, word: Lex | None = None) -> s.Selector | None
     return None if is_one_row(rows) or third else rows
 
 
-@construction("each_row: rows=each_row in_ block=block", cost=0.1)
-def each_row_of_block(rows: s.Selector, block: s.Selector) -> s.Selector:
-    """Compose "each row of block 2"."""
-    return over(rows, block)
+@construction("each_row: rows=each_row in_ where=region", cost=0.1)
+def each_row_of_area(rows: s.Selector, where: s.Selector) -> s.Selector | None:
+    """Compose "each row of block 2" and "each row of the northern half"."""
+    return None if are_rows(where) or not chooses_from_trees(where) else over(rows, where)
 
 
-@construction("region: DET noun=ROW", "region: EACH noun=ROW", cost=0.5)
+@construction("all_rows: DET noun=ROW", "all_rows: EACH [DET] noun=ROW", cost=0.0)
 def every_row(noun: Lex) -> s.Selector | None:
     """Compose "all rows"."""
     return s.Rows() if noun.plural else None
+
+
+@construction("region: rows=all_rows", cost=0.5)
+def every_row_as_region(rows: s.Selector) -> s.Selector:
+    """Compose "all rows" as an area."""
+    return rows
+
+
+@construction("any_rows: rows=rows", "any_rows: rows=each_row", "any_rows: rows=all_rows", cost=0.0)
+def any_rows(rows: s.Selector) -> s.Selector:
+    """Compose "row 4", "each row" and "all rows", of which something is said by itself."""
+    return rows
+
+
+@construction("rows: block=owned_block rows=rows", cost=0.1)
+def rows_owned_by_block(block: s.Selector, rows: s.Selector) -> s.Selector | None:
+    """Compose "the north block's third row"."""
+    return rows_of_block(rows, block)
 
 
 @construction("each_row: EACH n=ORD noun=ROW", "each_row: EACH OTHER noun=ROW", cost=0.2)
@@ -358,6 +440,7 @@ def trees_of_each_row(inner: Nominal, rows: s.Selector, each: Lex | None = None)
     "place: one=place in_ rows=each_row",
     "place: one=place FOR rows=each_row",
     "place: rows=each_rows one=place",
+    "place: one=place EACH in_ rows=rows",
     "place: one=place rows=per_row",
     cost=0.2,
 )
@@ -366,6 +449,8 @@ def in_each_row(one: PlaceMeaning, rows: s.Selector) -> PlaceMeaning | None:
     if one.per is not None or one.shape not in ("one", "several") or one.optional or one.at_most:
         return None
     if not chooses_from_trees(one.selector) or counts_in_row(one.selector):
+        return None
+    if is_one_row(rows):
         return None
     in_rows = over(one.selector, rows)
     if all(counts_in_row(part) for part in in_rows.members):
@@ -391,7 +476,7 @@ def at_each_row(rows: s.Selector) -> PlaceMeaning:
     "rows_of_block: rows=rows in_ block=block",
     "rows_of_block: rows=rows in_ block=bare_block",
     "rows_of_block: rows=rows COMMA block=block",
-    "rows_of_block: rows=rows COMMA block=bare_block",
+    "rows_of_block: rows=rows [COMMA] block=bare_block",
     cost=0.1,
 )
 def rows_of_block(rows: s.Selector, block: s.Selector) -> s.Selector | None:
@@ -439,10 +524,3 @@ def rows_starting_with(n: Lex | None = None, number: Lex | None = None, rank: Le
 def rows_of_trees(rows: s.Selector) -> s.Selector:
     """Compose "every third row of trees"."""
     return rows
-
-
-@construction("rows: [DET] ROW first=row_name range_to last=row_name [COMMA] AND [ROW] number=row_name", cost=0.1)
-def rows_from_to_and(first: Lex, last: Lex, number: Lex) -> s.Selector:
-    """Compose "rows 1 to 3 and 7"."""
-    name = name_of(number)
-    return s.UnionOf(parts=(s.Rows(first=name_of(first), last=name_of(last)), s.Rows(first=name, last=name)))

@@ -7,7 +7,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import as_edge, as_zone
+from fieldhand.planning.selections import are_rows, as_edge, as_zone, over
 from fieldhand.terms import CornerName, Side
 
 GRAMMAR = Grammar()
@@ -29,15 +29,49 @@ def corner_at(side: Lex, noun: Lex) -> Nominal | None:
     return corner(side, noun)
 
 
-@construction("nominal: TREE in_ DET MIDDLE [in_] [site]", cost=0.1)
-def tree_in_middle() -> Nominal:
+@construction("nominal: noun=TREE in_ DET MIDDLE [in_] [site]", cost=0.1)
+def tree_in_middle(noun: Lex) -> Nominal | None:
     """Compose "tree in the middle of the orchard"."""
-    return Nominal(s.Middle(), single=True)
+    return None if noun.plural else Nominal(s.Middle(), single=True)
 
 
-@construction("nominal: TREE in_ DET MIDDLE OF where=region", cost=0.7)
-def tree_in_middle_of(where: s.Selector) -> Nominal | None:
+@construction("spot: DET MIDDLE [in_] [site]", cost=0.0)
+def middle_spot() -> s.Selector:
+    """Compose "the middle of the orchard" behind "three trees in"."""
+    return s.Middle()
+
+
+@construction("spot: DET MIDDLE OF where=region", cost=0.1)
+def middle_spot_of(where: s.Selector) -> s.Selector | None:
+    """Compose "the middle of the north block" behind "three trees in"."""
+    return None if as_edge(where) is not None or are_rows(where) else s.Middle(of=where)
+
+
+@construction("spot: DET at=corner_at [OF] [site]", "spot: DET at=corner_at OF where=region", cost=0.1)
+def corner_spot(at: Nominal, where: s.Selector | None = None) -> s.Selector:
+    """Compose "the north-west corner of the south block" behind "ten trees in"."""
+    return at.selector if where is None else over(at.selector, where)
+
+
+@construction("place: [DET] n=count inner=nominal in_ at=spot", cost=0.2)
+def trees_at_spot(n: int, inner: Nominal, at: s.Selector) -> PlaceMeaning | None:
+    """Compose "three trees in the middle of the orchard"."""
+    if n < 2 or inner.single or inner.complete or inner.kind != "tree":
+        return None
+    return PlaceMeaning(s.Adjacent(near=at, count=n, of=inner.selector), "several", count=n)
+
+
+@construction("place: [DET] noun=TREE in_ at=spot", cost=0.4)
+def somewhere_at_spot(noun: Lex, at: s.Selector) -> PlaceMeaning | None:
+    """Compose "the trees in the middle of the orchard": how many?"""
+    return PlaceMeaning(s.Nearest(to=at), "unknown") if noun.plural else None
+
+
+@construction("nominal: noun=TREE in_ DET MIDDLE OF where=region", cost=0.7)
+def tree_in_middle_of(where: s.Selector, noun: Lex) -> Nominal | None:
     """Compose "tree in the middle of row 4"."""
+    if noun.plural:
+        return None
     if (edge := as_edge(where)) is not None:
         return Nominal(s.EdgeMiddle(side=edge.side, of=edge.of), single=True)
     return Nominal(s.Middle(of=where), single=True)
@@ -222,10 +256,14 @@ def corners_except(whole: PlaceMeaning, side: Lex) -> PlaceMeaning | None:
     return PlaceMeaning(s.Excluding(places=s.Corners(which=(side.value,)), of=whole.selector), "several")
 
 
-@construction("place: n=count TREE AT EACH noun=CORNER", cost=0.2)
-def tree_at_each_corner(n: int, noun: Lex) -> PlaceMeaning | None:
-    """Compose "one tree at each corner"."""
-    return None if n != 1 or noun.plural else PlaceMeaning(s.Corners(), "several", each=True, count=4)
+@construction("place: n=count TREE AT EACH noun=CORNER", "place: DET tree=TREE in_ EACH noun=CORNER", cost=0.2)
+def tree_at_each_corner(noun: Lex, n: int = 1, tree: Lex | None = None) -> PlaceMeaning | None:
+    """Compose "one tree at each corner" and "the tree in each corner"."""
+    return (
+        None
+        if n != 1 or noun.plural or (tree is not None and tree.plural)
+        else PlaceMeaning(s.Corners(), "several", each=True, count=4)
+    )
 
 
 @construction("place: EACH noun=QUARTER", "place: EACH noun=QUARTER OF site", cost=0.2)

@@ -11,10 +11,17 @@ from fieldhand.planning.grammar.meaning import Amount, Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_nearest, as_zone, chooses_from_trees, is_spot, over
+from fieldhand.site.model import Site
 from fieldhand.terms import CountedFrom, Side, Towards
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
+
+
+#: Least and greatest distance in metres from a place; None for no greatest one.
+Distance = tuple[float, float | None, PlaceMeaning]
+#: Any tree, where no noun says so.
+_ANY_TREE = Nominal(s.Trees())
 
 
 @construction(
@@ -50,7 +57,7 @@ def nearby(inner: Nominal, n: int | None = None) -> PlaceMeaning | None:
     "nominal: inner=nominal FARTHEST [FROM] [THERE]",
     "nominal: FARTHEST inner=nominal FROM THERE",
     "nominal: FARTHEST inner=nominal FROM IT",
-    "nominal: inner=nominal [WHICH] [IS] FARTHEST FROM IT",
+    "nominal: inner=nominal [which_is] FARTHEST FROM IT",
     "nominal: inner=nominal WHICH IS FARTHEST FROM THERE",
     cost=0.3,
 )
@@ -97,6 +104,37 @@ def adjoining(n: int, inner: Nominal) -> PlaceMeaning | None:
 
 
 @construction(
+    "place: [DET] inner=nominal near=NEXTTO to=place",
+    "place: [DET] inner=nominal near=BESIDE to=place",
+    "place: [DET] inner=nominal near=NEAR to=place",
+    cost=0.2,
+)
+def those_beside(inner: Nominal, near: Lex, to: PlaceMeaning) -> list[PlaceMeaning] | None:
+    """Compose "the trees next to tree 12": how many?"""
+    around = "surrounds" in near.features
+    if not inner.plural or to.shape not in ("one", "here") or ("beside" not in near.features and not around):
+        return None
+    found = (next_to(inner, to, number) for number in ((4, 8) if around else (2, 4)))
+    return [one for one in found if one is not None]
+
+
+@construction(
+    "place: [DET] inner=nominal near=NEAR to=place",
+    "place: [DET] inner=nominal near=NEXTTO to=place",
+    "place: [DET] inner=nominal near=ALONG to=place",
+    cost=0.4,
+)
+def somewhere_near(inner: Nominal, near: Lex, to: PlaceMeaning) -> PlaceMeaning | None:
+    """Compose "the trees near the pond": how near?"""
+    zone = as_zone(to.selector) is not None
+    if not inner.plural or inner.single or inner.complete or not (zone or to.shape == "one"):
+        return None
+    if not zone and not near.features.isdisjoint({"surrounds", "beside", "upwards", "downwards"}):
+        return None
+    return PlaceMeaning(s.Nearest(to=to.selector, of=inner.selector), "unknown")
+
+
+@construction(
     "place: [DET] [n=count] inner=nominal NEXTTO to=place",
     "place: [DET] [n=count] inner=nominal BESIDE to=place",
     cost=0.2,
@@ -113,9 +151,11 @@ def next_to(
     return PlaceMeaning(selector, "one" if number == 1 else "several", count=number)
 
 
-@construction("on_side: AT DET side=DIR [part=SIDE]", cost=0.1)
+@construction("on_side: AT DET side=DIR [part=SIDE]", "on_side: side=DIR", cost=0.1)
 def on_side(side: Lex, part: Lex | None = None) -> Side | None:
-    """Compose "on the east" and "to its north"."""
+    """Compose "on the east", "to its north" and "north"."""
+    if "adjective" in side.features:
+        return None
     return side.value if side.value in SIDES and (part is None or "borders" in part.features) else None
 
 
@@ -134,6 +174,8 @@ def next_to_on_side(inner: Nominal, to: PlaceMeaning, side: Side) -> PlaceMeanin
 @construction(
     "place: [DET] [n=count] noun=NEIGHBOUR OF to=place",
     "place: [DET] [n=count] noun=NEIGHBOUR OF to=place in_ rows=rows",
+    "place: to=owned_by [n=count] noun=NEIGHBOUR",
+    "place: to=owned_by [n=count] noun=NEIGHBOUR in_ rows=rows",
     "place: DET [n=count] noun=NEIGHBOUR",
     "place: DET [n=count] noun=NEIGHBOUR in_ rows=rows",
     cost=0.2,
@@ -157,6 +199,7 @@ def neighbours(
 @construction(
     "place: [DET] side=DIR noun=NEIGHBOUR [OF] to=place",
     "place: DET side=DIR noun=NEIGHBOUR",
+    "place: to=owned_by side=DIR noun=NEIGHBOUR",
     "place: [DET] noun=NEIGHBOUR OF to=place beside=on_side",
     "place: [DET] noun=NEIGHBOUR beside=on_side OF to=place",
     "place: DET noun=NEIGHBOUR beside=on_side",
@@ -279,13 +322,19 @@ def next_tree(way: Towards = "down", rows: s.Selector | None = None) -> PlaceMea
     "place: [DET] n=count NEAREST inner=nominal AT to=place",
     "place: [DET] NEAREST inner=nominal AT to=place",
     "place: [DET] NEAREST inner=nominal OF to=place",
-    "place: [DET] [n=count] inner=nominal [WHICH] [IS] NEAREST AT to=place",
+    "place: [DET] [n=count] inner=nominal [which_is] NEAREST AT to=place",
     "place: [DET] [n=count] inner=nominal near=NEAR to=place",
+    "place: to=owned_by [n=count] NEAREST [inner=nominal]",
+    "place: DET NEAREST OF to=place",
     cost=0.3,
 )
-def nearest(inner: Nominal, to: PlaceMeaning, n: int | None = None, near: Lex | None = None) -> PlaceMeaning | None:
+def nearest(
+    to: PlaceMeaning, inner: Nominal = _ANY_TREE, n: int | None = None, near: Lex | None = None
+) -> PlaceMeaning | None:
     """Compose "the two trees nearest to the charger"."""
-    if near is not None and "nearest" not in near.features:
+    if near is not None and "surrounds" in near.features:
+        return None if n is None else next_to(inner, to, n)
+    if near is not None and "nearest" not in near.features and n is None and inner.plural:
         return None
     number = n or (None if inner.plural else 1)
     if number is None or inner.single or number >= (inner.complete or number + 1) or to.shape not in ("one", "area"):
@@ -319,51 +368,92 @@ def farthest(inner: Nominal, to: PlaceMeaning, n: int | None = None) -> PlaceMea
     )
 
 
+@construction("place: DET n=count inner=nominal way=way OF to=place", cost=0.1, given=("site",))
+def trees_to_side(n: int, inner: Nominal, way: Towards, to: PlaceMeaning, site: Site) -> PlaceMeaning | None:
+    """Compose "the three trees north of tree 40", along its row."""
+    runs = {block.runs_east_west for block in site.planting.blocks}
+    if inner.selector != s.Trees() or n < 2 or to.shape not in ("one", "here") or way not in SIDES:
+        return None
+    if runs != {way in ("east", "west")}:
+        return None
+    steps = tuple(s.AlongRow(trees=k, towards=way, origin=to.selector) for k in range(1, n + 1))
+    return PlaceMeaning(s.UnionOf(parts=steps), "several", count=n)
+
+
 @construction(
-    "place: [EACH] [DET] inner=nominal [WHICH] [IS] INSIDE far=amount OF to=place",
-    "place: [EACH] [DET] inner=nominal [WHICH] [IS] check=CMP far=amount FROM to=place",
-    "place: [ANY] n=count inner=nominal INSIDE far=amount OF to=place",
-    cost=0.3,
+    "in_radius: INSIDE [DET] RADIUS OF far=amount",
+    "in_radius: INSIDE [DET] far=amount RADIUS",
+    "in_radius: in_ [DET] far=amount RADIUS",
+    "in_radius: in_ DET RADIUS OF far=amount",
+    cost=0.1,
 )
-def within(
-    inner: Nominal, far: Amount, to: PlaceMeaning, check: Lex | None = None, n: int | None = None
-) -> PlaceMeaning | None:
-    """Compose "all trees within 20 m of the charger" and "three trees within 20 m of the charger"."""
-    if n is not None:
-        there = None if inner.complete else within(inner, far, to)
-        return there and PlaceMeaning(s.Take(count=n, of=there.selector), "one" if n == 1 else "several", count=n)
-    if far.unit != "metres" or inner.single or to.shape not in ("one", "area"):
+def in_radius(far: Amount) -> Amount:
+    """Compose "within a radius of 20 m"."""
+    return far
+
+
+@construction(
+    "distance: INSIDE far=amount OF to=place",
+    "distance: far=in_radius OF to=place",
+    "distance: far=in_radius NEAR to=place",
+    "distance: UPTO far=amount FROM to=place",
+    "distance: check=CMP far=amount FROM to=place",
+    "distance: span=value_range FROM to=place",
+    cost=0.1,
+)
+def distance(
+    to: PlaceMeaning,
+    far: Amount | None = None,
+    check: Lex | None = None,
+    span: tuple[float, float, str] | None = None,
+) -> Distance | None:
+    """Compose "within 20 m of the charger" and "more than 20 m from the charger"."""
+    unit = far.unit if far is not None else span[2] if span is not None else ""
+    zone = to.shape == "area" and as_zone(to.selector) is not None
+    if unit != "metres" or not (to.shape in ("one", "here") or zone):
         return None
-    if check is not None and check.value[0] not in ("lt", "le"):
-        return None
-    if to.shape == "area":
-        if (zone := as_zone(to.selector)) is None:
+    if far is None:
+        return None if span is None or zone else (span[0], span[1], to)
+    if check is None or check.value[0] in ("lt", "le"):
+        return (0.0, far.number, to)
+    return (far.number, None, to) if check.value[0] in ("gt", "ge") else None
+
+
+def _at_distance(of: s.Selector, at: Distance) -> s.Selector | None:
+    """Return the trees of a selection within or beyond a distance of a place."""
+    low, high, to = at
+    if (zone := as_zone(to.selector)) is not None:
+        if not chooses_from_trees(of):
             return None
-        return PlaceMeaning(over(inner.selector, s.InZone(zone=zone.zone, margin_m=far.number)), "several")
-    return PlaceMeaning(s.Within(distance_m=far.number, to=to.selector, of=inner.selector), "several")
+        return over(of, s.InZone(zone=zone.zone, margin_m=high if high is not None else low, outside=high is None))
+    near = of if high is None else s.Within(distance_m=high, to=to.selector, of=of)
+    if high is None:
+        return s.Excluding(places=beyond(low, to.selector), of=of)
+    return s.Excluding(places=s.Within(distance_m=low, to=to.selector), of=near) if low else near
 
 
-@construction("place: [EACH] [DET] inner=nominal [WHICH] [IS] check=CMP far=amount FROM to=place", cost=0.3)
-def beyond_place(inner: Nominal, check: Lex, far: Amount, to: PlaceMeaning) -> PlaceMeaning | None:
-    """Compose "all trees more than 20 m from the charger"."""
-    zone = as_zone(to.selector)
-    if check.value[0] not in ("gt", "ge") or far.unit != "metres" or inner.single:
+@construction(
+    "place: [EACH] [DET] inner=nominal [which_is] at=distance",
+    "place: [ANY] n=count inner=nominal at=distance",
+    cost=0.2,
+)
+def within(inner: Nominal, at: Distance, n: int | None = None) -> PlaceMeaning | None:
+    """Compose "all trees within 20 m of the charger" and "three trees within 20 m of the charger"."""
+    there = _at_distance(inner.selector, at)
+    if there is None or inner.single or at[2].shape == "here" or (n is not None and inner.complete):
         return None
-    if not (to.shape == "one" or (to.shape == "area" and zone is not None)):
-        return None
-    if zone is not None:
-        away: s.Selector = s.InZone(zone=zone.zone, outside=True, margin_m=far.number)
-        return PlaceMeaning(over(inner.selector, away), "several") if chooses_from_trees(inner.selector) else None
-    return PlaceMeaning(s.Excluding(places=beyond(far.number, to.selector), of=inner.selector), "several")
+    if n is None:
+        return PlaceMeaning(there, "several")
+    return PlaceMeaning(s.Take(count=n, of=there), "one" if n == 1 else "several", count=n)
 
 
-@construction("place: word=DET inner=nominal check=CMP far=amount FROM to=place", cost=0.3)
-def one_beyond_place(word: Lex, inner: Nominal, check: Lex, far: Amount, to: PlaceMeaning) -> PlaceMeaning | None:
+@construction("place: word=DET inner=nominal at=distance", cost=0.2)
+def one_beyond_place(word: Lex, inner: Nominal, at: Distance) -> PlaceMeaning | None:
     """Compose "a tree at least 20 m away from it"."""
-    if inner.plural or "indefinite" not in word.features or to.shape not in ("one", "here"):
+    there = _at_distance(inner.selector, at)
+    if there is None or inner.single or inner.plural or "indefinite" not in word.features or at[1] is not None:
         return None
-    all_of_them = beyond_place(inner, check, far, replace(to, shape="one"))
-    return None if all_of_them is None else PlaceMeaning(s.Take(count=1, of=all_of_them.selector), "one")
+    return PlaceMeaning(s.Take(count=1, of=there), "one")
 
 
 @construction("place: DET n=count NEAREST inner=nominal", "place: DET NEAREST inner=nominal", cost=0.4)
@@ -377,7 +467,7 @@ def nearest_here(inner: Nominal, n: int | None = None) -> PlaceMeaning | None:
 
 
 @construction(
-    "place: [DET] rank=ORD inner=nominal [WHICH] [IS] NEAREST AT to=place",
+    "place: [DET] rank=ORD inner=nominal [which_is] NEAREST AT to=place",
     "place: [DET] rank=ORD NEAREST inner=nominal AT to=place",
     cost=0.1,
 )
@@ -419,14 +509,16 @@ def trees_apart(
     return PlaceMeaning(apart, "several", count=n)
 
 
-@construction("place: whole=place [COMMA] [WHICH] [IS] INSIDE far=amount OF to=place", cost=0.4)
-def those_within(whole: PlaceMeaning, far: Amount, to: PlaceMeaning) -> PlaceMeaning | None:
+@construction("place: whole=place [COMMA] [which_is] at=distance", cost=0.3)
+def those_within(whole: PlaceMeaning, at: Distance) -> PlaceMeaning | None:
     """Compose "every yellow tree that is within 50 m of the charger"."""
-    if far.unit != "metres" or to.shape != "one" or to.selector.relative or whole.shape != "several":
+    low, _, to = at
+    if low or to.shape != "one" or to.selector.relative or whole.shape != "several":
         return None
     if whole.count is not None or whole.per is not None or not chooses_from_trees(whole.selector):
         return None
-    return replace(whole, selector=s.Within(distance_m=far.number, to=to.selector, of=whole.selector))
+    there = _at_distance(whole.selector, at)
+    return None if there is None else replace(whole, selector=there)
 
 
 @construction(

@@ -28,7 +28,7 @@ _ENGLISH = (
     nouns.attribute_is,
     nouns.those_with_attribute,
     groups.each_of_group,
-    numbers.and_tree_number,
+    numbers.longer_tree_list,
     rows.longer_row_list,
     limits.limited_to,
     conditions.if_it_fits,
@@ -84,8 +84,6 @@ construction("place: n=count inner=nominal CONSECUTIVE", cost=0.1)(positions.con
 construction("rows: [DET] noun=ROW ODD", "rows: each=EACH noun=ROW ODD", cost=0.1)(rows.odd_rows)
 construction("rows: [DET] noun=ROW EVEN", "rows: each=EACH noun=ROW EVEN", cost=0.1)(rows.even_rows)
 construction("rows: DET rows=row_list", cost=0.1)(rows.listed_rows)
-construction("rows: [DET] n=count LAST noun=ROW", cost=0.1)(rows.last_rows)
-construction("rows: [DET] n=count rank=ORD noun=ROW", cost=0.1)(rows.first_rows)
 construction("positions: n=count rank=ORD", cost=0.0)(positions.first_so_many)
 construction("positions: n=count LAST", cost=0.0)(positions.last_so_many)
 construction(
@@ -93,17 +91,22 @@ construction(
     "rows: [DET] ROW first=NUM range_to DET last=NUM",
     cost=0.2,
 )(rows.rows_from_to)
-construction("tree_ids: TREE FROM DET number=NUM range_to [DET] last=NUM", cost=0.3)(numbers.tree_range)
+construction("number_item: first=number_item range_to DET last=number_item", cost=0.1)(numbers.number_range)
+construction("tree_ids: TREE start=FROM DET item=number_item", cost=0.2)(numbers.trees_by_number)
 construction(
-    "tree_ids: first=tree_ids COMMA [AND] [DET] number=NUM", "tree_ids: first=tree_ids AND [DET] number=NUM", cost=0.3
-)(numbers.and_tree_number)
+    "tree_ids: first=tree_ids COMMA [AND] [DET] [TREE] item=number_item",
+    "tree_ids: first=tree_ids AND [DET] [TREE] item=number_item",
+    "tree_ids: first=tree_ids COMMA [AND] [DET] [TREE] item=code_item",
+    "tree_ids: first=tree_ids AND [DET] [TREE] item=code_item",
+    cost=0.3,
+)(numbers.longer_tree_list)
 construction(
-    "row_list: rows=row_list COMMA [AND] [DET] [ROW] number=NUM",
-    "row_list: rows=row_list AND [DET] [ROW] number=NUM",
+    "row_list: rows=row_list COMMA [AND] [DET] [ROW] item=row_item",
+    "row_list: rows=row_list AND [DET] [ROW] item=row_item",
     cost=0.1,
 )(rows.longer_row_list)
 construction("place: word=EACHOF place=place", cost=0.4)(groups.each_of_group)
-construction("numbers: first=numbers [COMMA] AND DET number=NUM", cost=0.1)(numbers.more_numbers)
+construction("numbers: first=numbers [COMMA] AND DET item=number_item", cost=0.1)(numbers.more_numbers)
 construction("ordered: DET rank=ranking FIRSTONE", cost=0.1)(driving.best_first)
 construction("place: EACH [DET] inner=nominal ALLYOUCAN", "place: ASMANYOF inner=nominal", cost=0.1)(groups.as_many)
 construction("place: n=count inner=nominal UPTO", "place: n=count inner=nominal ATMOST", cost=0.2)(groups.up_to)
