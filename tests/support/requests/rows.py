@@ -1320,12 +1320,12 @@ REFUSED = [
     (
         "husky",
         "drive down row 3 to tree 5 and take a picture",
-        "'tree 5': it is not clear at which of two places this is done",
+        "'to tree 5 and' does not fit at this point in 'drive down row 3 to tree 5 and take a picture'",
     ),
     (
         "husky",
         "drive down row 3 to tree 5 and take a picture",
-        "'tree 5': it is not clear at which of two places this is done",
+        "'to tree 5 and' does not fit at this point in 'drive down row 3 to tree 5 and take a picture'",
     ),
     (
         "husky",
@@ -1398,7 +1398,7 @@ REFUSED = [
         "take a soil sample at the start of row 3",
         "'take a soil sample' asks for work that husky has no tool for",
     ),
-    ("husky", "put the robot in row 3", "not understood: 'put'"),
+    ("husky", "put the robot in row 3", "each word is known, but not what they say together"),
     (
         "husky",
         "take a picture of the trees in row 3 between 5 and 10 years old",

@@ -163,6 +163,7 @@ class CaptureCommand:
             without a verb at the place spoken of, which are not made twice.
         spacing: Distance between the captures along a line, in metres.
         within: Area or rows in which the place is, if the phrase names them by themselves ("in row 3, at the ...").
+        instead: True if it is done in place of what another case has.
     """
 
     things: tuple[Thing, ...]
@@ -172,6 +173,7 @@ class CaptureCommand:
     spacing: float | None = None
     relation: str = "at"
     within: PlaceMeaning | None = None
+    instead: bool = False
 
 
 @dataclass(frozen=True, slots=True)

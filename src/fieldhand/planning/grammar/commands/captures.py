@@ -373,6 +373,12 @@ def whichever_it_is(act: CaptureCommand, used: int) -> CaptureCommand | None:
     return replace(act, used=used) if some else None
 
 
+@construction("capture: act=capture INSTEAD", cost=0.2)
+def instead(act: CaptureCommand, used: int) -> CaptureCommand:
+    """Compose "take the air temperature instead", in another case."""
+    return replace(act, used=used, instead=True)
+
+
 @construction("capture: act=capture BYGOING", cost=0.1)
 def by_going_there(act: CaptureCommand, used: int) -> CaptureCommand | None:
     """Compose "take pictures of two nearby trees by going to them"."""

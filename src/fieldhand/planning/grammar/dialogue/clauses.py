@@ -31,7 +31,14 @@ from fieldhand.planning.grammar.dialogue.driving import (
 from fieldhand.planning.grammar.dialogue.faults import Fork
 from fieldhand.planning.grammar.dialogue.fitting import in_area, is_spoken_of
 from fieldhand.planning.grammar.dialogue.likewise import with_known_place
-from fieldhand.planning.grammar.dialogue.plans import EMPTY, as_for_each, is_idle_case, walk, without_idle_cases
+from fieldhand.planning.grammar.dialogue.plans import (
+    EMPTY,
+    as_for_each,
+    block_at,
+    is_idle_case,
+    walk,
+    without_idle_cases,
+)
 from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
     NotComposed,
@@ -208,6 +215,8 @@ def _read(
         state = with_joints(state, setting.spans_of(joint.used))
     match command:
         case CaptureCommand():
+            if command.instead and not _is_another_case(state):
+                raise NotComposed(message("it is not clear what is not done then", context="fault"))
             if state.lead is not None and not state.lead.relation and (joint is None or joint.both):
                 raise NotComposed(
                     message(
@@ -281,6 +290,17 @@ def _stop(setting: Setting, state: DialogueState, command: StopCommand) -> Dialo
         return replace(state, nominal="stay", nominal_said=said)
     state = with_step(state, p.StopMission(id="", said=said))
     return replace(state, in_case="stay") if command.stays else state
+
+
+def _is_another_case(state: DialogueState) -> bool:
+    """Return True behind "otherwise", and behind a condition that follows another one."""
+    if not state.open or not state.scope:
+        return False
+    if state.scope[-1] == "otherwise":
+        return True
+    *outer, at, _ = state.scope
+    before = block_at(state.plan, tuple(outer)).steps[: int(at)]
+    return bool(before) and before[-1].is_choice
 
 
 def _continues(state: DialogueState, joint: Connective | None, *, again: bool) -> bool:
