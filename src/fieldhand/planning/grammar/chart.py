@@ -13,7 +13,7 @@ from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import product
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 #: Maximum number of edges with different meanings for one category and range of tokens.
 _BEAM = 8
@@ -78,6 +78,7 @@ class Grammar:
 
     def __init__(self) -> None:
         self.by_first: dict[str, list[Construction]] = defaultdict(list)
+        self._begins: tuple[int, Mapping[str, frozenset[str]]] = (0, {})
 
     def construction(self, *patterns: str, cost: float = 1.0, given: tuple[str, ...] = ()) -> Callable[[F], F]:
         """Register a function that composes the meanings of the parts of each pattern.
@@ -119,9 +120,29 @@ class Grammar:
         for first, constructions in other.by_first.items():
             self.by_first[first].extend(one for one in constructions if one.compose not in left_out)
 
+    def beginnings(self) -> Mapping[str, frozenset[str]]:
+        """Return the categories with which a phrase of each category can begin, its own among them."""
+        count = sum(map(len, self.by_first.values()))
+        if self._begins[0] == count:
+            return self._begins[1]
+        begins: dict[str, set[str]] = defaultdict(set)
+        for first, constructions in self.by_first.items():
+            for one in constructions:
+                begins[one.result].add(first)
+                for symbol in one.symbols:
+                    begins[symbol].add(symbol)
+        grown = True
+        while grown:
+            grown = False
+            for found in begins.values():
+                more = set[str]().union(*(begins[category] for category in found))
+                grown = grown or not more <= found
+                found |= more
+        self._begins = (count, {category: frozenset(found) for category, found in begins.items()})
+        return self._begins[1]
 
-@dataclass(frozen=True, slots=True)
-class _Partial:
+
+class _Partial(NamedTuple):
     """A construction of which the first parts were recognised."""
 
     construction: Construction
@@ -159,6 +180,8 @@ class Chart:
     _partial: list[dict[str, list[_Partial]]] = field(default_factory=list)
     _agenda: list[tuple[float, int, PhraseEdge]] = field(default_factory=list)
     _added: int = 0
+    _begins: Mapping[str, frozenset[str]] = field(default_factory=dict)
+    _words_from: list[set[str]] = field(default_factory=list)
 
     def parse(self, words: Iterable[PhraseEdge]) -> None:
         """Fill the chart from the edges of words and fixed phrases."""
@@ -166,11 +189,24 @@ class Chart:
         for word in words:
             by_end[word.end].append(word)
         self._partial = [defaultdict(list) for _ in range(self.length + 1)]
+        self._begins = self.grammar.beginnings()
+        self._words_from = self._words_at(by_end)
         for end in range(1, self.length + 1):
             for word in by_end[end]:
                 self._add(word)
             while self._agenda and self.combinations <= self.most:
                 self._use(heapq.heappop(self._agenda)[2])
+
+    def _words_at(self, by_end: Mapping[int, list[PhraseEdge]]) -> list[set[str]]:
+        """Return the categories of the words from each position on, with those behind fillers there."""
+        found: list[set[str]] = [set() for _ in range(self.length + 1)]
+        for words in by_end.values():
+            for word in words:
+                found[word.start].add(word.category)
+        for position in range(self.length - 1, -1, -1):
+            if position in self.fillers:
+                found[position] |= found[position + 1]
+        return found
 
     def edges(self, category: str, start: int, end: int) -> list[PhraseEdge]:
         """Return the edges of a category over exactly these tokens, cheapest first."""
@@ -234,8 +270,8 @@ class Chart:
         for construction in self.grammar.by_first.get(edge.category, ()):
             if construction.result in self.predicted and not self._awaits(construction.result, edge):
                 continue
-            empty = _Partial(construction, edge.start, (), construction.cost, 0)
-            self._advance(empty, edge, 0.0)
+            if len(construction.symbols) == 1 or self._may_begin(construction.symbols[1], edge.end):
+                self._advance(_Partial(construction, edge.start, (), construction.cost, 0), edge, 0.0)
         position, skipped = edge.start, 0.0
         for _ in range(_LONGEST_GAP):
             for partial in self._partial[position].get(edge.category, ()):
@@ -243,6 +279,10 @@ class Chart:
             if position - 1 not in self.fillers:
                 break
             position, skipped = position - 1, skipped + _FILLER_COST
+
+    def _may_begin(self, category: str, position: int) -> bool:
+        """Return True if a phrase of a category may begin at a position, by the words there."""
+        return not self._begins[category].isdisjoint(self._words_from[position])
 
     def _awaits(self, category: str, edge: PhraseEdge) -> bool:
         """Return True if a phrase of a category is expected where an edge starts: at the beginning, or by another."""
@@ -262,8 +302,10 @@ class Chart:
         cost = partial.cost + edge.cost + skipped
         used = partial.used | edge.used
         if len(meanings) < len(construction.symbols):
-            waiting = _Partial(construction, partial.start, meanings, cost, used)
-            self._partial[edge.end][construction.symbols[len(meanings)]].append(waiting)
+            awaited = construction.symbols[len(meanings)]
+            if self._may_begin(awaited, edge.end):
+                waiting = _Partial(construction, partial.start, meanings, cost, used)
+                self._partial[edge.end][awaited].append(waiting)
             return
         named = {name: meaning for name, meaning in zip(construction.names, meanings, strict=True) if name}
         if construction.takes_range:
