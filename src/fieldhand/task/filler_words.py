@@ -43,10 +43,10 @@ _ADDRESSED = _words(
 #: Verbs and phrases that only introduce the request.
 _LEADING = _words(
     """
-    able ahead ask asked because before begin capture carry check choose collect come deploy do doing done drive driving
-    find forget get give go going head i'd i'll i'm it's keep kick know let's lets like likes look looking love make
-    measure measured measuring need needed needs off out over perform photograph photographing pick picture
-    pictures proceed reading readings record remember require required requires see send sent start started
+    able advance ahead ask asked because before begin capture carry check choose collect come deploy do doing done
+    drive driving find forget get give go going head i'd i'll i'm it'd it's keep kick know let's lets like likes look
+    looking love make measure measured measuring need needed needs off out over perform photograph photographing pick
+    picture pictures proceed reading readings record remember require required requires see send sent start started
     take taken taking tell that's there's through u use using visit want wanted wants way we'd we're what what's
     whats wish wishes you'd
     """

@@ -160,3 +160,20 @@ def test_a_number_that_is_corrected_is_replaced(request_: str, plan: str) -> Non
 @pytest.mark.parametrize("request_", ["Photograph 5 trees in row 3, make that 6.", "Photograph trees 4, 5, no, 6."])
 def test_a_correction_of_one_of_several_numbers_is_left_open(request_: str) -> None:
     assert plan_of(request_) is None
+
+
+@pytest.mark.parametrize(
+    ("request_", "plan"),
+    [
+        ("Photograph trees 4, 9 and 12. Measure CO2 at the yellow ones.", "for UnionOf(TreeIs(4)+TreeIs(9)+TreeIs(12)): [picture; if leaf_color = yellow: [co2]]"),
+        ("Photograph trees 4, 9 and 12. Measure CO2 at the ones that are yellow.", "for UnionOf(TreeIs(4)+TreeIs(9)+TreeIs(12)): [picture; if leaf_color = yellow: [co2]]"),
+        ("Go to trees 4, 9 and 12. Photograph the yellow ones.", "for UnionOf(TreeIs(4)+TreeIs(9)+TreeIs(12)): [if leaf_color = yellow: [picture]]"),
+        ("Photograph row 3, every tree. Measure CO2 at those that are Carmel. Then go home.", "for Rows(3, 3): [picture; if variety = Carmel: [co2]] | return_to_start"),
+    ],
+)  # fmt: skip
+def test_the_ones_of_a_kind_are_among_those_visited(request_: str, plan: str) -> None:
+    assert plan_of(request_) == plan
+
+
+def test_the_ones_of_another_kind_are_not_among_those_visited() -> None:
+    assert plan_of("Photograph the yellow trees. Measure CO2 at the green ones.") is None

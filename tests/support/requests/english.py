@@ -6,6 +6,11 @@ Longer than other files because it is a table.
 # ruff: noqa: E501 - a request and its plan stand on one line each
 
 PLANNED = [
+    (
+        "husky",
+        "Visit all yellow trees but photograph only the Carmel ones.",
+        "for Where(leaf_color, eq, yellow): [if variety = Carmel: [picture]]",
+    ),
     ("husky", "Take a picture and then 2 CO2 readings at tree 9", "picture @ TreeIs(9); co2 x2"),
     (
         "husky",
@@ -1250,11 +1255,6 @@ REFUSED = [
         "husky",
         "Photograph 3 yellow trees and read co2 at the last of them.",
         "'at the last of' does not fit at this point in 'Photograph 3 yellow trees and read co2 at the last of them'",
-    ),
-    (
-        "husky",
-        "Visit all yellow trees but photograph only the Carmel ones.",
-        "'ones' does not fit at this point in 'Visit all yellow trees but photograph only the Carmel ones'",
     ),
     ("husky", "Take a picture of trees 4, 5 and, if the battery allows, 6.", "'6': it does not say what to do with it"),
     (

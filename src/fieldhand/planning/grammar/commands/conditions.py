@@ -119,7 +119,12 @@ def medium_measured(noun: Lex, place: PlaceMeaning, test: Test) -> tuple[PlaceMe
     return None if asked is None else measured(asked, test)
 
 
-@construction("measured: place=place [IS] test=predicate", cost=0.5, given=("robot",))
+@construction(
+    "measured: place=place [IS] test=predicate",
+    "measured: IT [IS] test=predicate AT place=place",
+    cost=0.5,
+    given=("robot",),
+)
 def tree_measured(place: PlaceMeaning, test: Test, robot: RobotProfile) -> list[tuple[PlaceMeaning, Test]] | None:
     """Compose "tree 14 is hotter than 36 degC": which readings are in that unit?"""
     if place.shape != "one" or as_some(place.selector) is not None or test.value == SAME_THRESHOLD:
@@ -519,6 +524,24 @@ def those_tested(
         return None
     area = None if inner is None or inner.selector == s.Trees() else inner.selector
     return AllTests((test,)), None if area is None else PlaceMeaning(area, "several", each=True)
+
+
+@construction(
+    "tested: DET value=ATTRVAL noun=ONE",
+    "tested: [DET] noun=ONE WHICH [IS] value=ATTRVAL",
+    "tested: word=DET WHICH [IS] value=ATTRVAL",
+    "tested: ANY WHICH [IS] value=ATTRVAL",
+    cost=0.0,
+)
+def those_of_kind(
+    value: Lex, noun: Lex | None = None, word: Lex | None = None
+) -> list[tuple[AllTests, PlaceMeaning | None]] | None:
+    """Compose "the yellow ones" and "those that are yellow"."""
+    if noun is not None and not noun.plural and "plural" not in noun.features:
+        return None
+    if word is not None and "those" not in word.features:
+        return None
+    return [(AllTests((test,)), None) for test in tree_is(value)]
 
 
 @construction("tested: those=tested AT [DET] noun=NOUN", "tested: those=tested INSIDE [DET] noun=NOUN", cost=0.2)

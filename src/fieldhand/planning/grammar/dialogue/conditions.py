@@ -183,15 +183,28 @@ def captured_where(setting: Setting, state: DialogueState, command: CaptureWhere
     if state.ended_by is not None or state.order is not None:
         raise NotComposed(message("it is not clear which of those", context="fault"))
     command = replace(command, tests=_of_quantity(setting, command.tests))
-    state = _measured_at_each(setting, state, command)
-    if state.loop is None or state.captured is None or not is_inside(state.captured, state.loop):
+    of_trees = all(test.attribute for test in command.tests.tests)
+    state = state if of_trees else _measured_at_each(setting, state, command)
+    known = state.captured is not None and is_inside(state.captured, state.loop or ())
+    if (state.loop is None and not (of_trees and state.awaits_command)) or not (known or of_trees):
         raise NotComposed(message("it is not clear which of those", context="fault"))
-    scope, loop = state.scope, state.loop
+    if of_trees and _chosen_by(state, {test.attribute for test in command.tests.tests}):
+        raise NotComposed(
+            message("it is not clear which of those", context="fault")
+        )  # the yellow trees, the green ones
+    scope, said = state.scope, command.used & ~command.capture.used
     clause = LinkedCommand(None, command.capture)
-    state = when(setting, replace(state, commands_in_sentence=0), When(command.tests, 0), (clause,))
+    state = when(setting, replace(state, commands_in_sentence=0), When(command.tests, said), (clause,))
+    loop = state.loop
     state = capture(setting, state, command.capture)
     done = state.commands_in_sentence + 1
     return replace(state, scope=scope, loop=loop, decided=None, commands_in_sentence=done)
+
+
+def _chosen_by(state: DialogueState, attributes: set[str]) -> bool:
+    """Return True if the places of the last for-each were chosen by one of some attributes."""
+    chosen = None if state.loop is None else for_each_at(state.plan, state.loop[:-1]).select
+    return chosen is not None and any(getattr(part, "attribute", "") in attributes for part in chosen.walk())
 
 
 def _measured_here(setting: Setting, state: DialogueState, command: When) -> DialogueState:
