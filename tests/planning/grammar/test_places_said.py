@@ -18,6 +18,9 @@ from planning.english.vineyards import vineyard
 HUSKY = load_robot("husky")
 PLANNED = {
     "demo": [
+        ("Photograph one tree per row in the wet corner.", "for UnionOf(Take(1, of Rows(1, 1, of InZone(wet corner)))+Take(1, of Rows(2, 2, of InZone(wet corner)))+Take(1, of Rows(3, 3, of InZone(wet corner)))): [picture]"),
+        ("Photograph as many trees as possible in the northern half of row 4 in 5 minutes.", "for InRow(1, 9, north, of Rows(4, 4)) optional: [picture] | duration_s 300"),
+        ("Photograph trees 4, 9 and 12, then measure CO2 at the second one.", "for UnionOf(TreeIs(4)+TreeIs(9)+TreeIs(12)): [picture]; co2 @ TreeIs(9)"),
         ("Take a thermal picture of trees 20, 21 and 25-30.", "for UnionOf(TreeIs(20)+TreeIs(21)+TreeIs(25)+TreeIs(26)+TreeIs(27)+TreeIs(28)+TreeIs(29)+TreeIs(30)): [picture]"),
         ("Measure CO2 at number 140.", "co2 @ TreeIs(140)"),
         ("Measure CO2 at tree no. 140.", "co2 @ TreeIs(140)"),

@@ -360,15 +360,17 @@ def whole_area(where: s.Selector) -> PlaceMeaning:
     return PlaceMeaning(where, "several", each=True)
 
 
-@construction("place: whole=place in_ where=region", cost=0.4)
-def restricted(whole: PlaceMeaning, where: s.Selector) -> PlaceMeaning | None:
+@construction("place: whole=place way=in_ where=region", cost=0.4)
+def restricted(whole: PlaceMeaning, where: s.Selector, way: str) -> PlaceMeaning | None:
     """Compose "as many trees as possible in row 3" and "one tree per row in the northern half"."""
+    if way == "of":
+        return None  # "as many trees as possible in the northern half of row 4": of that row
     if whole.per is not None:
         if whole.per != s.Rows() or not chooses_from_trees(where):
             return None
         if are_rows(where):
             return replace(whole, per=where)
-        return replace(whole, per=over(whole.per, where)) if len(where.members) == 1 else None
+        return replace(whole, per=s.Rows(of=where)) if len(where.members) == 1 else None
     if not whole.optional or whole.there or not chooses_from_trees(whole.selector):
         return None
     return replace(whole, selector=over(whole.selector, where))

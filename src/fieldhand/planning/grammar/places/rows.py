@@ -386,7 +386,10 @@ def each_of_rows(rows: s.Selector, word: Lex | None = None) -> s.Selector | None
 @construction("each_row: rows=each_row in_ where=region", cost=0.1)
 def each_row_of_area(rows: s.Selector, where: s.Selector) -> s.Selector | None:
     """Compose "each row of block 2" and "each row of the northern half"."""
-    return None if are_rows(where) or not chooses_from_trees(where) else over(rows, where)
+    if are_rows(where) or not chooses_from_trees(where):
+        return None
+    inside = over(rows, where)
+    return inside if are_rows(inside) else None
 
 
 @construction("all_rows: DET noun=ROW", "all_rows: EACH [DET] noun=ROW", cost=0.0)
