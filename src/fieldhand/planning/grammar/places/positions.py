@@ -185,7 +185,7 @@ def tree_of_row_named_before(rank: Lex, inner: Nominal | None = None) -> PlaceMe
 )
 def trees_of_row_named_before(where: tuple[int, int], inner: Nominal) -> PlaceMeaning | None:
     """Compose "the trees from the third to the tenth", of a row that was named before them."""
-    if where[0] < 2 or inner.selector != s.Trees() or inner.kind != "tree" or inner.single:
+    if not 0 < where[0] < where[1] or inner.selector != s.Trees() or inner.kind != "tree" or inner.single:
         return None
     selector = s.InRow(first=where[0], last=where[1], of=s.Trees())
     return PlaceMeaning(selector, "several", count=where[1] - where[0] + 1)
