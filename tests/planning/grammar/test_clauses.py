@@ -146,6 +146,7 @@ PLANNED = [
     ("husky", "Once at tree 4, measure CO2.", "go TreeIs(4); co2"),
     ("husky", "On arrival at tree 4, measure CO2.", "go TreeIs(4); co2"),
     ("husky", "Check the CO2 at tree 4.", "co2 @ TreeIs(4)"),
+    ("husky", "Check tree 4's CO2.", "co2 @ TreeIs(4)"),
     ("husky", "Check tree 4 for CO2.", "co2 @ TreeIs(4)"),
     ("husky", "What is the CO2 at tree 4?", "co2 @ TreeIs(4)"),
     ("husky", "What's the CO2 at tree 4?", "co2 @ TreeIs(4)"),
@@ -234,6 +235,11 @@ PLANNED = [
     ("amiga", "Photograph the trunk of tree 5.", "picture(view trunk) @ TreeIs(5)"),
     ("amiga", "Take a trunk picture of tree 5.", "picture(view trunk) @ TreeIs(5)"),
     ("amiga", "Take a photo of the canopy of each tree in row 3.", "for Rows(3, 3): [picture(view canopy)]"),
+    (
+        "husky",
+        "Take a thermal picture of every sixth tree in row 3. If the canopy is hotter than 38 degrees take the CO2 at that tree, and if it is cooler than 33 take the air temperature instead. Don't use more than 40 percent of the battery.",
+        "for EveryNth(6, of Rows(3, 3)): [picture = r1; if r1 > 38 degC: [co2]; if r1 < 33 degC: [air]] | energy_percent 40",
+    ),
     (
         "husky",
         "Photograph tree 5. Don't use more than 40 percent of the battery.",
@@ -365,6 +371,11 @@ PLANNED = [
     ),
     ("amiga", "Sample one leaf from each of the five youngest trees.", "for Top(age_years, 5, True): [sample_leaf]"),
     (
+        "amiga",
+        "Sample a leaf at the three oldest and the three youngest trees.",
+        "for UnionOf(Top(age_years, 3)+Top(age_years, 3, True)): [sample_leaf]",
+    ),
+    (
         "husky",
         "Photograph the trees along the northern edge of the orchard, then measure the air temperature at the charger.",
         "for Edge(north): [picture]; air @ Marker(charger)",
@@ -373,6 +384,11 @@ PLANNED = [
         "husky",
         "Start in the northwest corner and photograph ten trees.",
         "go Corners(nw); for Take(10, of Trees): [picture]",
+    ),
+    (
+        "husky",
+        "Photograph all Nonpareils older than 10 years, and measure CO2 at those with yellow leaves.",
+        "for Where(age_years, gt, 10, of Where(variety, eq, Nonpareil)): [picture]; for Where(leaf_color, eq, yellow): [co2]",
     ),
     (
         "husky",
@@ -426,6 +442,7 @@ PLANNED = [
         "co2 @ InRow(3, 3, north, of Rows(3, 3))",
     ),
     ("husky", "Measure the CO2 at the third last tree of row 3.", "co2 @ InRow(-3, -3, of Rows(3, 3))"),
+    ("husky", "Measure the CO2 at the last but one tree of row 3.", "co2 @ InRow(-2, -2, of Rows(3, 3))"),
     ("husky", "Measure the CO2 at the second to last tree of row 3.", "co2 @ InRow(-2, -2, of Rows(3, 3))"),
     (
         "husky",
@@ -444,6 +461,11 @@ PLANNED = [
         "for UnionOf(TreeIs(5)+TreeIs(6)+TreeIs(7)+TreeIs(8)+TreeIs(9)): [picture]; co2 @ TreeIs(3)",
     ),
     ("husky", "Tree 5 - a picture.", "picture @ TreeIs(5)"),
+    (
+        "husky",
+        "Take pictures of trees 3, 5 and 7-9.",
+        "for UnionOf(TreeIs(3)+TreeIs(5)+TreeIs(7)+TreeIs(8)+TreeIs(9)): [picture]",
+    ),
     (
         "husky",
         "Photograph the trees of row 2 southwards.",
@@ -549,6 +571,16 @@ PLANNED = [
     ),
     (
         "husky",
+        "Photograph tree 30 and the next five trees.",
+        "for UnionOf(TreeIs(30)+AlongRow(1, TreeIs(30))+AlongRow(2, TreeIs(30))+AlongRow(3, TreeIs(30))+AlongRow(4, TreeIs(30))+AlongRow(5, TreeIs(30))): [picture]",
+    ),
+    (
+        "husky",
+        "Photograph from tree 30 to tree 37.",
+        "for UnionOf(TreeIs(30)+TreeIs(31)+TreeIs(32)+TreeIs(33)+TreeIs(34)+TreeIs(35)+TreeIs(36)+TreeIs(37)): [picture]",
+    ),
+    (
+        "husky",
         "Photograph trees 30 to 37 from north to south.",
         "for Ordered(north_to_south, of UnionOf(TreeIs(30)+TreeIs(31)+TreeIs(32)+TreeIs(33)+TreeIs(34)+TreeIs(35)+TreeIs(36)+TreeIs(37))) given: [picture]",
     ),
@@ -575,6 +607,11 @@ PLANNED = [
         "Photograph five trees in the northern half and five trees in the southern half.",
         "for UnionOf(Take(5, of Half(north))+Take(5, of Half(south))): [picture]",
     ),
+    (
+        "husky",
+        "Photograph five Carmels and five Nonpareils.",
+        "for UnionOf(Take(5, of Where(variety, eq, Carmel))+Take(5, of Where(variety, eq, Nonpareil))): [picture]",
+    ),
     ("husky", "Photograph the three nearest trees to the charger.", "for Nearest(Marker(charger), 3): [picture]"),
     (
         "husky",
@@ -586,6 +623,11 @@ PLANNED = [
     (
         "husky",
         "Photograph all trees no more than 20 m away from the charger.",
+        "for Within(20, Marker(charger)): [picture]",
+    ),
+    (
+        "husky",
+        "Photograph all trees in a radius of 20 m around the charger.",
         "for Within(20, Marker(charger)): [picture]",
     ),
     (
@@ -603,6 +645,177 @@ PLANNED = [
         "husky",
         "Photograph every third tree in rows 1, 3 and 5.",
         "for EveryNth(3, of UnionOf(Rows(1, 1)+Rows(3, 3)+Rows(5, 5))): [picture]",
+    ),
+    (
+        "husky",
+        "Photograph rows 2 to 6 but skip row 4, every tree.",
+        "for Excluding(Rows(4, 4), of Rows(2, 6)): [picture]",
+    ),
+    (
+        "husky",
+        "Photograph every tree of rows 2 to 6, skipping row 4.",
+        "for Excluding(Rows(4, 4), of Rows(2, 6)): [picture]",
+    ),
+    (
+        "husky",
+        "Photograph every tree of rows 2 to 6, leaving out row 4.",
+        "for Excluding(Rows(4, 4), of Rows(2, 6)): [picture]",
+    ),
+    (
+        "husky",
+        "Photograph every tree of rows 2 to 6, but leave out row 4.",
+        "for Excluding(Rows(4, 4), of Rows(2, 6)): [picture]",
+    ),
+    (
+        "husky",
+        "Photograph every tree of row 3, ignoring the yellow ones.",
+        "for Excluding(Where(leaf_color, eq, yellow, of Rows(3, 3)), of Rows(3, 3)): [picture]",
+    ),
+    (
+        "husky",
+        "Photograph every tree of row 3 minus the first.",
+        "for Excluding(InRow(1, 1, of Rows(3, 3)), of Rows(3, 3)): [picture]",
+    ),
+    (
+        "husky",
+        "Photograph every tree of row 3 save for the last two.",
+        "for Excluding(InRow(-2, -1, of Rows(3, 3)), of Rows(3, 3)): [picture]",
+    ),
+    (
+        "husky",
+        "Photograph every tree of row 3, not the yellow ones.",
+        "for Excluding(Where(leaf_color, eq, yellow, of Rows(3, 3)), of Rows(3, 3)): [picture]",
+    ),
+    (
+        "husky",
+        "Photograph every tree of row 3 that isn't yellow.",
+        "for Where(leaf_color, ne, yellow, of Rows(3, 3)): [picture]",
+    ),
+    (
+        "husky",
+        "Photograph every tree of row 3 which is not yellow.",
+        "for Where(leaf_color, ne, yellow, of Rows(3, 3)): [picture]",
+    ),
+    (
+        "husky",
+        "Photograph all non-yellow trees of row 3.",
+        "for Where(leaf_color, ne, yellow, of Rows(3, 3)): [picture]",
+    ),
+    ("husky", "Photograph everything but row 3.", "for Excluding(Rows(3, 3)): [picture]"),
+    (
+        "husky",
+        "Go to every tree of row 3 and photograph it unless it is yellow.",
+        "for Rows(3, 3): [if not leaf_color = yellow: [picture]]",
+    ),
+    ("husky", "Photograph each tree of row 3 if it is a Carmel.", "for Rows(3, 3): [if variety = Carmel: [picture]]"),
+    (
+        "husky",
+        "Photograph each Carmel tree, and if it is older than 8 years measure CO2 too.",
+        "for Where(variety, eq, Carmel): [picture; if age_years > 8: [co2]]",
+    ),
+    (
+        "husky",
+        "At each tree of row 3: if it is older than 8 years, measure CO2, else take a picture.",
+        "for Rows(3, 3): [if age_years > 8: [co2] else [picture]]",
+    ),
+    ("husky", "Photograph tree 9, but first measure CO2 at tree 5.", "co2 @ TreeIs(5); picture @ TreeIs(9)"),
+    ("husky", "Photograph trees 5 and 9 if there is time.", "maybe [for UnionOf(TreeIs(5)+TreeIs(9)): [picture]]"),
+    (
+        "husky",
+        "Photograph tree 5; if there's battery left, tree 9 as well.",
+        "picture @ TreeIs(5); maybe [picture @ TreeIs(9)]",
+    ),
+    ("husky", "If possible photograph tree 9.", "maybe [picture @ TreeIs(9)]"),
+    ("husky", "Photograph tree 5 and, battery permitting, tree 9.", "picture @ TreeIs(5); maybe [picture @ TreeIs(9)]"),
+    (
+        "husky",
+        "Measure CO2 at five trees of row 3, but stop as soon as one is above 450 ppm.",
+        "for Take(5, of Rows(3, 3)) until r1 > 450 ppm: [co2 = r1]",
+    ),
+    (
+        "husky",
+        "Measure CO2 along row 3, tree by tree, until it is above 450 ppm.",
+        "for Rows(3, 3) until r1 > 450 ppm: [co2 = r1]",
+    ),
+    (
+        "husky",
+        "Measure CO2 at trees 4, 9 and 12; photograph those above 450 ppm.",
+        "for UnionOf(TreeIs(4)+TreeIs(9)+TreeIs(12)): [co2 = r1; if r1 > 450 ppm: [picture]]",
+    ),
+    (
+        "husky",
+        "Measure CO2 at trees 4, 9 and 12. Photograph the ones where it is above 450 ppm.",
+        "for UnionOf(TreeIs(4)+TreeIs(9)+TreeIs(12)): [co2 = r1; if r1 > 450 ppm: [picture]]",
+    ),
+    (
+        "husky",
+        "Measure CO2 at trees 4, 9 and 12 and photograph any that are above 450 ppm.",
+        "for UnionOf(TreeIs(4)+TreeIs(9)+TreeIs(12)): [co2 = r1; if r1 > 450 ppm: [picture]]",
+    ),
+    (
+        "husky",
+        "Measure CO2 at trees 4, 9 and 12 and take a photo wherever it exceeds 450 ppm.",
+        "for UnionOf(TreeIs(4)+TreeIs(9)+TreeIs(12)): [co2 = r1; if r1 > 450 ppm: [picture]]",
+    ),
+    (
+        "husky",
+        "Measure CO2 at trees 4, 9 and 12; a value above 450 ppm calls for a photo.",
+        "for UnionOf(TreeIs(4)+TreeIs(9)+TreeIs(12)): [co2 = r1; if r1 > 450 ppm: [picture]]",
+    ),
+    (
+        "husky",
+        "Take a photo at trees 4, 9 and 12 if the CO2 there is above 450 ppm.",
+        "for UnionOf(TreeIs(4)+TreeIs(9)+TreeIs(12)): [co2 = r1; if r1 > 450 ppm: [picture]]",
+    ),
+    (
+        "husky",
+        "Only take a photo at trees 4, 9 and 12 if the CO2 there is above 450 ppm.",
+        "for UnionOf(TreeIs(4)+TreeIs(9)+TreeIs(12)): [co2 = r1; if r1 > 450 ppm: [picture]]",
+    ),
+    (
+        "husky",
+        "If the CO2 at tree 4 is above 450 ppm, take a photo there.",
+        "co2 @ TreeIs(4) = r1; if r1 > 450 ppm: [picture]",
+    ),
+    (
+        "husky",
+        "If CO2 is above 450 ppm at tree 4, photograph trees 5 and 6; if not, go home.",
+        "co2 @ TreeIs(4) = r1; if r1 > 450 ppm: [for UnionOf(TreeIs(5)+TreeIs(6)): [picture]] else [go Marker(start)] | return_to_start",
+    ),
+    (
+        "husky",
+        "Check CO2 at tree 4: above 450 ppm photograph it, below that go home.",
+        "co2 @ TreeIs(4) = r1; if r1 > 450 ppm: [picture] else [go Marker(start)] | return_to_start",
+    ),
+    (
+        "husky",
+        "Take a thermal picture of every sixth tree in row 3. If the canopy is hotter than 38 degrees take the CO2 at that tree, and if it is cooler than 33 take the air temperature instead. Don't use more than 40 percent of the battery.",
+        "for EveryNth(6, of Rows(3, 3)): [picture = r1; if r1 > 38 degC: [co2]; if r1 < 33 degC: [air]] | energy_percent 40",
+    ),
+    (
+        "husky",
+        "Take a picture of tree 5. If it is over 36 °C measure CO2, otherwise measure the air temperature instead.",
+        "picture @ TreeIs(5) = r1; if r1 > 36 degC: [co2] else [air]",
+    ),
+    (
+        "amiga",
+        "As many leaf samples as possible from the Carmel trees in half an hour, but always keep a quarter of the battery.",
+        "for Where(variety, eq, Carmel) optional: [sample_leaf] | duration_s 1800 | reserve 25",
+    ),
+    (
+        "amiga",
+        "At the first and last tree of rows 2, 4 and 6 I want moisture and nitrate, both at 40 cm. You have 25 minutes for the lot.",
+        "for UnionOf(InRow(1, 1, of UnionOf(Rows(2, 2)+Rows(4, 4)+Rows(6, 6)))+InRow(-1, -1, of UnionOf(Rows(2, 2)+Rows(4, 4)+Rows(6, 6)))): [moisture(depth_cm 40); nitrate(depth_cm 40)] | duration_s 1500",
+    ),
+    (
+        "husky",
+        "CO2 at tree 5, then the same at the tree farthest away from it.",
+        "co2 @ TreeIs(5); go Farthest(Here); co2",
+    ),
+    (
+        "husky",
+        "CO2 at tree 5, then the same at the three nearest trees.",
+        "co2 @ TreeIs(5); for Nearest(Here, 3): [co2]",
     ),
 ]
 

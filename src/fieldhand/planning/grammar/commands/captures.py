@@ -439,10 +439,10 @@ def measure_for(place: PlaceMeaning, things: tuple[Thing, ...], used: int) -> Ca
 
 
 @construction(
-    "capture: verb ASMANY things=things relation place=place as_can",
-    "capture: verb ASMANY things=things as_can relation place=place",
-    "capture: verb ASMANY things=things as_can",
-    "capture: verb ASMANY things=things relation place=place",
+    "capture: [verb] ASMANY things=things relation place=place as_can",
+    "capture: [verb] ASMANY things=things as_can relation place=place",
+    "capture: [verb] ASMANY things=things as_can",
+    "capture: [verb] ASMANY things=things relation place=place",
     cost=0.3,
 )
 def as_many_captures(things: tuple[Thing, ...], used: int, place: PlaceMeaning | None = None) -> CaptureCommand | None:
