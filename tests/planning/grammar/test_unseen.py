@@ -19,6 +19,10 @@ from planning.english.vineyards import vineyard
 HUSKY = load_robot("husky")
 PLANNED = {
     "demo": [
+        ("Photograph the halfway tree of row 3.", "picture @ Middle(of Rows(3, 3))"),
+        ("CO2 at tree 5, then scoot over to the charger.", "co2 @ TreeIs(5); go Marker(charger)"),
+        ("Photograph the three best-bearing trees.", "for Top(yield_kg, 3): [picture]"),
+        ("Photograph three trees apiece in rows 2 and 4.", "for UnionOf(Take(3, of Rows(2, 2))+Take(3, of Rows(4, 4))): [picture]"),
         ("Photograph row 3 starting with the last tree.", "for Ordered(south_to_north, of Rows(3, 3)) given: [picture]"),
         ("Go to tree 80 and photograph every tree in the two rows to the east.", "go TreeIs(80); for UnionOf(RowOf(1)+RowOf(2)): [picture]"),
         ("Take CO2 at all trees of row 4 except the ends.", "for Excluding(UnionOf(InRow(1, 1, of Rows(4, 4))+InRow(-1, -1, of Rows(4, 4))), of Rows(4, 4)): [co2]"),
@@ -166,6 +170,7 @@ PLANNED = {
 }  # fmt: skip
 #: Requests with words that ask for nothing and have to be confirmed.
 REMARKED = [
+    ("Photograph tree 5 on the double.", "picture @ TreeIs(5)", "double"),
     ("Right, I want it to go down row 7, and at any tree that reads above 38 degrees on the thermal camera, get a CO2 reading too.", "for Rows(7, 7): [picture = r1; if r1 > 38 degC: [co2]]", "'Right'"),
     ("Hi, when you get a minute could you have the robot swing past row 6 and grab me a thermal of each tree, cheers.", "for Rows(6, 6): [picture]", "'minute'"),
     ("So what I'd like is basically a CO2 number for each of the Carmels down in the wet corner, nothing fancy.", "for Where(variety, eq, Carmel, of InZone(wet corner)): [co2]", "'nothing fancy'"),

@@ -469,6 +469,12 @@ def in_each_of_those_rows(rows: s.Selector, one: PlaceMeaning) -> PlaceMeaning |
     return None if is_one_row(rows) else in_each_row(one, rows)
 
 
+@construction("place: one=place APIECE in_ rows=rows", "place: one=place in_ rows=rows APIECE", cost=0.2)
+def apiece_in_rows(one: PlaceMeaning, rows: s.Selector) -> PlaceMeaning | None:
+    """Compose "three trees apiece in rows 2 and 4"."""
+    return None if is_one_row(rows) else in_each_row(one, rows)
+
+
 @construction("place: rows=each_row", cost=0.5)
 def at_each_row(rows: s.Selector) -> PlaceMeaning:
     """Compose "each row" as a place."""
