@@ -630,11 +630,15 @@ def those_get(things: tuple[Thing, ...], tests: tuple[AllTests, PlaceMeaning | N
     "until: ASSOONAS tests=tests [COMMA] STOP",
     "until: WHERE tests=tests [COMMA] STOP",
     "until: HALTWHEN tests=tests",
+    "until: STOP AT [DET] FIRSTONE ONE [WHICH] [IS] test=predicate",
+    "until: STOP AT [DET] ORD ONE [WHICH] [IS] test=predicate",
     cost=0.3,
 )
-def until(tests: AllTests, used: int) -> UntilCondition:
-    """Compose "until it is high"."""
-    return UntilCondition(tests, used)
+def until(used: int, tests: AllTests | None = None, test: Test | None = None) -> UntilCondition | None:
+    """Compose "until it is high" and "stop at the first one over 39"."""
+    if test is not None:
+        tests = AllTests((test,))
+    return None if tests is None else UntilCondition(tests, used)
 
 
 @construction("until: [KEEPON] STAYING tests=tests", cost=0.3)

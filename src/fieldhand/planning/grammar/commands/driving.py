@@ -138,7 +138,12 @@ def order_of_attribute(attribute: Lex) -> list[tuple[str, str, bool]]:
     return [("attribute", name, False) for name in attribute.value]
 
 
-@construction("ordered: FROM [DET] side=DIR FINISH", "ordered: STARTING [DET] side=DIR FINISH", cost=0.1)
+@construction(
+    "ordered: FROM [DET] side=DIR FINISH",
+    "ordered: STARTING [DET] side=DIR FINISH",
+    "ordered: [DET] side=DIR FINISH FIRSTONE",
+    cost=0.1,
+)
 def from_an_end(side: Lex) -> tuple[str, str, bool] | None:
     """Compose "from its southern end"."""
     return (AWAY_FROM[side.value], "", False) if side.value in AWAY_FROM else None

@@ -356,6 +356,8 @@ def _lead(setting: Setting, state: DialogueState, command: Lead) -> DialogueStat
     """Return the state in which the next command is done at a place."""
     state = capture_elided(setting, state)
     before, place = state.lead, command.place
+    if command.relation == "of" and place.shape == "area" and state.commands_in_sentence:
+        raise NotComposed(message("it is not clear at which of two places this is done", context="fault"))
     if before is not None and command.relation == "topic" and before.place.shape == "area" and before.place.per is None:
         place = in_area(setting, before, place)  # "in row 3 the CO2 matters: four trees will do"
         return replace(state, lead=replace(command, place=place, used=before.used | command.used))

@@ -664,6 +664,8 @@ def largest_number(inner: Nominal) -> PlaceMeaning | None:
 @construction(
     "place: n=count inner=nominal PER kind=ATTR",
     "place: n=count inner=nominal OF EACH kind=ATTR",
+    "place: n=count inner=nominal OF EACH OF DET several=count kind=ATTR",
+    "place: n=count inner=nominal OF INEACH [OF] [DET] several=count kind=ATTR",
     "place: n=count inner=nominal FOR EACH kind=ATTR",
     "place: n=count inner=nominal FROM EACH kind=ATTR",
     "place: n=count random=RANDOM inner=nominal OF EACH kind=ATTR",
@@ -674,15 +676,21 @@ def largest_number(inner: Nominal) -> PlaceMeaning | None:
     given=("site",),
 )
 def so_many_of_each_kind(
-    n: int, inner: Nominal, kind: Lex, site: Site, where: s.Selector | None = None, random: Lex | None = None
+    n: int,
+    inner: Nominal,
+    kind: Lex,
+    site: Site,
+    where: s.Selector | None = None,
+    random: Lex | None = None,
+    several: int = 0,
 ) -> list[PlaceMeaning] | None:
     """Compose "5 vines per variety": so many of each of the kinds that the site records."""
-    if inner.single or inner.complete or inner.pronoun or kind.plural:
+    if inner.single or inner.complete or inner.pronoun or kind.plural != (several > 0):
         return None
     made: list[PlaceMeaning] = []
     for attribute in kind.value:
         kinds = [value for value in site.attributes.get(attribute, ()) if isinstance(value, str)]
-        if 1 < len(kinds) <= _MOST_KINDS:
+        if 1 < len(kinds) <= _MOST_KINDS and several in (0, len(kinds)):
             of = inner.selector if where is None else over(inner.selector, where)
             described = [s.Where(attribute=attribute, test="eq", value=value, of=of) for value in kinds]
             parts = [part for part in described if ids_of(part, site)]

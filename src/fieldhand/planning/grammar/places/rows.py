@@ -475,6 +475,16 @@ def apiece_in_rows(one: PlaceMeaning, rows: s.Selector) -> PlaceMeaning | None:
     return None if is_one_row(rows) else in_each_row(one, rows)
 
 
+@construction(
+    "place: one=place OF first=rows AND OF second=rows",
+    "place: one=place AT first=rows AND AT second=rows",
+    cost=0.2,
+)
+def in_both_rows(one: PlaceMeaning, first: s.Selector, second: s.Selector) -> PlaceMeaning | None:
+    """Compose "the two northernmost trees of row 2 and of row 8"."""
+    return in_each_row(one, s.UnionOf(parts=(*first.members, *second.members)))
+
+
 @construction("place: rows=each_row", cost=0.5)
 def at_each_row(rows: s.Selector) -> PlaceMeaning:
     """Compose "each row" as a place."""
@@ -483,7 +493,8 @@ def at_each_row(rows: s.Selector) -> PlaceMeaning:
 
 @construction(
     "rows_of_block: rows=rows in_ block=block",
-    "rows_of_block: rows=rows in_ block=bare_block",
+    "rows_of_block: rows=rows in_ [DET] block=bare_block",
+    "rows_of_block: block=bare_block rows=rows",
     "rows_of_block: rows=rows COMMA block=block",
     "rows_of_block: rows=rows [COMMA] block=bare_block",
     cost=0.1,
