@@ -8,10 +8,10 @@ from typing import Any, cast
 
 from fieldhand.language import message
 from fieldhand.places import selectors as s
-from fieldhand.planning.grammar.dialogue.row_by_row import MOST_ONE_BY_ONE, one_by_one
 from fieldhand.planning.grammar.dialogue.state import NotComposed, OpenQuestion, Setting
 from fieldhand.planning.grammar.meaning import DriveCommand, Lead, PlaceMeaning, Thing
 from fieldhand.planning.grammar.places.numbered import ids_of
+from fieldhand.planning.grammar.row_by_row import MOST_ONE_BY_ONE, one_by_one
 from fieldhand.planning.selections import (
     are_rows,
     are_several_rows,

@@ -9,6 +9,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning, Shape
 from fieldhand.planning.grammar.places.compass import AWAY_FROM, SIDES
 from fieldhand.planning.grammar.places.numbered import ids_of
+from fieldhand.planning.grammar.row_by_row import MOST_ONE_BY_ONE, one_by_one
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import are_rows, as_every_nth, as_in_row, chooses_from_trees, is_one_row, over
 from fieldhand.site.model import Site
@@ -364,6 +365,44 @@ def every_nth(n: Lex, inner: Nominal) -> PlaceMeaning | None:
     if inner.single or inner.complete or n.value < 2 or inner.plural or inner.tested or inner.kind != "tree":
         return None
     return PlaceMeaning(s.EveryNth(nth=n.value, of=inner.selector), "several", each=True)
+
+
+@construction("middle_and: [COMMA] [DET] MIDDLE [inner=nominal] [COMMA] AND [DET]", cost=0.0)
+def middle_and(inner: Nominal | None = None) -> str | None:
+    """Compose ", the middle and the" between the first and the last."""
+    return "middle" if inner is None or (inner.selector == s.Trees() and not inner.plural) else None
+
+
+@construction(
+    "place: [DET] first=position middle_and second=position inner=nominal in_ rows=any_rows",
+    "place: [DET] first=position inner=nominal middle_and second=position in_ rows=any_rows",
+    "place: [BOTH] [DET] noun=ends AND [AT] [DET] MIDDLE in_ rows=any_rows",
+    "place: [DET] MIDDLE AND [AT] [BOTH] [DET] noun=ends in_ rows=any_rows",
+    cost=0.2,
+    given=("site",),
+)
+def ends_and_middle(
+    rows: s.Selector,
+    site: Site,
+    inner: Nominal | None = None,
+    noun: Lex | None = None,
+    first: tuple[int, int] = (1, 1),
+    second: tuple[int, int] = (-1, -1),
+) -> PlaceMeaning | None:
+    """Compose "the first, the middle and the last tree of rows 1 and 5"."""
+    if (noun is not None and not noun.plural) or (
+        inner is not None and (inner.single or not chooses_from_trees(inner.selector))
+    ):
+        return None
+    single = one_by_one(rows, site)
+    if not 0 < len(single) <= MOST_ONE_BY_ONE or first[0] != first[1] or second[0] != second[1]:
+        return None
+    parts: list[s.Selector] = []
+    for row in single:
+        of = row if inner is None else over(inner.selector, row)
+        ends = [s.InRow(first=at, last=at, of=of) for at in (first[0], second[0])]
+        parts += (ends[0], s.Middle(of=of), ends[1])
+    return PlaceMeaning(s.UnionOf(parts=tuple(parts)), "several", count=len(parts))
 
 
 @construction("place: EACH OTHER inner=nominal", cost=0.2)
