@@ -375,7 +375,7 @@ def middle_and(inner: Nominal | None = None) -> str | None:
 
 @construction(
     "place: [DET] first=position middle_and second=position inner=nominal in_ rows=any_rows",
-    "place: [DET] first=position inner=nominal middle_and second=position in_ rows=any_rows",
+    "place: [DET] first=position inner=nominal middle_and second=position [inner=nominal] in_ rows=any_rows",
     "place: [BOTH] [DET] noun=ends AND [AT] [DET] MIDDLE in_ rows=any_rows",
     "place: [DET] MIDDLE AND [AT] [BOTH] [DET] noun=ends in_ rows=any_rows",
     cost=0.2,

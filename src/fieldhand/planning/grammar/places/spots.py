@@ -7,7 +7,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import are_rows, as_edge, as_zone, over
+from fieldhand.planning.selections import are_rows, as_edge, as_zone, is_one_row, over
 from fieldhand.terms import CornerName, Side
 
 GRAMMAR = Grammar()
@@ -115,9 +115,12 @@ def middle() -> PlaceMeaning:
     return PlaceMeaning(s.Middle(), "one")
 
 
-@construction("place: [DET] MIDDLE in_ where=region", "place: [DET] MIDDLE TREE in_ where=region", cost=0.7)
-def middle_of(where: s.Selector) -> PlaceMeaning | None:
-    """Compose "the middle of row 4"."""
+@construction("place: [DET] MIDDLE in_ where=region", "place: [DET] MIDDLE noun=TREE in_ where=region", cost=0.7)
+def middle_of(where: s.Selector, noun: Lex | None = None) -> PlaceMeaning | None:
+    """Compose "the middle of row 4" and "the middle trees of rows 3 and 4"."""
+    if noun is not None and noun.plural:
+        several = are_rows(where) and not is_one_row(where)
+        return PlaceMeaning(s.Middle(), "several", each=True, per=where) if several else None
     if (zone := as_zone(where)) is not None:
         return PlaceMeaning(s.PointsIn(zone=zone.zone), "one") if not zone.outside else None
     if (edge := as_edge(where)) is not None:
