@@ -92,6 +92,7 @@ def in_likewise(whole: PlaceMeaning, like: Likewise) -> PlaceMeaning | None:
     "place: DET rank=ranking n=count",
     "place: DET rank=ranking n=count inner=nominal",
     "place: DET n=count rank=ranking",
+    "place: DET n=count rank=ranking inner=nominal",
     "place: DET ONE WITH DET rank=ranking",
     cost=0.5,
 )
