@@ -1034,6 +1034,16 @@ PLANNED = [
 ]
 
 ASKED = [
+    (
+        "husky",
+        "Take a picture of the northern half of row 3.",
+        "'Take a picture of the northern half of row 3': which is meant?",
+    ),
+    (
+        "husky",
+        "take a picture of every tree of the row next to row 3",
+        "'take a picture of every tree of the row next to row 3': which is meant?",
+    ),
     ("husky", "take a picture of row 3 of block 1", "'take a picture of row 3 of block 1': which is meant?"),
     ("husky", "photograph rows 2 to 4 row by row", "'photograph rows 2 to 4 row by row': which is meant?"),
     (
@@ -1177,11 +1187,6 @@ REFUSED = [
         "'two rows over': it is not clear which tree of that row",
     ),
     ("husky", "Take up to 8 pictures in row 3.", "'up to 8 pictures': captures need one number"),
-    (
-        "husky",
-        "Take a picture of the northern half of row 3.",
-        "'the northern half of row 3': a row has no halves or edges",
-    ),
     ("husky", "Take a picture of every tree in row 11.", "there is no row '11'"),
     (
         "husky",
@@ -1223,12 +1228,7 @@ REFUSED = [
     (
         "husky",
         "take a picture of the trees in the row nearest to the charger",
-        "'row nearest to the charger': what is near, the tree or the row?",
-    ),
-    (
-        "husky",
-        "take a picture of every tree of the row next to row 3",
-        "'row next to row 3': what is near, the tree or the row?",
+        "'take a picture of the trees in the row nearest to the charger': what is near, the tree or the row?",
     ),
     (
         "husky",
@@ -1315,7 +1315,7 @@ REFUSED = [
     (
         "husky",
         "Skip row 3 and take pictures of all other rows.",
-        "not understood: 'Skip'",
+        "each word is known, but not what they say together",
     ),
     (
         "husky",
@@ -1438,7 +1438,7 @@ REFUSED = [
     (
         "husky",
         "Take a picture of the trees in rows 2 and 3 nearest to the charger.",
-        "'nearest to the charger' does not fit at this point in 'Take a picture of the trees in rows 2 and 3 nearest to the charger'",
+        "'Take a picture of the trees in rows 2 and 3 nearest to the charger': what is near, the tree or the row?",
     ),
     (
         "husky",

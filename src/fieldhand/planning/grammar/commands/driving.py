@@ -62,10 +62,11 @@ def drive_to(place: PlaceMeaning, used: int, verb: Lex | None = None, along: Lex
     return DriveCommand(place, used, begins=verb is not None and "begins" in verb.features)
 
 
-@construction("drive_on: word=AT place=place", cost=1.0)
-def on_to(word: Lex, place: PlaceMeaning, used: int) -> DriveCommand | None:
-    """Compose "to tree 9" behind "drive to tree 4 and measure CO2, then"."""
-    return DriveCommand(place, used) if "motion" in word.features and place.shape == "one" else None
+@construction("drive_on: after=THEN [COMMA] word=AT place=place", cost=1.0)
+def on_to(after: Lex, word: Lex, place: PlaceMeaning, used: int) -> DriveCommand | None:
+    """Compose "then to tree 9" behind "drive to tree 4 and measure CO2"; "next to tree 9" is a place."""
+    moves = "motion" in word.features and not {"names_place", "after_doing"} & after.features
+    return DriveCommand(place, used) if moves and place.shape == "one" else None
 
 
 @construction("drive: RANDOMLY TAKE n=count inner=nominal", cost=0.2)

@@ -332,10 +332,12 @@ def next_terse(before: Said, joint: Connective, one: When) -> Said | None:
     return None if isinstance(before.clauses[-1].command, When) else Said((*before.clauses, LinkedCommand(joint, one)))
 
 
-@construction("said: before=said joint=joint one=drive_on", cost=0.3)
-def then_on_to(before: Said, joint: Connective, one: DriveCommand) -> Said | None:
+@construction(
+    "said: before=said [COMMA] [and_or_but] one=drive_on", "said: before=said FULLSTOP one=drive_on", cost=0.3
+)
+def then_on_to(before: Said, one: DriveCommand) -> Said:
     """Compose "(drive to tree 4 and measure CO2), then to tree 9"."""
-    return Said((*before.clauses, LinkedCommand(joint, one))) if joint.then else None
+    return Said((*before.clauses, LinkedCommand(Connective(False, True, 0), one)))
 
 
 @construction("said: before=said one=command", cost=0.8)

@@ -198,7 +198,9 @@ def _read(
         return _do_before_last(setting, state, command, joint, following)
     if state.plan.steps and isinstance(command, CaptureCommand | DriveCommand | Lead | When | Again | StopCommand):
         state = driven_home(setting, state)
-    if joint is not None and (joint.both or joint.then) and _has_own_place(command) and state.commands_in_sentence:
+    elided = state.lead is not None and state.lead.relation == "of" and isinstance(command, CaptureCommand)
+    own_place = _has_own_place(command) or elided
+    if joint is not None and (joint.both or joint.then) and own_place and state.commands_in_sentence:
         state = capture_elided(setting, state)  # "take a picture at tree 4, at tree 5 and read CO2 at tree 6"
     if joint is not None and joint.full:
         state = _new_sentence(setting, state, command)
@@ -356,8 +358,6 @@ def _lead(setting: Setting, state: DialogueState, command: Lead) -> DialogueStat
     """Return the state in which the next command is done at a place."""
     state = capture_elided(setting, state)
     before, place = state.lead, command.place
-    if command.relation == "of" and place.shape == "area" and state.commands_in_sentence:
-        raise NotComposed(message("it is not clear at which of two places this is done", context="fault"))
     if before is not None and command.relation == "topic" and before.place.shape == "area" and before.place.per is None:
         place = in_area(setting, before, place)  # "in row 3 the CO2 matters: four trees will do"
         return replace(state, lead=replace(command, place=place, used=before.used | command.used))

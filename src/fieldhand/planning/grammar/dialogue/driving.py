@@ -128,6 +128,8 @@ def require_known(setting: Setting, state: DialogueState, place: PlaceMeaning | 
     """
     if place is not None and place.shape == "unknown":
         said = setting.quoted(used)
+        if measures_distance(place.selector) and any(are_rows(part) for part in place.selector.walk()):
+            raise NotComposed(message("what is near, the tree or the row?"), advice=message("name the row"))
         if measures_distance(place.selector):
             raise OpenQuestion(message("'{said}': within how many metres?", context="question", said=said))
         several = message("'{said}': which rows?", context="question", said=said)
