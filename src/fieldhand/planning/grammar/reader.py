@@ -69,7 +69,7 @@ class RequestReading:
 
     @property
     def edits(self) -> Edits:
-        """What corrections change in the request."""
+        """The ranges of the request that corrections replace, with the words that stand there instead."""
         return (*self.state.edits, *((span, "") for span in self.corrected))
 
 
