@@ -183,8 +183,10 @@ class _Missions:
         position = np.zeros(len(members), dtype=np.int64)
 
         def drive(going: NDArray[np.bool_], until: int) -> None:
-            for i in range(last):
-                here = np.flatnonzero(going & (position == i) & ((position < until) | (i == 0)))
+            for i in range(min(last, until)):
+                here = np.flatnonzero(going & (position == i))
+                if not len(here):
+                    continue
                 left = self.left[members[here], search.binding]
                 entry = np.clip(np.round(left / step), 0, choice.shape[1] - 1).astype(np.int64)
                 goes = np.where(left <= 0.0, last, choice[i, entry])
