@@ -177,7 +177,7 @@ def _amount(said: Sequence[Token], number: _Number, nouns: dict[int, Noun], unit
         return replace(made, kind="unit", unit=after)
     if after in w.AGES or (after == "-" and said[k + 1 : k + 2] and said[k + 1].text in w.AGES):
         return replace(made, kind="attribute")
-    if after in ("times", "x"):
+    if after in ("times", "x") or [token.text for token in said[k : k + 2]] == ["more", "times"]:
         return replace(made, kind="times")
     if after in w.ROWS:
         return replace(made, kind="rows")
@@ -266,6 +266,8 @@ def _listed(said: Sequence[Token], before: StatedAmount, number: _Number) -> boo
     behind = [t.text for t in said[number.end : number.end + 2]]
     if before.kind == "row" and len(behind) == 2 and behind[0] in ("in", "from", "of") and behind[1] in w.ROWS:
         return False  # "one tree in row 3 and two in row 5"
+    if between and [said[number.start].text, *behind[:1]] == ["one", "of"]:
+        return False  # "a picture of tree 4, and one of the ground"
     if number.value <= before.values[0] and not _RANGES.isdisjoint(between):
         return False  # "row 3 until one of them"
     return 0 < len(between) <= _LONGEST_JOINT and all(text in _JOINS | w.TREES | w.ROWS for text in between)

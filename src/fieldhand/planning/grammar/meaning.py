@@ -98,6 +98,7 @@ class PlaceMeaning:
         like: Side that the places are on, or which they are, by one named before.
         itself: True for "the tree itself", and no other place that was spoken of.
         one_tree: True for "that tree", which is none of several places.
+        beside: True for a place near one that was spoken of ("the tree closest to it").
         there: True if the phrase says that they are in the area spoken of ("every tree there").
         per: Rows of each of which the selector says something by itself ("the oldest tree of each row").
         fault: Why the site cannot have it, for ``nowhere``.
@@ -114,6 +115,7 @@ class PlaceMeaning:
     there: bool = False
     itself: bool = False
     one_tree: bool = False
+    beside: bool = False
     like: Likewise | None = None
     per: s.Selector | None = None
     fault: str = ""

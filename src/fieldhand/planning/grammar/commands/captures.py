@@ -16,6 +16,7 @@ from fieldhand.planning.grammar.meaning import (
     PlaceMeaning,
     Thing,
 )
+from fieldhand.planning.grammar.places.groups import of_each_kind
 from fieldhand.planning.grammar.places.numbers import named_trees
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
@@ -371,6 +372,15 @@ def whichever_it_is(act: CaptureCommand, used: int) -> CaptureCommand | None:
     chosen = any(one.count is not None for one in act.things) and act.place.shape == "area"
     some = chosen or any(as_some(part) is not None for part in act.place.selector.members)
     return replace(act, used=used) if some else None
+
+
+@construction("capture: FOR kinds=each_kind [COMMA] act=capture", cost=0.2, given=("site",))
+def for_each_kind(kinds: tuple[Lex, int], act: CaptureCommand, used: int, site: Site) -> list[CaptureCommand] | None:
+    """Compose "for each variety, photograph three trees"."""
+    if act.place is None or act.place.shape not in ("one", "several") or any(one.count for one in act.things):
+        return None
+    places = of_each_kind(act.place.selector, kinds, site)
+    return None if places is None else [replace(act, place=place, used=used) for place in places]
 
 
 @construction("capture: act=capture INSTEAD", cost=0.2)

@@ -22,9 +22,10 @@ from fieldhand.planning.grammar.meaning import (
     Thing,
 )
 from fieldhand.planning.grammar.places.compass import AWAY_FROM
-from fieldhand.planning.grammar.places.groups import at_random, both
+from fieldhand.planning.grammar.places.groups import at_random, both, of_each_kind
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_some, is_row_of_place
+from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -60,6 +61,13 @@ def drive_to(place: PlaceMeaning, used: int, verb: Lex | None = None, along: Lex
     if along is not None and place.shape == "several" and as_some(place.selector) is not None:
         return None  # "along 5 trees": those follow each other
     return DriveCommand(place, used, begins=verb is not None and "begins" in verb.features)
+
+
+@construction("drive: FOR kinds=each_kind [COMMA] way=drive", cost=0.2, given=("site",))
+def for_each_kind(kinds: tuple[Lex, int], way: DriveCommand, used: int, site: Site) -> list[DriveCommand] | None:
+    """Compose "for each variety, choose five trees at random" before what is done there."""
+    places = of_each_kind(way.place.selector, kinds, site) if way.picks else None
+    return None if places is None else [replace(way, place=place, used=used) for place in places]
 
 
 @construction("drive_on: after=THEN [COMMA] word=AT place=place", cost=1.0)
@@ -106,6 +114,12 @@ def starting_from(place: s.Selector, used: int) -> DriveCommand:
 def begin_with(place: PlaceMeaning, used: int) -> DriveCommand | None:
     """Compose "start with tree 4"."""
     return DriveCommand(place, used, begins=True) if place.shape == "one" else None
+
+
+@construction("lead: GO WITH place=place", "lead: place=place FIRSTONE", cost=0.8)
+def begin_in(place: PlaceMeaning, used: int) -> Lead | None:
+    """Compose "start with row 1" before what is done there."""
+    return Lead(place, used) if place.shape == "area" else None
 
 
 @construction("drive: word=RETURN [AT] place=place", cost=0.5)

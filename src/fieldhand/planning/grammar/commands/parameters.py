@@ -61,6 +61,22 @@ def thing_of(
     return [made for value in values if (made := with_parameter(one, value, robot)) is not None] or None
 
 
+@construction(
+    "thing: other=ONE OF how=parameter",
+    "thing: n=count OF how=parameter",
+    "thing: ANOTHER [ONE] OF how=parameter",
+    "thing: DET other=ONE OF how=parameter",
+    cost=0.6,
+    given=("robot",),
+)
+def another_of(how: ParameterValue, robot: RobotProfile, n: int = 1, other: Lex | None = None) -> list[Thing] | None:
+    """Compose "one of the ground" behind "take a picture of tree 4 and"."""
+    if not isinstance(how.value, str) or (other is not None and other.plural):
+        return None
+    made = [with_parameter(Thing(action.name, count=n), how, robot) for action in robot.actions]
+    return [one for one in made if one is not None] or None
+
+
 @construction("NOUN: choice=CHOICE noun=NOUN", cost=0.1, given=("robot",))
 def noun_of(choice: Lex, noun: Lex, robot: RobotProfile) -> list[Lex] | None:
     """Compose "trunk photos"."""

@@ -33,7 +33,7 @@ def one_thing(word: Lex, noun: Lex) -> Thing | None:
     return _named(noun, count=1) if "one" in word.features and not noun.plural else None
 
 
-@construction("thing: n=count [MORE] noun=NOUN", cost=0.0)
+@construction("thing: n=count [MORE] noun=NOUN", "thing: ANOTHER n=count noun=NOUN", cost=0.0)
 def so_many_things(n: int, noun: Lex) -> Thing | None:
     """Compose "three pictures"."""
     return _named(noun, count=n, plural=True)
@@ -64,7 +64,15 @@ def readings_of(n: int, noun: Lex) -> Thing | None:
     return _named(noun, count=n, plural=True)
 
 
-@construction("thing: n=count", "thing: n=count ONE", "thing: n=count READING", cost=1.5)
+@construction(
+    "thing: n=count",
+    "thing: n=count ONE",
+    "thing: n=count READING",
+    "thing: n=count MORE READING",
+    "thing: ANOTHER n=count [READING]",
+    "thing: IT [THERE] n=more_times",
+    cost=1.5,
+)
 def so_many_of_them(n: int) -> Thing:
     """Compose "two more"."""
     return Thing(LAST_THING, count=n, plural=n > 1)
@@ -106,6 +114,12 @@ def things(one: Thing) -> tuple[Thing, ...]:
 def thing_so_often(one: Thing, times: Lex) -> tuple[Thing, ...] | None:
     """Compose "CO2 twice" before its place."""
     return None if one.count not in (None, 1) else (replace(one, count=times.value, plural=True),)
+
+
+@construction("things: one=thing n=more_times", cost=1.0)
+def thing_so_often_again(one: Thing, n: int) -> tuple[Thing, ...] | None:
+    """Compose "CO2 twice more"."""
+    return None if one.count not in (None, 1) else (replace(one, count=n, plural=n > 1),)
 
 
 @construction("things: first=things AND second=things", "things: first=things COMMA second=things", cost=0.3)

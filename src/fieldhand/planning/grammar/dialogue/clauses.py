@@ -193,7 +193,7 @@ def _read(
     setting: Setting, state: DialogueState, clause: LinkedCommand, following: Sequence[LinkedCommand]
 ) -> DialogueState:
     """Return the state after a clause."""
-    joint, command = clause.before, with_known_place(state, clause.command)
+    joint, command = clause.before, with_known_place(setting, state, clause.command)
     if joint is not None and joint.first:
         return _do_before_last(setting, state, command, joint, following)
     if state.plan.steps and isinstance(command, CaptureCommand | DriveCommand | Lead | When | Again | StopCommand):

@@ -7,7 +7,8 @@ from typing import Any, cast
 
 from fieldhand.language import message
 from fieldhand.places import selectors as s
-from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed
+from fieldhand.planning.grammar.dialogue.plans import is_inside
+from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting
 from fieldhand.planning.grammar.meaning import (
     Again,
     CaptureCommand,
@@ -18,7 +19,7 @@ from fieldhand.planning.grammar.meaning import (
     PlaceMeaning,
 )
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
-from fieldhand.planning.selections import as_some, is_by_attribute, named_places, over, side_named
+from fieldhand.planning.selections import as_some, as_zone, is_by_attribute, named_places, over, side_named, swapped
 from fieldhand.task import plan as p
 
 _OPPOSITE = {"n": "s", "s": "n", "e": "w", "w": "e", "north": "south", "south": "north", "east": "west", "west": "east"}
@@ -26,7 +27,7 @@ _OPPOSITE = {"n": "s", "s": "n", "e": "w", "w": "e", "north": "south", "south": 
 _WithPlace = CaptureCommand | DriveCommand | Lead | Again
 
 
-def with_known_place(state: DialogueState, command: Command) -> Command:
+def with_known_place(setting: Setting, state: DialogueState, command: Command) -> Command:
     """Return a command with a place that no longer depends on what was named before.
 
     Raises:
@@ -35,6 +36,8 @@ def with_known_place(state: DialogueState, command: Command) -> Command:
     if not isinstance(command, _WithPlace) or command.place is None:
         return command
     place = command.place
+    if place.beside:
+        return replace(command, place=_beside(setting, state, place, command.used))
     if isinstance(place.selector, s.Top) and place.like is not None:
         return _best_of_ranked(state, command, place.selector)
     if place.like is not None and place.like.kind == "those":
@@ -44,6 +47,30 @@ def with_known_place(state: DialogueState, command: Command) -> Command:
     if place.like is not None and place.like.kind == "nth":
         return replace(command, place=replace(place, selector=_nth(state, place.like.number), like=None))
     return command if place.like is None else replace(command, place=_likewise(state, place, place.like))
+
+
+def _beside(setting: Setting, state: DialogueState, place: PlaceMeaning, used: int) -> PlaceMeaning:
+    """Return a place near the one spoken of last: the tree, or what that tree was said to be near to.
+
+    Raises:
+        NotComposed: None was spoken of, or several.
+    """
+    before = state.where if state.lead is None else state.lead.place
+    if before is None and state.area is not None:
+        before = state.area.place
+    in_loop = state.loop is not None and is_inside(state.scope, state.loop)
+    if before is None or (before.shape != "one" and not in_loop):
+        raise NotComposed(message("which place is meant?", context="fault"))
+    known = replace(place, beside=False)
+    named = [to for to in _anchors(before.selector) if to.named_marker or as_zone(to) is not None]
+    ways = [known, *(replace(known, selector=swapped(place.selector, s.Here(), to)) for to in named)]
+    return setting.either("near the tree, or near what was named?", used, ways)
+
+
+def _anchors(selector: s.Selector) -> tuple[s.Selector, ...]:
+    """Return what trees are said to be near to, or far from."""
+    found = (getattr(selector, name, None) for name in ("to", "origin", "near"))
+    return tuple(one for one in found if isinstance(one, s.Selector))
 
 
 def _rest(state: DialogueState, area: s.Selector) -> s.Selector:

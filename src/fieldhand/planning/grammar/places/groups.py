@@ -661,44 +661,69 @@ def largest_number(inner: Nominal) -> PlaceMeaning | None:
     return as_many(inner)
 
 
+@construction("each_kind: EACH kind=ATTR", cost=0.0)
+def each_kind(kind: Lex) -> tuple[Lex, int]:
+    """Compose "each variety"."""
+    return kind, 0
+
+
 @construction(
-    "place: n=count inner=nominal PER kind=ATTR",
-    "place: n=count inner=nominal OF EACH kind=ATTR",
-    "place: n=count inner=nominal OF EACH OF DET several=count kind=ATTR",
-    "place: n=count inner=nominal OF INEACH [OF] [DET] several=count kind=ATTR",
-    "place: n=count inner=nominal FOR EACH kind=ATTR",
-    "place: n=count inner=nominal FROM EACH kind=ATTR",
-    "place: n=count random=RANDOM inner=nominal OF EACH kind=ATTR",
-    "place: n=count random=RANDOM inner=nominal PER kind=ATTR",
+    "each_kind: EACH [OF] [DET] n=count kind=ATTR",
+    "each_kind: INEACH [OF] [DET] n=count kind=ATTR",
+    cost=0.0,
+)
+def each_of_kinds(n: int, kind: Lex) -> tuple[Lex, int]:
+    """Compose "each of the two varieties"."""
+    return kind, n
+
+
+@construction(
+    "place: n=count [random=RANDOM] inner=nominal PER kind=ATTR",
+    "place: n=count [random=RANDOM] inner=nominal OF kinds=each_kind",
+    "place: n=count [random=RANDOM] inner=nominal FOR kinds=each_kind",
+    "place: n=count [random=RANDOM] inner=nominal FROM kinds=each_kind",
     "place: n=count inner=nominal PER kind=ATTR in_ where=region",
-    "place: n=count inner=nominal OF EACH kind=ATTR in_ where=region",
+    "place: n=count inner=nominal OF kinds=each_kind in_ where=region",
     cost=0.2,
     given=("site",),
 )
 def so_many_of_each_kind(
     n: int,
     inner: Nominal,
-    kind: Lex,
     site: Site,
+    kinds: tuple[Lex, int] | None = None,
+    kind: Lex | None = None,
     where: s.Selector | None = None,
     random: Lex | None = None,
-    several: int = 0,
 ) -> list[PlaceMeaning] | None:
     """Compose "5 vines per variety": so many of each of the kinds that the site records."""
-    if inner.single or inner.complete or inner.pronoun or kind.plural != (several > 0):
+    if inner.single or inner.complete or inner.pronoun:
+        return None
+    of = inner.selector if where is None else over(inner.selector, where)
+    chosen = s.Take(count=n, of=of) if random is None else s.RandomSample(count=n, of=of)
+    return of_each_kind(chosen, (kind, 0) if kind is not None else kinds, site)
+
+
+def of_each_kind(chosen: s.Selector, kinds: tuple[Lex, int] | None, site: Site) -> list[PlaceMeaning] | None:
+    """Return what a selector chooses, of each of the kinds that the site records.
+
+    Args:
+        chosen: Some trees of a description.
+        kinds: Attribute that tells the kinds apart, and their number if the phrase gives one (otherwise 0).
+        site: The site.
+    """
+    of = getattr(chosen, "of", None)
+    if kinds is None or of is None or not isinstance(chosen, s.Take | s.RandomSample):
+        return None
+    kind, several = kinds
+    if kind.plural != (several > 0):
         return None
     made: list[PlaceMeaning] = []
     for attribute in kind.value:
-        kinds = [value for value in site.attributes.get(attribute, ()) if isinstance(value, str)]
-        if 1 < len(kinds) <= _MOST_KINDS and several in (0, len(kinds)):
-            of = inner.selector if where is None else over(inner.selector, where)
-            described = [s.Where(attribute=attribute, test="eq", value=value, of=of) for value in kinds]
-            parts = [part for part in described if ids_of(part, site)]
-            if not parts:
-                continue
-            chosen = [
-                s.Take(count=n, of=part) if random is None else s.RandomSample(count=n, of=part) for part in parts
-            ]
-            each = s.UnionOf(parts=tuple(chosen))
-            made.append(PlaceMeaning(each, "several", each=True))
+        values = [value for value in site.attributes.get(attribute, ()) if isinstance(value, str)]
+        if 1 < len(values) <= _MOST_KINDS and several in (0, len(values)):
+            described = [s.Where(attribute=attribute, test="eq", value=value, of=of) for value in values]
+            parts = tuple(replace(chosen, of=part) for part in described if ids_of(part, site))
+            if parts:
+                made.append(PlaceMeaning(s.UnionOf(parts=parts), "several", each=True))
     return made or None

@@ -10,7 +10,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Amount, Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import as_nearest, as_zone, chooses_from_trees, is_spot, over
+from fieldhand.planning.selections import as_along_row, as_nearest, as_zone, chooses_from_trees, is_spot, over
 from fieldhand.site.model import Site
 from fieldhand.terms import CountedFrom, Side, Towards
 
@@ -54,16 +54,13 @@ def nearby(inner: Nominal, n: int | None = None) -> PlaceMeaning | None:
     "nominal: FAR inner=nominal",
     "nominal: inner=nominal FAR",
     "nominal: FARTHEST inner=nominal",
-    "nominal: inner=nominal FARTHEST [FROM] [THERE]",
-    "nominal: FARTHEST inner=nominal FROM THERE",
-    "nominal: FARTHEST inner=nominal FROM IT",
-    "nominal: inner=nominal [which_is] FARTHEST FROM IT",
-    "nominal: inner=nominal WHICH IS FARTHEST FROM THERE",
+    "nominal: inner=nominal FARTHEST",
+    "nominal: FARTHEST inner=nominal FROM there=THERE",
     cost=0.3,
 )
-def far_away(inner: Nominal) -> Nominal | None:
-    """Compose "tree far away"."""
-    if inner.single or inner.plural or inner.complete:
+def far_away(inner: Nominal, there: Lex | None = None) -> Nominal | None:
+    """Compose "tree far away" and "one farthest from there"."""
+    if inner.single or inner.plural or inner.complete or (there is not None and not inner.pronoun):
         return None
     return replace(inner, selector=s.Farthest(origin=s.Here(), of=inner.selector), single=True)
 
@@ -148,7 +145,7 @@ def next_to(
     if number is None or inner.single or inner.kind != "tree" or not (to.shape in ("one", "here") or beside_zone):
         return None
     selector = s.Nearest(to=to.selector, count=number, adjacent=not beside_zone, side=side, of=inner.selector)
-    return PlaceMeaning(selector, "one" if number == 1 else "several", count=number)
+    return _beside(to, PlaceMeaning(selector, "one" if number == 1 else "several", count=number))
 
 
 @construction("on_side: AT DET side=DIR [part=SIDE]", "on_side: side=DIR", cost=0.1)
@@ -337,7 +334,9 @@ def nearest(
     if near is not None and "nearest" not in near.features and n is None and inner.plural:
         return None
     number = n or (None if inner.plural else 1)
-    if number is None or inner.single or number >= (inner.complete or number + 1) or to.shape not in ("one", "area"):
+    if number is None or inner.single or number >= (inner.complete or number + 1):
+        return None
+    if to.shape not in ("one", "here", "area"):
         return None
     origin = to.selector
     if to.shape == "area" and as_zone(origin) is None:
@@ -347,25 +346,27 @@ def nearest(
     selector: s.Selector = s.Nearest(to=origin, count=number, of=inner.selector)
     if is_spot(origin):
         selector = s.Adjacent(near=origin, count=number, of=inner.selector)
-    return PlaceMeaning(selector, "one" if number == 1 else "several", count=number)
+    return _beside(to, PlaceMeaning(selector, "one" if number == 1 else "several", count=number))
 
 
 @construction(
     "place: [DET] [n=count] FARTHEST inner=nominal FROM to=place",
-    "place: [DET] [n=count] inner=nominal FARTHEST FROM to=place",
+    "place: [DET] [n=count] inner=nominal [which_is] FARTHEST FROM to=place",
     cost=0.3,
 )
 def farthest(inner: Nominal, to: PlaceMeaning, n: int | None = None) -> PlaceMeaning | None:
     """Compose "the tree farthest from the charger"."""
     number = n or (None if inner.plural else 1)
     zone = to.shape == "area" and as_zone(to.selector) is not None
-    if number is None or inner.single or inner.complete or not (to.shape == "one" or zone):
+    if number is None or inner.single or inner.complete or not (to.shape in ("one", "here") or zone):
         return None
-    return PlaceMeaning(
-        s.Farthest(origin=to.selector, count=number, of=inner.selector),
-        "one" if number == 1 else "several",
-        count=number,
-    )
+    selector = s.Farthest(origin=to.selector, count=number, of=inner.selector)
+    return _beside(to, PlaceMeaning(selector, "one" if number == 1 else "several", count=number))
+
+
+def _beside(to: PlaceMeaning, found: PlaceMeaning) -> PlaceMeaning:
+    """Return a place near another one, which may be one spoken of before."""
+    return replace(found, beside=to.shape == "here")
 
 
 @construction("place: DET n=count inner=nominal way=way OF to=place", cost=0.1, given=("site",))
@@ -440,11 +441,13 @@ def _at_distance(of: s.Selector, at: Distance) -> s.Selector | None:
 def within(inner: Nominal, at: Distance, n: int | None = None) -> PlaceMeaning | None:
     """Compose "all trees within 20 m of the charger" and "three trees within 20 m of the charger"."""
     there = _at_distance(inner.selector, at)
-    if there is None or inner.single or at[2].shape == "here" or (n is not None and inner.complete):
+    if there is None or inner.single or (n is not None and inner.complete):
+        return None
+    if n is None and at[2].shape == "here" and not inner.plural:
         return None
     if n is None:
-        return PlaceMeaning(there, "several")
-    return PlaceMeaning(s.Take(count=n, of=there), "one" if n == 1 else "several", count=n)
+        return _beside(at[2], PlaceMeaning(there, "several"))
+    return _beside(at[2], PlaceMeaning(s.Take(count=n, of=there), "one" if n == 1 else "several", count=n))
 
 
 @construction("place: word=DET inner=nominal at=distance", cost=0.2)
@@ -453,10 +456,15 @@ def one_beyond_place(word: Lex, inner: Nominal, at: Distance) -> PlaceMeaning | 
     there = _at_distance(inner.selector, at)
     if there is None or inner.single or inner.plural or "indefinite" not in word.features or at[1] is not None:
         return None
-    return PlaceMeaning(s.Take(count=1, of=there), "one")
+    return _beside(at[2], PlaceMeaning(s.Take(count=1, of=there), "one"))
 
 
-@construction("place: DET n=count NEAREST inner=nominal", "place: DET NEAREST inner=nominal", cost=0.4)
+@construction(
+    "place: DET n=count NEAREST inner=nominal",
+    "place: DET NEAREST inner=nominal",
+    "place: DET n=count inner=nominal NEAREST",
+    cost=0.4,
+)
 def nearest_here(inner: Nominal, n: int | None = None) -> PlaceMeaning | None:
     """Compose "the three nearest trees"."""
     number = n or (None if inner.plural else 1)
@@ -486,6 +494,33 @@ def nearest_in(near: PlaceMeaning, where: s.Selector) -> PlaceMeaning | None:
     if nearest is None or nearest.of != s.Trees() or not nearest.to.named_marker or nearest.adjacent:
         return None
     return replace(near, selector=replace(nearest, of=where))
+
+
+@construction("place: near=place in_ rows=rows", cost=0.2)
+def near_in_row(near: PlaceMeaning, rows: s.Selector) -> PlaceMeaning | None:
+    """Compose "the tree next to it in the same row" and "the two trees north of it in the row"."""
+    if rows != s.RowOf():
+        return None
+    steps = near.selector.members
+    if all(as_along_row(step) is not None for step in steps):
+        return near
+    nearest = as_nearest(near.selector)
+    if nearest is None or nearest.of != s.Trees() or near.shape not in ("one", "several"):
+        return None
+    return replace(near, selector=replace(nearest, of=s.RowOf(origin=nearest.to)))
+
+
+@construction(
+    "place: [DET] n=count inner=nominal NEAREST [AT] to=place [COMMA] AND [AT] DET m=count [TREE] FARTHEST FROM IT",
+    "place: [DET] n=count inner=nominal NEAREST [AT] to=place [COMMA] AND [AT] DET m=count FARTHEST",
+    cost=0.2,
+)
+def nearest_and_farthest(n: int, m: int, inner: Nominal, to: PlaceMeaning) -> PlaceMeaning | None:
+    """Compose "the three trees nearest to the pond and the three farthest from it"."""
+    ends = nearest(to, inner, n), farthest(inner, to, m)
+    if ends[0] is None or ends[1] is None:
+        return None
+    return PlaceMeaning(s.UnionOf(parts=(ends[0].selector, ends[1].selector)), "several", count=n + m)
 
 
 @construction(
