@@ -8,6 +8,11 @@ Longer than other files because it is a table.
 PLANNED = [
     (
         "husky",
+        "Go to trees 3, 9 and 12. Read the CO2 at each, then photograph the last one.",
+        "for UnionOf(TreeIs(3)+TreeIs(9)+TreeIs(12)): [co2]; picture @ TreeIs(12)",
+    ),
+    (
+        "husky",
         "Visit all yellow trees but photograph only the Carmel ones.",
         "for Where(leaf_color, eq, yellow): [if variety = Carmel: [picture]]",
     ),
@@ -1236,11 +1241,6 @@ REFUSED = [
     ),
     ("husky", "Take no pictures.", "each word is known, but not what they say together"),
     ("husky", "Stop.", "'Stop': it asks for nothing to be done"),
-    (
-        "husky",
-        "Go to trees 3, 9 and 12. Read the CO2 at each, then photograph the last one.",
-        "'the last one' does not fit at this point in 'Read the CO2 at each, then photograph the last one'",
-    ),
     (
         "husky",
         "Measure co2 at tree 10. When it is above 450 ppm take a picture, when it is below 400 ppm read the temperature, and otherwise go to tree 12 and take a picture.",

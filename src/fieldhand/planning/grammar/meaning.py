@@ -28,8 +28,10 @@ SAME_THRESHOLD = "="
 LAST_THING = "*"
 #: Action of a capture that is not named ("check tree 4").
 UNSAID_THING = "?"
-#: Quantity of a test of the first reading of the request, whatever it measures.
-FIRST_READING = "^"
+#: Value of a parameter that is the one it had before ("at the same depth").
+SAME_VALUE = "="
+#: Quantity of a test of a reading of the request by its number: "^1" is the first, "^-1" the last.
+NTH_READING = "^"
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,7 +10,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import (
-    FIRST_READING,
+    NTH_READING,
     SAME_THRESHOLD,
     Allowed,
     AllTests,
@@ -31,7 +31,7 @@ from fieldhand.planning.grammar.meaning import (
     When,
 )
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import as_some
+from fieldhand.planning.selections import as_in_row, as_some, is_one_row
 from fieldhand.robot.model import RobotProfile
 
 GRAMMAR = Grammar()
@@ -61,19 +61,39 @@ def its_average(noun: Lex) -> list[str] | None:
     return named_quantity(noun)
 
 
-@construction("subject: DET rank=ORD READING", cost=0.0)
-def first_reading(rank: Lex) -> str | None:
+@construction("subject: DET rank=ORD READING", "subject: DET rank=ORD ONE", "subject: DET rank=ORD", cost=0.0)
+def nth_reading(rank: Lex) -> str:
     """Compose "the first reading"."""
-    return FIRST_READING if rank.value == 1 else None
+    return f"{NTH_READING}{rank.value}"
+
+
+@construction("subject: DET LAST READING", "subject: DET LAST ONE", cost=0.0)
+def last_reading() -> str:
+    """Compose "the last reading"."""
+    return f"{NTH_READING}-1"
+
+
+@construction("subject: [DET] noun=NOUN relation word=DET tree=TREE", cost=0.1)
+def quantity_of_tree(noun: Lex, word: Lex, tree: Lex) -> list[str] | None:
+    """Compose "the canopy temperature at a tree", of each of those at which it is measured."""
+    return None if tree.plural or "definite" in word.features else named_quantity(noun)
 
 
 @construction("asked: [DET] noun=NOUN [READING] relation place=place", cost=0.0)
 def quantity_at(noun: Lex, place: PlaceMeaning) -> tuple[str, PlaceMeaning] | None:
     """Compose "the temperature at tree 4"."""
     naming: Naming = noun.value
-    if len(set(naming.quantities)) != 1 or place.shape != "one" or as_some(place.selector) is not None:
+    if len(set(naming.quantities)) != 1 or not _is_known(place):
         return None  # "the temperature at any tree": at which?
     return (naming.quantities[0], place)
+
+
+def _is_known(place: PlaceMeaning) -> bool:
+    """Return True for one place that the phrase names by itself: not "the second one", not any tree of several."""
+    counted = as_in_row(place.selector)
+    if place.shape != "one" or place.like is not None or as_some(place.selector) is not None:
+        return False
+    return counted is None or is_one_row(counted.of)
 
 
 @construction("measured: asked=asked IS test=predicate", "measured: asked=asked test=predicate", cost=0.2)
@@ -127,7 +147,7 @@ def medium_measured(noun: Lex, place: PlaceMeaning, test: Test) -> tuple[PlaceMe
 )
 def tree_measured(place: PlaceMeaning, test: Test, robot: RobotProfile) -> list[tuple[PlaceMeaning, Test]] | None:
     """Compose "tree 14 is hotter than 36 degC": which readings are in that unit?"""
-    if place.shape != "one" or as_some(place.selector) is not None or test.value == SAME_THRESHOLD:
+    if not _is_known(place) or test.value == SAME_THRESHOLD:
         return None
     measured_by_it = [name for action in robot.actions for name in action.measures]
     found = [name for name in measured_by_it if test.unit in ("", robot.quantity[name].unit)]

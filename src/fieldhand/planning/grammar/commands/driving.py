@@ -248,6 +248,13 @@ def lead(place: PlaceMeaning, used: int, word: str) -> Lead | None:
     return Lead(place, used, word) if place.shape in ("one", "several", "area") else None
 
 
+@construction("lead: word=THEN place=place", cost=0.5)
+def after_the_last(place: PlaceMeaning, word: Lex, used: int) -> Lead | None:
+    """Compose "after the last one, ..." of what is done there as well."""
+    last = place.like is not None and place.like.kind == "nth" and place.like.number == -1
+    return Lead(place, used) if last and "after_doing" in word.features else None
+
+
 @construction("lead: TOPIC place=place", cost=0.3)
 def topic(place: PlaceMeaning, used: int) -> Lead | None:
     """Compose "our focus is the northern half", of what the next sentences are about."""

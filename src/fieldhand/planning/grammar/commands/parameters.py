@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Amount, CaptureCommand, ParameterValue, PlaceMeaning, Thing
+from fieldhand.planning.grammar.meaning import SAME_VALUE, Amount, CaptureCommand, ParameterValue, PlaceMeaning, Thing
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.robot.model import Parameter, RobotProfile
 
@@ -49,7 +49,7 @@ def chosen(choice: Lex) -> list[ParameterValue]:
 @construction("thing: one=thing how=parameter", cost=0.2, given=("robot",))
 def thing_with(one: Thing, how: ParameterValue, robot: RobotProfile) -> Thing | None:
     """Compose "soil moisture at 30 cm"."""
-    return None if isinstance(how.value, str) else with_parameter(one, how, robot)
+    return None if isinstance(how.value, str) and how.value != SAME_VALUE else with_parameter(one, how, robot)
 
 
 @construction("thing: one=thing OF how=parameter", "thing: one=thing OF ITS choice=CHOICE", cost=0.2, given=("robot",))
@@ -108,6 +108,7 @@ def act_on_part(
 @construction(
     "capture: said=capture [COMMA] how=parameter",
     "capture: said=capture COMMA INEACH how=parameter",
+    "capture: said=capture AND how=parameter",
     "capture: how=parameter COMMA said=capture",
     "capture: said=capture COMMA amount=amount",
     cost=0.5,
@@ -122,7 +123,7 @@ def capture_with(
 ) -> CaptureCommand | None:
     """Compose "measure moisture along row 1, 25 cm deep"."""
     value = how if amount is None else ParameterValue(amount.number, amount.unit, ())
-    if value is None or isinstance(value.value, str):
+    if value is None or (isinstance(value.value, str) and value.value != SAME_VALUE):
         return None
     made = tuple(with_parameter(one, value, robot) for one in said.things)
     if all(one is None for one in made):
@@ -131,43 +132,88 @@ def capture_with(
     return replace(said, things=things, used=used)
 
 
-@construction("parameters: first=parameter AND second=parameter", cost=0.1)
-def two_parameters(first: ParameterValue, second: ParameterValue) -> tuple[ParameterValue, ParameterValue]:
+@construction(
+    "parameter: word=AT DET SAME name=PARAMETER",
+    "parameter: DET SAME name=PARAMETER",
+    "parameter: WITH DET SAME name=PARAMETER",
+    cost=0.2,
+)
+def same_parameter(name: Lex, word: Lex | None = None) -> ParameterValue | None:
+    """Compose "at the same depth"."""
+    if word is not None and "setting" not in word.features:
+        return None
+    return ParameterValue(SAME_VALUE, "", tuple(name.value))
+
+
+@construction("value: how=parameter", "value: ONE [READING] how=parameter", "value: READING how=parameter", cost=0.1)
+def one_of_several_values(how: ParameterValue) -> ParameterValue | None:
+    """Compose "one reading at 10 cm", of several that are taken."""
+    return None if isinstance(how.value, str) else how
+
+
+@construction("parameters: first=value AND second=value", "parameters: first=value COMMA second=value", cost=0.1)
+def two_parameters(first: ParameterValue, second: ParameterValue) -> tuple[ParameterValue, ...]:
     """Compose "at 10 cm and at 50 cm"."""
     return first, second
 
 
 @construction(
-    "parameters: word=AT number=NUM AND second=amount",
-    "parameters: word=AT PARAMETER [OF] number=NUM AND second=amount",
+    "parameters: first=parameters [COMMA] AND last=value", "parameters: first=parameters COMMA last=value", cost=0.1
+)
+def more_parameters(first: tuple[ParameterValue, ...], last: ParameterValue) -> tuple[ParameterValue, ...]:
+    """Compose "at 10 cm, at 30 cm and at 50 cm"."""
+    return (*first, last)
+
+
+@construction("amounts: first=NUM", "amounts: first=amount", cost=0.0)
+def first_of_amounts(first: Lex | Amount) -> tuple[Lex | Amount, ...]:
+    """Compose "10" of "10, 30 and 60 cm"."""
+    return (first,)
+
+
+@construction("amounts: first=amounts COMMA then=NUM", "amounts: first=amounts COMMA then=amount", cost=0.0)
+def more_amounts(first: tuple[Lex | Amount, ...], then: Lex | Amount) -> tuple[Lex | Amount, ...]:
+    """Compose "10, 30" of "10, 30 and 60 cm"."""
+    return (*first, then)
+
+
+@construction(
+    "parameters: word=AT first=amounts [COMMA] AND last=amount",
+    "parameters: word=AT PARAMETER [OF] first=amounts [COMMA] AND last=amount",
     cost=0.1,
 )
-def one_unit_of_two(word: Lex, number: Lex, second: Amount) -> tuple[ParameterValue, ParameterValue] | None:
-    """Compose "at 10 and 50 cm"; metres, into which every length is turned, hide the unit of the first number."""
-    if "setting" not in word.features or second.unit != "metres" or not 0 < second.number < 1:
+def one_unit_of_several(word: Lex, first: tuple[Lex | Amount, ...], last: Amount) -> tuple[ParameterValue, ...] | None:
+    """Compose "at 10, 30 and 50 cm"; metres, into which every length is turned, hide the unit of the first numbers."""
+    if "setting" not in word.features or last.unit != "metres" or not 0 < last.number < 1:
         return None
-    first = replace(second, number=round(number.value / 100, 6))
-    return ParameterValue(first.number, first.unit, ()), ParameterValue(second.number, second.unit, ())
+    numbers = [one.number if isinstance(one, Amount) else round(one.value / 100, 6) for one in first]
+    return tuple(ParameterValue(number, last.unit, ()) for number in (*numbers, last.number))
 
 
-@construction("things: one=thing both=parameters", cost=0.3, given=("robot",))
-def thing_at_both(
-    one: Thing, both: tuple[ParameterValue, ParameterValue], robot: RobotProfile
-) -> tuple[Thing, ...] | None:
+@construction("things: one=thing each=parameters", cost=0.3, given=("robot",))
+def thing_at_each(one: Thing, each: tuple[ParameterValue, ...], robot: RobotProfile) -> tuple[Thing, ...] | None:
     """Compose "soil moisture at 10 cm and at 50 cm"."""
-    made = tuple(with_parameter(one, value, robot) for value in both)
+    made = tuple(with_parameter(one, value, robot) for value in each)
     things = tuple(thing for thing in made if thing is not None)
-    return things if len(things) == len(made) and both[0] != both[1] else None
+    return things if len(things) == len(made) == len(set(each)) else None
 
 
-@construction("capture: said=capture both=parameters", cost=0.4, given=("robot",))
-def capture_at_both(
-    said: CaptureCommand, both: tuple[ParameterValue, ParameterValue], used: int, robot: RobotProfile
+@construction(
+    "capture: said=capture each=parameters",
+    "capture: said=capture COMMA each=parameters",
+    "capture: said=capture [COMMA] WITH each=parameters",
+    cost=0.4,
+    given=("robot",),
+)
+def capture_at_each(
+    said: CaptureCommand, each: tuple[ParameterValue, ...], used: int, robot: RobotProfile
 ) -> CaptureCommand | None:
     """Compose "measure moisture at tree 5 at depths of 20 and 40 cm"."""
-    made = [thing_at_both(one, both, robot) for one in said.things]
-    things = tuple(thing for both_of_one in made if both_of_one is not None for thing in both_of_one)
-    return replace(said, things=things, used=used) if len(things) == 2 * len(made) else None
+    made = [thing_at_each(replace(one, count=None), each, robot) for one in said.things]
+    if not all(one.count in (None, 1, len(each)) for one in said.things):
+        return None
+    things = tuple(thing for each_of_one in made if each_of_one is not None for thing in each_of_one)
+    return replace(said, things=things, used=used) if len(things) == len(each) * len(made) else None
 
 
 def with_parameter(thing: Thing, value: ParameterValue, robot: RobotProfile) -> Thing | None:
@@ -183,7 +229,10 @@ def with_parameter(thing: Thing, value: ParameterValue, robot: RobotProfile) -> 
 def _fitting(parameters: tuple[Parameter, ...], value: ParameterValue) -> Iterator[tuple[str, str | float]]:
     """Yield the name and the value of each parameter that a value fits."""
     for one in parameters:
-        if isinstance(value.value, str):
+        if value.value == SAME_VALUE:
+            if one.name in value.names:
+                yield one.name, SAME_VALUE
+        elif isinstance(value.value, str):
             if value.value in one.choices and one.name in value.names:
                 yield one.name, value.value
         elif (number := in_unit_of(one, value)) is not None and _is_within(one, number):

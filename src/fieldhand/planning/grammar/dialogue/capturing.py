@@ -43,6 +43,7 @@ from fieldhand.planning.grammar.dialogue.state import (
 )
 from fieldhand.planning.grammar.meaning import (
     LAST_THING,
+    SAME_VALUE,
     UNSAID_THING,
     Again,
     CaptureCommand,
@@ -199,6 +200,7 @@ def meant_things(state: DialogueState, things: tuple[Thing, ...]) -> tuple[Thing
     Raises:
         NotComposed: What they refer to is unclear.
     """
+    things = _with_same_values(state, things)
     if not any(thing.action == LAST_THING for thing in things):
         return things
     if len(things) != 1 or len(state.things) != 1:
@@ -209,6 +211,24 @@ def meant_things(state: DialogueState, things: tuple[Thing, ...]) -> tuple[Thing
         raise NotComposed(message("it is not clear whether the same condition decides that", context="fault"))
     last = state.things[0]
     return (replace(things[0], action=last.action, parameters=last.parameters),)
+
+
+def _with_same_values(state: DialogueState, things: tuple[Thing, ...]) -> tuple[Thing, ...]:
+    """Return captures with the values that parameters had before, where "the same depth" is said.
+
+    Raises:
+        NotComposed: The parameter had no value, or several.
+    """
+    made: list[Thing] = []
+    for thing in things:
+        given = dict(thing.parameters)
+        for name in [name for name, value in thing.parameters if value == SAME_VALUE]:
+            before = {value for one in (*state.things, *made) for known, value in one.parameters if known == name}
+            if len(before) != 1:
+                raise NotComposed(message("it is not clear what is the same", context="fault"))
+            given[name] = before.pop()
+        made.append(replace(thing, parameters=tuple(given.items())))
+    return tuple(made)
 
 
 def _depends(state: DialogueState) -> bool:

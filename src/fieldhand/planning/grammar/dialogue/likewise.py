@@ -19,7 +19,18 @@ from fieldhand.planning.grammar.meaning import (
     PlaceMeaning,
 )
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
-from fieldhand.planning.selections import as_some, as_zone, is_by_attribute, named_places, over, side_named, swapped
+from fieldhand.planning.selections import (
+    as_in_row,
+    as_some,
+    as_zone,
+    counts_in_row,
+    is_by_attribute,
+    is_one_row,
+    named_places,
+    over,
+    side_named,
+    swapped,
+)
 from fieldhand.task import plan as p
 
 _OPPOSITE = {"n": "s", "s": "n", "e": "w", "w": "e", "north": "south", "south": "north", "east": "west", "west": "east"}
@@ -94,8 +105,15 @@ def _nth(state: DialogueState, number: int) -> s.Selector:
     Raises:
         NotComposed: There are fewer, or they were not named one by one.
     """
-    last = None if state.where is None else state.where.selector
+    before = state.where if state.where is not None or state.area is None else state.area.place
+    last = None if before is None else before.selector
+    counted = None if last is None else as_in_row(last)
+    if counted is not None and counted.first == counted.last and is_one_row(counted.of):
+        return replace(counted, first=number, last=number)  # "at the first tree of row 4, then at the last one"
     named = () if last is None else named_places(last)
+    visited = state.loop is not None and not is_inside(state.scope, state.loop)
+    if number == -1 and visited and len(named) < 2 and last is not None and not counts_in_row(last):
+        return s.Here()  # the last of those that were visited
     if not 1 < len(named) >= number or not all(place.single and not place.relative for place in named):
         raise NotComposed(message("it is not clear which one is meant", context="fault"))
     return named[number - 1 if number > 0 else -1]

@@ -19,7 +19,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
     with_node,
 )
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, OpenQuestion
-from fieldhand.planning.grammar.meaning import FIRST_READING, AllTests, Check, Test
+from fieldhand.planning.grammar.meaning import NTH_READING, AllTests, Check, Test
 from fieldhand.planning.selections import named_places
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task import conditions as c
@@ -104,12 +104,13 @@ def _of_tree(state: DialogueState, test: Test) -> c.Condition:
 
 def _of_reading(state: DialogueState, test: Test, robot: RobotProfile) -> tuple[c.Condition, DialogueState]:
     """Return the condition on a reading, and the state in which that reading has a name."""
-    path = _tested_capture(state, test, robot)
+    state, path = _tested_capture(state, test, robot)
     act = None if path is None else node_at(state.plan, path).act
     if path is None or act is None:
         raise NotComposed(message("nothing before it measures that", context="fault"))
     measures = robot.action[act.action].measures
-    quantity = test.quantity.replace(FIRST_READING, "") or (measures[0] if measures else "")
+    quantity = "" if test.quantity.startswith(NTH_READING) else test.quantity
+    quantity = quantity or (measures[0] if measures else "")
     if quantity not in measures:
         raise NotComposed(message("the reading before it measures something else", context="fault"))
     unit = robot.quantity[quantity].unit
@@ -145,14 +146,36 @@ def _checked(test: Test, reading: str, quantity: str, robot: RobotProfile) -> c.
     return c.Compare(reading=reading, quantity=quantity, test=test.check, value=test.value, unit=unit)
 
 
-def _tested_capture(state: DialogueState, test: Test, robot: RobotProfile) -> Path | None:
-    """Return the path of the capture whose reading is tested: the last one, if its quantity and unit fit.
+def _tested_capture(state: DialogueState, test: Test, robot: RobotProfile) -> tuple[DialogueState, Path | None]:
+    """Return the path of the capture whose reading is tested: the last one, if its quantity and unit fit."""
+    if test.quantity.startswith(NTH_READING):
+        return _nth_reading(state, replace(test, quantity=""), int(test.quantity.removeprefix(NTH_READING)), robot)
+    return state, _last_reading(state, test, robot)
 
-    A test of the first reading is of the first capture that measures something.
+
+def _nth_reading(
+    state: DialogueState, test: Test, number: int, robot: RobotProfile
+) -> tuple[DialogueState, Path | None]:
+    """Return the path of a reading by its number, 1 for the first; "there" is not known behind another than the last.
+
+    Raises:
+        NotComposed: It is not clear which reading is meant.
     """
-    if test.quantity == FIRST_READING:
-        measuring = [path for path, node in walk(state.plan) if _fits(node, replace(test, quantity=""), robot)]
-        return measuring[0] if measuring else None
+    if state.block.steps and as_for_each(state.block.steps[-1]) is not None:
+        state, measuring = _last_readings(state, test, robot)
+    else:
+        measuring = [path for path, node in walk(state.plan) if _fits(node, test, robot)]
+    if number == 1 and measuring:
+        found = measuring[0]
+    elif 1 < number <= len(measuring) or (number < 0 and len(measuring) > 1):
+        found = measuring[number - 1 if number > 0 else number]
+    else:
+        raise NotComposed(message("it is not clear which readings are tested", context="fault"))
+    return (state if found == measuring[-1] else replace(state, where=None)), found
+
+
+def _last_reading(state: DialogueState, test: Test, robot: RobotProfile) -> Path | None:
+    """Return the path of the last capture whose quantity and unit fit a test."""
     if state.captured is not None and _fits(node_at(state.plan, state.captured), test, robot):
         return state.captured
     fitting = [path for path, node in walk(state.plan) if _fits(node, test, robot)]

@@ -14,6 +14,7 @@ from fieldhand.planning.selections import (
     are_rows,
     are_several_rows,
     as_in_row,
+    as_random,
     as_some,
     as_top,
     blocks_of,
@@ -712,8 +713,8 @@ def of_each_kind(chosen: s.Selector, kinds: tuple[Lex, int] | None, site: Site) 
         kinds: Attribute that tells the kinds apart, and their number if the phrase gives one (otherwise 0).
         site: The site.
     """
-    of = getattr(chosen, "of", None)
-    if kinds is None or of is None or not isinstance(chosen, s.Take | s.RandomSample):
+    some = as_some(chosen) or as_random(chosen)
+    if kinds is None or some is None:
         return None
     kind, several = kinds
     if kind.plural != (several > 0):
@@ -722,8 +723,8 @@ def of_each_kind(chosen: s.Selector, kinds: tuple[Lex, int] | None, site: Site) 
     for attribute in kind.value:
         values = [value for value in site.attributes.get(attribute, ()) if isinstance(value, str)]
         if 1 < len(values) <= _MOST_KINDS and several in (0, len(values)):
-            described = [s.Where(attribute=attribute, test="eq", value=value, of=of) for value in values]
-            parts = tuple(replace(chosen, of=part) for part in described if ids_of(part, site))
+            described = [s.Where(attribute=attribute, test="eq", value=value, of=some.of) for value in values]
+            parts = tuple(replace(some, of=part) for part in described if ids_of(part, site))
             if parts:
                 made.append(PlaceMeaning(s.UnionOf(parts=parts), "several", each=True))
     return made or None

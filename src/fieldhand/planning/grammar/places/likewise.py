@@ -64,6 +64,7 @@ def rest_of_area(where: s.Selector, noun: Lex | None = None) -> PlaceMeaning | N
 
 @construction(
     "place: DET rank=ORD noun=ONE",
+    "place: DET last=LAST noun=ONE",
     "place: DET last=LATTER",
     "place: DET FORMER",
     cost=0.5,

@@ -247,6 +247,12 @@ def old_trees(old: Amount, inner: Nominal, site: Site) -> list[Nominal] | None:
     return [replace(inner, selector=_that_pass(test, inner.selector)) for test in of_age(old, site) or ()]
 
 
+@construction("nominal: old=amount [DASH] OLDS", cost=0.2, given=("site",))
+def those_so_old(old: Amount, site: Site) -> list[Nominal] | None:
+    """Compose "four-year-olds"."""
+    return old_trees(old, Nominal(s.Trees(), plural=True), site)
+
+
 @construction(
     "attribute_test: AGED check=CMP value=NUM", "attribute_test: AGED check=CMP value=amount", cost=0.2, given=("site",)
 )
