@@ -253,7 +253,7 @@ def _compared(said: Sequence[Token], index: int) -> str:
             side = "below" if text in w.BELOW else "above"
             negated = any(t.text in w.NEGATIONS for t in said[max(0, k - 3) : k])
             return "between" if negated else side
-        if text in (".", ";", ",", "if", "then"):
+        if text in (".", ";", ",", "if", "then", "another", "take"):
             break
     return ""
 

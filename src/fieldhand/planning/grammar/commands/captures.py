@@ -33,6 +33,8 @@ from fieldhand.site.model import Site
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
+_ALL = s.Trees()
+
 
 @construction(
     "capture: verb things=things word=relation place=place", "capture: verb things=things place=here", cost=0.3
@@ -197,16 +199,24 @@ def at_points(
 
 
 @construction(
-    "capture: verb things=things SPREAD where=region", "capture: SCATTER things=things OVER where=region", cost=0.3
+    "capture: [verb] things=things SPREAD where=region",
+    "capture: [verb] things=things SPREAD site",
+    "capture: [verb] things=things EVENLYALONG site",
+    "capture: [verb] things=things even=EVENLYALONG where=region",
+    "capture: SCATTER things=things OVER where=region",
+    "capture: SCATTER things=things OVER site",
+    cost=0.3,
 )
-def spread_over(things: tuple[Thing, ...], where: s.Selector, used: int) -> CaptureCommand | None:
+def spread_over(
+    things: tuple[Thing, ...], used: int, where: s.Selector = _ALL, even: Lex | None = None
+) -> CaptureCommand | None:
     """Compose "take 6 pictures spread over the pond zone"."""
     counts = {one.count for one in things}
     count = counts.pop()
     if counts or count is None or count < 2:
         return None
     zone = as_zone(where)
-    if zone is not None and zone.outside:
+    if (zone is not None and zone.outside) or (even is not None and are_rows(where)):
         return None
     over = s.Spread(count=count, of=where) if zone is None else s.PointsIn(zone=zone.zone, count=count)
     points = PlaceMeaning(over, "several", count=count)
@@ -233,6 +243,12 @@ def thing_and_step(things: tuple[Thing, ...], place: PlaceMeaning, used: int) ->
     """Compose "take a picture 4 trees further along" and "take a picture every 5 trees"."""
     every = as_every_nth(place.selector) is not None and place.each and all(one.count in (None, 1) for one in things)
     return CaptureCommand(things, place, used) if place.shape == "step" or is_across(place.selector) or every else None
+
+
+@construction("capture: verb things=things place=halfway", cost=0.3)
+def capture_halfway(things: tuple[Thing, ...], place: PlaceMeaning, used: int) -> CaptureCommand:
+    """Compose "take a picture halfway along row 4"."""
+    return CaptureCommand(things, place, used)
 
 
 @construction("capture: verb=ACTV place=place", "capture: verb=ACTV relation place=place", cost=0.3)
@@ -381,6 +397,25 @@ def for_each_kind(kinds: tuple[Lex, int], act: CaptureCommand, used: int, site: 
         return None
     places = of_each_kind(act.place.selector, kinds, site)
     return None if places is None else [replace(act, place=place, used=used) for place in places]
+
+
+@construction("capture: act=capture [COMMA] RANDOM", cost=0.2)
+def chosen_at_random(act: CaptureCommand, used: int) -> CaptureCommand | None:
+    """Compose "ten trees per block, chosen at random"."""
+    if act.place is None or act.place.shape not in ("one", "several") or act.place.per is not None:
+        return None
+    parts = tuple(some_at_random(part) for part in act.place.selector.members)
+    if not parts or any(part is None for part in parts):
+        return None
+    chosen = tuple(part for part in parts if part is not None)
+    selector = chosen[0] if len(chosen) == 1 else s.UnionOf(parts=chosen)
+    return replace(act, place=replace(act.place, selector=selector), used=used)
+
+
+def some_at_random(selector: s.Selector) -> s.Selector | None:
+    """Return as many of a group at random as a selector takes of it in any way; None for other selectors."""
+    some = as_some(selector)
+    return None if some is None else s.RandomSample(count=some.count, of=some.of)
 
 
 @construction("capture: act=capture INSTEAD", cost=0.2)

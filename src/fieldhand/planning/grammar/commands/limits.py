@@ -174,6 +174,10 @@ def back_before(least: Amount, used: int) -> LimitClause | None:
     "limit: home in_case [DET] BATTERY [IS] check=CMP least=amount",
     "limit: in_case [DET] BATTERY [IS] check=CMP least=amount [COMMA] home",
     "limit: home in_case [DET] BATTERY REACHES least=amount",
+    "limit: home in_case [DET] BATTERY GOUNDER least=amount",
+    "limit: in_case [DET] BATTERY GOUNDER least=amount [COMMA] [STOP] [AND] home",
+    "limit: in_case [DET] BATTERY REACHES least=amount [COMMA] [STOP] [AND] home",
+    "limit: in_case [DET] BATTERY [IS] check=CMP least=amount [COMMA] STOP [AND] home",
     cost=0.2,
 )
 def home_below(least: Amount, used: int, check: Lex | None = None) -> LimitClause | None:

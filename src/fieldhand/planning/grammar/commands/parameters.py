@@ -7,7 +7,15 @@ from dataclasses import replace
 
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import SAME_VALUE, Amount, CaptureCommand, ParameterValue, PlaceMeaning, Thing
+from fieldhand.planning.grammar.meaning import (
+    LAST_THING,
+    SAME_VALUE,
+    Amount,
+    CaptureCommand,
+    ParameterValue,
+    PlaceMeaning,
+    Thing,
+)
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.robot.model import Parameter, RobotProfile
 
@@ -75,6 +83,16 @@ def another_of(how: ParameterValue, robot: RobotProfile, n: int = 1, other: Lex 
         return None
     made = [with_parameter(Thing(action.name, count=n), how, robot) for action in robot.actions]
     return [one for one in made if one is not None] or None
+
+
+@construction("thing: ONE how=parameter", "thing: ANOTHER [ONE] how=parameter", cost=0.8, given=("robot",))
+def another_with(how: ParameterValue, robot: RobotProfile) -> list[Thing] | None:
+    """Compose "one at 60 cm", of what was captured last."""
+    if isinstance(how.value, str):
+        return None
+    made = [with_parameter(Thing(action.name, count=1), how, robot) for action in robot.actions]
+    fitting = {one.parameters for one in made if one is not None}
+    return [Thing(LAST_THING, count=1, parameters=parameters) for parameters in fitting] or None
 
 
 @construction("NOUN: choice=CHOICE noun=NOUN", cost=0.1, given=("robot",))

@@ -58,7 +58,7 @@ def how_much(noun: Lex) -> Thing | None:
     return reading_of(noun)
 
 
-@construction("thing: n=count noun=NOUN READING", cost=0.1)
+@construction("thing: n=count noun=NOUN READING", "thing: n=count READING OF [DET] noun=NOUN", cost=0.1)
 def readings_of(n: int, noun: Lex) -> Thing | None:
     """Compose "three temperature readings"."""
     return _named(noun, count=n, plural=True)

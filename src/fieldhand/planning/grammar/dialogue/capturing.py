@@ -210,7 +210,11 @@ def meant_things(state: DialogueState, things: tuple[Thing, ...]) -> tuple[Thing
     if things[0].count is None and _depends(state):
         raise NotComposed(message("it is not clear whether the same condition decides that", context="fault"))
     last = state.things[0]
-    return (replace(things[0], action=last.action, parameters=last.parameters),)
+    given = dict(last.parameters)
+    if not given.keys() >= dict(things[0].parameters).keys():
+        raise NotComposed(message("it is not clear what another one is meant", context="fault"))
+    parameters = tuple((given | dict(things[0].parameters)).items())
+    return (replace(things[0], action=last.action, parameters=parameters),)
 
 
 def _with_same_values(state: DialogueState, things: tuple[Thing, ...]) -> tuple[Thing, ...]:

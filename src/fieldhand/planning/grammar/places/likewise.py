@@ -95,6 +95,7 @@ def in_likewise(whole: PlaceMeaning, like: Likewise) -> PlaceMeaning | None:
     "place: DET n=count rank=ranking",
     "place: DET n=count rank=ranking inner=nominal",
     "place: DET ONE WITH DET rank=ranking",
+    "place: DET n=count [ONE] WITH DET rank=ranking",
     cost=0.5,
 )
 def best_of_ranked(rank: tuple[str, bool], n: int = 1, inner: Nominal | None = None) -> PlaceMeaning | None:

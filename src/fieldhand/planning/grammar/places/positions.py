@@ -344,19 +344,20 @@ def ends(noun: Lex) -> Lex:
 @construction(
     "place: noun=ends in_ rows=any_rows",
     "place: rows=each_rows noun=ends",
-    "place: EACH noun=ends in_ rows=any_rows",
+    "place: each=EACH noun=ends in_ rows=any_rows",
     "place: [DET] n=count noun=ends in_ rows=any_rows",
     "place: DET noun=ends in_ rows=any_rows",
-    "place: TREE AT EACH noun=FINISH in_ rows=any_rows",
-    "place: DET TREE AT EACH noun=FINISH in_ rows=any_rows",
+    "place: TREE AT each=EACH noun=FINISH in_ rows=any_rows",
+    "place: DET TREE AT each=EACH noun=FINISH in_ rows=any_rows",
     cost=0.1,
 )
-def both_ends(noun: Lex, rows: s.Selector, n: int = 2) -> PlaceMeaning | None:
-    """Compose "both ends of row 4"."""
-    if not noun.plural or n != 2:
+def both_ends(noun: Lex, rows: s.Selector, n: int = 2, each: Lex | None = None) -> PlaceMeaning | None:
+    """Compose "both ends of row 4" and "each end of row 4"."""
+    if n != 2 or not (noun.plural or each is not None):
         return None
     parts = (s.InRow(first=1, last=1, of=rows), s.InRow(first=-1, last=-1, of=rows))
-    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=2 if is_one_row(rows) else None)
+    one_by_one = each is not None and "two" not in each.features
+    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=2 if is_one_row(rows) else None, each=one_by_one)
 
 
 @construction("place: EACH n=ORD inner=nominal", cost=0.2)
@@ -367,42 +368,66 @@ def every_nth(n: Lex, inner: Nominal) -> PlaceMeaning | None:
     return PlaceMeaning(s.EveryNth(nth=n.value, of=inner.selector), "several", each=True)
 
 
-@construction("middle_and: [COMMA] [DET] MIDDLE [inner=nominal] [COMMA] AND [DET]", cost=0.0)
-def middle_and(inner: Nominal | None = None) -> str | None:
-    """Compose ", the middle and the" between the first and the last."""
-    return "middle" if inner is None or (inner.selector == s.Trees() and not inner.plural) else None
+@construction("mark: [DET] at=position [TREE]", cost=0.0)
+def mark(at: tuple[int, int]) -> tuple[int, ...] | None:
+    """Compose "the third tree", one of several spots of a row: its number, or 0 for the middle."""
+    return (at[0],) if at[0] == at[1] else None
+
+
+@construction("mark: [DET] MIDDLE [ONE]", "mark: [DET] MIDDLE TREE", cost=0.0)
+def middle_mark() -> tuple[int, ...]:
+    """Compose "the middle", one of several spots of a row."""
+    return (0,)
+
+
+@construction("mark: [DET] START", cost=0.0)
+def first_mark() -> tuple[int, ...]:
+    """Compose "the beginning", one of several spots of a row."""
+    return (1,)
+
+
+@construction("mark: [BOTH] [DET] noun=ends", cost=0.0)
+def end_mark(noun: Lex) -> tuple[int, ...]:
+    """Compose "the end" and "both ends", among several spots of a row."""
+    return (1, -1) if noun.plural else (-1,)
 
 
 @construction(
-    "place: [DET] first=position middle_and second=position inner=nominal in_ rows=any_rows",
-    "place: [DET] first=position inner=nominal middle_and second=position [inner=nominal] in_ rows=any_rows",
-    "place: [BOTH] [DET] noun=ends AND [AT] [DET] MIDDLE in_ rows=any_rows",
-    "place: [DET] MIDDLE AND [AT] [BOTH] [DET] noun=ends in_ rows=any_rows",
-    cost=0.2,
-    given=("site",),
+    "marks: first=mark [COMMA] [AND] [AT] then=mark", "marks: first=marks [COMMA] [AND] [AT] then=mark", cost=0.0
 )
-def ends_and_middle(
-    rows: s.Selector,
-    site: Site,
-    inner: Nominal | None = None,
-    noun: Lex | None = None,
-    first: tuple[int, int] = (1, 1),
-    second: tuple[int, int] = (-1, -1),
+def marks(first: tuple[int, ...], then: tuple[int, ...]) -> tuple[int, ...] | None:
+    """Compose "the beginning, the middle and the end"."""
+    return (*first, *then) if set(first).isdisjoint(then) else None
+
+
+@construction("place: at=marks [inner=nominal] in_ rows=any_rows", cost=0.2, given=("site",))
+def spots_of_rows(
+    at: tuple[int, ...], rows: s.Selector, site: Site, inner: Nominal | None = None
 ) -> PlaceMeaning | None:
     """Compose "the first, the middle and the last tree of rows 1 and 5"."""
-    if (noun is not None and not noun.plural) or (
-        inner is not None and (inner.single or not chooses_from_trees(inner.selector))
-    ):
-        return None
-    single = one_by_one(rows, site)
-    if not 0 < len(single) <= MOST_ONE_BY_ONE or first[0] != first[1] or second[0] != second[1]:
+    if inner is not None and (inner.single or not chooses_from_trees(inner.selector)):
         return None
     parts: list[s.Selector] = []
+    single = one_by_one(rows, site)
+    if not 0 < len(single) <= MOST_ONE_BY_ONE or 0 not in at:
+        return None  # without the middle, rows need not be named one by one
     for row in single:
         of = row if inner is None else over(inner.selector, row)
-        ends = [s.InRow(first=at, last=at, of=of) for at in (first[0], second[0])]
-        parts += (ends[0], s.Middle(of=of), ends[1])
-    return PlaceMeaning(s.UnionOf(parts=tuple(parts)), "several", count=len(parts))
+        parts += (s.Middle(of=of) if number == 0 else s.InRow(first=number, last=number, of=of) for number in at)
+    return PlaceMeaning(s.UnionOf(parts=tuple(parts)), "several", count=len(parts) if is_one_row(rows) else None)
+
+
+@construction("place: [DET] START AND [AT] DET noun=FINISH in_ rows=any_rows", cost=0.1)
+def beginning_and_end(noun: Lex, rows: s.Selector) -> PlaceMeaning | None:
+    """Compose "the beginning and the end of row 4"."""
+    return None if noun.plural else both_ends(replace(noun, plural=True), rows)
+
+
+@construction("place: [DET] START in_ rows=any_rows", cost=0.2)
+def beginning_of_row(rows: s.Selector) -> PlaceMeaning:
+    """Compose "the beginning of row 4"."""
+    single = is_one_row(rows)
+    return PlaceMeaning(s.InRow(first=1, last=1, of=rows), "one" if single else "several", each=not single)
 
 
 @construction("place: EACH OTHER inner=nominal", cost=0.2)
@@ -511,17 +536,10 @@ def tree_at_end(side: Lex, rows: s.Selector) -> PlaceMeaning | None:
     return end_of_row(side, rows)
 
 
-@construction(
-    "place: EACH noun=FINISH OF rows=any_rows",
-    "place: [DET] TREE AT [DET] ends=FINISH in_ rows=any_rows",
-    cost=0.2,
-)
-def each_end(rows: s.Selector, noun: Lex | None = None, ends: Lex | None = None) -> PlaceMeaning | None:
-    """Compose "each end of rows 2 to 4"."""
-    if (noun is not None and noun.plural) or (ends is not None and not ends.plural):
-        return None
-    parts = (s.InRow(first=1, last=1, of=rows), s.InRow(first=-1, last=-1, of=rows))
-    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=2 if is_one_row(rows) else None)
+@construction("place: [DET] TREE AT [DET] noun=FINISH in_ rows=any_rows", cost=0.2)
+def trees_at_ends(noun: Lex, rows: s.Selector) -> PlaceMeaning | None:
+    """Compose "the trees at the ends of rows 2 to 4"."""
+    return both_ends(noun, rows)
 
 
 @construction("place: DET noun=FINISH OF rows=rows NEAREST [AT] to=place", cost=0.1)

@@ -115,17 +115,35 @@ def middle() -> PlaceMeaning:
     return PlaceMeaning(s.Middle(), "one")
 
 
-@construction("place: [DET] MIDDLE in_ where=region", "place: [DET] MIDDLE noun=TREE in_ where=region", cost=0.7)
+@construction(
+    "place: [DET] MIDDLE in_ where=region",
+    "place: [DET] MIDDLE noun=TREE in_ where=region",
+    cost=0.7,
+)
 def middle_of(where: s.Selector, noun: Lex | None = None) -> PlaceMeaning | None:
     """Compose "the middle of row 4" and "the middle trees of rows 3 and 4"."""
+    several = are_rows(where) and not is_one_row(where)
     if noun is not None and noun.plural:
-        several = are_rows(where) and not is_one_row(where)
         return PlaceMeaning(s.Middle(), "several", each=True, per=where) if several else None
     if (zone := as_zone(where)) is not None:
         return PlaceMeaning(s.PointsIn(zone=zone.zone), "one") if not zone.outside else None
     if (edge := as_edge(where)) is not None:
         return PlaceMeaning(s.EdgeMiddle(side=edge.side, of=edge.of), "one")
     return PlaceMeaning(s.Middle(of=where), "one")
+
+
+@construction("halfway: HALFWAY where=rows", cost=0.0)
+def halfway(where: s.Selector) -> PlaceMeaning:
+    """Compose "halfway along row 4", which needs no word before it."""
+    if is_one_row(where):
+        return PlaceMeaning(s.Middle(of=where), "one")
+    return PlaceMeaning(s.Middle(), "several", each=True, per=where)
+
+
+@construction("place: place=halfway", cost=0.2)
+def place_halfway(place: PlaceMeaning) -> PlaceMeaning:
+    """Compose "halfway along row 4" as a place."""
+    return place
 
 
 @construction("marker: START", "marker: DET START", cost=0.1)

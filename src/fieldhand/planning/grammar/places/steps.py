@@ -399,6 +399,8 @@ def in_radius(far: Amount) -> Amount:
     "distance: far=in_radius NEAR to=place",
     "distance: UPTO far=amount FROM to=place",
     "distance: check=CMP far=amount FROM to=place",
+    "distance: check=CLOSER far=amount AT to=place",
+    "distance: check=CLOSER far=amount FROM to=place",
     "distance: span=value_range FROM to=place",
     cost=0.1,
 )
@@ -415,7 +417,7 @@ def distance(
         return None
     if far is None:
         return None if span is None or zone else (span[0], span[1], to)
-    if check is None or check.value[0] in ("lt", "le"):
+    if check is None or check.value is None or check.value[0] in ("lt", "le"):
         return (0.0, far.number, to)
     return (far.number, None, to) if check.value[0] in ("gt", "ge") else None
 
