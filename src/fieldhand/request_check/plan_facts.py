@@ -291,6 +291,8 @@ def _numbers(nodes: tuple[p.Node, ...], selectors: tuple[tuple[str, Selector], .
             value = getattr(x, field.name)
             if isinstance(value, bool) or value == field.default or isinstance(x, s.Where):
                 continue
+            if field.name == "seed":
+                continue  # it numbers draws from several groups
             what = re.sub("[-_]", " ", f"{element_name(type(x))} {field.name}")
             if isinstance(value, float):
                 yield PlannedNumber(node=name, what=what, value=value, kind="length")

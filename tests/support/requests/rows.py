@@ -1346,7 +1346,7 @@ REFUSED = [
     (
         "husky",
         "take a picture of every tree in row 3 every 10 m",
-        "'every 10 m' does not fit at this point in 'take a picture of every tree in row 3 every 10 m'",
+        "'10 m' does not fit at this point in 'take a picture of every tree in row 3 every 10 m'",
     ),
     (
         "husky",

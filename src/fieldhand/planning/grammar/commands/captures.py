@@ -167,6 +167,25 @@ def per_row(
     return None if noun.plural else CaptureCommand(things, PlaceMeaning(s.Trees(), "area", each=True, per=rows), used)
 
 
+@construction(
+    "capture: [verb] things=things PER kind=ATTR",
+    "capture: [verb] things=things FOR kinds=each_kind",
+    cost=0.3,
+    given=("site",),
+)
+def per_kind(
+    things: tuple[Thing, ...], used: int, site: Site, kind: Lex | None = None, kinds: tuple[Lex, int] | None = None
+) -> list[CaptureCommand] | None:
+    """Compose "take a picture per variety", at so many trees of each."""
+    counts = {one.count or 1 for one in things}
+    if len(counts) > 1 or any(one.plural and one.count is None for one in things):
+        return None
+    some = s.Take(count=counts.pop(), of=s.Trees())
+    places = of_each_kind(some, (kind, 0) if kind is not None else kinds, site)
+    once = tuple(replace(one, count=None) for one in things)
+    return None if places is None else [CaptureCommand(once, place, used) for place in places]
+
+
 @construction("capture: [verb] things=things blocks=per_block", cost=0.3)
 def captures_per_block(things: tuple[Thing, ...], blocks: tuple[s.Selector, ...], used: int) -> CaptureCommand:
     """Compose "take a picture per block"."""
@@ -271,9 +290,19 @@ def go_for(place: PlaceMeaning, things: tuple[Thing, ...], used: int) -> Capture
 @construction("capture: act=capture [COMMA] EACH", "capture: act=capture EACH [OFTHEM]", cost=0.2)
 def of_each(act: CaptureCommand, used: int) -> CaptureCommand | None:
     """Compose "photograph trees 4 and 9, two pictures each"."""
-    if act.place is None or act.place.shape != "several" or act.place.each or not all(one.count for one in act.things):
+    if act.place is None or act.place.shape != "several" or not all(one.count for one in act.things):
         return None
     return replace(act, place=replace(act.place, each=True), used=used)
+
+
+@construction("capture: act=capture [COMMA] number=things EACH", cost=0.2)
+def so_many_of_each(act: CaptureCommand, number: tuple[Thing, ...], used: int) -> CaptureCommand | None:
+    """Compose "photograph trees 4 and 9, two pictures each"."""
+    if any(one.count is not None for one in act.things) or {one.action for one in act.things} != {
+        one.action for one in number
+    }:
+        return None
+    return of_each(replace(act, things=number), used)
 
 
 @construction("capture: [verb] things=things EACH relation place=place", cost=0.2)
@@ -397,6 +426,14 @@ def for_each_kind(kinds: tuple[Lex, int], act: CaptureCommand, used: int, site: 
         return None
     places = of_each_kind(act.place.selector, kinds, site)
     return None if places is None else [replace(act, place=place, used=used) for place in places]
+
+
+@construction("capture: act=capture COMMA ASMANY as_can", cost=0.2)
+def as_many_of_those(act: CaptureCommand, used: int) -> CaptureCommand | None:
+    """Compose "photograph the yellow trees, as many as you can"."""
+    if act.place is None or act.place.shape != "several" or act.place.count is not None or act.place.per is not None:
+        return None
+    return replace(act, place=replace(act.place, optional=True), used=used)
 
 
 @construction("capture: act=capture [COMMA] RANDOM", cost=0.2)

@@ -55,12 +55,14 @@ from fieldhand.planning.grammar.meaning import (
 from fieldhand.planning.selections import (
     AREAS,
     are_rows,
+    as_every_nth,
     counts_in_row,
     from_nearest_row,
     is_end_of_site,
     is_one_row,
     is_row_of_place,
     landmark_of,
+    over,
     some_of,
     swapped,
 )
@@ -273,6 +275,9 @@ def _place_of(
         return place if moves else None, drive(setting, state, DriveCommand(first, before.used)), ()
     if first.shape in ("several", "nearby") and is_spoken_of(place):
         return _some_of_them(first, place), state, said
+    every = None if place is None else as_every_nth(place.selector)
+    if place is not None and every is not None and every.of == s.Trees() and first.shape == "several":
+        return replace(place, selector=over(every, first.selector)), state, said
     raise NotComposed(message("it is not clear at which of two places this is done", context="fault"))
 
 

@@ -368,6 +368,12 @@ def every_nth(n: Lex, inner: Nominal) -> PlaceMeaning | None:
     return PlaceMeaning(s.EveryNth(nth=n.value, of=inner.selector), "several", each=True)
 
 
+@construction("place: [DET] [n=count] OUTER noun=TREE in_ rows=any_rows", cost=0.0)
+def outer_trees_of_rows(noun: Lex, rows: s.Selector, n: int = 2) -> PlaceMeaning | None:
+    """Compose "the outermost trees of each row", those at its ends."""
+    return both_ends(noun, rows, n)
+
+
 @construction("mark: [DET] at=position [TREE]", cost=0.0)
 def mark(at: tuple[int, int]) -> tuple[int, ...] | None:
     """Compose "the third tree", one of several spots of a row: its number, or 0 for the middle."""
