@@ -266,8 +266,8 @@ def _listed(said: Sequence[Token], before: StatedAmount, number: _Number) -> boo
     behind = [t.text for t in said[number.end : number.end + 2]]
     if before.kind == "row" and len(behind) == 2 and behind[0] in ("in", "from", "of") and behind[1] in w.ROWS:
         return False  # "one tree in row 3 and two in row 5"
-    if between and [said[number.start].text, *behind[:1]] == ["one", "of"]:
-        return False  # "a picture of tree 4, and one of the ground"
+    if between and not w.is_number(said[number.start].text) and behind[:1] in (["of"], ["at"], ["in"]):
+        return False  # "a picture of tree 4, and one of the ground", "three at tree 12, two at tree 13"
     if number.value <= before.values[0] and not _RANGES.isdisjoint(between):
         return False  # "row 3 until one of them"
     return 0 < len(between) <= _LONGEST_JOINT and all(text in _JOINS | w.TREES | w.ROWS for text in between)

@@ -295,6 +295,17 @@ def of_each(act: CaptureCommand, used: int) -> CaptureCommand | None:
     return replace(act, place=replace(act.place, each=True), used=used)
 
 
+@construction(
+    "capture: act=capture [COMMA] times=COUNT EACH", "capture: act=capture [COMMA] n=count TIMES EACH", cost=0.2
+)
+def so_often_at_each(act: CaptureCommand, used: int, times: Lex | None = None, n: int = 1) -> CaptureCommand | None:
+    """Compose "photograph trees 4 and 9, twice each"."""
+    if any(one.count is not None for one in act.things):
+        return None
+    number = n if times is None else int(times.value)
+    return of_each(replace(act, things=tuple(replace(one, count=number) for one in act.things)), used)
+
+
 @construction("capture: act=capture [COMMA] number=things EACH", cost=0.2)
 def so_many_of_each(act: CaptureCommand, number: tuple[Thing, ...], used: int) -> CaptureCommand | None:
     """Compose "photograph trees 4 and 9, two pictures each"."""

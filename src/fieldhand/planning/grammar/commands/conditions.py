@@ -132,7 +132,11 @@ def terse(test: Test, used: int) -> When:
     return When(AllTests((test,)), used, terse=True)
 
 
-@construction("measured: [DET] noun=MEDIUM relation place=place [IS] test=predicate", cost=0.2)
+@construction(
+    "measured: [DET] noun=MEDIUM relation place=place [IS] test=predicate",
+    "measured: [DET] noun=MEDIUM [IS] test=predicate relation place=place",
+    cost=0.2,
+)
 def medium_measured(noun: Lex, place: PlaceMeaning, test: Test) -> tuple[PlaceMeaning, Test] | None:
     """Compose "the air at tree 4 is hotter than 30 degC"."""
     asked = quantity_at(noun, place)

@@ -54,10 +54,20 @@ def chosen(choice: Lex) -> list[ParameterValue]:
     return [ParameterValue(value, "", (name,)) for name, value in choice.value]
 
 
-@construction("thing: one=thing how=parameter", cost=0.2, given=("robot",))
-def thing_with(one: Thing, how: ParameterValue, robot: RobotProfile) -> Thing | None:
-    """Compose "soil moisture at 30 cm"."""
-    return None if isinstance(how.value, str) and how.value != SAME_VALUE else with_parameter(one, how, robot)
+@construction(
+    "thing: one=thing how=parameter",
+    "thing: one=thing [COMMA] amount=amount",
+    cost=0.2,
+    given=("robot",),
+)
+def thing_with(
+    one: Thing, robot: RobotProfile, how: ParameterValue | None = None, amount: Amount | None = None
+) -> Thing | None:
+    """Compose "soil moisture at 30 cm" and "soil moisture, 30 cm"."""
+    value = how if amount is None else ParameterValue(amount.number, amount.unit, ())
+    if value is None or (isinstance(value.value, str) and value.value != SAME_VALUE):
+        return None
+    return with_parameter(one, value, robot)
 
 
 @construction("thing: one=thing OF how=parameter", "thing: one=thing OF ITS choice=CHOICE", cost=0.2, given=("robot",))
@@ -152,7 +162,7 @@ def capture_with(
 
 @construction(
     "parameter: word=AT DET SAME name=PARAMETER",
-    "parameter: DET SAME name=PARAMETER",
+    "parameter: [DET] SAME name=PARAMETER",
     "parameter: WITH DET SAME name=PARAMETER",
     cost=0.2,
 )

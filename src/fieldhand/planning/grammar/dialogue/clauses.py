@@ -289,7 +289,8 @@ def _stop(setting: Setting, state: DialogueState, command: StopCommand) -> Dialo
     """Return the state after the end of the mission."""
     said = setting.spans_of(command.used)
     if command.stays and not state.scope:
-        return replace(state, nominal="stay", nominal_said=said)
+        before = state.nominal_said if state.nominal == "stay" else ()
+        return replace(state, nominal="stay", nominal_said=(*before, *said))
     state = with_step(state, p.StopMission(id="", said=said))
     return replace(state, in_case="stay") if command.stays else state
 

@@ -678,6 +678,13 @@ def each_of_kinds(n: int, kind: Lex) -> tuple[Lex, int]:
     return kind, n
 
 
+@construction("place: some=place OF kinds=each_kind", cost=0.3, given=("site",))
+def best_of_each_kind(some: PlaceMeaning, kinds: tuple[Lex, int], site: Site) -> list[PlaceMeaning] | None:
+    """Compose "the three oldest trees of each variety"."""
+    best = as_top(some.selector)
+    return None if best is None or best.of != s.Trees() else of_each_kind(best, kinds, site)
+
+
 @construction(
     "place: n=count [random=RANDOM] inner=nominal PER kind=ATTR",
     "place: n=count [random=RANDOM] inner=nominal OF kinds=each_kind",
@@ -713,7 +720,7 @@ def of_each_kind(chosen: s.Selector, kinds: tuple[Lex, int] | None, site: Site) 
         kinds: Attribute that tells the kinds apart, and their number if the phrase gives one (otherwise 0).
         site: The site.
     """
-    some = as_some(chosen) or as_random(chosen)
+    some = as_some(chosen) or as_random(chosen) or as_top(chosen)
     if kinds is None or some is None:
         return None
     kind, several = kinds
