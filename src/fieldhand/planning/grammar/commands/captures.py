@@ -112,7 +112,12 @@ def per_tree(things: tuple[Thing, ...], used: int) -> CaptureCommand | None:
     return CaptureCommand(once, PlaceMeaning(s.Trees(), "those", each=True), used, relation="each")
 
 
-@construction("capture: things=things COMMA place=place", "capture: things=things place=place", cost=1.2)
+@construction(
+    "capture: things=things COMMA place=place",
+    "capture: things=things COMMA relation place=place",
+    "capture: things=things place=place",
+    cost=1.2,
+)
 def comment(things: tuple[Thing, ...], place: PlaceMeaning, used: int) -> CaptureCommand | None:
     """Compose "a picture: tree 4"."""
     return topic(place, things, used)
