@@ -324,6 +324,11 @@ def as_nearest(selector: s.Selector) -> s.Nearest | None:
     return selector if isinstance(selector, s.Nearest) else None
 
 
+def as_apart(selector: s.Selector) -> s.Apart | None:
+    """Return the selector if it takes trees at a distance from each other, None otherwise."""
+    return selector if isinstance(selector, s.Apart) else None
+
+
 def as_top(selector: s.Selector) -> s.Top | None:
     """Return the selector if it takes the best by an attribute, None otherwise."""
     return selector if isinstance(selector, s.Top) else None

@@ -69,6 +69,9 @@ def _beside(setting: Setting, state: DialogueState, place: PlaceMeaning, used: i
     before = state.where if state.lead is None else state.lead.place
     if before is None and state.area is not None:
         before = state.area.place
+    from_here = before is not None and s.Here() in _anchors(before.selector)
+    if from_here and before is not None and place.selector != before.selector:
+        return replace(place, beside=False, selector=swapped(place.selector, s.Here(), _last_known(state)))
     in_loop = state.loop is not None and is_inside(state.scope, state.loop)
     if before is None or (before.shape != "one" and not in_loop):
         raise NotComposed(message("which place is meant?", context="fault"))
@@ -76,6 +79,18 @@ def _beside(setting: Setting, state: DialogueState, place: PlaceMeaning, used: i
     named = [to for to in _anchors(before.selector) if to.named_marker or as_zone(to) is not None]
     ways = [known, *(replace(known, selector=swapped(place.selector, s.Here(), to)) for to in named)]
     return setting.either("near the tree, or near what was named?", used, ways)
+
+
+def _last_known(state: DialogueState) -> s.Selector:
+    """Return the place that was named last by itself: "at tree 50, at the tree north of it and at the one south of it".
+
+    Raises:
+        NotComposed: There is none, or there were several.
+    """
+    named = [node.selector for node in p.walk(state.plan) if node.selector is not None and not node.selector.relative]
+    if not named or not named[-1].single:
+        raise NotComposed(message("which place is meant?", context="fault"))
+    return named[-1]
 
 
 def _anchors(selector: s.Selector) -> tuple[s.Selector, ...]:

@@ -500,11 +500,12 @@ def both(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | list[Place
         second = replace(second, selector=opposite, like=None)
     if second.selector.named_marker and measures_distance(first.selector):
         return None  # "within 20 m of the start and the charger"
-    if first.shape == "one" and second.shape in ("one", "step", "several"):
+    beside = first.beside and second.beside  # "the tree north of it and the tree south of it": of the same tree
+    if not beside and first.shape == "one" and second.shape in ("one", "step", "several"):
         here = landmark_of(first.selector, second.selector) or first.selector
         shape: Shape = "several" if second.shape == "several" else "one"
-        second = replace(second, selector=swapped(second.selector, s.Here(), here), shape=shape)
-    elif first.shape == "several" and s.Here() in second.selector.walk():
+        second = replace(second, selector=swapped(second.selector, s.Here(), here), shape=shape, beside=False)
+    elif not beside and first.shape == "several" and s.Here() in second.selector.walk():
         return None  # "trees 4 and 5 and the tree next to it": next to which?
     if not {first.shape, second.shape} <= {"one", "several"} or first.optional or second.optional:
         return None
@@ -513,7 +514,7 @@ def both(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | list[Place
     parts = tuple(part for one in (first, second) for part in one.selector.members)
     counts = [1 if one.shape == "one" else one.count for one in (first, second)]
     count = None if None in counts else sum(c for c in counts if c is not None)
-    whole = PlaceMeaning(s.UnionOf(parts=parts), "several", count=count)
+    whole = PlaceMeaning(s.UnionOf(parts=parts), "several", count=count, beside=first.beside)
     counted = next((one for part in parts if (one := as_in_row(part)) is not None), None)
     if counted is None or not any(is_end_of_site(part) for part in parts):
         return whole

@@ -292,8 +292,8 @@ def each_quarter(noun: Lex) -> PlaceMeaning | None:
     """Compose "each quarter" as a place."""
     if noun.plural:
         return None
-    parts = tuple(s.Take(count=1, of=s.Quarter(quarter=corner)) for corner in _CORNERS_IN_TURN)
-    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=4, each=True)
+    quarters = s.UnionOf(parts=tuple(s.Quarter(quarter=corner) for corner in _CORNERS_IN_TURN))
+    return PlaceMeaning(s.Trees(), "area", each=True, per=quarters)
 
 
 @construction("place: n=count POINT in_ [DET] zone=ZONE", cost=0.2)

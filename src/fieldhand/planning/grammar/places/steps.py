@@ -10,7 +10,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Amount, Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import as_along_row, as_nearest, as_zone, chooses_from_trees, is_spot, over
+from fieldhand.planning.selections import as_along_row, as_apart, as_nearest, as_zone, chooses_from_trees, is_spot, over
 from fieldhand.site.model import Site
 from fieldhand.terms import CountedFrom, Side, Towards
 
@@ -492,6 +492,9 @@ def nth_nearest(rank: Lex, inner: Nominal, to: PlaceMeaning) -> PlaceMeaning | N
 @construction("place: near=place in_ where=region", cost=0.4)
 def nearest_in(near: PlaceMeaning, where: s.Selector) -> PlaceMeaning | None:
     """Compose "the 3 trees nearest to the charger in the northern half"."""
+    apart = as_apart(near.selector)
+    if apart is not None and apart.of == s.Trees():
+        return replace(near, selector=replace(apart, of=where))  # "five trees 25 m apart in row 2"
     nearest = as_nearest(near.selector)
     if nearest is None or nearest.of != s.Trees() or not nearest.to.named_marker or nearest.adjacent:
         return None
