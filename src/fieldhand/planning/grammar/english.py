@@ -170,7 +170,13 @@ def _grammar() -> Grammar:
 
 def _respelt(words: Sequence[Word], lexicon: Lexicon) -> tuple[list[Word], list[str]]:
     """Return words with small misspellings of any known word mended, and what was mended."""
-    return respelt(words, {*lexicon.vocabulary, *(word for phrase in more_words() for word in phrase)})
+    return respelt(words, lexicon.vocabulary | _more_single_words())
+
+
+@cache
+def _more_single_words() -> frozenset[str]:
+    """Return every word of the phrases that the grammar adds to the shared vocabulary."""
+    return frozenset(word for phrase in more_words() for word in phrase)
 
 
 ENGLISH = GrammarLanguage(code="en", words_of=words_of, phrases=phrases_for, grammar=_grammar, respelt=_respelt)

@@ -96,6 +96,8 @@ def read(request: str, site: Site, robot: RobotProfile, language: GrammarLanguag
         return found
     known = {token for edge in edges_of(words, phrases) for token in range(edge.start, edge.end)}
     strange = [token for token in range(len(words)) if token not in known]
+    if not strange:
+        return found
     corrected, mended = language.respelt([words[token] for token in strange], phrases.lexicon)
     if not mended:
         return found

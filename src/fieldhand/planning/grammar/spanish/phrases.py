@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
+from collections import defaultdict, deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
@@ -106,9 +106,19 @@ class SpanishPhrases:
         return NameEntry(kind="NOUN", value=naming)
 
 
+#: Phrases made last: inflecting the words of a robot and of a site takes as long as reading a short request.
+_made: deque[SpanishPhrases] = deque(maxlen=4)
+
+
 def phrases_for(robot: RobotProfile, site: Site) -> SpanishPhrases:
-    """Return the words of Spanish for a robot on a site."""
-    return SpanishPhrases(lexicon_for(robot, site), robot)
+    """Return the words of Spanish for a robot on a site, which are kept for the next request."""
+    lexicon = lexicon_for(robot, site)
+    for phrases in tuple(_made):
+        if phrases.lexicon is lexicon and phrases.robot is robot:
+            return phrases
+    phrases = SpanishPhrases(lexicon, robot)
+    _made.append(phrases)
+    return phrases
 
 
 def split(phrase: str) -> Phrase:
