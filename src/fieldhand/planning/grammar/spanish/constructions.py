@@ -11,8 +11,8 @@ from dataclasses import replace
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar import commands, places
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.commands import captures, conditions, driving, limits, things
-from fieldhand.planning.grammar.meaning import Amount, Nominal, PlaceMeaning, Thing
+from fieldhand.planning.grammar.commands import conditions, driving, limits, spacing, things
+from fieldhand.planning.grammar.meaning import Amount, CaptureCommand, Nominal, PlaceMeaning, Thing
 from fieldhand.planning.grammar.places import groups, nouns, numbers, positions, rows, spots, steps
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.words import Lex
@@ -117,16 +117,24 @@ construction(
     cost=0.3,
 )(steps.tree_along_row)
 
+
 # Commands and clauses.
-construction("capture: TAKE place=to_it things=things", cost=0.3)(captures.measure_for)
-construction(
-    "capture: verb place=place TAKE things=things", "capture: MEASURE place=place COMMA verb things=things", cost=0.4
-)(captures.measure_for)
-construction("capture: TAKE ATHIM things=things word=relation place=place", cost=0.3)(captures.capture_at)
+@construction(
+    "capture: TAKE place=to_it things=things",
+    "capture: verb place=place TAKE things=things",
+    "capture: MEASURE place=place COMMA verb things=things",
+    "capture: TAKE ATHIM things=things word=relation place=place",
+    cost=0.3,
+)
+def capture_at(things: tuple[Thing, ...], place: PlaceMeaning, used: int, word: str = "at") -> CaptureCommand:
+    """Compose "hazle una foto al árbol 4"."""
+    return CaptureCommand(things, place, used, relation=word)
+
+
 construction("thing: n=count READING OF [DET] noun=NOUN", cost=0.1)(things.readings_of)
-construction("apart: AT far=amount APART", "apart: SPACEDBY far=amount APART", cost=0.1)(captures.apart)
-construction("apart: SPACEDBY [APART] far=amount", "apart: WITH far=amount APART", cost=0.1)(captures.apart)
-construction("apart: SPACEDBY APART FOR far=amount", cost=0.1)(captures.apart)
+construction("apart: AT far=amount APART", "apart: SPACEDBY far=amount APART", cost=0.1)(spacing.apart)
+construction("apart: SPACEDBY [APART] far=amount", "apart: WITH far=amount APART", cost=0.1)(spacing.apart)
+construction("apart: SPACEDBY APART FOR far=amount", cost=0.1)(spacing.apart)
 construction("test: IS value=ATTRVAL", cost=0.3)(conditions.tree_is)
 construction("test: ISNOT value=ATTRVAL", cost=0.3)(conditions.tree_is_not)
 construction("test: IS check=CMP value=amount", cost=0.3)(conditions.tree_compared)

@@ -1,0 +1,372 @@
+"""Constructions of adjuncts, which change the capture of their clause: "twice", "every 10 m", "one per row"."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.commands.clauses import Adjunct, Clause, once
+from fieldhand.planning.grammar.meaning import CaptureCommand, PlaceMeaning, Thing
+from fieldhand.planning.grammar.places.groups import of_each_kind
+from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.selections import are_rows, as_some, as_zone, chooses_from_trees, is_one_row, over
+from fieldhand.site.model import Site
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+
+def _is_uncounted(command: CaptureCommand) -> bool:
+    return all(one.count is None for one in command.things)
+
+
+def _counted(command: CaptureCommand, count: int) -> CaptureCommand:
+    return replace(command, things=tuple(replace(one, count=count, plural=count > 1) for one in command.things))
+
+
+def _only_count(command: CaptureCommand) -> int | None:
+    """Return the number of captures if the command gives one number of two or more."""
+    counts = {one.count for one in command.things}
+    count = counts.pop()
+    return None if counts or count is None or count < 2 else count
+
+
+# How often, and how many at each place.
+
+
+def _so_often(command: CaptureCommand, times: int) -> CaptureCommand | None:
+    return replace(command, times=times) if command.times == 1 else None
+
+
+def _again(command: CaptureCommand, _: None) -> CaptureCommand | None:
+    known = command.place is None or command.place.shape in ("here", "one")
+    return command if known and command.relation in ("at", "of") else None
+
+
+def _each(command: CaptureCommand, things: tuple[Thing, ...] | int | None) -> CaptureCommand | None:
+    """Return a command with so many captures, or those of ``things``, at each of several places."""
+    if isinstance(things, int):
+        command = _counted(command, things) if _is_uncounted(command) else replace(command, things=())
+    elif things is not None:
+        same = {one.action for one in command.things} == {one.action for one in things}
+        command = replace(command, things=things if same and _is_uncounted(command) else ())
+    place = command.place
+    if place is None or place.shape != "several" or not command.things or not all(one.count for one in command.things):
+        return None
+    return replace(command, place=replace(place, each=True))
+
+
+@construction("often: times=COUNT", "often: n=count TIMES", cost=0.0)
+def often(times: Lex | None = None, n: int = 1) -> int:
+    """Compose "twice" and "five times"."""
+    return n if times is None else int(times.value)
+
+
+@construction("adjunct: times=often", cost=0.2)
+def so_often(times: int) -> Adjunct:
+    """Compose "twice"."""
+    return Adjunct(_so_often, times)
+
+
+@construction("adjunct: AGAIN", cost=0.2)
+def once_more() -> Adjunct:
+    """Compose "again", where the robot is, or of one place."""
+    return Adjunct(_again)
+
+
+@construction("adjunct: EACH [OFTHEM]", "adjunct: times=often EACH", "adjunct: number=things EACH", cost=0.2)
+def of_each(times: int | None = None, number: tuple[Thing, ...] | None = None) -> Adjunct:
+    """Compose "each" behind "two pictures", "twice each" and "two pictures each"."""
+    return Adjunct(_each, times or number)
+
+
+# At which trees of the place.
+
+
+def _at_every_tree(command: CaptureCommand, _: None) -> CaptureCommand | None:
+    place = command.place
+    if place is None or place.shape != "area" or place.per is not None or not _is_uncounted(command):
+        return None
+    return replace(command, place=replace(place, shape="several", each=True))
+
+
+def _at_so_many(command: CaptureCommand, count: int) -> CaptureCommand | None:
+    place = command.place
+    if place is None or place.shape != "area" or place.per is not None or command.spacing is not None:
+        return None
+    made = _counted(command, count) if _is_uncounted(command) else None
+    return None if made is None else replace(made, things=tuple(replace(one, plural=True) for one in made.things))
+
+
+def _evenly(command: CaptureCommand, _: None) -> CaptureCommand | None:
+    place, count = command.place, _only_count(command)
+    if place is None or place.shape != "area" or place.per is not None or count is None:
+        return None
+    if not (are_rows(place.selector) and is_one_row(place.selector)):
+        return None
+    even = PlaceMeaning(s.Evenly(count=count, of=place.selector), "several", count=count)
+    return replace(command, things=once(command.things), place=even)
+
+
+def _free_choice(command: CaptureCommand, _: None) -> CaptureCommand | None:
+    place = command.place
+    if place is None or place.shape == "those":
+        return None
+    some = any(as_some(part) is not None for part in place.selector.members)
+    return command if some or (place.shape == "area" and not _is_uncounted(command)) else None
+
+
+def _at_random(command: CaptureCommand, _: None) -> CaptureCommand | None:
+    place = command.place
+    if place is None or place.shape not in ("one", "several") or place.per is not None:
+        return None
+    some = [as_some(part) for part in place.selector.members]
+    drawn = tuple(s.RandomSample(count=one.count, of=one.of) for one in some if one is not None)
+    if not drawn or len(drawn) < len(some):
+        return None
+    selector = drawn[0] if len(drawn) == 1 else s.UnionOf(parts=drawn)
+    return replace(command, place=replace(place, selector=selector))
+
+
+def _as_many(command: CaptureCommand, _: None) -> CaptureCommand | None:
+    place = command.place
+    if place is None or place.shape != "several" or place.count is not None or place.per is not None:
+        return None
+    return replace(command, place=replace(place, optional=True))
+
+
+@construction(
+    "adjunct: [relation] EACH noun=TREE",
+    "adjunct: ONEBYONE",
+    "adjunct: ENTIRE",
+    cost=0.3,
+)
+def at_every_tree(noun: Lex | None = None) -> Adjunct | None:
+    """Compose "every tree" and "tree by tree", of an area."""
+    return None if noun is not None and noun.plural else Adjunct(_at_every_tree)
+
+
+@construction(
+    "adjunct: n=count POINT REMAINS",
+    "adjunct: n=count TREE REMAINS",
+    "adjunct: n=count [OFTHEM] REMAINS",
+    "adjunct: AT n=count POINT",
+    cost=0.2,
+)
+def at_so_many(n: int) -> Adjunct:
+    """Compose "three spots will do"."""
+    return Adjunct(_at_so_many, n, of_place=True)
+
+
+@construction("adjunct: EVENLYSPACED", cost=0.2)
+def evenly_spaced() -> Adjunct:
+    """Compose "evenly spread", along a row."""
+    return Adjunct(_evenly)
+
+
+@construction("adjunct: ANY [TREE] REMAINS", "adjunct: FREECHOICE", cost=0.2)
+def whichever_it_is() -> Adjunct:
+    """Compose "any tree is good"."""
+    return Adjunct(_free_choice)
+
+
+@construction("adjunct: RANDOM", cost=0.2)
+def chosen_at_random() -> Adjunct:
+    """Compose "chosen at random"."""
+    return Adjunct(_at_random)
+
+
+@construction("adjunct: ASMANY as_can", cost=0.2)
+def as_many_of_those() -> Adjunct:
+    """Compose "as many as you can"."""
+    return Adjunct(_as_many)
+
+
+@construction("adjunct: as_can", cost=0.1)
+def as_can_of_many() -> Adjunct:
+    """Compose "as you can" behind "as many pictures"."""
+    return Adjunct(_unchanged, of_many=True)
+
+
+def _unchanged(command: CaptureCommand, _: None) -> CaptureCommand:
+    return command
+
+
+# So many per row, block, corner or kind.
+
+
+def _per(command: CaptureCommand, rows: s.Selector) -> CaptureCommand | None:
+    """Return a command for each row, or each block, of its area or of the site."""
+    place = command.place
+    if place is not None:
+        if place.shape != "area" or place.per is not None or not chooses_from_trees(place.selector):
+            return None
+        if are_rows(place.selector) and rows != s.Rows():
+            return None
+        rows = place.selector if are_rows(place.selector) else over(rows, place.selector)
+    return replace(command, place=PlaceMeaning(s.Trees(), "area", each=True, per=rows), relation="at")
+
+
+def _at_each_corner(command: CaptureCommand, _: None) -> CaptureCommand | None:
+    if command.place is not None:
+        return None
+    return replace(command, place=PlaceMeaning(s.Corners(), "several", each=True, count=4))
+
+
+def _at_each_tree(command: CaptureCommand, _: None) -> CaptureCommand | None:
+    if command.place is not None or any(one.count not in (None, 1) for one in command.things):
+        return None
+    many = tuple(replace(one, count=None, plural=True) for one in command.things)
+    return replace(command, things=many, place=PlaceMeaning(s.Trees(), "those", each=True), relation="each")
+
+
+@dataclass(frozen=True, slots=True)
+class _Kinds:
+    """An attribute whose values tell kinds of trees apart, and how many kinds the phrase names (0 if it names none)."""
+
+    named: tuple[Lex, int]
+    site: Site = field(compare=False)
+
+
+def _of_each_kind(command: CaptureCommand, kinds: _Kinds) -> list[CaptureCommand] | None:
+    """Return a command at so many trees of each kind."""
+    place = command.place
+    if place is None:
+        counts = {one.count or 1 for one in command.things}
+        if len(counts) > 1 or any(one.plural and one.count is None for one in command.things):
+            return None
+        some: s.Selector = s.Take(count=counts.pop(), of=s.Trees())
+        command = replace(command, things=once(command.things))
+    elif place.shape in ("one", "several") and _is_uncounted(command):
+        some = place.selector
+    else:
+        return None
+    places = of_each_kind(some, kinds.named, kinds.site)
+    return None if places is None else [replace(command, place=one) for one in places]
+
+
+@construction("adjunct: rows=per_row", cost=0.2)
+def per_row(rows: s.Selector) -> Adjunct:
+    """Compose "per row"."""
+    return Adjunct(_per, rows, may_lead=True)
+
+
+@construction("adjunct: blocks=per_block", cost=0.2)
+def per_block(blocks: tuple[s.Selector, ...]) -> Adjunct:
+    """Compose "per block"."""
+    return Adjunct(_per, s.UnionOf(parts=blocks), may_lead=True)
+
+
+@construction("adjunct: PER noun=CORNER [OF] [site]", cost=0.2)
+def per_corner(noun: Lex) -> Adjunct | None:
+    """Compose "per corner"."""
+    return None if noun.plural else Adjunct(_at_each_corner, may_lead=True)
+
+
+@construction("adjunct: PER TREE", cost=0.6)
+def per_tree() -> Adjunct:
+    """Compose "per tree"."""
+    return Adjunct(_at_each_tree)
+
+
+@construction("adjunct: PER kind=ATTR", "adjunct: FOR kinds=each_kind", cost=0.2, given=("site",))
+def per_kind(site: Site, kind: Lex | None = None, kinds: tuple[Lex, int] | None = None) -> Adjunct | None:
+    """Compose "per variety" and "for each variety"."""
+    of = kinds if kind is None else (kind, 0)
+    return None if of is None else Adjunct(_of_each_kind, _Kinds(of, site), may_lead=True)
+
+
+# Spread over a line or an area.
+
+
+def _spaced(command: CaptureCommand, dist: tuple[float, bool]) -> CaptureCommand | list[CaptureCommand] | None:
+    """Return a command at stops so far apart; with True a number of captures is that of the stops."""
+    metres, many = dist
+    place, single = command.place, all(one.count in (None, 1) for one in command.things)
+    if command.spacing is not None or (place is not None and place.shape not in ("area", "those", "here")):
+        return None
+    if many and command.times > 1 and _is_uncounted(command):  # "three times, 15 m apart"
+        return replace(_counted(command, command.times), times=1, spacing=metres)
+    if many and not single:
+        return replace(command, spacing=metres)
+    once_each = replace(command, things=once(command.things), spacing=metres)
+    if single:
+        return once_each
+    counted = replace(command, spacing=metres)
+    if len(command.things) > 1 or command.things[0].count is None or place is None:
+        return None
+    return [counted, replace(once_each, times=command.things[0].count)]  # three stops, or three at every stop?
+
+
+def _at_points(command: CaptureCommand, points: tuple[int, float]) -> CaptureCommand | None:
+    if command.place is not None and command.place.shape != "area":
+        return None
+    return replace(_counted(command, points[0]), spacing=points[1])
+
+
+def _spread(command: CaptureCommand, where: s.Selector) -> CaptureCommand | None:
+    """Return a command at places spread over an area, as many as there are captures."""
+    count, zone = _only_count(command), as_zone(where)
+    if count is None or command.place is not None or (zone is not None and zone.outside):
+        return None
+    over_it = s.Spread(count=count, of=where) if zone is None else s.PointsIn(zone=zone.zone, count=count)
+    return replace(
+        command, things=once(command.things), place=PlaceMeaning(over_it, "several", count=count), relation="at"
+    )
+
+
+@construction("adjunct: dist=spaced", "adjunct: AT dist=spaced", cost=0.1)
+def at_spacing(dist: tuple[float, bool]) -> Adjunct:
+    """Compose "every 10 m" and "10 m apart"."""
+    return Adjunct(_spaced, dist, may_lead=True)
+
+
+@construction("adjunct: relation n=count POINT dist=spaced", cost=0.1)
+def at_points(n: int, dist: tuple[float, bool]) -> Adjunct:
+    """Compose "at 5 points every 10 m"."""
+    return Adjunct(_at_points, (n, dist[0]), may_lead=True)
+
+
+@construction(
+    "adjunct: SPREAD where=region",
+    "adjunct: SPREAD site",
+    "adjunct: EVENLYALONG site",
+    "adjunct: along=EVENLYALONG where=region",
+    cost=0.2,
+)
+def spread_over(where: s.Selector | None = None, along: Lex | None = None) -> Adjunct | None:
+    """Compose "spread over the pond zone"; along rows trees are evenly spaced instead."""
+    if along is not None and where is not None and are_rows(where):
+        return None
+    return Adjunct(_spread, where or s.Trees())
+
+
+@construction("clause: SCATTER things=things OVER where=region", "clause: SCATTER things=things OVER site", cost=0.2)
+def scattered(things: tuple[Thing, ...], where: s.Selector | None = None) -> Clause:
+    """Compose "scatter 4 readings over the wet corner"."""
+    return Clause("vt", things=things, adjuncts=(Adjunct(_spread, where or s.Trees()),))
+
+
+# In another case.
+
+
+def _instead(command: CaptureCommand, _: None) -> CaptureCommand:
+    return replace(command, instead=True)
+
+
+def _as_it_is(command: CaptureCommand, _: Any) -> CaptureCommand | None:
+    return command if command.place is not None else None
+
+
+@construction("adjunct: INSTEAD", cost=0.2)
+def instead() -> Adjunct:
+    """Compose "instead", in another case."""
+    return Adjunct(_instead)
+
+
+@construction("adjunct: BYGOING", cost=0.1)
+def by_going_there() -> Adjunct:
+    """Compose "by going to them"."""
+    return Adjunct(_as_it_is)
