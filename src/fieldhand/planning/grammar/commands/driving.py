@@ -22,7 +22,7 @@ from fieldhand.planning.grammar.meaning import (
     Thing,
 )
 from fieldhand.planning.grammar.places.compass import AWAY_FROM
-from fieldhand.planning.grammar.places.groups import at_random, both, of_each_kind
+from fieldhand.planning.grammar.places.groups import both, of_each_kind
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_some, is_row_of_place
 from fieldhand.site.model import Site
@@ -75,13 +75,6 @@ def on_to(after: Lex, word: Lex, place: PlaceMeaning, used: int) -> DriveCommand
     """Compose "then to tree 9" behind "drive to tree 4 and measure CO2"; "next to tree 9" is a place."""
     moves = "motion" in word.features and not {"names_place", "after_doing"} & after.features
     return DriveCommand(place, used) if moves and place.shape == "one" else None
-
-
-@construction("drive: RANDOMLY TAKE n=count inner=nominal", cost=0.2)
-def pick_at_random(n: int, inner: Nominal, used: int) -> DriveCommand | None:
-    """Compose "randomly select 10 trees"."""
-    place = at_random(inner, n)
-    return None if place is None else DriveCommand(place, used, picks=True)
 
 
 @construction("drive: verb=MEASURE place=place", "drive: verb=TAKE place=place", cost=2.0)

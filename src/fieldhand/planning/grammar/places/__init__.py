@@ -6,6 +6,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.places import (
     areas,
     choices,
+    chosen,
     groups,
     likewise,
     nouns,
@@ -18,5 +19,5 @@ from fieldhand.planning.grammar.places import (
 )
 
 GRAMMAR = Grammar()
-for _part in (numbers, numbered, nouns, areas, rows, positions, spots, groups, likewise, steps, choices):
+for _part in (numbers, numbered, nouns, areas, rows, positions, spots, groups, likewise, steps, chosen, choices):
     GRAMMAR.include(_part.GRAMMAR)

@@ -40,15 +40,6 @@ def some_of_them(word: Lex, inner: Nominal) -> list[PlaceMeaning] | None:
     return [PlaceMeaning(s.Take(count=n, of=inner.selector), "several", count=n) for n in VAGUE_NUMBERS]
 
 
-@construction("place: DET rank=ranking inner=nominal", cost=0.4)
-def some_of_the_best(rank: tuple[str, bool], inner: Nominal) -> list[PlaceMeaning] | None:
-    """Compose "the oldest trees": how many?"""
-    if not rank[0] or not inner.plural or inner.single or inner.complete:
-        return None
-    tops = (s.Top(attribute=rank[0], count=n, lowest=rank[1], of=inner.selector) for n in VAGUE_NUMBERS)
-    return [PlaceMeaning(top, "several", count=top.count) for top in tops]
-
-
 @construction("place: word=EACH n=count inner=nominal", cost=0.3, given=("site",))
 def all_so_many_there(word: Lex, n: int, inner: Nominal, site: Site) -> list[PlaceMeaning] | None:
     """Compose "all 12 yellow trees" where there are others, too."""

@@ -162,57 +162,6 @@ def points_over(n: int, zone: Lex) -> PlaceMeaning:
     return PlaceMeaning(s.PointsIn(zone=zone.value, count=n), "several", count=n)
 
 
-@construction(
-    "place: n=count inner=nominal SPREAD where=region",
-    "place: n=count inner=nominal SPREAD site",
-    "place: n=count inner=nominal [COMMA] FARAPART",
-    "place: n=count inner=nominal [COMMA] FARAPART in_ where=region",
-    "place: n=count inner=nominal [COMMA] FARAPART in_ site",
-    "place: n=count FARAPART inner=nominal",
-    cost=0.2,
-)
-def trees_spread(n: int, inner: Nominal, where: s.Selector | None = None) -> PlaceMeaning | None:
-    """Compose "five trees spread over the northern half"."""
-    if inner.single or not chooses_from_trees(inner.selector):
-        return None
-    of = inner.selector if where is None else over(inner.selector, where)
-    return PlaceMeaning(s.Spread(count=n, of=of), "several", count=n)
-
-
-@construction(
-    "place: [DET] n=count inner=nominal RANDOM in_ site",
-    "place: [DET] n=count inner=nominal RANDOM SPREAD site",
-    "place: [DET] n=count inner=nominal RANDOM over_site",
-    cost=0.1,
-)
-def at_random_anywhere(n: int, inner: Nominal) -> PlaceMeaning | None:
-    """Compose "five trees at random in the orchard"."""
-    return at_random(inner, n)
-
-
-@construction("over_site: word=OPPOSITE site", cost=0.2)
-def across_the_site(word: Lex) -> str | None:
-    """Compose "across the orchard"."""
-    return "site" if "across" in word.features else None
-
-
-@construction(
-    "place: [DET] n=count RANDOM inner=nominal",
-    "place: DET RANDOM inner=nominal",
-    "place: DET RANDOM inner=nominal in_ where=region",
-    "place: [DET] SAMPLE OF n=count inner=nominal",
-    "place: [DET] n=count inner=nominal RANDOM",
-    "place: [DET] n=count inner=nominal RANDOM in_ where=region",
-    cost=0.2,
-)
-def at_random(inner: Nominal, n: int = 1, where: s.Selector | None = None) -> PlaceMeaning | None:
-    """Compose "five random trees"."""
-    if inner.single or inner.complete or inner.plural != (n > 1):
-        return None
-    of = inner.selector if where is None else over(inner.selector, where)
-    return PlaceMeaning(s.RandomSample(count=n, of=of), "one" if n == 1 else "several", count=n)
-
-
 @construction("place: ASMANY [DET] inner=nominal as_can", cost=0.2)
 def as_many(inner: Nominal) -> PlaceMeaning | None:
     """Compose "as many trees as you can"."""
@@ -258,19 +207,6 @@ def another(inner: Nominal) -> Nominal | None:
     if inner.single or inner.plural or inner.complete:
         return None
     return replace(inner, selector=s.Take(count=1, of=_unvisited(inner.selector)), single=True)
-
-
-@construction(
-    "place: n=count OTHER inner=nominal",
-    "place: n=count MORE inner=nominal",
-    "place: DET OTHER n=count inner=nominal",
-    cost=0.2,
-)
-def others(n: int, inner: Nominal) -> PlaceMeaning | None:
-    """Compose "three other trees"."""
-    if inner.single:
-        return None
-    return PlaceMeaning(s.Take(count=n, of=_unvisited(inner.selector)), "several" if n > 1 else "one", count=n)
 
 
 def _unvisited(selector: s.Selector) -> s.Selector:
@@ -576,6 +512,12 @@ def the_same(noun: Lex) -> PlaceMeaning:
     """Compose "the same trees"."""
     several = noun.plural or "plural" in noun.features
     return PlaceMeaning(s.Here(), "those") if several else PlaceMeaning(s.Here(), "here", one_tree=True)
+
+
+@construction("owned_by: ITS", cost=0.1)
+def its() -> PlaceMeaning:
+    """Compose "its", of the place spoken of."""
+    return PlaceMeaning(s.Here(), "here")
 
 
 @construction("place: word=IT", cost=0.3)

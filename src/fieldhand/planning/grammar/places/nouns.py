@@ -12,7 +12,6 @@ from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.words import Lex, hinted_attributes
 from fieldhand.planning.selections import (
     as_every_nth,
-    as_top,
     chooses_from_trees,
 )
 from fieldhand.site.model import Site
@@ -425,14 +424,6 @@ def extreme(side: Lex, inner: Nominal) -> Nominal | None:
     return replace(inner, selector=made, single=not inner.plural)
 
 
-@construction("place: [DET] n=count side=MOST inner=nominal", "place: DET side=MOST n=count inner=nominal", cost=0.2)
-def so_many_extreme(n: int, side: Lex, inner: Nominal) -> PlaceMeaning | None:
-    """Compose "the 3 northernmost trees"."""
-    if inner.single or inner.complete or side.value in CORNERS or n < 2:
-        return None
-    return PlaceMeaning(s.Extreme(side=side.value, count=n, of=inner.selector), "several", count=n)
-
-
 @construction(
     "place: [DET] first=MOST AND second=MOST inner=nominal",
     "place: [DET] first=MOST AND DET second=MOST inner=nominal",
@@ -482,24 +473,6 @@ def ranking_of(rank: tuple[str, bool], attribute: Lex) -> list[tuple[str, bool]]
 
 
 @construction(
-    "place: [DET] n=count rank=ranking inner=nominal",
-    "place: DET rank=ranking n=count inner=nominal",
-    "place: [DET] n=count inner=nominal [WHICH] WITH DET rank=ranking",
-    "place: [DET] rank=ranking inner=nominal",
-    "owned_by: [DET] rank=ranking inner=owner",
-    "place: [DET] inner=nominal [WHICH] WITH DET rank=ranking",
-)
-def ranked(rank: tuple[str, bool], inner: Nominal, n: int | None = None) -> PlaceMeaning | None:
-    """Compose "the five oldest trees" and "5 trees with the highest yield"."""
-    name, lowest = rank
-    number = n or (None if inner.plural else 1)
-    if not name or number is None or inner.single or inner.complete:
-        return None
-    selector = s.Top(attribute=name, count=number, lowest=lowest, of=inner.selector)
-    return PlaceMeaning(selector, "one") if number == 1 else PlaceMeaning(selector, "several", count=number)
-
-
-@construction(
     "two_rankings: first=ranking AND [DET] [m=count] second=ranking",
     "two_behind: WITH DET first=ranking AND [DET] [TREE] [WITH] [DET] second=ranking",
     cost=0.1,
@@ -532,61 +505,10 @@ def two_ranked(best: tuple[str, bool, bool, int | None], inner: Nominal, n: int 
     return PlaceMeaning(s.UnionOf(parts=parts), "several", count=sum(counts))
 
 
-@construction(
-    "place: [DET] [n=count] inner=nominal WHICH ATTRVERB [DET] best=ranking",
-    "place: [DET] best=ranking [n=count] YIELDER",
-    "place: [DET] n=count best=ranking YIELDER",
-    cost=0.2,
-    given=("site",),
-)
-def that_yielded(
-    best: tuple[str, bool], site: Site, n: int = 1, inner: Nominal | None = None
-) -> list[PlaceMeaning] | None:
-    """Compose "the ten trees that yielded the least" and "the top 10 yielders"."""
-    if best[0] or (inner is not None and (inner.single or inner.complete or inner.plural != (n > 1))):
-        return None
-    of = s.Trees() if inner is None else inner.selector
-    return [
-        PlaceMeaning(s.Top(attribute=name, count=n, lowest=best[1], of=of), "one" if n == 1 else "several", count=n)
-        for name in hinted_attributes("yield", site)
-    ]
-
-
-@construction("place: best=place in_ where=region", cost=0.4)
-def best_in(best: PlaceMeaning, where: s.Selector) -> PlaceMeaning | None:
-    """Compose "the 20 vines with the lowest vigor in the south block"."""
-    top = as_top(best.selector)
-    if top is None or top.of != s.Trees() or best.per is not None or best.each:
-        return None
-    return replace(best, selector=replace(top, of=where))
-
-
 @construction("nominal: EVERYTHING", cost=0.2)
 def everything() -> Nominal:
     """Compose "everything"."""
     return Nominal(s.Trees(), plural=True)
-
-
-@construction("nominal: rank=ORD side=MOST inner=nominal", cost=0.1)
-def nth_extreme(rank: Lex, side: Lex, inner: Nominal) -> Nominal | None:
-    """Compose "second northernmost tree"."""
-    if inner.single or inner.complete or inner.plural or side.value in CORNERS or rank.value < 2:
-        return None
-    further = s.Extreme(side=side.value, count=rank.value - 1, of=inner.selector)
-    of = s.Excluding(places=further, of=inner.selector)
-    return replace(inner, selector=s.Extreme(side=side.value, of=of), single=True)
-
-
-@construction(
-    "nominal: rank=ORD best=ranking inner=nominal", "nominal: inner=nominal WITH DET rank=ORD best=ranking", cost=0.1
-)
-def nth_ranked(rank: Lex, best: tuple[str, bool], inner: Nominal) -> Nominal | None:
-    """Compose "second oldest tree"."""
-    if inner.single or inner.complete or inner.plural or not best[0] or rank.value < 2:
-        return None
-    better = s.Top(attribute=best[0], count=rank.value - 1, lowest=best[1], of=inner.selector)
-    of = s.Excluding(places=better, of=inner.selector)
-    return replace(inner, selector=s.Top(attribute=best[0], count=1, lowest=best[1], of=of), single=True)
 
 
 @construction("nominal: side=DIR inner=nominal", cost=0.3)
@@ -623,21 +545,3 @@ def not_in_area(inner: Nominal, where: s.Selector) -> Nominal | None:
     if inner.single or inner.complete:
         return None
     return replace(inner, selector=s.Excluding(places=where, of=inner.selector), tested=True)
-
-
-@construction(
-    "place: [DET] best=ranking [n=count] inner=nominal BY attribute=ATTR",
-    "place: [DET] n=count best=ranking inner=nominal BY attribute=ATTR",
-    "place: [DET] n=count inner=nominal WITH DET best=ranking attribute=ATTR",
-    cost=0.1,
-)
-def ranked_by(best: tuple[str, bool], inner: Nominal, attribute: Lex, n: int = 1) -> list[PlaceMeaning] | None:
-    """Compose "the bottom 4 trees by yield"."""
-    if best[0] or inner.single or inner.complete or inner.plural != (n > 1):
-        return None
-    return [
-        PlaceMeaning(
-            s.Top(attribute=name, count=n, lowest=best[1], of=inner.selector), "one" if n == 1 else "several", count=n
-        )
-        for name in attribute.value
-    ]

@@ -513,14 +513,6 @@ def trees_in_a_row(n: int, inner: Nominal, word: Lex, noun: Lex) -> PlaceMeaning
     return PlaceMeaning(s.Successive(count=n, of=inner.selector), "several", count=n)
 
 
-@construction("place: n=count CONSECUTIVE inner=nominal", cost=0.1)
-def consecutive(n: int, inner: Nominal) -> PlaceMeaning | None:
-    """Compose "four consecutive trees"."""
-    if inner.single or inner.complete or n < 2:
-        return None
-    return PlaceMeaning(s.Successive(count=n, of=inner.selector), "several", count=n)
-
-
 @construction(
     "place: [DET] TREE AT DET noun=FINISH in_ rows=rows",
     "place: DET noun=FINISH OF rows=rows",
@@ -565,32 +557,6 @@ def every_so_many(word: Lex, n: int, inner: Nominal) -> PlaceMeaning | None:
     if n < 2 or inner.tested or inner.kind != "tree":
         return None
     return PlaceMeaning(s.EveryNth(nth=n, of=inner.selector), "several", each=True)
-
-
-@construction(
-    "place: [DET] n=count inner=nominal OUTOF EACH m=count [TREE]",
-    "place: [DET] n=count inner=nominal OUTOF EACH m=count TREE in_ rows=rows",
-    "place: [DET] n=count OUTOF EACH m=count inner=nominal",
-    "place: [DET] n=count OF EACH m=count inner=nominal",
-    "place: [DET] n=count AT EACH m=count inner=nominal",
-    "place: n=count inner=nominal word=AT m=count",
-    "place: n=count inner=nominal word=AT m=count in_ rows=rows",
-    cost=0.1,
-)
-def some_of_every(
-    n: int, inner: Nominal, m: int, rows: s.Selector | None = None, word: Lex | None = None
-) -> PlaceMeaning | None:
-    """Compose "one tree out of every three", "3 of every 5 trees" and "one tree in three"."""
-    if word is not None and "in_time" not in word.features:
-        return None
-    if n >= m or inner.single or inner.complete or inner.kind != "tree":
-        return None
-    if rows is not None and not chooses_from_trees(inner.selector):
-        return None
-    of = inner.selector if rows is None else over(inner.selector, rows)
-    if n == 1:
-        return PlaceMeaning(s.EveryNth(nth=m, of=of), "several", each=True)
-    return PlaceMeaning(s.Evenly(count=n, out_of=m, of=of), "several")
 
 
 @construction(

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Literal
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Amount, Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import as_along_row, as_apart, as_nearest, as_zone, chooses_from_trees, is_spot, over
+from fieldhand.planning.selections import as_zone, chooses_from_trees, over
 from fieldhand.site.model import Site
 from fieldhand.terms import CountedFrom, Side, Towards
 
@@ -22,32 +21,6 @@ construction = GRAMMAR.construction
 Distance = tuple[float, float | None, PlaceMeaning]
 #: Any tree, where no noun says so.
 _ANY_TREE = Nominal(s.Trees())
-
-
-@construction(
-    "place: [DET] n=count OTHER inner=nominal NEARBY", "place: [DET] n=count OTHER NEARBY inner=nominal", cost=0.2
-)
-def others_nearby(n: int, inner: Nominal) -> PlaceMeaning | None:
-    """Compose "three different trees nearby"."""
-    return nearby(replace(inner, selector=s.NotVisited(of=inner.selector)), n)
-
-
-@construction(
-    "place: DET NEARBY inner=nominal",
-    "place: DET inner=nominal NEARBY",
-    "place: [n=count] NEARBY inner=nominal",
-    "place: [n=count] inner=nominal NEARBY",
-    cost=0.2,
-)
-def nearby(inner: Nominal, n: int | None = None) -> PlaceMeaning | None:
-    """Compose "a nearby tree" and "three nearby trees"."""
-    if inner.single or inner.complete:
-        return None
-    number = n or (None if inner.plural else 1)
-    if number is None:
-        return PlaceMeaning(s.Nearest(to=s.Here(), count=2, fresh=True, of=inner.selector), "nearby")
-    selector = s.Nearest(to=s.Here(), count=number, fresh=True, of=inner.selector)
-    return PlaceMeaning(selector, "one" if number == 1 else "several", count=number)
 
 
 @construction(
@@ -74,48 +47,6 @@ def another_far_away(inner: Nominal) -> Nominal | None:
 
 
 @construction(
-    "place: n=count inner=nominal ADJACENT",
-    "place: n=count ADJACENT inner=nominal",
-    "place: n=count inner=nominal ADJACENT in_ to=place",
-    "place: n=count inner=nominal ADJACENT NEAR to=place",
-    "place: n=count ADJACENT inner=nominal in_ to=place",
-    "place: n=count ADJACENT inner=nominal NEAR to=place",
-    cost=0.2,
-)
-def adjacent(n: int, inner: Nominal, to: PlaceMeaning | None = None) -> PlaceMeaning | None:
-    """Compose "three trees next to each other" and "three adjacent trees in the middle of the orchard"."""
-    if inner.single or inner.complete or n < 2 or (to is not None and to.shape != "one"):
-        return None
-    near = s.Here() if to is None else to.selector
-    return PlaceMeaning(s.Adjacent(near=near, count=n, of=inner.selector), "several", count=n)
-
-
-@construction("place: n=count inner=nominal NEAREACH", "place: n=count NEAREACH inner=nominal", cost=0.2)
-def adjoining(n: int, inner: Nominal) -> PlaceMeaning | None:
-    """Compose "three adjoining trees"."""
-    return (
-        None
-        if inner.single or n < 2
-        else PlaceMeaning(s.Adjacent(near=s.Here(), count=n, of=inner.selector), "several", count=n)
-    )
-
-
-@construction(
-    "place: [DET] inner=nominal near=NEXTTO to=place",
-    "place: [DET] inner=nominal near=BESIDE to=place",
-    "place: [DET] inner=nominal near=NEAR to=place",
-    cost=0.2,
-)
-def those_beside(inner: Nominal, near: Lex, to: PlaceMeaning) -> list[PlaceMeaning] | None:
-    """Compose "the trees next to tree 12": how many?"""
-    around = "surrounds" in near.features
-    if not inner.plural or to.shape not in ("one", "here") or ("beside" not in near.features and not around):
-        return None
-    found = (next_to(inner, to, number) for number in ((4, 8) if around else (2, 4)))
-    return [one for one in found if one is not None]
-
-
-@construction(
     "place: [DET] inner=nominal near=NEAR to=place",
     "place: [DET] inner=nominal near=NEXTTO to=place",
     "place: [DET] inner=nominal near=ALONG to=place",
@@ -131,85 +62,12 @@ def somewhere_near(inner: Nominal, near: Lex, to: PlaceMeaning) -> PlaceMeaning 
     return PlaceMeaning(s.Nearest(to=to.selector, of=inner.selector), "unknown")
 
 
-@construction(
-    "place: [DET] [n=count] inner=nominal NEXTTO to=place",
-    "place: [DET] [n=count] inner=nominal BESIDE to=place",
-    cost=0.2,
-)
-def next_to(
-    inner: Nominal, to: PlaceMeaning, n: int | None = None, side: Side | Literal["any"] = "any"
-) -> PlaceMeaning | None:
-    """Compose "the two trees next to tree 12"."""
-    number = n or (None if inner.plural else 1)
-    beside_zone = to.shape == "area" and side == "any" and as_zone(to.selector) is not None
-    if number is None or inner.single or inner.kind != "tree" or not (to.shape in ("one", "here") or beside_zone):
-        return None
-    selector = s.Nearest(to=to.selector, count=number, adjacent=not beside_zone, side=side, of=inner.selector)
-    return _beside(to, PlaceMeaning(selector, "one" if number == 1 else "several", count=number))
-
-
 @construction("on_side: AT DET side=DIR [part=SIDE]", "on_side: side=DIR", cost=0.1)
 def on_side(side: Lex, part: Lex | None = None) -> Side | None:
     """Compose "on the east", "to its north" and "north"."""
     if "adjective" in side.features:
         return None
     return side.value if side.value in SIDES and (part is None or "borders" in part.features) else None
-
-
-@construction(
-    "place: [DET] inner=nominal NEXTTO to=place side=on_side",
-    "place: [DET] inner=nominal BESIDE to=place side=on_side",
-    "place: [DET] inner=nominal NEXTTO to=place TREE side=on_side",
-    "place: DET inner=nominal side=on_side OF to=place",
-    cost=0.2,
-)
-def next_to_on_side(inner: Nominal, to: PlaceMeaning, side: Side) -> PlaceMeaning | None:
-    """Compose "the tree next to it on the east" and "the tree to the north of it"."""
-    return next_to(inner, to, 1, side) if not inner.plural and inner.selector == s.Trees() else None
-
-
-@construction(
-    "place: [DET] [n=count] noun=NEIGHBOUR OF to=place",
-    "place: [DET] [n=count] noun=NEIGHBOUR OF to=place in_ rows=rows",
-    "place: to=owned_by [n=count] noun=NEIGHBOUR",
-    "place: to=owned_by [n=count] noun=NEIGHBOUR in_ rows=rows",
-    "place: DET [n=count] noun=NEIGHBOUR",
-    "place: DET [n=count] noun=NEIGHBOUR in_ rows=rows",
-    cost=0.2,
-)
-def neighbours(
-    noun: Lex, n: int | None = None, to: PlaceMeaning | None = None, rows: s.Selector | None = None
-) -> PlaceMeaning | list[PlaceMeaning] | None:
-    """Compose "the two neighbours of tree 12" and "its neighbours in the same row"."""
-    plural = "plural" in noun.features
-    if (plural and n == 1) or (n or 1) > (1 if not plural else n or 1):
-        return None
-    of = to or PlaceMeaning(s.Here(), "here")
-    row = s.Trees() if rows is None else s.RowOf(origin=of.selector) if rows == s.RowOf() else rows
-    found = [
-        next_to(Nominal(row, plural=plural), of, number)
-        for number in ((n,) if n is not None or not plural else (2,) if rows is not None else (2, 4))
-    ]
-    return [one for one in found if one is not None]
-
-
-@construction(
-    "place: [DET] side=DIR noun=NEIGHBOUR [OF] to=place",
-    "place: DET side=DIR noun=NEIGHBOUR",
-    "place: to=owned_by side=DIR noun=NEIGHBOUR",
-    "place: [DET] noun=NEIGHBOUR OF to=place beside=on_side",
-    "place: [DET] noun=NEIGHBOUR beside=on_side OF to=place",
-    "place: DET noun=NEIGHBOUR beside=on_side",
-    cost=0.2,
-)
-def neighbour_on_side(
-    noun: Lex, side: Lex | None = None, beside: Side | None = None, to: PlaceMeaning | None = None
-) -> PlaceMeaning | None:
-    """Compose "the southern neighbour of tree 12" and "its neighbour to the east"."""
-    where = beside if side is None else side.value
-    if where is None or where not in SIDES or "plural" in noun.features:
-        return None
-    return next_to(Nominal(s.Trees()), to or PlaceMeaning(s.Here(), "here"), 1, where)
 
 
 @construction(
@@ -314,56 +172,6 @@ def next_tree(way: Towards = "down", rows: s.Selector | None = None) -> PlaceMea
     return PlaceMeaning(s.AlongRow(trees=1, towards=way), "one")
 
 
-@construction(
-    "place: [DET] [n=count] inner=nominal NEAREST [AT] to=place",
-    "place: [DET] n=count NEAREST inner=nominal AT to=place",
-    "place: [DET] NEAREST inner=nominal AT to=place",
-    "place: [DET] NEAREST inner=nominal OF to=place",
-    "place: [DET] [n=count] inner=nominal [which_is] NEAREST AT to=place",
-    "place: [DET] [n=count] inner=nominal near=NEAR to=place",
-    "place: to=owned_by [n=count] NEAREST [inner=nominal]",
-    "place: DET NEAREST OF to=place",
-    cost=0.3,
-)
-def nearest(
-    to: PlaceMeaning, inner: Nominal = _ANY_TREE, n: int | None = None, near: Lex | None = None
-) -> PlaceMeaning | None:
-    """Compose "the two trees nearest to the charger"."""
-    if near is not None and "surrounds" in near.features:
-        return None if n is None else next_to(inner, to, n)
-    if near is not None and "nearest" not in near.features and n is None and inner.plural:
-        return None
-    number = n or (None if inner.plural else 1)
-    if number is None or inner.single or number >= (inner.complete or number + 1):
-        return None
-    if to.shape not in ("one", "here", "area"):
-        return None
-    origin = to.selector
-    if to.shape == "area" and as_zone(origin) is None:
-        return None
-    if origin == s.Middle() and number == 1 and inner.selector == s.Trees():
-        return None  # that is the middle itself
-    selector: s.Selector = s.Nearest(to=origin, count=number, of=inner.selector)
-    if is_spot(origin):
-        selector = s.Adjacent(near=origin, count=number, of=inner.selector)
-    return _beside(to, PlaceMeaning(selector, "one" if number == 1 else "several", count=number))
-
-
-@construction(
-    "place: [DET] [n=count] FARTHEST inner=nominal FROM to=place",
-    "place: [DET] [n=count] inner=nominal [which_is] FARTHEST FROM to=place",
-    cost=0.3,
-)
-def farthest(inner: Nominal, to: PlaceMeaning, n: int | None = None) -> PlaceMeaning | None:
-    """Compose "the tree farthest from the charger"."""
-    number = n or (None if inner.plural else 1)
-    zone = to.shape == "area" and as_zone(to.selector) is not None
-    if number is None or inner.single or inner.complete or not (to.shape in ("one", "here") or zone):
-        return None
-    selector = s.Farthest(origin=to.selector, count=number, of=inner.selector)
-    return _beside(to, PlaceMeaning(selector, "one" if number == 1 else "several", count=number))
-
-
 def _beside(to: PlaceMeaning, found: PlaceMeaning) -> PlaceMeaning:
     """Return a place near another one, which may be one spoken of before."""
     return replace(found, beside=to.shape == "here")
@@ -422,7 +230,7 @@ def distance(
     return (far.number, None, to) if check.value[0] in ("gt", "ge") else None
 
 
-def _at_distance(of: s.Selector, at: Distance) -> s.Selector | None:
+def at_distance(of: s.Selector, at: Distance) -> s.Selector | None:
     """Return the trees of a selection within or beyond a distance of a place."""
     low, high, to = at
     if (zone := as_zone(to.selector)) is not None:
@@ -442,7 +250,7 @@ def _at_distance(of: s.Selector, at: Distance) -> s.Selector | None:
 )
 def within(inner: Nominal, at: Distance, n: int | None = None) -> PlaceMeaning | None:
     """Compose "all trees within 20 m of the charger" and "three trees within 20 m of the charger"."""
-    there = _at_distance(inner.selector, at)
+    there = at_distance(inner.selector, at)
     if there is None or inner.single or (n is not None and inner.complete):
         return None
     if n is None and at[2].shape == "here" and not inner.plural:
@@ -455,98 +263,10 @@ def within(inner: Nominal, at: Distance, n: int | None = None) -> PlaceMeaning |
 @construction("place: word=DET inner=nominal at=distance", cost=0.2)
 def one_beyond_place(word: Lex, inner: Nominal, at: Distance) -> PlaceMeaning | None:
     """Compose "a tree at least 20 m away from it"."""
-    there = _at_distance(inner.selector, at)
+    there = at_distance(inner.selector, at)
     if there is None or inner.single or inner.plural or "indefinite" not in word.features or at[1] is not None:
         return None
     return _beside(at[2], PlaceMeaning(s.Take(count=1, of=there), "one"))
-
-
-@construction(
-    "place: DET n=count NEAREST inner=nominal",
-    "place: DET NEAREST inner=nominal",
-    "place: DET n=count inner=nominal NEAREST",
-    cost=0.4,
-)
-def nearest_here(inner: Nominal, n: int | None = None) -> PlaceMeaning | None:
-    """Compose "the three nearest trees"."""
-    number = n or (None if inner.plural else 1)
-    if number is None or inner.single or inner.complete or inner.kind != "tree":
-        return None
-    selector = s.Nearest(to=s.Here(), count=number, of=inner.selector)
-    return PlaceMeaning(selector, "one" if number == 1 else "several", count=number)
-
-
-@construction(
-    "place: [DET] rank=ORD inner=nominal [which_is] NEAREST AT to=place",
-    "place: [DET] rank=ORD NEAREST inner=nominal AT to=place",
-    cost=0.1,
-)
-def nth_nearest(rank: Lex, inner: Nominal, to: PlaceMeaning) -> PlaceMeaning | None:
-    """Compose "the 5th tree in row 3 nearest to the charger"."""
-    if rank.value < 2 or inner.single or inner.plural or inner.complete or to.shape != "one":
-        return None
-    nearer = s.Nearest(to=to.selector, count=rank.value - 1, of=inner.selector)
-    return PlaceMeaning(s.Nearest(to=to.selector, of=s.Excluding(places=nearer, of=inner.selector)), "one")
-
-
-@construction("place: near=place in_ where=region", cost=0.4)
-def nearest_in(near: PlaceMeaning, where: s.Selector) -> PlaceMeaning | None:
-    """Compose "the 3 trees nearest to the charger in the northern half"."""
-    apart = as_apart(near.selector)
-    if apart is not None and apart.of == s.Trees():
-        return replace(near, selector=replace(apart, of=where))  # "five trees 25 m apart in row 2"
-    nearest = as_nearest(near.selector)
-    if nearest is None or nearest.of != s.Trees() or not nearest.to.named_marker or nearest.adjacent:
-        return None
-    return replace(near, selector=replace(nearest, of=where))
-
-
-@construction("place: near=place in_ rows=rows", cost=0.2)
-def near_in_row(near: PlaceMeaning, rows: s.Selector) -> PlaceMeaning | None:
-    """Compose "the tree next to it in the same row" and "the two trees north of it in the row"."""
-    if rows != s.RowOf():
-        return None
-    steps = near.selector.members
-    if all(as_along_row(step) is not None for step in steps):
-        return near
-    nearest = as_nearest(near.selector)
-    if nearest is None or nearest.of != s.Trees() or near.shape not in ("one", "several"):
-        return None
-    return replace(near, selector=replace(nearest, of=s.RowOf(origin=nearest.to)))
-
-
-@construction(
-    "place: [DET] n=count inner=nominal NEAREST [AT] to=place [COMMA] AND [AT] DET m=count [TREE] FARTHEST FROM IT",
-    "place: [DET] n=count inner=nominal NEAREST [AT] to=place [COMMA] AND [AT] DET m=count FARTHEST",
-    cost=0.2,
-)
-def nearest_and_farthest(n: int, m: int, inner: Nominal, to: PlaceMeaning) -> PlaceMeaning | None:
-    """Compose "the three trees nearest to the pond and the three farthest from it"."""
-    ends = nearest(to, inner, n), farthest(inner, to, m)
-    if ends[0] is None or ends[1] is None:
-        return None
-    return PlaceMeaning(s.UnionOf(parts=(ends[0].selector, ends[1].selector)), "several", count=n + m)
-
-
-@construction(
-    "place: n=count inner=nominal [COMMA] [EACH] dist=apart",
-    "place: n=count inner=nominal [COMMA] WHICH dist=apart",
-    "place: n=count inner=nominal [COMMA] ABOUT dist=apart",
-    "place: n=count inner=nominal [COMMA] [EACH] least=apart_least",
-    "place: n=count inner=nominal [COMMA] WHICH least=apart_least",
-    "place: n=count other=OTHER inner=nominal [COMMA] [EACH] dist=apart",
-    "place: n=count other=OTHER inner=nominal [COMMA] [EACH] least=apart_least",
-    cost=0.2,
-)
-def trees_apart(
-    n: int, inner: Nominal, dist: float | None = None, least: float | None = None, other: Lex | None = None
-) -> PlaceMeaning | None:
-    """Compose "four trees of row 3, each 12 m from the next"."""
-    if inner.single or inner.complete or n < 2:
-        return None
-    of = inner.selector if other is None else s.NotVisited(of=inner.selector)
-    apart = s.Apart(apart_m=dist or least or 0.0, count=n, least=least is not None, of=of)
-    return PlaceMeaning(apart, "several", count=n)
 
 
 @construction("place: whole=place [COMMA] [which_is] at=distance", cost=0.3)
@@ -557,7 +277,7 @@ def those_within(whole: PlaceMeaning, at: Distance) -> PlaceMeaning | None:
         return None
     if whole.count is not None or whole.per is not None or not chooses_from_trees(whole.selector):
         return None
-    there = _at_distance(whole.selector, at)
+    there = at_distance(whole.selector, at)
     return None if there is None else replace(whole, selector=there)
 
 

@@ -13,7 +13,7 @@ from fieldhand.planning.grammar import commands, places
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands import conditions, driving, limits, spacing, things
 from fieldhand.planning.grammar.meaning import Amount, CaptureCommand, Nominal, PlaceMeaning, Thing
-from fieldhand.planning.grammar.places import groups, nouns, numbers, positions, rows, spots, steps
+from fieldhand.planning.grammar.places import chosen, groups, nouns, numbers, positions, rows, spots, steps
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import over
@@ -53,16 +53,10 @@ construction(
     "place: whole=place WHICH [IS] test=attribute_test", "place: whole=place WHICH [IS] test=quality", cost=0.3
 )(nouns.those_with_attribute)
 construction("nominal: inner=nominal side=MOST", cost=0.2)(nouns.extreme)
-construction("best: [DET] n=count inner=nominal side=MOST", cost=0.2)(nouns.so_many_extreme)
+construction("chosen_as: side=MOST", cost=0.1)(chosen.by_side)
 construction("rows: [DET] [n=count] noun=ROW side=MOST", cost=0.1)(rows.outermost_rows)
 construction("ranking: attribute=ATTR rank=ranking", cost=0.0)(nouns.ranking_of)
-construction(
-    "best: [DET] n=count inner=nominal rank=ranking",
-    "best: [DET] inner=nominal rank=ranking",
-    "best: [DET] n=count inner=nominal WITH rank=ranking",
-    "best: [DET] n=count inner=nominal OF [DET] rank=ranking",
-    "best: [DET] inner=nominal OF [DET] rank=ranking",
-)(nouns.ranked)
+construction("chosen_as: [WITH] rank=ranking", "chosen_as: OF [DET] rank=ranking", cost=0.1)(chosen.by_attribute)
 construction("region: [DET] HALF side=DIR", "region: [DET] SIDE side=DIR", cost=0.2)(places.areas.half)
 construction("region: [DET] QUARTER side=DIR", cost=0.2)(places.areas.quarter)
 construction("region: [DET] EDGE side=DIR", cost=0.2)(places.areas.edge)
@@ -73,14 +67,9 @@ construction("edge_side: EDGE side=DIR", "edge_side: SIDE side=DIR", "edge_side:
 )
 construction("corner_at: noun=CORNER side=DIR", cost=0.0)(spots.corner_at)
 construction("place: [DET] FINISH side=DIR in_ rows=rows", cost=0.1)(positions.end_of_row)
-construction("place: DET inner=nominal NEARBY", cost=0.2)(steps.nearby)
 construction("nominal: inner=nominal OTHER", cost=0.2)(groups.another)
-construction("place: n=count inner=nominal OTHER NEARBY", "place: n=count inner=nominal NEARBY OTHER", cost=0.2)(
-    steps.others_nearby
-)
 construction("nominal: ANOTHER inner=nominal OTHER", cost=0.1)(groups.another)
-construction("place: n=count inner=nominal OTHER", "place: OTHER n=count inner=nominal", cost=0.2)(groups.others)
-construction("place: n=count inner=nominal CONSECUTIVE", cost=0.1)(positions.consecutive)
+construction("chosen: chosen=chosen OTHER", cost=0.1)(chosen.others)
 construction("rows: [DET] noun=ROW ODD", "rows: each=EACH noun=ROW ODD", cost=0.1)(rows.odd_rows)
 construction("rows: [DET] noun=ROW EVEN", "rows: each=EACH noun=ROW EVEN", cost=0.1)(rows.even_rows)
 construction("rows: DET rows=row_list", cost=0.1)(rows.listed_rows)
@@ -149,12 +138,6 @@ construction("drive: GO OF place=place", cost=0.6)(driving.drive_to)
 def with_article(inner: Amount) -> Amount:
     """Compose "el 30 %"."""
     return inner
-
-
-@construction("place: best=best", "place: best=best in_ where=region", cost=0.1)
-def best_of_area(best: PlaceMeaning, where: s.Selector | None = None) -> PlaceMeaning:
-    """Compose "los cinco árboles más viejos de la mitad sur"."""
-    return best if where is None else replace(best, selector=over(best.selector, where))
 
 
 @construction("to_it: word=ATHIM", cost=0.1)

@@ -1,0 +1,584 @@
+"""Constructions of chosen trees: how many of a description, and how they are chosen, whatever the order of the words.
+
+The words before and behind the noun each add one thing: a number, a choice ("nearest to the pond", "at random"), an
+area, a distance. :func:`places_of` puts them together, so no construction lists their orders.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Literal
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
+from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
+from fieldhand.planning.grammar.places.numbers import VAGUE_NUMBERS
+from fieldhand.planning.grammar.places.steps import Distance
+from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.selections import (
+    are_rows,
+    as_along_row,
+    as_nearest,
+    as_zone,
+    chooses_from_trees,
+    is_one_row,
+    is_spot,
+    measures_distance,
+    over,
+)
+from fieldhand.site.model import Site
+from fieldhand.terms import Side
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+#: Ways to choose among trees.
+By = Literal[
+    "extreme", "best", "nearest", "beside", "around", "farthest", "nearby", "random", "spread", "evenly", "in a run",
+    "adjacent", "apart", "of every",
+]  # fmt: skip
+#: Choices of which the k-th is one: "the second oldest".
+_RANKED = ("extreme", "best", "nearest", "farthest")
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """How trees are chosen among those of a description.
+
+    Attributes:
+        by: Way to choose.
+        value: What the way needs beside places: a side, an attribute, a distance.
+        to: Place that they are near to or far from; None for the place where the robot is.
+    """
+
+    by: By
+    value: Any = None
+    to: PlaceMeaning | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Chosen:
+    """Trees of a description with what is said of their number and choice.
+
+    Attributes:
+        inner: Description.
+        count: Number, if it is given.
+        rank: Which one in the order of the choice ("second oldest").
+        choice: How they are chosen, if it is said.
+        unvisited: True for trees that the robot has not visited ("three other trees").
+        near: Distance from a place, within which or beyond which they are.
+        neighbours: True for "neighbours", whose place may be the one in hand.
+        preceded: True if words before the noun were added; those behind it come first.
+    """
+
+    inner: Nominal
+    count: int | None = None
+    rank: int | None = None
+    choice: Choice | None = None
+    unvisited: bool = False
+    near: Distance | None = None
+    neighbours: bool = False
+    preceded: bool = False
+
+
+@construction("chosen: inner=nominal", cost=0.1)
+def described(inner: Nominal) -> Chosen | None:
+    """Compose "yellow trees"."""
+    return None if inner.single or (inner.kind != "tree" and not inner.complete) else Chosen(inner)
+
+
+@construction("chosen: noun=NEIGHBOUR", cost=0.1)
+def neighbours(noun: Lex) -> Chosen:
+    """Compose "neighbours"."""
+    inner = Nominal(s.Trees(), plural="plural" in noun.features)
+    return Chosen(inner, choice=Choice("beside"), neighbours=True)
+
+
+# Words before the noun.
+
+
+@construction("chosen: n=count chosen=chosen", cost=0.1)
+def so_many(n: int, chosen: Chosen) -> Chosen | None:
+    """Compose "three yellow trees"."""
+    return None if chosen.count is not None else replace(chosen, count=n, preceded=True)
+
+
+@construction("chosen: OTHER chosen=chosen", "chosen: MORE chosen=chosen", cost=0.1)
+def others(chosen: Chosen) -> Chosen | None:
+    """Compose "other trees"."""
+    return None if chosen.unvisited else replace(chosen, unvisited=True, preceded=True)
+
+
+@construction("chosen: rank=ORD chosen=chosen", cost=0.1)
+def ranked(rank: Lex, chosen: Chosen) -> Chosen | None:
+    """Compose "second oldest tree"."""
+    if chosen.rank is not None or chosen.choice is None or chosen.choice.by not in _RANKED:
+        return None
+    return replace(chosen, rank=rank.value, preceded=True)
+
+
+@construction("chosen: choice=chosen_by chosen=chosen", cost=0.1)
+def chosen_before(choice: Choice, chosen: Chosen) -> Chosen | None:
+    """Compose "nearest tree"."""
+    if chosen.neighbours and choice.by == "nearest":
+        return replace(chosen, choice=replace(chosen.choice or choice, by="nearest"), preceded=True)
+    made = _with_choice(chosen, choice)
+    return None if made is None else replace(made, preceded=True)
+
+
+@construction("chosen_by: side=MOST", cost=0.1)
+def by_side(side: Lex) -> Choice | None:
+    """Compose "northernmost"."""
+    return None if side.value in CORNERS else Choice("extreme", side.value)
+
+
+@construction("chosen_by: rank=ranking", cost=0.1)
+def by_attribute(rank: tuple[str, bool]) -> Choice:
+    """Compose "oldest"; "highest" waits for its attribute."""
+    return Choice("best", rank)
+
+
+@construction("chosen_by: RANDOM", "chosen_by: [DET] SAMPLE OF", cost=0.1)
+def by_chance() -> Choice:
+    """Compose "random"."""
+    return Choice("random")
+
+
+@construction("chosen_by: EVENLYSPACED", cost=0.1)
+def by_even_spacing() -> Choice:
+    """Compose "evenly spaced"."""
+    return Choice("evenly")
+
+
+@construction("chosen_by: FARAPART", cost=0.1)
+def by_spread() -> Choice:
+    """Compose "far apart"."""
+    return Choice("spread")
+
+
+@construction("chosen_by: CONSECUTIVE", cost=0.1)
+def by_run() -> Choice:
+    """Compose "consecutive"."""
+    return Choice("in a run")
+
+
+@construction("chosen_by: ADJACENT", "chosen_by: NEAREACH", cost=0.1)
+def by_adjacency() -> Choice:
+    """Compose "adjacent"."""
+    return Choice("adjacent")
+
+
+@construction("chosen_by: NEAREST", cost=0.2)
+def by_nearness() -> Choice:
+    """Compose "nearest"."""
+    return Choice("nearest")
+
+
+@construction("chosen_by: FARTHEST", cost=0.2)
+def by_distance() -> Choice:
+    """Compose "farthest"."""
+    return Choice("farthest")
+
+
+@construction("chosen_by: NEARBY", cost=0.1)
+def by_vicinity() -> Choice:
+    """Compose "nearby"."""
+    return Choice("nearby")
+
+
+@construction(
+    "chosen: n=count OUTOF EACH m=count chosen=chosen",
+    "chosen: n=count OUTOF m=count chosen=chosen",
+    "chosen: n=count OF EACH m=count chosen=chosen",
+    "chosen: n=count AT EACH m=count chosen=chosen",
+    cost=0.1,
+)
+def so_many_of_every(n: int, m: int, chosen: Chosen) -> Chosen | None:
+    """Compose "3 of every 5 trees"."""
+    if chosen.count is not None or not chosen.inner.plural:
+        return None
+    made = _with_choice(chosen, Choice("of every", m))
+    return None if made is None else replace(made, count=n, inner=replace(made.inner, plural=n > 1), preceded=True)
+
+
+@construction("chosen: rank=ranking [n=count] YIELDER", "chosen: n=count rank=ranking YIELDER", cost=0.1)
+def yielders(rank: tuple[str, bool], n: int | None = None) -> Chosen | None:
+    """Compose "top 10 yielders"."""
+    inner = Nominal(s.Trees(), plural=True)
+    return None if rank[0] else Chosen(inner, count=n, choice=Choice("best", ("yield", rank[1])), preceded=True)
+
+
+# Words behind the noun.
+
+
+@construction("chosen: chosen=chosen [COMMA] choice=chosen_as", cost=0.1)
+def chosen_behind(chosen: Chosen, choice: Choice) -> Chosen | None:
+    """Compose "trees nearest to the charger"."""
+    return _with_choice(chosen, choice)
+
+
+@construction("chosen: chosen=chosen WITH DET rank=ORD best=ranking", cost=0.1)
+def with_the_second_most(chosen: Chosen, rank: Lex, best: tuple[str, bool]) -> Chosen | None:
+    """Compose "tree with the second highest yield"."""
+    made = _with_choice(chosen, Choice("best", best)) if best[0] else None
+    return None if made is None else replace(made, rank=rank.value)
+
+
+@construction("chosen: chosen=chosen in_ to=place", "chosen: chosen=chosen NEAR to=place", cost=0.2)
+def adjacent_near(chosen: Chosen, to: PlaceMeaning) -> Chosen | None:
+    """Compose "adjacent trees near the charger"."""
+    choice = chosen.choice
+    if choice is None or choice.by != "adjacent" or choice.to is not None or to.shape != "one":
+        return None
+    return replace(chosen, choice=replace(choice, to=to))
+
+
+@construction("chosen: chosen=chosen AT to=place", "chosen: chosen=chosen OF to=place", cost=0.2)
+def near_what(chosen: Chosen, to: PlaceMeaning) -> Chosen | None:
+    """Compose "nearest tree to the charger" and "neighbours of tree 12"."""
+    choice = chosen.choice
+    if choice is None or choice.by not in ("nearest", "beside") or choice.to is not None or to.selector == s.Middle():
+        return None
+    return replace(chosen, choice=replace(choice, to=to))
+
+
+@construction("chosen: chosen=chosen FROM to=place", cost=0.2)
+def far_from_what(chosen: Chosen, to: PlaceMeaning) -> Chosen | None:
+    """Compose "farthest tree from the charger"."""
+    choice = chosen.choice
+    if choice is None or choice.by != "farthest" or choice.to is not None:
+        return None
+    return replace(chosen, choice=replace(choice, to=to))
+
+
+@construction("chosen: chosen=chosen side=on_side", "chosen: side=DIR chosen=chosen", cost=0.2)
+def to_one_side(chosen: Chosen, side: Side | Lex) -> Chosen | None:
+    """Compose "neighbour to the east" and "southern neighbour"."""
+    choice = chosen.choice
+    where = side.value if isinstance(side, Lex) else side
+    if choice is None or choice.by != "beside" or choice.value is not None or where not in SIDES:
+        return None
+    return replace(chosen, choice=replace(choice, value=where))
+
+
+@construction("chosen_as: choice=chosen_by", cost=0.1)
+def chosen_so(choice: Choice) -> Choice | None:
+    """Compose "chosen at random" behind its noun; "oldest" stands before it."""
+    return None if choice.by in ("extreme", "best", "farthest") else choice
+
+
+@construction(
+    "chosen_as: [which_is] NEAREST [AT] to=place",
+    "chosen_as: [which_is] DET NEAREST [AT] to=place",
+    "chosen_as: [which_is] [DET] NEAREST OF to=place",
+    cost=0.1,
+)
+def nearest_to(to: PlaceMeaning) -> Choice:
+    """Compose "nearest to the charger"."""
+    return Choice("nearest", to=to)
+
+
+@construction("chosen_as: [which_is] near=NEAR to=place", cost=0.2)
+def near_to(near: Lex, to: PlaceMeaning) -> Choice | None:
+    """Compose "closest to the charger" and "around tree 12"; "near" does not say how near."""
+    if "nearest" in near.features:
+        return Choice("nearest", to=to)
+    return Choice("around", to=to) if "surrounds" in near.features else Choice("nearest", "near", to)
+
+
+@construction("chosen_as: [which_is] [DET] FARTHEST FROM to=place", cost=0.1)
+def farthest_from(to: PlaceMeaning) -> Choice:
+    """Compose "farthest from the charger"."""
+    return Choice("farthest", to=to)
+
+
+@construction(
+    "chosen_as: [which_is] NEXTTO to=place [side=on_side]",
+    "chosen_as: [which_is] BESIDE to=place [side=on_side]",
+    cost=0.1,
+)
+def beside(to: PlaceMeaning, side: Side | None = None) -> Choice:
+    """Compose "next to tree 12 on the east"."""
+    return Choice("beside", side, to)
+
+
+@construction("chosen_as: [which_is] side=on_side OF to=place", cost=0.2)
+def to_a_side_of(side: Side, to: PlaceMeaning) -> Choice:
+    """Compose "to the north of it"."""
+    return Choice("beside", side, to)
+
+
+@construction("chosen_as: [EACH] dist=apart", "chosen_as: WHICH dist=apart", "chosen_as: ABOUT dist=apart", cost=0.1)
+def so_far_apart(dist: float) -> Choice:
+    """Compose "15 m apart"."""
+    return Choice("apart", (dist, False))
+
+
+@construction("chosen_as: [EACH] least=apart_least", "chosen_as: WHICH least=apart_least", cost=0.1)
+def at_least_so_far_apart(least: float) -> Choice:
+    """Compose "at least 15 m apart"."""
+    return Choice("apart", (least, True))
+
+
+@construction("chosen_as: SPREAD where=region", "chosen_as: SPREAD site", cost=0.1)
+def spread_over(where: s.Selector | None = None) -> Choice:
+    """Compose "spread over the northern half"; along a row they are evenly spaced."""
+    if where is not None and are_rows(where) and is_one_row(where):
+        return Choice("evenly", where)
+    return Choice("spread", where)
+
+
+@construction("chosen: chosen=chosen SPREAD site", "chosen: chosen=chosen over_site", cost=0.1)
+def anywhere(chosen: Chosen) -> Chosen | None:
+    """Compose "trees at random across the orchard"."""
+    return chosen if chosen.choice is not None and chosen.choice.by == "random" else None
+
+
+@construction("over_site: word=OPPOSITE site", "over_site: in_ site", cost=0.1)
+def over_site(word: Lex | None = None) -> str | None:
+    """Compose "across the orchard"."""
+    return "site" if word is None or "across" in word.features else None
+
+
+@construction("chosen_as: EVENLYALONG rows=rows", cost=0.1)
+def evenly_along(rows: s.Selector) -> Choice:
+    """Compose "spread evenly along row 4"."""
+    return Choice("evenly", rows)
+
+
+@construction("chosen_as: [WHICH] WITH DET rank=ranking", cost=0.1)
+def with_the_most(rank: tuple[str, bool]) -> Choice | None:
+    """Compose "with the highest yield"."""
+    return Choice("best", rank) if rank[0] else None
+
+
+@construction("chosen_as: [WHICH] ATTRVERB [DET] rank=ranking", cost=0.1)
+def that_yielded(rank: tuple[str, bool]) -> Choice | None:
+    """Compose "that yielded the least"."""
+    return None if rank[0] else Choice("best", ("yield", rank[1]))
+
+
+@construction("chosen: chosen=chosen BY [DET] attribute=ATTR", cost=0.1)
+def ranked_by(chosen: Chosen, attribute: Lex) -> list[Chosen] | None:
+    """Compose "bottom 4 trees by yield"."""
+    choice = chosen.choice
+    if choice is None or choice.by != "best" or choice.value[0]:
+        return None
+    return [replace(chosen, choice=Choice("best", (name, choice.value[1]))) for name in attribute.value]
+
+
+@construction("chosen_as: AT word=DET noun=ROW", cost=0.1)
+def in_a_row(word: Lex, noun: Lex) -> Choice | None:
+    """Compose "in a row"."""
+    return None if noun.plural or "one" not in word.features else Choice("in a run")
+
+
+@construction(
+    "chosen_as: OUTOF EACH m=count [TREE]", "chosen_as: OUTOF m=count [TREE]", "chosen_as: word=AT m=count", cost=0.1
+)
+def of_every(m: int, word: Lex | None = None) -> Choice | None:
+    """Compose "out of every five" and "in three" of "one tree in three"."""
+    return Choice("of every", m) if word is None or "in_time" in word.features else None
+
+
+@construction("chosen: chosen=chosen way=in_ where=region", cost=0.2)
+def in_area(chosen: Chosen, where: s.Selector, way: str) -> Chosen | None:
+    """Compose "trees nearest to the charger in the northern half"."""
+    choice, inner = chosen.choice, chosen.inner
+    if choice is None or not chooses_from_trees(inner.selector):
+        return None
+    if way == "from" and measures_distance(_origin(choice)):
+        return None
+    if choice.to is not None and not choice.to.selector.named_marker and where != s.RowOf():
+        return None  # "nearest to the tree in the northern half": the tree there?
+    if where == s.RowOf() and choice.by in ("nearest", "beside", "farthest"):
+        where = s.RowOf(origin=_origin(choice))
+    return replace(chosen, inner=replace(inner, selector=over(inner.selector, where)))
+
+
+def _origin(choice: Choice) -> s.Selector:
+    return s.Here() if choice.to is None else choice.to.selector
+
+
+def _with_choice(chosen: Chosen, choice: Choice) -> Chosen | None:
+    """Return a description with a choice; only one says how the trees are chosen."""
+    return replace(chosen, choice=choice) if chosen.choice is None else None
+
+
+# Places.
+
+
+@construction("place: [word=DET] chosen=chosen", cost=0.2, given=("site",))
+def places_of(chosen: Chosen, site: Site, word: Lex | None = None) -> list[PlaceMeaning] | None:
+    """Compose "the five oldest yellow trees in row 3"."""
+    if chosen.choice is None:
+        return _unvisited(chosen)
+    indefinite = word is not None and "indefinite" in word.features
+    if indefinite and (chosen.inner.plural or chosen.count is not None) and chosen.choice.by != "nearby":
+        return None
+    numbers = _numbers(chosen, definite=word is not None)
+    made = [_place(chosen, choice, n) for choice in _named(chosen.choice, site) for n in numbers]
+    return [one for one in made if one is not None] or None
+
+
+def _unvisited(chosen: Chosen) -> list[PlaceMeaning] | None:
+    """Return any so many trees that were not visited ("three other trees")."""
+    if not chosen.unvisited or chosen.count is None or chosen.rank is not None:
+        return None
+    some = s.Take(count=chosen.count, of=s.NotVisited(of=chosen.inner.selector))
+    return [PlaceMeaning(some, "several" if chosen.count > 1 else "one", count=chosen.count)]
+
+
+@construction("place: owner=owned_by chosen=chosen", cost=0.2, given=("site",))
+def owned(owner: PlaceMeaning, chosen: Chosen, site: Site) -> list[PlaceMeaning] | None:
+    """Compose "tree 12's two nearest neighbours" and "its neighbour to the east"."""
+    choice = chosen.choice
+    if choice is None or choice.to is not None or choice.by not in ("nearest", "beside"):
+        return None
+    if owner.shape not in ("one", "here"):
+        return None
+    return places_of(replace(chosen, choice=replace(choice, to=owner)), site, None)
+
+
+@construction(
+    "place: near=place [COMMA] AND [AT] DET n=count [TREE] FARTHEST",
+    "place: near=place [COMMA] AND [AT] DET n=count [TREE] FARTHEST FROM IT",
+    cost=0.2,
+)
+def and_the_farthest(near: PlaceMeaning, n: int) -> PlaceMeaning | None:
+    """Compose "the three trees nearest to the pond and the three farthest from it"."""
+    nearest = as_nearest(near.selector)
+    if nearest is None or nearest.adjacent or near.shape not in ("one", "several"):
+        return None
+    far = s.Farthest(origin=nearest.to, count=n, of=nearest.of)
+    return PlaceMeaning(s.UnionOf(parts=(nearest, far)), "several", count=nearest.count + n)
+
+
+@construction("place: near=place in_ rows=rows", cost=0.2)
+def along_its_row(near: PlaceMeaning, rows: s.Selector) -> PlaceMeaning | None:
+    """Compose "the two trees north of it in the row"."""
+    along = all(as_along_row(step) is not None for step in near.selector.members)
+    return near if rows == s.RowOf() and along else None
+
+
+def _named(choice: Choice, site: Site) -> Sequence[Choice]:
+    """Return a choice with the attribute of the site that a word hints at."""
+    from fieldhand.planning.grammar.words import hinted_attributes
+
+    if choice.by != "best":
+        return (choice,)
+    name, lowest = choice.value
+    if name == "yield":
+        return tuple(replace(choice, value=(one, lowest)) for one in hinted_attributes("yield", site))
+    return (choice,) if name else ()
+
+
+def _numbers(chosen: Chosen, *, definite: bool) -> Sequence[int | None]:
+    """Return the numbers of trees that may be meant."""
+    choice, inner = chosen.choice, chosen.inner
+    if chosen.count is not None:
+        return (chosen.count,) if inner.plural == (chosen.count > 1) else ()
+    if not inner.plural:
+        return (1,)
+    if choice is None:
+        return ()
+    if choice.by == "best" and definite:
+        return VAGUE_NUMBERS
+    if choice.by in ("beside", "around") and choice.value is None:
+        if choice.to is not None and choice.to.shape == "area":
+            return ()
+        in_row = any(part.row_of is not None for part in inner.selector.walk())
+        return (2,) if in_row else (4, 8) if choice.by == "around" else (2, 4)
+    return (None,)
+
+
+def _place(chosen: Chosen, choice: Choice, n: int | None) -> PlaceMeaning | None:
+    """Return so many trees of a description, chosen in a way; None if the two do not fit."""
+    inner = chosen.inner
+    of = s.NotVisited(of=inner.selector) if chosen.unvisited else inner.selector
+    if n is None:
+        if choice.by != "nearby":
+            return None
+        return PlaceMeaning(s.Nearest(to=s.Here(), count=2, fresh=True, of=of), "nearby")
+    if inner.kind == "corner" and (n >= (inner.complete or n + 1) or choice.by not in ("nearest", "farthest")):
+        return None
+    if choice.to is not None and not _measurable(choice):
+        return None
+    if chosen.rank is not None:
+        if n != 1 or chosen.rank < 2:
+            return None
+        better = _selector(choice, chosen.rank - 1, of)
+        if better is None:
+            return None
+        of = s.Excluding(places=better, of=of)
+    selector = _selector(choice, n, of)
+    if selector is None:
+        return None
+    if choice.by == "of every" and n == 1:
+        return PlaceMeaning(selector, "several", each=True)
+    beside = choice.to is not None and choice.to.shape == "here"
+    return PlaceMeaning(selector, "one" if n == 1 else "several", count=n if n > 1 else None, beside=beside)
+
+
+def _measurable(choice: Choice) -> bool:
+    """Return True if trees can be near to or far from the place of a choice."""
+    if choice.to is None or choice.to.shape in ("one", "here"):
+        return True
+    return choice.to.shape == "area" and as_zone(choice.to.selector) is not None
+
+
+def _selector(choice: Choice, n: int, of: s.Selector) -> s.Selector | None:
+    """Return the selector of so many trees that are chosen in a way."""
+    to, value = _origin(choice), choice.value
+    zone = as_zone(to) is not None
+    match choice.by:
+        case "extreme":
+            return s.Extreme(side=value, count=n, of=of) if value in SIDES else None
+        case "best":
+            return s.Top(attribute=value[0], count=n, lowest=value[1], of=of)
+        case "nearest":
+            if to == s.Middle() and n == 1 and of == s.Trees():
+                return None  # that is the middle itself
+            return s.Adjacent(near=to, count=n, of=of) if is_spot(to) else s.Nearest(to=to, count=n, of=of)
+        case "around":
+            return s.Nearest(to=to, count=n, adjacent=not zone, of=of)
+        case "beside":
+            side = value or "any"
+            if side != "any" and (n > 1 or of != s.Trees()):
+                return None
+            return s.Nearest(to=to, count=n, adjacent=not zone, side=side, of=of)
+        case "farthest":
+            return s.Farthest(origin=to, count=n, of=of)
+        case "nearby":
+            return s.Nearest(to=s.Here(), count=n, fresh=True, of=of)
+        case "random":
+            return s.RandomSample(count=n, of=of)
+        case "of every":
+            return _of_every(value, n, of)
+        case _ if n < 2:
+            return None
+        case "spread":
+            return s.Spread(count=n, of=of if value is None else over(of, value)) if chooses_from_trees(of) else None
+        case "evenly":
+            return _evenly(n, of if value is None else over(of, value))
+        case "in a run":
+            return s.Successive(count=n, of=of)
+        case "adjacent":
+            return s.Adjacent(near=to, count=n, of=of)
+        case "apart":
+            return s.Apart(apart_m=value[0], count=n, least=value[1], of=of)
+
+
+def _of_every(m: int, n: int, of: s.Selector) -> s.Selector | None:
+    """Return n of every m trees along their rows."""
+    if n >= m:
+        return None
+    return s.EveryNth(nth=m, of=of) if n == 1 else s.Evenly(count=n, out_of=m, of=of)
+
+
+def _evenly(n: int, of: s.Selector) -> s.Selector | None:
+    """Return trees that are evenly spaced along one row."""
+    rows = {part for part in of.walk() if are_rows(part)}
+    return s.Evenly(count=n, of=of) if len(rows) == 1 and all(is_one_row(part) for part in rows) else None
