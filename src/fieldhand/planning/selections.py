@@ -301,6 +301,11 @@ def measures_distance(selector: s.Selector) -> bool:
     return isinstance(selector, s.Within | s.Nearest | s.Farthest)
 
 
+def centre_of(selector: s.Selector) -> s.Selector | None:
+    """Return the place within a distance of which trees are meant, which is none of them; None of other trees."""
+    return selector.to if isinstance(selector, s.Within) else None
+
+
 def are_unvisited(selector: s.Selector) -> bool:
     """Return True for trees that the robot has not visited."""
     return isinstance(selector, s.NotVisited)

@@ -110,9 +110,10 @@ def _evenly(command: CaptureCommand, _: None) -> CaptureCommand | None:
     return replace(command, things=once(command.things), place=even)
 
 
-def _free_choice(command: CaptureCommand, _: None) -> CaptureCommand | None:
+def _free_choice(command: CaptureCommand, count: int | None) -> CaptureCommand | None:
+    """Return a command at some trees, which its words leave open; ``count`` is their number if it was said again."""
     place = command.place
-    if place is None or place.shape == "those":
+    if place is None or place.shape == "those" or count not in (None, place.count):
         return None
     some = any(as_some(part) is not None for part in place.selector.members)
     return command if some or (place.shape == "area" and not _is_uncounted(command)) else None
@@ -145,7 +146,7 @@ def _as_many(command: CaptureCommand, _: None) -> CaptureCommand | None:
 )
 def at_every_tree(noun: Lex | None = None) -> Adjunct | None:
     """Compose "every tree" and "tree by tree", of an area."""
-    return None if noun is not None and noun.plural else Adjunct(_at_every_tree)
+    return None if noun is not None and noun.plural else Adjunct(_at_every_tree, is_sentence=True)
 
 
 @construction(
@@ -157,7 +158,7 @@ def at_every_tree(noun: Lex | None = None) -> Adjunct | None:
 )
 def at_so_many(n: int) -> Adjunct:
     """Compose "three spots will do"."""
-    return Adjunct(_at_so_many, n, of_place=True)
+    return Adjunct(_at_so_many, n, of_place=True, is_sentence=True)
 
 
 @construction("adjunct: EVENLYSPACED", cost=0.2)
@@ -166,10 +167,10 @@ def evenly_spaced() -> Adjunct:
     return Adjunct(_evenly)
 
 
-@construction("adjunct: ANY [TREE] REMAINS", "adjunct: FREECHOICE", cost=0.2)
-def whichever_it_is() -> Adjunct:
-    """Compose "any tree is good"."""
-    return Adjunct(_free_choice)
+@construction("adjunct: ANY [TREE] REMAINS", "adjunct: ANY n=count [TREE] REMAINS", "adjunct: FREECHOICE", cost=0.2)
+def whichever_it_is(n: int | None = None) -> Adjunct:
+    """Compose "any tree is good" and "any five will do"."""
+    return Adjunct(_free_choice, n, is_sentence=True)
 
 
 @construction("adjunct: RANDOM", cost=0.2)

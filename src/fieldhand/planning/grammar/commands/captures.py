@@ -7,6 +7,7 @@ from dataclasses import replace
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.commands.clauses import Adjunct
 from fieldhand.planning.grammar.meaning import (
     LAST_THING,
     UNSAID_THING,
@@ -63,18 +64,11 @@ def by_numbers(
     return CaptureCommand(things, place, used)
 
 
-@construction(
-    "capture: act=capture FULLSTOP EACH noun=TREE",
-    "capture: act=capture FULLSTOP ENTIRE",
-    cost=0.3,
-)
-def at_every_tree(act: CaptureCommand, used: int, noun: Lex | None = None) -> CaptureCommand | None:
-    """Compose "measure CO2 along row 4, every tree" and "measure CO2 along row 4 tree by tree"."""
-    if (noun is not None and noun.plural) or act.place is None or act.place.shape != "area":
-        return None
-    if act.place.per is not None or any(one.count is not None for one in act.things):
-        return None
-    return replace(act, place=replace(act.place, shape="several", each=True), used=used)
+@construction("capture: act=capture FULLSTOP adjunct=adjunct", cost=0.3)
+def adjunct_by_itself(act: CaptureCommand, adjunct: Adjunct, used: int) -> CaptureCommand | None:
+    """Compose "measure CO2 along row 4. Every tree." and "... at five yellow trees. Any five will do."."""
+    changed = adjunct.change(act, adjunct.value) if adjunct.is_sentence else None
+    return replace(changed, used=used) if isinstance(changed, CaptureCommand) else None
 
 
 @construction(

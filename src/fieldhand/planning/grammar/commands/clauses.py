@@ -94,6 +94,7 @@ class Adjunct:
         of_many: True if the phrase belongs to "as many".
         of_place: True if it stands behind the place.
         may_lead: True if it may stand before the clause.
+        is_sentence: True if it may be a sentence by itself behind the clause.
     """
 
     change: Change
@@ -101,6 +102,7 @@ class Adjunct:
     of_many: bool = False
     of_place: bool = False
     may_lead: bool = False
+    is_sentence: bool = False
 
 
 def _part(kind: Kind, **meaning: Any) -> Clause:

@@ -27,7 +27,7 @@ def those_there(word: Lex, inner: Nominal, site: Site, n: int | None = None) -> 
     """Compose "the yellow tree" and "the three yellow trees": all of them, or any so many if there are more."""
     if inner.single or inner.complete or inner.pronoun or "definite" not in word.features:
         return None
-    if (n is None and inner.plural) or inner.kind != "tree" or not is_description(inner.selector):
+    if (n is None and inner.plural) or inner.of_side or inner.kind != "tree" or not is_description(inner.selector):
         return None
     return _so_many(n or 1, inner.selector, site)
 

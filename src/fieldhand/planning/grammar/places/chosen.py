@@ -13,7 +13,8 @@ from typing import Any, Literal
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
-from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
+from fieldhand.planning.grammar.places.areas import inside
+from fieldhand.planning.grammar.places.compass import AWAY_FROM, CORNERS, SIDES
 from fieldhand.planning.grammar.places.numbers import VAGUE_NUMBERS
 from fieldhand.planning.grammar.places.steps import Distance
 from fieldhand.planning.grammar.words import Lex
@@ -25,11 +26,11 @@ from fieldhand.planning.selections import (
     chooses_from_trees,
     is_one_row,
     is_spot,
-    measures_distance,
     over,
+    swapped,
 )
 from fieldhand.site.model import Site
-from fieldhand.terms import Side
+from fieldhand.terms import CountedFrom, Side
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -56,6 +57,23 @@ class Choice:
     by: By
     value: Any = None
     to: PlaceMeaning | None = None
+
+
+@dataclass(frozen=True)
+class Nth:
+    """Every n-th tree.
+
+    Attributes:
+        n: Number.
+        start: Number of the first one.
+        counted_from: Side from which they are counted.
+        visited_from: Side from which they are visited, if the phrase says it.
+    """
+
+    n: int
+    start: int = 1
+    counted_from: CountedFrom = "usual"
+    visited_from: Side | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +104,7 @@ class Chosen:
 @construction("chosen: inner=nominal", cost=0.1)
 def described(inner: Nominal) -> Chosen | None:
     """Compose "yellow trees"."""
-    return None if inner.single or (inner.kind != "tree" and not inner.complete) else Chosen(inner)
+    return None if inner.single else Chosen(inner)
 
 
 @construction("chosen: noun=NEIGHBOUR", cost=0.1)
@@ -132,6 +150,17 @@ def chosen_before(choice: Choice, chosen: Chosen) -> Chosen | None:
 def by_side(side: Lex) -> Choice | None:
     """Compose "northernmost"."""
     return None if side.value in CORNERS else Choice("extreme", side.value)
+
+
+@construction("chosen: n=count side=DIR chosen=chosen", cost=0.1)
+def so_many_to_a_side(n: int, side: Lex, chosen: Chosen) -> Chosen | None:
+    """Compose "3 northern trees": those farthest to the north."""
+    if chosen.count is not None or "adjective" not in side.features or side.value in CORNERS or n < 2:
+        return None
+    if chosen.inner.complete:
+        return None
+    made = _with_choice(chosen, Choice("extreme", side.value))
+    return None if made is None else replace(made, count=n, preceded=True)
 
 
 @construction("chosen_by: rank=ranking", cost=0.1)
@@ -193,10 +222,13 @@ def by_vicinity() -> Choice:
     "chosen: n=count OUTOF m=count chosen=chosen",
     "chosen: n=count OF EACH m=count chosen=chosen",
     "chosen: n=count AT EACH m=count chosen=chosen",
+    "chosen: n=count word=AT m=count chosen=chosen",
     cost=0.1,
 )
-def so_many_of_every(n: int, m: int, chosen: Chosen) -> Chosen | None:
+def so_many_of_every(n: int, m: int, chosen: Chosen, word: Lex | None = None) -> Chosen | None:
     """Compose "3 of every 5 trees"."""
+    if word is not None and "in_time" not in word.features:
+        return None
     if chosen.count is not None or not chosen.inner.plural:
         return None
     made = _with_choice(chosen, Choice("of every", m))
@@ -210,7 +242,73 @@ def yielders(rank: tuple[str, bool], n: int | None = None) -> Chosen | None:
     return None if rank[0] else Chosen(inner, count=n, choice=Choice("best", ("yield", rank[1])), preceded=True)
 
 
+@construction("chosen: EACH n=ORD chosen=chosen", "chosen: EACH OTHER chosen=chosen", cost=0.1)
+def every_nth(chosen: Chosen, n: Lex | None = None) -> Chosen | None:
+    """Compose "every third tree" and "every other tree"."""
+    return _every(chosen, 2 if n is None else n.value) if not chosen.inner.plural else None
+
+
+@construction("chosen: word=EACH n=count chosen=chosen", cost=0.2)
+def every_so_many(word: Lex, n: int, chosen: Chosen) -> Chosen | None:
+    """Compose "every 5 trees"."""
+    return _every(chosen, n) if "every" in word.features and chosen.inner.plural else None
+
+
+def _every(chosen: Chosen, n: int) -> Chosen | None:
+    """Return every n-th tree of a description."""
+    inner = chosen.inner
+    if n < 2 or inner.tested or inner.kind != "tree" or chosen.count is not None or chosen.choice is not None:
+        return None
+    return replace(chosen, choice=Choice("nth", Nth(n)), count=1, inner=replace(inner, plural=False), preceded=True)
+
+
 # Words behind the noun.
+
+
+@construction(
+    "chosen: chosen=chosen [COMMA] STARTING [DET] rank=ORD [TREE]",
+    "chosen: chosen=chosen [COMMA] STARTING [DET] rank=ORD ONE",
+    cost=0.1,
+)
+def starting_with(chosen: Chosen, rank: Lex) -> Chosen | None:
+    """Compose "every third tree, starting with the second one"."""
+    return _with_nth(chosen, start=rank.value)
+
+
+@construction("chosen: chosen=chosen [COMMA] side=start", cost=0.1)
+def starting_from(chosen: Chosen, side: Side) -> Chosen | None:
+    """Compose "every third tree starting from the north"."""
+    return _with_nth(chosen, counted_from=side, visited_from=side)
+
+
+@construction("chosen: chosen=chosen COMMA FROM [DET] side=DIR", cost=0.1)
+def from_a_side(chosen: Chosen, side: Lex) -> Chosen | None:
+    """Compose "every third tree, from the south", which they are counted and visited from."""
+    return starting_from(chosen, side.value) if side.value in SIDES else None
+
+
+@construction("chosen: chosen=chosen FROM [DET] side=DIR", cost=0.1)
+def counted_from(chosen: Chosen, side: Lex) -> Chosen | None:
+    """Compose "every third tree from the north"."""
+    return _with_nth(chosen, counted_from=side.value) if side.value in SIDES else None
+
+
+@construction("chosen: chosen=chosen COMMA way=in_ where=region", cost=0.2)
+def in_area_behind(chosen: Chosen, where: s.Selector, way: str) -> Chosen | None:
+    """Compose "every third tree, starting with the second, in row 4"."""
+    nth = None if chosen.choice is None else chosen.choice.value
+    starts = isinstance(nth, Nth) and (nth.start > 1 or nth.visited_from is not None)
+    return in_area(chosen, where, way) if starts else None
+
+
+def _with_nth(chosen: Chosen, **changed: Any) -> Chosen | None:
+    """Return every n-th tree with the tree or the side from which they are counted."""
+    choice = chosen.choice
+    if choice is None or not isinstance(choice.value, Nth):
+        return None
+    if any(getattr(choice.value, name) != Nth.__dataclass_fields__[name].default for name in changed):
+        return None
+    return replace(chosen, choice=replace(choice, value=replace(choice.value, **changed)))
 
 
 @construction("chosen: chosen=chosen [COMMA] choice=chosen_as", cost=0.1)
@@ -304,6 +402,21 @@ def beside(to: PlaceMeaning, side: Side | None = None) -> Choice:
     return Choice("beside", side, to)
 
 
+@construction("chosen: chosen=chosen [which_is] EITHERSIDE to=place", cost=0.1)
+def on_either_side(chosen: Chosen, to: PlaceMeaning) -> Chosen | None:
+    """Compose "tree on each side of it"."""
+    if chosen.count not in (None, 2):
+        return None
+    made = _with_choice(chosen, Choice("beside", None, to))
+    return None if made is None else replace(made, count=2, inner=replace(made.inner, plural=True))
+
+
+@construction("chosen_as: [which_is] FARFROM to=place as_can", cost=0.1)
+def as_far_as_possible_from(to: PlaceMeaning) -> Choice:
+    """Compose "as far away from it as possible"."""
+    return Choice("farthest", to=to)
+
+
 @construction("chosen_as: [which_is] side=on_side OF to=place", cost=0.2)
 def to_a_side_of(side: Side, to: PlaceMeaning) -> Choice:
     """Compose "to the north of it"."""
@@ -389,13 +502,12 @@ def in_area(chosen: Chosen, where: s.Selector, way: str) -> Chosen | None:
     choice, inner = chosen.choice, chosen.inner
     if choice is None or not chooses_from_trees(inner.selector):
         return None
-    if way == "from" and measures_distance(_origin(choice)):
-        return None
     if choice.to is not None and not choice.to.selector.named_marker and where != s.RowOf():
         return None  # "nearest to the tree in the northern half": the tree there?
     if where == s.RowOf() and choice.by in ("nearest", "beside", "farthest"):
         where = s.RowOf(origin=_origin(choice))
-    return replace(chosen, inner=replace(inner, selector=over(inner.selector, where)))
+    there = inside(inner, where, way)
+    return None if there is None else replace(chosen, inner=there)
 
 
 def _origin(choice: Choice) -> s.Selector:
@@ -439,7 +551,8 @@ def owned(owner: PlaceMeaning, chosen: Chosen, site: Site) -> list[PlaceMeaning]
         return None
     if owner.shape not in ("one", "here"):
         return None
-    return places_of(replace(chosen, choice=replace(choice, to=owner)), site, None)
+    inner = replace(chosen.inner, selector=swapped(chosen.inner.selector, s.RowOf(), s.RowOf(origin=owner.selector)))
+    return places_of(replace(chosen, inner=inner, choice=replace(choice, to=owner)), site, None)
 
 
 @construction(
@@ -516,6 +629,8 @@ def _place(chosen: Chosen, choice: Choice, n: int | None) -> PlaceMeaning | None
     selector = _selector(choice, n, of)
     if selector is None:
         return None
+    if choice.by == "nth":
+        return PlaceMeaning(selector, "several", each=True, in_order=choice.value.visited_from is not None)
     if choice.by == "of every" and n == 1:
         return PlaceMeaning(selector, "several", each=True)
     beside = choice.to is not None and choice.to.shape == "here"
@@ -557,6 +672,9 @@ def _selector(choice: Choice, n: int, of: s.Selector) -> s.Selector | None:
             return s.RandomSample(count=n, of=of)
         case "of every":
             return _of_every(value, n, of)
+        case "nth":
+            every = s.EveryNth(nth=value.n, start=value.start, counted_from=value.counted_from, of=of)
+            return every if value.visited_from is None else s.Ordered(by=AWAY_FROM[value.visited_from], of=every)
         case _ if n < 2:
             return None
         case "spread":

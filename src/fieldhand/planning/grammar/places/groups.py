@@ -18,6 +18,7 @@ from fieldhand.planning.selections import (
     as_some,
     as_top,
     blocks_of,
+    centre_of,
     chooses_from_trees,
     is_by_attribute,
     is_description,
@@ -162,12 +163,29 @@ def points_over(n: int, zone: Lex) -> PlaceMeaning:
     return PlaceMeaning(s.PointsIn(zone=zone.value, count=n), "several", count=n)
 
 
-@construction("place: ASMANY [DET] inner=nominal as_can", cost=0.2)
+@construction("place: ASMANY [DET] [OTHER] inner=nominal as_can", cost=0.2)
 def as_many(inner: Nominal) -> PlaceMeaning | None:
     """Compose "as many trees as you can"."""
     if inner.single or not inner.plural:
         return None
     return PlaceMeaning(inner.selector, "several", optional=True)
+
+
+@construction("place: ASMANY as_can OF group=place", "place: ASMANY OF group=place as_can", cost=0.2)
+def as_many_of(group: PlaceMeaning) -> PlaceMeaning | None:
+    """Compose "as many as you can of the yellow trees"."""
+    listed = all(one.named_tree for one in group.selector.members)
+    if group.shape not in ("several", "area") or group.per is not None or group.optional or group.each:
+        return None
+    if group.count is not None and not listed:
+        return None
+    return replace(group, shape="several", optional=True, count=None)
+
+
+@construction("place: one=place ITSELF", cost=0.1)
+def tree_itself(one: PlaceMeaning) -> PlaceMeaning | None:
+    """Compose "tree 40 itself"."""
+    return one if one.shape == "one" and isinstance(one.selector, s.TreeIs) else None
 
 
 @construction(
@@ -378,7 +396,13 @@ def except_numbers(inner: Nominal, trees: tuple[str, ...]) -> PlaceMeaning | Non
     return PlaceMeaning(s.Excluding(places=parts[0] if len(parts) == 1 else s.UnionOf(parts=parts)), "several")
 
 
-@construction("place: whole=place except part=place", "place: whole=place BUT part=place", cost=0.3, given=("site",))
+@construction(
+    "place: whole=place [COMMA] except part=place",
+    "place: whole=place BUT part=place",
+    "place: whole=place [COMMA] except in_ part=place",
+    cost=0.3,
+    given=("site",),
+)
 def except_for(whole: PlaceMeaning, part: PlaceMeaning, site: Site) -> PlaceMeaning | None:
     """Compose "all trees except the yellow trees"."""
     if (
@@ -388,6 +412,8 @@ def except_for(whole: PlaceMeaning, part: PlaceMeaning, site: Site) -> PlaceMean
     ):
         return None
     part = replace(part, like=None) if part.like is not None and part.like.kind == "those" else part
+    if centre_of(whole.selector) == part.selector:
+        return whole  # "the trees within 12 m of tree 40, but not tree 40 itself"
     if whole.selector != s.Trees() and any(is_end_of_site(one) or one.named_marker for one in part.selector.members):
         return None  # the first, the last or the ends of these, not of the site
     trees = {one.tree for one in part.selector.walk() if isinstance(one, s.TreeIs)}

@@ -145,10 +145,15 @@ def where_a_variety_grows(value: Lex, site: Site) -> list[s.Selector] | None:
     return [s.Where(attribute=name, test="eq", value=text) for name, text in value.value if name in varieties]
 
 
-@construction("nominal: value=ATTRVAL", cost=0.8)
-def those_of_a_kind(value: Lex) -> list[Nominal]:
-    """Compose "Nonpareil" without a noun."""
-    return [Nominal(s.Where(attribute=name, test="eq", value=text), plural=True) for name, text in value.value]
+@construction("nominal: value=ATTRVAL", cost=0.8, given=("site",))
+def those_of_a_kind(value: Lex, site: Site) -> list[Nominal]:
+    """Compose "Nonpareil" without a noun; "yellow" needs one."""
+    kinds = hinted_attributes("variety", site)
+    return [
+        Nominal(s.Where(attribute=name, test="eq", value=text), plural=True)
+        for name, text in value.value
+        if name in kinds or value.plural
+    ]
 
 
 @construction(

@@ -7,7 +7,7 @@ from dataclasses import replace
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning, Shape
-from fieldhand.planning.grammar.places.compass import AWAY_FROM, SIDES
+from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.row_by_row import MOST_ONE_BY_ONE, one_by_one
 from fieldhand.planning.grammar.words import Lex
@@ -360,14 +360,6 @@ def both_ends(noun: Lex, rows: s.Selector, n: int = 2, each: Lex | None = None) 
     return PlaceMeaning(s.UnionOf(parts=parts), "several", count=2 if is_one_row(rows) else None, each=one_by_one)
 
 
-@construction("place: EACH n=ORD inner=nominal", cost=0.2)
-def every_nth(n: Lex, inner: Nominal) -> PlaceMeaning | None:
-    """Compose "every third tree"."""
-    if inner.single or inner.complete or n.value < 2 or inner.plural or inner.tested or inner.kind != "tree":
-        return None
-    return PlaceMeaning(s.EveryNth(nth=n.value, of=inner.selector), "several", each=True)
-
-
 @construction("place: [DET] [n=count] OUTER noun=TREE in_ rows=any_rows", cost=0.0)
 def outer_trees_of_rows(noun: Lex, rows: s.Selector, n: int = 2) -> PlaceMeaning | None:
     """Compose "the outermost trees of each row", those at its ends."""
@@ -436,34 +428,15 @@ def beginning_of_row(rows: s.Selector) -> PlaceMeaning:
     return PlaceMeaning(s.InRow(first=1, last=1, of=rows), "one" if single else "several", each=not single)
 
 
-@construction("place: EACH OTHER inner=nominal", cost=0.2)
-def every_other(inner: Nominal) -> PlaceMeaning | None:
-    """Compose "every other tree"."""
-    if inner.single or inner.complete or inner.plural or inner.tested or inner.kind != "tree":
-        return None
-    return PlaceMeaning(s.EveryNth(nth=2, of=inner.selector), "several", each=True)
-
-
 @construction(
     "start: STARTING [DET] side=DIR",
     "start: STARTING [DET] side=DIR FINISH",
     "start: STARTING [DET] side=DIR SIDE",
-    "start: FROM [DET] side=DIR",
     cost=0.1,
 )
 def from_side(side: Lex) -> Side | None:
     """Compose "starting from the north"."""
     return side.value if side.value in SIDES else None
-
-
-@construction("place: whole=place [COMMA] side=start", cost=0.3)
-def counted_from_side(whole: PlaceMeaning, side: Side) -> PlaceMeaning | None:
-    """Compose "every third tree in row 4, starting from the north"."""
-    every = as_every_nth(whole.selector)
-    if every is None or every.counted_from != "usual":
-        return None
-    counted = replace(every, counted_from=side)
-    return replace(whole, selector=s.Ordered(by=AWAY_FROM[side], of=counted), in_order=True)
 
 
 @construction(
@@ -478,27 +451,6 @@ def counted_from(whole: PlaceMeaning, side: Lex) -> PlaceMeaning | None:
     if counted is None or counted.counted_from != "usual" or side.value not in SIDES:
         return None
     return replace(whole, selector=replace(counted, counted_from=side.value))
-
-
-@construction(
-    "place: whole=place [COMMA] STARTING [DET] rank=ORD [TREE]",
-    "place: whole=place [COMMA] STARTING [DET] rank=ORD ONE",
-    cost=0.3,
-)
-def starting_with(whole: PlaceMeaning, rank: Lex) -> PlaceMeaning | None:
-    """Compose "every third tree in row 4, starting with the second tree"."""
-    every = as_every_nth(whole.selector)
-    if every is None or every.start != 1:
-        return None
-    return replace(whole, selector=replace(every, start=rank.value))
-
-
-@construction("place: EACH n=ORD inner=nominal [COMMA] STARTING [DET] rank=ORD [TREE] [COMMA] in_ rows=rows", cost=0.2)
-def nth_starting_with(n: Lex, inner: Nominal, rank: Lex, rows: s.Selector) -> PlaceMeaning | None:
-    """Compose "every third tree starting with the second in row 4"."""
-    if inner.single or inner.plural or n.value < 2:
-        return None
-    return PlaceMeaning(s.EveryNth(nth=n.value, start=rank.value, of=over(inner.selector, rows)), "several", each=True)
 
 
 @construction(
@@ -547,28 +499,6 @@ def nearer_end(noun: Lex, rows: s.Selector, to: PlaceMeaning) -> PlaceMeaning | 
         return None
     ends = s.UnionOf(parts=(s.InRow(first=1, last=1, of=rows), s.InRow(first=-1, last=-1, of=rows)))
     return PlaceMeaning(s.Nearest(to=to.selector, of=ends), "one")
-
-
-@construction("place: word=EACH n=count inner=nominal", cost=0.3)
-def every_so_many(word: Lex, n: int, inner: Nominal) -> PlaceMeaning | None:
-    """Compose "every 5 trees"."""
-    if "every" not in word.features or inner.single or inner.complete or not inner.plural:
-        return None
-    if n < 2 or inner.tested or inner.kind != "tree":
-        return None
-    return PlaceMeaning(s.EveryNth(nth=n, of=inner.selector), "several", each=True)
-
-
-@construction(
-    "place: EACH n=ORD inner=nominal FROM [DET] side=DIR in_ rows=any_rows",
-    cost=0.1,
-)
-def every_nth_from(n: Lex, inner: Nominal, side: Lex, rows: s.Selector) -> PlaceMeaning | None:
-    """Compose "every fifth tree from the north in row 3"."""
-    if inner.single or inner.plural or n.value < 2 or side.value not in SIDES:
-        return None
-    every = s.EveryNth(nth=n.value, counted_from=side.value, of=over(inner.selector, rows))
-    return PlaceMeaning(every, "several", each=True)
 
 
 @construction(

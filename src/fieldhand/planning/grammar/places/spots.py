@@ -17,10 +17,10 @@ construction = GRAMMAR.construction
 _CORNERS_IN_TURN: tuple[CornerName, ...] = ("nw", "ne", "se", "sw")
 
 
-@construction("nominal: TREE in_ DET at=corner_at", "nominal: ONE in_ DET at=corner_at", cost=0.1)
-def tree_in_corner(at: Nominal) -> Nominal:
-    """Compose "tree in the north-east corner"."""
-    return at
+@construction("nominal: noun=TREE in_ DET at=corner_at", "nominal: noun=ONE in_ DET at=corner_at", cost=0.1)
+def tree_in_corner(noun: Lex, at: Nominal) -> Nominal | None:
+    """Compose "tree in the north-east corner"; of several trees it does not say how many."""
+    return None if noun.plural or "plural" in noun.features else at
 
 
 @construction("corner_at: side=DIR noun=CORNER", "corner_at: side=MOST noun=CORNER", cost=0.0)
@@ -140,7 +140,7 @@ def halfway(where: s.Selector) -> PlaceMeaning:
     return PlaceMeaning(s.Middle(), "several", each=True, per=where)
 
 
-@construction("place: place=halfway", cost=0.2)
+@construction("place: place=halfway", "place: [DET] TREE [which_is] place=halfway", cost=0.2)
 def place_halfway(place: PlaceMeaning) -> PlaceMeaning:
     """Compose "halfway along row 4" as a place."""
     return place

@@ -163,8 +163,10 @@ def every_so_many_rows(n: int, noun: Lex) -> s.Selector | None:
 @construction("place: DET inner=nominal BYTURNS", "place: DET inner=nominal BYTURNS in_ where=region", cost=0.2)
 def every_other(inner: Nominal, where: s.Selector | None = None) -> PlaceMeaning | None:
     """Compose "un árbol sí y otro no de la fila 6"."""
-    found = positions.every_other(inner)
-    return found if found is None or where is None else replace(found, selector=over(found.selector, where))
+    if inner.single or inner.complete or inner.plural or inner.tested or inner.kind != "tree":
+        return None
+    of = inner.selector if where is None else over(inner.selector, where)
+    return PlaceMeaning(s.EveryNth(nth=2, of=of), "several", each=True)
 
 
 @construction("place: DET side=DIR", "place: DET side=DIR OF site", cost=0.6)
