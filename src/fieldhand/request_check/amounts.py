@@ -19,6 +19,7 @@ AmountKind = Literal[
 _RANGES = frozenset({"to", "-", "\u2013", "through", "thru", "until", "till"})
 _NUMBERED = frozenset({"#", "number", "no", "nr", "id", "ids", "numbers", "numbered", "nos"})
 _JOINS = _RANGES | _NUMBERED | {",", "and", "or", "&", "then", "up"}
+_STOPS = frozenset({".", ";", ":", "?", "!", "(", ")"})
 #: Maximum number of digits of an amount.
 _LONGEST = 15
 #: Maximum number of words between two numbers of a list.
@@ -82,7 +83,7 @@ def amounts(said: Sequence[Token], nouns: dict[int, Noun], units: frozenset[str]
     for number in _numbers(said):
         amount = _amount(said, number, nouns, units)
         before = found[-1] if found else None
-        bare = amount.kind == "plain" or (amount.kind == "captures" and number.end not in nouns)
+        bare = amount.kind == "plain" or (amount.kind == "captures" and not _is_counted(said, number.end, nouns))
         if before is not None and (bare or amount.kind == before.kind) and _listed(said, before, number):
             amount = replace(amount, kind=before.kind, actions=frozenset())
             if any(said[k].text in _RANGES for k in range(before.index + 1, number.start)) and len(amount.values) == 1:
@@ -182,9 +183,12 @@ def _amount(said: Sequence[Token], number: _Number, nouns: dict[int, Noun], unit
     if after in w.ROWS:
         return replace(made, kind="rows")
     name = _name(said[max(0, number.start - 3) : number.start])
+    counted = _counted(said, k, nouns)
+    spelt = not w.is_number(said[number.start].text)
+    if name == "id" and spelt and counted is not None and _is_counted(said, k, nouns):
+        name = None  # "take at each corner tree two pictures"
     if name == "row" or (name and after not in w.TREES):
         return replace(made, kind=name)
-    counted = _counted(said, k, nouns)
     return made if counted is None else replace(made, kind=counted[0], actions=counted[1])
 
 
@@ -225,11 +229,16 @@ def _celsius(value: float, said: Sequence[Token], k: int) -> tuple[float, ...]:
     return (value,) if scale == "c" else (fahrenheit,) if scale == "f" else (value, fahrenheit)
 
 
+def _is_counted(said: Sequence[Token], k: int, nouns: dict[int, Noun]) -> bool:
+    """Return True if a noun of captures begins at a token; "photographed" is none."""
+    return k in nouns and not said[k].text.endswith("ed")
+
+
 def _counted(said: Sequence[Token], k: int, nouns: dict[int, Noun]) -> tuple[AmountKind, frozenset[str]] | None:
     """Return the kind and actions that a number counts, by the noun at the end of its phrase."""
     for at in range(k, min(k + 6, len(said))):
         text = said[at].text
-        if at in nouns and nouns[at].actions:
+        if _is_counted(said, at, nouns) and nouns[at].actions:
             return "captures", nouns[at].actions
         if text in w.CORNERS:
             return "corners", frozenset()
@@ -266,8 +275,9 @@ def _listed(said: Sequence[Token], before: StatedAmount, number: _Number) -> boo
     behind = [t.text for t in said[number.end : number.end + 2]]
     if before.kind == "row" and len(behind) == 2 and behind[0] in ("in", "from", "of") and behind[1] in w.ROWS:
         return False  # "one tree in row 3 and two in row 5"
-    if between and not w.is_number(said[number.start].text) and behind[:1] in (["of"], ["at"], ["in"]):
-        return False  # "a picture of tree 4, and one of the ground", "three at tree 12, two at tree 13"
+    spelt = not w.is_number(said[number.start].text)
+    if between and spelt and behind and not (behind[0] in _JOINS or behind[0] in _STOPS or behind[0] in w.TREES):
+        return False  # "three at tree 12, two at tree 13", "along row 3, one reading every 20 m"
     if number.value <= before.values[0] and not _RANGES.isdisjoint(between):
         return False  # "row 3 until one of them"
     return 0 < len(between) <= _LONGEST_JOINT and all(text in _JOINS | w.TREES | w.ROWS for text in between)

@@ -8,7 +8,7 @@ from typing import Any
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.clauses import Adjunct, Clause, once
-from fieldhand.planning.grammar.meaning import CaptureCommand, PlaceMeaning, Thing
+from fieldhand.planning.grammar.meaning import LAST_THING, UNSAID_THING, CaptureCommand, PlaceMeaning, Thing
 from fieldhand.planning.grammar.places.groups import of_each_kind
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import are_rows, as_some, as_zone, chooses_from_trees, is_one_row, over
@@ -42,7 +42,7 @@ def _so_often(command: CaptureCommand, times: int) -> CaptureCommand | None:
 
 def _again(command: CaptureCommand, _: None) -> CaptureCommand | None:
     known = command.place is None or command.place.shape in ("here", "one")
-    return command if known and command.relation in ("at", "of") else None
+    return command if known and command.relation in ("at", "of", "along") else None
 
 
 def _each(command: CaptureCommand, things: tuple[Thing, ...] | int | None) -> CaptureCommand | None:
@@ -272,6 +272,19 @@ def per_tree() -> Adjunct:
     return Adjunct(_at_each_tree)
 
 
+@construction("adjunct: things=things PER TREE", cost=0.6)
+def one_per_tree(things: tuple[Thing, ...]) -> Adjunct:
+    """Compose "one reading per tree" behind the trees that are read."""
+    return Adjunct(_one_per_tree, things)
+
+
+def _one_per_tree(command: CaptureCommand, things: tuple[Thing, ...]) -> CaptureCommand | None:
+    several = command.place is not None and command.place.shape in ("several", "area") and command.place.per is None
+    if command.place is None or not several or not _says_again(command, things):
+        return None
+    return replace(command, place=replace(command.place, shape="several", each=command.place.each))
+
+
 @construction("adjunct: PER kind=ATTR", "adjunct: FOR kinds=each_kind", cost=0.2, given=("site",))
 def per_kind(site: Site, kind: Lex | None = None, kinds: tuple[Lex, int] | None = None) -> Adjunct | None:
     """Compose "per variety" and "for each variety"."""
@@ -322,6 +335,25 @@ def _spread(command: CaptureCommand, where: s.Selector) -> CaptureCommand | None
 def at_spacing(dist: tuple[float, bool]) -> Adjunct:
     """Compose "every 10 m" and "10 m apart"."""
     return Adjunct(_spaced, dist, may_lead=True)
+
+
+@construction("adjunct: things=things dist=spaced", cost=0.4)
+def one_at_each_stop(things: tuple[Thing, ...], dist: tuple[float, bool]) -> Adjunct:
+    """Compose "one reading every 10 m" behind what is read."""
+    return Adjunct(_one_spaced, (things, dist))
+
+
+def _one_spaced(
+    command: CaptureCommand, said: tuple[tuple[Thing, ...], tuple[float, bool]]
+) -> CaptureCommand | list[CaptureCommand] | None:
+    things, dist = said
+    return _spaced(command, dist) if _says_again(command, things) else None
+
+
+def _says_again(command: CaptureCommand, things: tuple[Thing, ...]) -> bool:
+    """Return True if captures are those of the command, one of each ("one reading")."""
+    known = {UNSAID_THING, LAST_THING, *(one.action for one in command.things)}
+    return all(one.action in known and one.count in (None, 1) for one in things) and _is_uncounted(command)
 
 
 @construction("adjunct: relation n=count POINT dist=spaced", cost=0.1)

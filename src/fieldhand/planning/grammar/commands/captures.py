@@ -88,6 +88,14 @@ def far_away_for(
     return CaptureCommand(things, PlaceMeaning(far, "one"), used)
 
 
+@construction("capture: act=capture place=here", cost=0.4)
+def done_there(act: CaptureCommand, place: PlaceMeaning, used: int) -> CaptureCommand | None:
+    """Compose "photograph it there"."""
+    if act.place is not None and act.place.shape != "here":
+        return None
+    return replace(act, place=act.place or place, used=used) if act.relation in ("at", "of") else None
+
+
 @construction("capture: act=capture IS WANTED", cost=0.2)
 def is_wanted(act: CaptureCommand, used: int) -> CaptureCommand:
     """Compose "pictures of the yellow trees are what I want"."""
@@ -162,6 +170,7 @@ def check_place(place: PlaceMeaning, used: int) -> CaptureCommand | None:
 
 @construction(
     "capture: verb things=things OF site",
+    "capture: verb things=things OVER site",
     "capture: verb=ACTV site",
     "capture: MEASURE site",
     cost=1.5,

@@ -52,6 +52,8 @@ _ORDERS: dict[str, Form] = {
     "bst": "topic", "bstv": "topic",
     # tree 4: a picture; at tree 4 a picture; a picture of tree 4; a picture: tree 4
     "bt": "topic", "bw": "topic", "wp": "topic", "pt": "topic", "tp": "topic", "th": "topic", "tb": "topic",
+    # a picture is needed at tree 4
+    "tsp": "topic",
     "t": "bare",
 }  # fmt: skip
 _BEGINNINGS = {order[:length] for order in _ORDERS for length in range(1, len(order) + 1)}
@@ -352,7 +354,7 @@ def _topic(clause: Clause, used: int) -> CaptureCommand | None:
         return CaptureCommand(things, place, used, relation="plain") if place.shape in ("here", "those") else None
     if clause.order == "wp":
         return CaptureCommand(things, place, used) if place.each else None  # "with a picture at every tree"
-    if clause.order == "tp":
+    if clause.order in ("tp", "tsp"):
         refers = clause.relation == "of" and any(one.action == LAST_THING for one in things)
         return None if refers else CaptureCommand(things, place, used, relation=clause.relation)
     if place.shape not in ("one", "several", "area") or any(one.action == LAST_THING for one in things):

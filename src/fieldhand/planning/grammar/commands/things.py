@@ -178,7 +178,6 @@ def arrived() -> str:
     "relation: word=OF",
     "relation: word=FOR",
     "relation: word=FROM",
-    "relation: word=ALONG",
     cost=0.0,
 )
 def relation(word: Lex) -> str | None:
@@ -186,3 +185,9 @@ def relation(word: Lex) -> str | None:
     if "possessive" in word.features:
         return "of"
     return None if "motion" in word.features else "at"
+
+
+@construction("relation: ALONG", cost=0.0)
+def along() -> str:
+    """Compose "along", which does not say at which trees."""
+    return "along"

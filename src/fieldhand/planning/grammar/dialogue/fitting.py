@@ -27,6 +27,9 @@ from fieldhand.planning.selections import (
     swapped,
 )
 
+#: Words that tie captures to an area and leave open at which of its trees ("a picture of row 3", "along row 3").
+_OPEN = ("of", "along")
+
 
 def is_spoken_of(place: PlaceMeaning | None) -> bool:
     """Return True for places that were spoken of before, or that the command leaves out."""
@@ -265,7 +268,7 @@ def _of_rows(
     """Return what is said of each of several rows."""
     if place.shape == "area" and count is None and not things[0].count and _are_plural(things):
         return PlaceMeaning(rows, "several")
-    if place.shape == "area" and relation == "of" and setting.either("every tree, or how many?", used, (True, False)):
+    if place.shape == "area" and relation in _OPEN and setting.either("every tree, or how many?", used, (True, False)):
         return PlaceMeaning(rows, "several")
     counted = are_rows(rows) or rows_kept(rows) is not None
     single = one_by_one(rows, setting.site) if counted else rows.members
@@ -282,7 +285,7 @@ def _of_area(
     """Return the trees of an area: all of them, or as many as there are captures."""
     if count is None and _are_plural(things):
         return replace(place, shape="several")
-    if relation == "of" and count in (None, 1) and setting.either("every tree, or how many?", used, (True, False)):
+    if relation in _OPEN and count in (None, 1) and setting.either("every tree, or how many?", used, (True, False)):
         return replace(place, shape="several")
     if count in (None, 1) and are_several_rows(place.selector):
         return _one_in_each_or_in_all(setting, place.selector, used)

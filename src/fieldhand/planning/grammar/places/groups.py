@@ -171,6 +171,12 @@ def as_many(inner: Nominal) -> PlaceMeaning | None:
     return PlaceMeaning(inner.selector, "several", optional=True)
 
 
+@construction("place: SOMEWHERE [in_] where=region", cost=0.2)
+def somewhere(where: s.Selector) -> PlaceMeaning:
+    """Compose "somewhere in row 3"."""
+    return PlaceMeaning(s.Take(count=1, of=where), "one")
+
+
 @construction("place: ASMANY as_can OF group=place", "place: ASMANY OF group=place as_can", cost=0.2)
 def as_many_of(group: PlaceMeaning) -> PlaceMeaning | None:
     """Compose "as many as you can of the yellow trees"."""
