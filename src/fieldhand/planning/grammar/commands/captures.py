@@ -145,6 +145,12 @@ def specified(act: CaptureCommand, place: PlaceMeaning, used: int) -> CaptureCom
     return replace(act, place=place, within=area, used=used, relation="at")
 
 
+@construction("capture: MEASURE place=place [COMMA] BY act=capture", cost=0.3)
+def measure_by(place: PlaceMeaning, act: CaptureCommand, used: int) -> CaptureCommand | None:
+    """Compose "measure another tree by taking a picture"."""
+    return replace(act, place=place, used=used, relation="at") if act.place is None and act.spacing is None else None
+
+
 @construction("capture: MEASURE IT place=here", "capture: MEASURE IT AT place=place", cost=0.4)
 def measure_it(place: PlaceMeaning, used: int) -> CaptureCommand | None:
     """Compose "measure it there" and "measure it at tree 4"."""
