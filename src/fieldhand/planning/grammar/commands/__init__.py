@@ -3,11 +3,20 @@
 from __future__ import annotations
 
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.commands import captures, conditions, driving, limits, parameters, requests, things
+from fieldhand.planning.grammar.commands import (
+    captures,
+    conditions,
+    driving,
+    limits,
+    parameters,
+    requests,
+    spacing,
+    things,
+)
 
 #: The constructions of all themes. Of readings that cost the same, the one composed first is kept, so the order counts.
 GRAMMAR = Grammar()
-for _theme in (things, parameters, captures, driving, conditions, limits, requests):
+for _theme in (things, parameters, captures, spacing, driving, conditions, limits, requests):
     GRAMMAR.include(_theme.GRAMMAR)
 
 __all__ = ["GRAMMAR"]

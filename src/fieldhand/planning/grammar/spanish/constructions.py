@@ -11,7 +11,7 @@ from dataclasses import replace
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar import commands, places
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.commands import captures, conditions, driving, limits, things
+from fieldhand.planning.grammar.commands import captures, conditions, driving, limits, spacing, things
 from fieldhand.planning.grammar.meaning import Amount, Nominal, PlaceMeaning, Thing
 from fieldhand.planning.grammar.places import groups, nouns, numbers, positions, rows, spots, steps
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
@@ -124,9 +124,9 @@ construction(
 )(captures.measure_for)
 construction("capture: TAKE ATHIM things=things word=relation place=place", cost=0.3)(captures.capture_at)
 construction("thing: n=count READING OF [DET] noun=NOUN", cost=0.1)(things.readings_of)
-construction("apart: AT far=amount APART", "apart: SPACEDBY far=amount APART", cost=0.1)(captures.apart)
-construction("apart: SPACEDBY [APART] far=amount", "apart: WITH far=amount APART", cost=0.1)(captures.apart)
-construction("apart: SPACEDBY APART FOR far=amount", cost=0.1)(captures.apart)
+construction("apart: AT far=amount APART", "apart: SPACEDBY far=amount APART", cost=0.1)(spacing.apart)
+construction("apart: SPACEDBY [APART] far=amount", "apart: WITH far=amount APART", cost=0.1)(spacing.apart)
+construction("apart: SPACEDBY APART FOR far=amount", cost=0.1)(spacing.apart)
 construction("test: IS value=ATTRVAL", cost=0.3)(conditions.tree_is)
 construction("test: ISNOT value=ATTRVAL", cost=0.3)(conditions.tree_is_not)
 construction("test: IS check=CMP value=amount", cost=0.3)(conditions.tree_compared)

@@ -1,0 +1,170 @@
+"""Constructions of captures at a distance from each other: along a row, along any line, and of trees far apart."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.english.naming import Naming
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.meaning import Amount, CaptureCommand, Nominal, PlaceMeaning, Thing
+from fieldhand.planning.grammar.words import Lex
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+
+@construction("every: EACH far=amount", cost=0.1)
+def every_so_far(far: Amount) -> float | None:
+    """Compose "every 10 m"."""
+    return far.number if far.unit == "metres" else None
+
+
+@construction(
+    "apart: far=amount APART",
+    "apart: SPACEDBY far=amount APART",
+    "apart: SPACEDBY every=every",
+    "apart: SPACEDBY far=amount",
+    "apart: AT far=amount INTERVAL",
+    "apart: AT INTERVAL OF far=amount",
+    "apart: far=amount INTERVAL",
+    "apart: EACH far=amount APART",
+    "apart: EACH ONE far=amount APART",
+    "apart: WITH far=amount APART",
+    "apart: ABOUT far=amount APART",
+    "apart: WITH far=amount BETWEEN ONE READING AND [DET] NEXTONE",
+    cost=0.1,
+)
+def apart(far: Amount | None = None, every: float | None = None) -> float | None:
+    """Compose "10 m apart"."""
+    if every is not None:
+        return every
+    return far.number if far is not None and far.unit == "metres" else None
+
+
+@construction(
+    "apart_least: ATLEAST far=amount APART",
+    "apart_least: [EACH] check=CMP far=amount APART",
+    "apart_least: SPACEDBY ATLEAST far=amount [APART]",
+    cost=0.1,
+)
+def apart_at_least(far: Amount, check: Lex | None = None) -> float | None:
+    """Compose "at least 10 m apart"."""
+    if far.unit != "metres" or (check is not None and (check.value is None or check.value[0] not in ("ge", "gt"))):
+        return None
+    return far.number
+
+
+@construction("spaced: dist=every", cost=0.0)
+def spacing_of_one(dist: float) -> tuple[float, bool]:
+    """Compose "every 10 m"."""
+    return (dist, False)
+
+
+@construction("spaced: dist=apart", "spaced: dist=apart_least", cost=0.0)
+def spacing_of_many(dist: float) -> tuple[float, bool]:
+    """Compose "10 m apart"."""
+    return (dist, True)
+
+
+@construction(
+    "capture: verb things=things [COMMA] dist=spaced",
+    "capture: things=things dist=spaced",
+    "capture: verb things=things [COMMA] dist=spaced [COMMA] relation place=place",
+    "capture: things=things dist=spaced relation place=place",
+    "capture: verb things=things relation place=place [COMMA] dist=spaced",
+    "capture: dist=spaced relation place=place [COMMA] verb things=things",
+    "capture: AT dist=spaced relation place=place [COMMA] verb things=things",
+    "capture: relation place=place [COMMA] dist=spaced [COMMA] verb things=things",
+    "capture: verb=ACTV dist=spaced relation place=place",
+    "capture: verb=ACTV place=place [COMMA] dist=spaced",
+    cost=0.3,
+)
+def at_spacing(
+    dist: tuple[float, bool],
+    used: int,
+    things: tuple[Thing, ...] = (),
+    place: PlaceMeaning | None = None,
+    verb: Lex | None = None,
+) -> CaptureCommand | list[CaptureCommand] | None:
+    """Compose "take a picture every 10 m along row 3"."""
+    if verb is not None:
+        naming: Naming = verb.value
+        things = (Thing(naming.actions[0]),)
+    if place is not None and place.shape not in ("area", "those", "here"):
+        return None
+    if dist[1] and all(one.count in (None, 1) for one in things):
+        dist = (dist[0], False)
+    if dist[1]:
+        return CaptureCommand(things, place, used, spacing=dist[0])
+    once = CaptureCommand(tuple(replace(one, count=None) for one in things), place, used, spacing=dist[0])
+    if all(one.count in (None, 1) for one in things):
+        return once
+    counted = replace(once, things=things)
+    if len(things) > 1 or things[0].count is None or place is None:
+        return None
+    return [counted, replace(once, times=things[0].count)]  # three stops, or three at every stop?
+
+
+@construction(
+    "capture: verb things=things relation n=count POINT dist=spaced",
+    "capture: things=things relation n=count POINT dist=spaced",
+    "capture: verb things=things relation n=count POINT dist=spaced relation place=place",
+    cost=0.3,
+)
+def at_points(
+    things: tuple[Thing, ...], n: int, dist: tuple[float, bool], used: int, place: PlaceMeaning | None = None
+) -> CaptureCommand | None:
+    """Compose "take pictures at 5 points every 10 m"."""
+    if place is not None and place.shape != "area":
+        return None
+    return CaptureCommand(tuple(replace(one, count=n) for one in things), place, used, spacing=dist[0])
+
+
+@construction(
+    "capture: SEPARATE things=things BY far=amount [COMMA] [AND] [verb] n=count [LIMIT]",
+    "capture: SEPARATE things=things dist=apart [COMMA] [AND] [verb] n=count [LIMIT]",
+    "capture: SEPARATE things=things BY far=amount",
+    "capture: SEPARATE things=things dist=apart",
+    cost=0.2,
+)
+def separate(
+    things: tuple[Thing, ...], used: int, far: Amount | None = None, dist: float | None = None, n: int | None = None
+) -> CaptureCommand | None:
+    """Compose "separate your measurements by 12 m, and carry out four in all"."""
+    metres = dist if far is None else far.number if far.unit == "metres" else None
+    if metres is None or (n is not None and any(one.count is not None for one in things)):
+        return None
+    counted = things if n is None else tuple(replace(one, count=n, plural=True) for one in things)
+    return CaptureCommand(counted, None, used, spacing=metres)
+
+
+@construction(
+    "capture: verb things=things times=COUNT [COMMA] dist=apart",
+    "capture: verb things=things times=COUNT [COMMA] dist=apart relation place=place",
+    cost=0.3,
+)
+def repeated_at_spacing(
+    things: tuple[Thing, ...], times: Lex, dist: float, used: int, place: PlaceMeaning | None = None
+) -> CaptureCommand | list[CaptureCommand] | None:
+    """Compose "measure CO2 three times, 15 m apart"."""
+    if any(one.count is not None for one in things):
+        return None
+    return at_spacing((dist, True), used, tuple(replace(one, count=times.value, plural=True) for one in things), place)
+
+
+@construction(
+    "capture: verb things=things relation inner=nominal [COMMA] [WHICH] dist=apart",
+    "capture: verb things=things relation inner=nominal [COMMA] [WHICH] least=apart_least",
+    cost=0.2,
+)
+def of_trees_apart(
+    things: tuple[Thing, ...], inner: Nominal, used: int, dist: float | None = None, least: float | None = None
+) -> CaptureCommand | None:
+    """Compose "take three pictures of trees 15 m apart"."""
+    counts = {one.count for one in things}
+    count = counts.pop()
+    if counts or count is None or count < 2 or not inner.plural or inner.single or inner.complete:
+        return None
+    apart = s.Apart(apart_m=dist or least or 0.0, count=count, least=least is not None, of=inner.selector)
+    return CaptureCommand(things, PlaceMeaning(apart, "several", count=count), used)
