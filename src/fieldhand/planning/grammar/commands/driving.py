@@ -26,6 +26,7 @@ from fieldhand.planning.grammar.places.groups import at_random, both, of_each_ki
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_some, is_row_of_place
 from fieldhand.site.model import Site
+from fieldhand.terms import Side
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -154,14 +155,30 @@ def order_of_attribute(attribute: Lex) -> list[tuple[str, str, bool]]:
 
 
 @construction(
-    "ordered: FROM [DET] side=DIR FINISH",
-    "ordered: STARTING [DET] side=DIR FINISH",
-    "ordered: [DET] side=DIR FINISH FIRSTONE",
+    "an_end: [DET] side=DIR [FINISH] [OF] [DET] [ROW]",
+    "an_end: [DET] side=DIR SIDE",
+    "an_end: ITS side=DIR FINISH",
+    "an_end: [DET] side=MOST [TREE]",
+    "an_end: [DET] side=MOST ONE",
     cost=0.1,
 )
-def from_an_end(side: Lex) -> tuple[str, str, bool] | None:
-    """Compose "from its southern end"."""
-    return (AWAY_FROM[side.value], "", False) if side.value in AWAY_FROM else None
+def an_end(side: Lex) -> str | None:
+    """Compose "the south end"."""
+    return side.value if side.value in AWAY_FROM else None
+
+
+@construction(
+    "ordered: FROM side=an_end",
+    "ordered: [GOING] STARTING side=an_end",
+    "ordered: side=an_end FIRSTONE",
+    "ordered: side=an_end BEGINSTHERE",
+    "ordered: STARTING side=an_end [COMMA] [AND] ENDING last=an_end",
+    cost=0.1,
+)
+def from_an_end(side: Side, last: Side | None = None) -> tuple[str, str, bool] | None:
+    """Compose "from its southern end" and "the south end being where you begin"."""
+    by = AWAY_FROM[side]
+    return (by, "", False) if last is None or by == f"{side}_to_{last}" else None
 
 
 @construction(
@@ -206,9 +223,9 @@ def ranked_first(trees: PlaceMeaning, attribute: Lex, used: int) -> list[RankCom
     return [RankCommand(trees, name, used) for name in attribute.value]
 
 
-@construction("order: order=ordered", "order: GO order=ordered", cost=0.2)
+@construction("order: order=ordered", "order: GO order=ordered", "order: APPROACH order=ordered", cost=0.2)
 def in_an_order(order: tuple[str, str, bool], used: int) -> InAnOrder:
-    """Compose "visit them from west to east"."""
+    """Compose "visit them from west to east" and "come at it from the south"."""
     return InAnOrder(order[0], order[1], order[2], used)
 
 
@@ -218,9 +235,18 @@ def one_by_one(used: int) -> InAnOrder:
     return InAnOrder("each", "", False, used)
 
 
-@construction("order: INORDER", cost=0.2)
+@construction(
+    "order: INORDER",
+    "order: ORDERBY THISORDER ORDERWORD",
+    "order: ORDERBY [DET] ORDERWORD GIVEN",
+    "order: KEEPORDER THISORDER ORDERWORD",
+    "order: KEEPORDER DET ORDERWORD [GIVEN]",
+    "order: [DET] ORDERWORD MATTERS",
+    "order: [DET] ORDERWORD [COMMA] [IS] GIVEN",
+    cost=0.2,
+)
 def in_that_order(used: int) -> InAnOrder:
-    """Compose "in that order"."""
+    """Compose "in that order", "in the order listed" and "the order matters"."""
     return InAnOrder("", "", False, used)
 
 
@@ -230,9 +256,20 @@ def in_reverse_order(used: int) -> InAnOrder:
     return InAnOrder("reverse", "", False, used)
 
 
-@construction("order: NOORDER", "order: DISTINCT", "order: ORDERWORD COMMA ANY", cost=0.2)
+@construction(
+    "order: NOORDER",
+    "order: DISTINCT",
+    "order: [DET] ORDERWORD [COMMA] [IS] ORDERFREE",
+    "order: [ORDERBY] WHATEVER ORDERWORD [ORDERSUITS]",
+    "order: [ORDERBY] WHATEVER ORDERWORD [IS] ORDERBEST",
+    "order: WHATEVER ORDERWORD REMAINS",
+    "order: ORDERWORD COMMA WHATEVER",
+    "order: ORDERBY [DET] ORDERBEST ORDERWORD",
+    "order: CHOOSEORDER [DET] ORDERWORD [ITSELF]",
+    cost=0.2,
+)
 def in_any_order(used: int) -> InAnOrder:
-    """Compose "in any order"."""
+    """Compose "in any order", "in whatever order suits you" and "the order of visits is free"."""
     return InAnOrder("any", "", False, used)
 
 

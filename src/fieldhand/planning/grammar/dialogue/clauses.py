@@ -26,6 +26,7 @@ from fieldhand.planning.grammar.dialogue.driving import (
     is_there,
     limit_visits,
     put_in_order,
+    with_order_kept,
     without_home,
 )
 from fieldhand.planning.grammar.dialogue.faults import Fork
@@ -126,7 +127,7 @@ def read_clauses(setting: Setting, said: Said) -> DialogueState:
             state = _read(setting, state, clause, clauses[k + 1 :])
         except NotComposed as fault:
             raise fault.about(clause.command.used) from None
-    return _ended(capture_elided(setting, state))
+    return _ended(with_order_kept(setting, capture_elided(setting, state)))
 
 
 def _ended(state: DialogueState) -> DialogueState:
