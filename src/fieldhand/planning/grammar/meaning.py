@@ -360,9 +360,9 @@ class UntilCondition:
 
 @dataclass(frozen=True, slots=True)
 class VisitLimit:
-    """The maximum number of visits of the places before it."""
+    """The maximum number of visits of the places before it; without ``count`` as many as the budget allows."""
 
-    count: int
+    count: int | None
     used: int
 
 

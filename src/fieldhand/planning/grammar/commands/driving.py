@@ -322,6 +322,24 @@ def enough_places(place: PlaceMeaning, used: int) -> Lead | None:
     return Lead(place, used, relation="topic") if place.shape == "several" else None
 
 
+@construction("RETURN: GO word=RETURN", cost=0.2)
+def go_and_return(word: Lex) -> Lex | None:
+    """Compose "toddle on back" before the place."""
+    return word if "back" in word.features else None
+
+
+@construction(
+    "RETURN: MISSION [MUST] word=RETURN",
+    "RETURN: [DET] word=LASTSTOP [IS]",
+    "RETURN: [DET] word=LASTSTOP COMMA",
+    cost=0.2,
+)
+def mission_ends(word: Lex) -> Lex | None:
+    """Compose "the mission should end" and "last stop:" before the place."""
+    ends = {"needs_place", "ends_there"} & word.features or not word.features
+    return replace(word, features=frozenset({"needs_place", "ends_there"})) if ends else None
+
+
 @construction("home: word=GOHOME", "home: word=RETURN", "home: word=RETURN AT DET PLOT", cost=0.3)
 def go_home(word: Lex, used: int) -> Home | None:
     """Compose "go home", to where the robot started."""

@@ -197,7 +197,7 @@ def _read(
     joint, command = clause.before, with_known_place(setting, state, clause.command)
     if joint is not None and joint.first:
         return _do_before_last(setting, state, command, joint, following)
-    if state.plan.steps and isinstance(command, CaptureCommand | DriveCommand | Lead | When | Again | StopCommand):
+    if state.plan.steps and isinstance(command, CaptureCommand | DriveCommand | Lead | When | Again):
         state = driven_home(setting, state)
     elided = state.lead is not None and state.lead.relation == "of" and isinstance(command, CaptureCommand)
     own_place = _has_own_place(command) or elided
@@ -289,6 +289,8 @@ def _read(
 def _stop(setting: Setting, state: DialogueState, command: StopCommand) -> DialogueState:
     """Return the state after the end of the mission."""
     said = setting.spans_of(command.used)
+    if state.home is not None and not command.stays:
+        return replace(state, nominal_said=(*state.nominal_said, *said))  # "..., then home, nothing else"
     if command.stays and not state.scope:
         before = state.nominal_said if state.nominal == "stay" else ()
         return replace(state, nominal="stay", nominal_said=(*before, *said))

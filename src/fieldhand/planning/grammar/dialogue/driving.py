@@ -252,7 +252,7 @@ def put_in_order(setting: Setting, state: DialogueState, command: InAnOrder) -> 
         place = replace(state.area.place, each=True)  # "along row 3 tree by tree"
         return replace(state, area=replace(state.area, place=place, used=state.area.used | command.used))
     if not command.by and _are_in_order(state):
-        return with_joints(_with_given_orders(state), said)  # "tree 100, then 23, then 157, in that order"
+        return _with_order_said(state, said)  # "tree 100, then 23, then 157, in that order"
     if state.loop is None:
         if state.order is not None or (state.commands_in_sentence and state.lead is None):
             raise NotComposed(message("an order needs several places", context="fault"))
@@ -281,13 +281,16 @@ def _are_in_order(state: DialogueState) -> bool:
     return len(steps) > 1
 
 
-def _with_given_orders(state: DialogueState) -> DialogueState:
-    """Return the state with the places that were named one by one in that order."""
+def _with_order_said(state: DialogueState, said: Spans) -> DialogueState:
+    """Return the state with the places that were named one by one in that order, where that was said."""
     for number, step in enumerate(state.plan.steps):
         loop = as_for_each(step)
         if loop is not None and len(loop.select.members) > 1 and not loop.optional and loop.at_most is None:
             state = replace(state, plan=with_node(state.plan, (number,), replace(loop, order="given")))
-    return state
+    only = as_for_each(state.plan.steps[0]) if len(state.plan.steps) == 1 else None
+    if only is None:
+        return with_joints(state, said)
+    return replace(state, plan=with_node(state.plan, (0,), replace(only, said=(*only.said, *said))))
 
 
 def ordered(setting: Setting, loop: p.ForEach, command: InAnOrder, said: Spans) -> p.ForEach:
@@ -361,7 +364,7 @@ def _reversed(select: s.Selector, site: Site) -> s.Selector:
 
 
 def limit_visits(setting: Setting, state: DialogueState, command: VisitLimit) -> DialogueState:
-    """Return the state with a maximum number of visits of the last for-each.
+    """Return the state with a maximum number of visits of the last for-each, or as many as the budget allows.
 
     Raises:
         NotComposed: It has one, or visits a number of places that was named.
@@ -373,4 +376,5 @@ def limit_visits(setting: Setting, state: DialogueState, command: VisitLimit) ->
     if loop.optional or loop.at_most is not None or (state.where is not None and state.where.count is not None):
         raise NotComposed(message("it is not clear whether so many are meant, or at most so many", context="fault"))
     said = (*loop.said, *setting.spans_of(command.used))
-    return replace(state, plan=with_node(state.plan, path, replace(loop, at_most=command.count, said=said)))
+    limited = replace(loop, at_most=command.count, optional=command.count is None, said=said)
+    return replace(state, plan=with_node(state.plan, path, limited))
