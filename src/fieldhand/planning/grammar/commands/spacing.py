@@ -7,7 +7,7 @@ from dataclasses import replace
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Amount, CaptureCommand, Nominal, PlaceMeaning, Thing
+from fieldhand.planning.grammar.meaning import LAST_THING, Amount, CaptureCommand, Nominal, PlaceMeaning, Thing
 from fieldhand.planning.grammar.words import Lex
 
 GRAMMAR = Grammar()
@@ -26,13 +26,17 @@ def every_so_far(far: Amount) -> float | None:
     "apart: SPACEDBY every=every",
     "apart: SPACEDBY far=amount",
     "apart: AT far=amount INTERVAL",
-    "apart: AT INTERVAL OF far=amount",
     "apart: far=amount INTERVAL",
     "apart: EACH far=amount APART",
     "apart: EACH ONE far=amount APART",
     "apart: WITH far=amount APART",
     "apart: ABOUT far=amount APART",
     "apart: WITH far=amount BETWEEN ONE READING AND [DET] NEXTONE",
+    "apart: [WITH] far=amount BETWEEN [DET] POINT",
+    "apart: [WITH] far=amount BETWEEN [DET] READING",
+    "apart: AT [DET] INTERVAL OF far=amount",
+    "apart: WITH [DET] INTERVAL OF far=amount",
+    "apart: INTERVAL [COMMA] far=amount",
     cost=0.1,
 )
 def apart(far: Amount | None = None, every: float | None = None) -> float | None:
@@ -68,16 +72,31 @@ def spacing_of_many(dist: float) -> tuple[float, bool]:
 
 
 @construction(
-    "capture: verb things=things [COMMA] dist=spaced",
-    "capture: things=things dist=spaced",
-    "capture: verb things=things [COMMA] dist=spaced [COMMA] relation place=place",
-    "capture: things=things dist=spaced relation place=place",
-    "capture: verb things=things relation place=place [COMMA] dist=spaced",
-    "capture: dist=spaced relation place=place [COMMA] verb things=things",
-    "capture: AT dist=spaced relation place=place [COMMA] verb things=things",
-    "capture: relation place=place [COMMA] dist=spaced [COMMA] verb things=things",
-    "capture: verb=ACTV dist=spaced relation place=place",
-    "capture: verb=ACTV place=place [COMMA] dist=spaced",
+    "own_stops: [STOPBY] POINT [COMMA] dist=spaced",
+    "own_stops: STOPEACH dist=every",
+    "own_stops: [DET] READING dist=every",
+    "own_stops: ONE READING dist=every",
+    "own_stops: dist=spaced REMAINS",
+    "own_stops: INTERVAL COMMA far=amount",
+    cost=0.1,
+)
+def own_stops(dist: tuple[float, bool] | float | None = None, far: Amount | None = None) -> tuple[float, bool] | None:
+    """Compose "stops 20 m apart", "stop every 20 m" and "one reading every 20 m"."""
+    if far is not None:
+        return (far.number, False) if far.unit == "metres" else None
+    return dist if isinstance(dist, tuple) else (dist or 0.0, False)
+
+
+@construction("at_stops: dist=spaced", "at_stops: dist=own_stops", "at_stops: AT dist=spaced", cost=0.0)
+def at_stops(dist: tuple[float, bool]) -> tuple[float, bool]:
+    """Compose "every 20 m" and "at stops 20 m apart"."""
+    return dist
+
+
+@construction(
+    "capture: [verb] things=things [COMMA] dist=at_stops",
+    "capture: [verb] things=things [COMMA] dist=at_stops [COMMA] relation place=place",
+    "capture: verb=ACTV dist=at_stops relation place=place",
     cost=0.3,
 )
 def at_spacing(
@@ -104,6 +123,44 @@ def at_spacing(
     if len(things) > 1 or things[0].count is None or place is None:
         return None
     return [counted, replace(once, times=things[0].count)]  # three stops, or three at every stop?
+
+
+@construction(
+    "capture: act=capture [COMMA] dist=at_stops",
+    "capture: act=capture FULLSTOP dist=own_stops",
+    "capture: dist=at_stops [COMMA] act=capture",
+    "capture: dist=at_stops AND act=capture",
+    "capture: dist=at_stops INORDERTO act=capture",
+    "capture: dist=at_stops FOR things=things",
+    "capture: dist=own_stops FULLSTOP [each=here] [COMMA] act=capture",
+    "capture: dist=at_stops COMMA each=here [COMMA] act=capture",
+    "capture: dist=at_stops AND each=here [COMMA] act=capture",
+    "capture: dist=at_stops relation place=place [COMMA] act=capture",
+    "capture: relation place=place [COMMA] dist=at_stops [COMMA] act=capture",
+    "capture: place=place COMMA dist=at_stops [COMMA] act=capture",
+    cost=0.3,
+)
+def capture_at_stops(
+    dist: tuple[float, bool],
+    used: int,
+    act: CaptureCommand | None = None,
+    things: tuple[Thing, ...] = (),
+    place: PlaceMeaning | None = None,
+    each: PlaceMeaning | None = None,
+) -> CaptureCommand | list[CaptureCommand] | None:
+    """Compose "measure CO2 along row 3, with stops 20 m apart" and "make stops 20 m apart; at each measure CO2"."""
+    if act is None:
+        return at_spacing(dist, used, things)
+    if each is not None and (each.shape != "those" or act.place is not None):
+        return None
+    if act.spacing is not None or act.within is not None or act.times != 1 or act.relation in ("each", "lead"):
+        return None
+    if any(one.action == LAST_THING for one in act.things):
+        return None
+    own = None if act.place is not None and act.place.shape in ("those", "here") else act.place  # "at each stop"
+    if own is not None and (place is not None or own.per is not None):
+        return None
+    return at_spacing(dist, used, act.things, place or own)
 
 
 @construction(
