@@ -250,6 +250,12 @@ def in_that_order(used: int) -> InAnOrder:
     return InAnOrder("", "", False, used)
 
 
+@construction("things: some=things [COMMA] order=order [COMMA]", cost=0.3)
+def things_in_that_order(some: tuple[Thing, ...], order: InAnOrder) -> tuple[Thing, ...] | None:
+    """Compose "CO2 and a picture, in that order," before their place."""
+    return some if len(some) > 1 and not order.by else None
+
+
 @construction("order: REVERSE", cost=0.2)
 def in_reverse_order(used: int) -> InAnOrder:
     """Compose "in reverse order"."""

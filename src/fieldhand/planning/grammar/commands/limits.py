@@ -259,7 +259,9 @@ def visits_at_most(n: int, used: int, word: Lex | None = None, check: Lex | None
     return VisitLimit(n, used)
 
 
-@construction("visit_limit: ASMANY as_can", "visit_limit: HOWEVERMANY as_can", cost=0.5)
+@construction(
+    "visit_limit: ASMANY as_can [COMMA] [AND] [NOTMORE]", "visit_limit: HOWEVERMANY as_can [COMMA] [NOTMORE]", cost=0.5
+)
 def as_many_of_them(used: int) -> VisitLimit:
     """Compose "as many as you can", of the places before it."""
     return VisitLimit(None, used)

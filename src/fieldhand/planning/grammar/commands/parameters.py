@@ -228,15 +228,18 @@ def capture_with(
 def setting_of_all(before: Said, how: ParameterValue, used: int, robot: RobotProfile) -> list[Said] | None:
     """Compose "moisture at trees 4 and 9. Depth: 10 cm.", of all captures that have the parameter or of the last."""
     own, made = used, dict[int, LinkedCommand]()
-    for number, clause in enumerate(before.clauses):
+    for clause in before.clauses:
         if not isinstance(clause.command, _PLAIN):
             return None
         own &= ~(clause.command.used | (clause.before.used if clause.before is not None else 0))
     for number, clause in enumerate(before.clauses):
         command = clause.command
         if isinstance(command, CaptureCommand):
-            changed = capture_with(command, command.used | own, robot, named=how)
+            changed = capture_with(command, command.used, robot, named=how)
             made |= {} if changed is None else {number: replace(clause, command=changed)}
+    if made:
+        last = made[max(made)]
+        made[max(made)] = replace(last, command=replace(last.command, used=last.command.used | own))
     ways = (made, {max(made): made[max(made)]}) if len(made) > 1 else (made,) if made else ()
     return [Said(tuple(way.get(k, clause) for k, clause in enumerate(before.clauses))) for way in ways]
 
