@@ -22,10 +22,9 @@ from fieldhand.planning.grammar.meaning import (
     Thing,
 )
 from fieldhand.planning.grammar.places.compass import AWAY_FROM
-from fieldhand.planning.grammar.places.groups import at_random, both, of_each_kind
+from fieldhand.planning.grammar.places.groups import both
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_some, is_row_of_place
-from fieldhand.site.model import Site
 from fieldhand.terms import Side
 
 GRAMMAR = Grammar()
@@ -64,25 +63,11 @@ def drive_to(place: PlaceMeaning, used: int, verb: Lex | None = None, along: Lex
     return DriveCommand(place, used, begins=verb is not None and "begins" in verb.features)
 
 
-@construction("drive: FOR kinds=each_kind [COMMA] way=drive", cost=0.2, given=("site",))
-def for_each_kind(kinds: tuple[Lex, int], way: DriveCommand, used: int, site: Site) -> list[DriveCommand] | None:
-    """Compose "for each variety, choose five trees at random" before what is done there."""
-    places = of_each_kind(way.place.selector, kinds, site) if way.picks else None
-    return None if places is None else [replace(way, place=place, used=used) for place in places]
-
-
 @construction("drive_on: after=THEN [COMMA] word=AT place=place", cost=1.0)
 def on_to(after: Lex, word: Lex, place: PlaceMeaning, used: int) -> DriveCommand | None:
     """Compose "then to tree 9" behind "drive to tree 4 and measure CO2"; "next to tree 9" is a place."""
     moves = "motion" in word.features and not {"names_place", "after_doing"} & after.features
     return DriveCommand(place, used) if moves and place.shape == "one" else None
-
-
-@construction("drive: RANDOMLY TAKE n=count inner=nominal", cost=0.2)
-def pick_at_random(n: int, inner: Nominal, used: int) -> DriveCommand | None:
-    """Compose "randomly select 10 trees"."""
-    place = at_random(inner, n)
-    return None if place is None else DriveCommand(place, used, picks=True)
 
 
 @construction("drive: verb=MEASURE place=place", "drive: verb=TAKE place=place", cost=2.0)
@@ -364,12 +349,6 @@ def return_to(marker: s.Selector, used: int) -> Home | None:
 def home_in_the_end(way: Home, word: Lex, used: int) -> Home | None:
     """Compose "come back when done"."""
     return Home(way.then, used, when_done=True) if "when_done" in word.features else None
-
-
-@construction("home: way=home [COMMA] done_first", cost=0.2)
-def home_when_done(way: Home, used: int) -> Home:
-    """Compose "come back once that's done"."""
-    return Home(way.then, used, when_done=True)
 
 
 @construction("home: RETURN AT it=IT", cost=0.5)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Amount, Home, LimitClause, Nominal, PlaceMeaning, VisitLimit
+from fieldhand.planning.grammar.meaning import Amount, Home, LimitClause, PlaceMeaning, VisitLimit
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import are_unvisited
 
@@ -268,22 +268,13 @@ def as_many_of_them(used: int) -> VisitLimit:
 
 
 @construction(
-    "place: ASMANY OTHER inner=nominal as_can",
-    "place: ASMANY as_can OF [DET] inner=nominal",
-    "place: HOWEVERMANY [DET] inner=nominal as_can",
-    "place: MOSTNUMBER [DET] inner=nominal as_can",
-    cost=0.2,
+    "place: ASMANY as_can OF whole=place",
+    "place: ASMANY [OF] [OTHER] whole=place as_can",
+    "place: HOWEVERMANY [OF] whole=place as_can",
+    cost=0.3,
 )
-def as_many_as_possible(inner: Nominal) -> PlaceMeaning | None:
-    """Compose "as many different trees as possible" and "as many as you can of the yellow trees"."""
-    if inner.single or not inner.plural:
-        return None
-    return PlaceMeaning(inner.selector, "several", optional=True)
-
-
-@construction("place: ASMANY as_can OF whole=place", "place: ASMANY [OF] whole=place as_can", cost=0.3)
 def as_many_of(whole: PlaceMeaning) -> PlaceMeaning | None:
-    """Compose "as many as you can of trees 4 to 9"."""
+    """Compose "as many as you can of trees 4 to 9", "as many different trees as possible" and "however many fit"."""
     if whole.shape not in ("several", "area") or whole.per is not None or whole.optional or whole.at_most is not None:
         return None
     if are_unvisited(whole.selector):

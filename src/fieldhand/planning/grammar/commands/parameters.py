@@ -94,13 +94,6 @@ def by_setting(how: ParameterValue) -> ParameterValue:
     return how
 
 
-@construction("CHOICE: choice=CHOICE [DASH] name=PARAMETER", cost=0.1)
-def choice_with_name(choice: Lex, name: Lex) -> Lex | None:
-    """Compose "ground-view" before "photograph"."""
-    meant = tuple(one for one in choice.value if one[0] in name.value)
-    return replace(choice, value=meant) if meant else None
-
-
 @construction("parameter: [DET] choice=CHOICE", cost=0.2)
 def chosen(choice: Lex) -> list[ParameterValue]:
     """Compose "the trunk"."""
@@ -158,14 +151,15 @@ def another_with(how: ParameterValue, robot: RobotProfile) -> list[Thing] | None
     return [Thing(LAST_THING, count=1, parameters=parameters) for parameters in fitting] or None
 
 
-@construction("NOUN: choice=CHOICE noun=NOUN", cost=0.1, given=("robot",))
-def noun_of(choice: Lex, noun: Lex, robot: RobotProfile) -> list[Lex] | None:
-    """Compose "trunk photos"."""
+@construction("NOUN: choice=CHOICE [DASH] [name=PARAMETER] noun=NOUN", cost=0.1, given=("robot",))
+def noun_of(choice: Lex, noun: Lex, robot: RobotProfile, name: Lex | None = None) -> list[Lex] | None:
+    """Compose "trunk photos" and "ground-view photograph"."""
     naming: Naming = noun.value
     if not naming.actions or naming.parameters:
         return None
     thing = Thing(naming.actions[0])
-    made = [with_parameter(thing, value, robot) for value in chosen(choice)]
+    values = [value for value in chosen(choice) if name is None or value.names[0] in name.value]
+    made = [with_parameter(thing, value, robot) for value in values]
     named = [replace(naming, parameters=one.parameters) for one in made if one is not None]
     return [replace(noun, value=one) for one in named] or None
 

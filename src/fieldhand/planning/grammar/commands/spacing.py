@@ -87,6 +87,20 @@ def own_stops(dist: tuple[float, bool] | float | None = None, far: Amount | None
     return dist if isinstance(dist, tuple) else (dist or 0.0, False)
 
 
+@construction(
+    "capture: [verb] things=things relation n=count POINT dist=spaced",
+    "capture: [verb] things=things relation n=count POINT dist=spaced relation place=place",
+    cost=0.3,
+)
+def at_so_many_stops(
+    things: tuple[Thing, ...], n: int, dist: tuple[float, bool], used: int, place: PlaceMeaning | None = None
+) -> CaptureCommand | None:
+    """Compose "take pictures at 5 points every 10 m"."""
+    if place is not None and place.shape != "area":
+        return None
+    return CaptureCommand(tuple(replace(one, count=n) for one in things), place, used, spacing=dist[0])
+
+
 @construction("at_stops: dist=spaced", "at_stops: dist=own_stops", "at_stops: AT dist=spaced", cost=0.0)
 def at_stops(dist: tuple[float, bool]) -> tuple[float, bool]:
     """Compose "every 20 m" and "at stops 20 m apart"."""
@@ -164,21 +178,6 @@ def capture_at_stops(
 
 
 @construction(
-    "capture: verb things=things relation n=count POINT dist=spaced",
-    "capture: things=things relation n=count POINT dist=spaced",
-    "capture: verb things=things relation n=count POINT dist=spaced relation place=place",
-    cost=0.3,
-)
-def at_points(
-    things: tuple[Thing, ...], n: int, dist: tuple[float, bool], used: int, place: PlaceMeaning | None = None
-) -> CaptureCommand | None:
-    """Compose "take pictures at 5 points every 10 m"."""
-    if place is not None and place.shape != "area":
-        return None
-    return CaptureCommand(tuple(replace(one, count=n) for one in things), place, used, spacing=dist[0])
-
-
-@construction(
     "capture: SEPARATE things=things BY far=amount [COMMA] [AND] [verb] n=count [LIMIT]",
     "capture: SEPARATE things=things dist=apart [COMMA] [AND] [verb] n=count [LIMIT]",
     "capture: SEPARATE things=things BY far=amount",
@@ -194,20 +193,6 @@ def separate(
         return None
     counted = things if n is None else tuple(replace(one, count=n, plural=True) for one in things)
     return CaptureCommand(counted, None, used, spacing=metres)
-
-
-@construction(
-    "capture: verb things=things times=COUNT [COMMA] dist=apart",
-    "capture: verb things=things times=COUNT [COMMA] dist=apart relation place=place",
-    cost=0.3,
-)
-def repeated_at_spacing(
-    things: tuple[Thing, ...], times: Lex, dist: float, used: int, place: PlaceMeaning | None = None
-) -> CaptureCommand | list[CaptureCommand] | None:
-    """Compose "measure CO2 three times, 15 m apart"."""
-    if any(one.count is not None for one in things):
-        return None
-    return at_spacing((dist, True), used, tuple(replace(one, count=times.value, plural=True) for one in things), place)
 
 
 @construction(
