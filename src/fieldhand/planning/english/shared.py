@@ -81,7 +81,7 @@ def _compass_orders(v: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
             yield by, form.format(b)
         yield by, f"in the direction from {a} to {b}"
         yield by, f"in the direction {a} to {b}"
-        for begin in ("starting", "beginning", "working", "going"):
+        for begin in ("working", "going"):
             for where in ("from", "at", "in", "on"):
                 for word in v["sides"][a]:
                     for end in ("", " end", " side", " edge"):

@@ -30,6 +30,8 @@ LAST_THING = "*"
 UNSAID_THING = "?"
 #: Value of a parameter that is the one it had before ("at the same depth").
 SAME_VALUE = "="
+#: Value of a parameter that is the profile's own ("at the standard depth").
+DEFAULT_VALUE = ""
 #: Quantity of a test of a reading of the request by its number: "^1" is the first, "^-1" the last.
 NTH_READING = "^"
 
@@ -360,9 +362,9 @@ class UntilCondition:
 
 @dataclass(frozen=True, slots=True)
 class VisitLimit:
-    """The maximum number of visits of the places before it."""
+    """The maximum number of visits of the places before it; without ``count`` as many as the budget allows."""
 
-    count: int
+    count: int | None
     used: int
 
 

@@ -337,6 +337,12 @@ def at_spacing(dist: tuple[float, bool]) -> Adjunct:
     return Adjunct(_spaced, dist, may_lead=True)
 
 
+@construction("adjunct: dist=own_stops", "adjunct: AT dist=own_stops", cost=0.1)
+def at_own_stops(dist: tuple[float, bool]) -> Adjunct:
+    """Compose "stops 20 m apart" and "stop every 20 m"."""
+    return Adjunct(_spaced, dist, may_lead=True, is_sentence=True)
+
+
 @construction("adjunct: things=things dist=spaced", cost=0.4)
 def one_at_each_stop(things: tuple[Thing, ...], dist: tuple[float, bool]) -> Adjunct:
     """Compose "one reading every 10 m" behind what is read."""

@@ -72,6 +72,26 @@ def adjunct_by_itself(act: CaptureCommand, adjunct: Adjunct, used: int) -> Captu
 
 
 @construction(
+    "capture: adjunct=adjunct FULLSTOP [each=here] [COMMA] act=capture",
+    "capture: adjunct=adjunct COMMA each=here [COMMA] act=capture",
+    "capture: adjunct=adjunct AND each=here [COMMA] act=capture",
+    cost=0.3,
+)
+def adjunct_before(
+    adjunct: Adjunct, act: CaptureCommand, used: int, each: PlaceMeaning | None = None
+) -> CaptureCommand | None:
+    """Compose "make stops 20 m apart; at each stop read CO2"."""
+    if not (adjunct.is_sentence and adjunct.may_lead) or act.spacing is not None or act.within is not None:
+        return None
+    if each is not None and (each.shape != "those" or act.place is not None):
+        return None
+    if act.place is not None and act.place.shape in ("those", "here"):
+        act = replace(act, place=None)
+    changed = adjunct.change(act, adjunct.value)
+    return replace(changed, used=used) if isinstance(changed, CaptureCommand) else None
+
+
+@construction(
     "capture: GO FARTHEST FOR things=things",
     "capture: GO FARTHEST FOR things=things OF inner=nominal",
     "capture: GO FARTHEST FOR things=things OF other=ANOTHER inner=nominal",

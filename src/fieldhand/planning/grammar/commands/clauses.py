@@ -38,8 +38,8 @@ _ORDERS: dict[str, Form] = {
     "vbf": "verb", "vpf": "verb", "vf": "verb", "vfp": "verb", "vbw": "verb", "utp": "verb",
     # go to tree 4 for a picture; test the soil for nitrate at tree 6
     "gf": "verb", "vzf": "verb", "vzfp": "verb", "vtz": "verb", "vtzp": "verb",
-    # every 10 m along row 3 take a picture; do row 3, thermal
-    "pvt": "verb", "vbt": "topic",
+    # every 10 m along row 3 take a picture; row 3, every 10 m, photograph; every 10 m for a picture; do row 3, thermal
+    "pvt": "verb", "bvt": "verb", "pa": "act", "ba": "act", "f": "bare", "vbt": "topic",
     # photograph tree 4 (with two pictures); clip a leaf from tree 4
     "a": "act", "ab": "act", "ap": "act", "ah": "act", "abw": "act", "at": "act", "atp": "act",
     # a picture should be taken at tree 4; CO2 at tree 4 should be measured; a picture taken at tree 4
@@ -59,6 +59,10 @@ _ORDERS: dict[str, Form] = {
 _BEGINNINGS = {order[:length] for order in _ORDERS for length in range(1, len(order) + 1)}
 #: Orders whose last part a comma may set off ("tree 4, a picture").
 _SET_OFF = {"bt", "pt", "tb", "tp", "tv", "bst", "vbt"}
+
+
+#: Orders that begin with the place of stops ("along row 3, every 10 m, take a picture").
+_STOPS_FIRST = {"pv", "bv", "pa", "ba"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -221,7 +225,7 @@ def next_part(clause: Clause, part: Clause) -> Clause | None:
     order = clause.order + part.order
     if order not in _BEGINNINGS or (clause.place is not None and part.place is not None):
         return None
-    if order.startswith("pv") and not clause.adjuncts:
+    if order in _STOPS_FIRST and not clause.adjuncts:
         return None  # "at tree 4 take a picture" is a place, and a command that is done there
     return Clause(
         order,
@@ -236,7 +240,7 @@ def next_part(clause: Clause, part: Clause) -> Clause | None:
 @construction("clause: clause=clause COMMA part=part", cost=0.4)
 def part_set_off(clause: Clause, part: Clause) -> Clause | None:
     """Compose "tree 4, a picture" and "five readings, each 10 m apart, in row 4"."""
-    behind = clause.adjuncts and part.order in ("p", "v")
+    behind = clause.adjuncts and part.order in ("p", "v", "a")
     return next_part(clause, part) if behind or clause.order + part.order in _SET_OFF else None
 
 
@@ -248,7 +252,12 @@ def with_adjunct(clause: Clause, adjunct: Adjunct) -> Clause | None:
     return replace(clause, adjuncts=(*clause.adjuncts, adjunct))
 
 
-@construction("clause: adjunct=adjunct clause=clause", "clause: adjunct=adjunct COMMA clause=clause", cost=0.3)
+@construction(
+    "clause: adjunct=adjunct [COMMA] clause=clause",
+    "clause: adjunct=adjunct AND clause=clause",
+    "clause: adjunct=adjunct INORDERTO clause=clause",
+    cost=0.3,
+)
 def adjunct_first(adjunct: Adjunct, clause: Clause) -> Clause | None:
     """Compose "every 10 m take a picture"."""
     if not adjunct.may_lead:
@@ -260,6 +269,8 @@ def _commands(clause: Clause, used: int, *forms: Form) -> list[CaptureCommand] |
     """Return what a complete clause may mean; None if it is not complete, or of another form."""
     form = _ORDERS.get(clause.order)
     if form is None:
+        return None
+    if clause.order == "f" and not clause.adjuncts:
         return None
     if form == "bare" and clause.adjuncts:
         form = "topic"  # "four readings 20 m apart"

@@ -22,10 +22,10 @@ from fieldhand.planning.grammar.meaning import (
     Thing,
 )
 from fieldhand.planning.grammar.places.compass import AWAY_FROM
-from fieldhand.planning.grammar.places.groups import both, of_each_kind
+from fieldhand.planning.grammar.places.groups import both
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_some, is_row_of_place
-from fieldhand.site.model import Site
+from fieldhand.terms import Side
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -61,13 +61,6 @@ def drive_to(place: PlaceMeaning, used: int, verb: Lex | None = None, along: Lex
     if along is not None and place.shape == "several" and as_some(place.selector) is not None:
         return None  # "along 5 trees": those follow each other
     return DriveCommand(place, used, begins=verb is not None and "begins" in verb.features)
-
-
-@construction("drive: FOR kinds=each_kind [COMMA] way=drive", cost=0.2, given=("site",))
-def for_each_kind(kinds: tuple[Lex, int], way: DriveCommand, used: int, site: Site) -> list[DriveCommand] | None:
-    """Compose "for each variety, choose five trees at random" before what is done there."""
-    places = of_each_kind(way.place.selector, kinds, site) if way.picks else None
-    return None if places is None else [replace(way, place=place, used=used) for place in places]
 
 
 @construction("drive_on: after=THEN [COMMA] word=AT place=place", cost=1.0)
@@ -147,14 +140,30 @@ def order_of_attribute(attribute: Lex) -> list[tuple[str, str, bool]]:
 
 
 @construction(
-    "ordered: FROM [DET] side=DIR FINISH",
-    "ordered: STARTING [DET] side=DIR FINISH",
-    "ordered: [DET] side=DIR FINISH FIRSTONE",
+    "an_end: [DET] side=DIR [FINISH] [OF] [DET] [ROW]",
+    "an_end: [DET] side=DIR SIDE",
+    "an_end: ITS side=DIR FINISH",
+    "an_end: [DET] side=MOST [TREE]",
+    "an_end: [DET] side=MOST ONE",
     cost=0.1,
 )
-def from_an_end(side: Lex) -> tuple[str, str, bool] | None:
-    """Compose "from its southern end"."""
-    return (AWAY_FROM[side.value], "", False) if side.value in AWAY_FROM else None
+def an_end(side: Lex) -> str | None:
+    """Compose "the south end"."""
+    return side.value if side.value in AWAY_FROM else None
+
+
+@construction(
+    "ordered: FROM side=an_end",
+    "ordered: [GOING] STARTING side=an_end",
+    "ordered: side=an_end FIRSTONE",
+    "ordered: side=an_end BEGINSTHERE",
+    "ordered: STARTING side=an_end [COMMA] [AND] ENDING last=an_end",
+    cost=0.1,
+)
+def from_an_end(side: Side, last: Side | None = None) -> tuple[str, str, bool] | None:
+    """Compose "from its southern end" and "the south end being where you begin"."""
+    by = AWAY_FROM[side]
+    return (by, "", False) if last is None or by == f"{side}_to_{last}" else None
 
 
 @construction(
@@ -199,9 +208,9 @@ def ranked_first(trees: PlaceMeaning, attribute: Lex, used: int) -> list[RankCom
     return [RankCommand(trees, name, used) for name in attribute.value]
 
 
-@construction("order: order=ordered", "order: GO order=ordered", cost=0.2)
+@construction("order: order=ordered", "order: GO order=ordered", "order: APPROACH order=ordered", cost=0.2)
 def in_an_order(order: tuple[str, str, bool], used: int) -> InAnOrder:
-    """Compose "visit them from west to east"."""
+    """Compose "visit them from west to east" and "come at it from the south"."""
     return InAnOrder(order[0], order[1], order[2], used)
 
 
@@ -211,10 +220,25 @@ def one_by_one(used: int) -> InAnOrder:
     return InAnOrder("each", "", False, used)
 
 
-@construction("order: INORDER", cost=0.2)
+@construction(
+    "order: INORDER",
+    "order: ORDERBY THISORDER ORDERWORD",
+    "order: ORDERBY [DET] ORDERWORD GIVEN",
+    "order: KEEPORDER THISORDER ORDERWORD",
+    "order: KEEPORDER DET ORDERWORD [GIVEN]",
+    "order: [DET] ORDERWORD MATTERS",
+    "order: [DET] ORDERWORD [COMMA] [IS] GIVEN",
+    cost=0.2,
+)
 def in_that_order(used: int) -> InAnOrder:
-    """Compose "in that order"."""
+    """Compose "in that order", "in the order listed" and "the order matters"."""
     return InAnOrder("", "", False, used)
+
+
+@construction("things: some=things [COMMA] order=order [COMMA]", cost=0.3)
+def things_in_that_order(some: tuple[Thing, ...], order: InAnOrder) -> tuple[Thing, ...] | None:
+    """Compose "CO2 and a picture, in that order," before their place."""
+    return some if len(some) > 1 and not order.by else None
 
 
 @construction("order: REVERSE", cost=0.2)
@@ -223,9 +247,20 @@ def in_reverse_order(used: int) -> InAnOrder:
     return InAnOrder("reverse", "", False, used)
 
 
-@construction("order: NOORDER", "order: DISTINCT", "order: ORDERWORD COMMA ANY", cost=0.2)
+@construction(
+    "order: NOORDER",
+    "order: DISTINCT",
+    "order: [DET] ORDERWORD [COMMA] [IS] ORDERFREE",
+    "order: [ORDERBY] WHATEVER ORDERWORD [ORDERSUITS]",
+    "order: [ORDERBY] WHATEVER ORDERWORD [IS] ORDERBEST",
+    "order: WHATEVER ORDERWORD REMAINS",
+    "order: ORDERWORD COMMA WHATEVER",
+    "order: ORDERBY [DET] ORDERBEST ORDERWORD",
+    "order: CHOOSEORDER [DET] ORDERWORD [ITSELF]",
+    cost=0.2,
+)
 def in_any_order(used: int) -> InAnOrder:
-    """Compose "in any order"."""
+    """Compose "in any order", "in whatever order suits you" and "the order of visits is free"."""
     return InAnOrder("any", "", False, used)
 
 
@@ -278,6 +313,24 @@ def enough_places(place: PlaceMeaning, used: int) -> Lead | None:
     return Lead(place, used, relation="topic") if place.shape == "several" else None
 
 
+@construction("RETURN: GO word=RETURN", cost=0.2)
+def go_and_return(word: Lex) -> Lex | None:
+    """Compose "toddle on back" before the place."""
+    return word if "back" in word.features else None
+
+
+@construction(
+    "RETURN: MISSION [MUST] word=RETURN",
+    "RETURN: [DET] word=LASTSTOP [IS]",
+    "RETURN: [DET] word=LASTSTOP COMMA",
+    cost=0.2,
+)
+def mission_ends(word: Lex) -> Lex | None:
+    """Compose "the mission should end" and "last stop:" before the place."""
+    ends = {"needs_place", "ends_there"} & word.features or not word.features
+    return replace(word, features=frozenset({"needs_place", "ends_there"})) if ends else None
+
+
 @construction("home: word=GOHOME", "home: word=RETURN", "home: word=RETURN AT DET PLOT", cost=0.3)
 def go_home(word: Lex, used: int) -> Home | None:
     """Compose "go home", to where the robot started."""
@@ -296,12 +349,6 @@ def return_to(marker: s.Selector, used: int) -> Home | None:
 def home_in_the_end(way: Home, word: Lex, used: int) -> Home | None:
     """Compose "come back when done"."""
     return Home(way.then, used, when_done=True) if "when_done" in word.features else None
-
-
-@construction("home: way=home [COMMA] done_first", cost=0.2)
-def home_when_done(way: Home, used: int) -> Home:
-    """Compose "come back once that's done"."""
-    return Home(way.then, used, when_done=True)
 
 
 @construction("home: RETURN AT it=IT", cost=0.5)

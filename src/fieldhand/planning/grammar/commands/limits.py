@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Amount, Home, LimitClause, VisitLimit
+from fieldhand.planning.grammar.meaning import Amount, Home, LimitClause, PlaceMeaning, VisitLimit
 from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.selections import are_unvisited
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -34,13 +37,13 @@ def of_what() -> str:
 @construction(
     "at_most: less most=amount [of_what]",
     "at_most: UPTO CMP most=amount [of_what]",
-    "at_most: most=amount TOPS",
-    "at_most: most=amount of_what TOPS",
+    "at_most: most=amount [of_what] TOPS",
+    "at_most: most=amount bound=BOUND",
     cost=0.1,
 )
-def at_most(most: Amount) -> Amount | None:
-    """Compose "no more than 500 m of driving" and "20 minutes tops"."""
-    return most if most.unit in _LIMITED else None
+def at_most(most: Amount, bound: Lex | None = None) -> Amount | None:
+    """Compose "no more than 500 m of driving", "20 minutes tops" and "half an hour or less"."""
+    return most if most.unit in _LIMITED and (bound is None or bound.value == ("le", "")) else None
 
 
 @construction("so_much: most=at_most", "so_much: most=amount", "so_much: most=amount of_what", cost=0.1)
@@ -63,6 +66,10 @@ def so_much(most: Amount) -> Amount | None:
     "limit: WITH most=at_most",
     "limit: WITH most=amount AS UPPERLIMIT",
     "limit: most=amount [of_what] TOPS",
+    "limit: most=amount [of_what] CLOCK",
+    "limit: most=amount [of_what] [COMMA] [AND] NOTMORE",
+    "limit: CAPAT subject [AT] most=so_much",
+    "limit: subject COMMA most=at_most",
     "limit: [WITH] subject [IS] LIMITEDTO most=amount",
     "limit: [subject] LIMITEDTO most=amount GO",
     "limit: [WITH] [DET] UPPERLIMIT [IS] [OF] [COMMA] most=so_much",
@@ -80,10 +87,24 @@ def limited_to(most: Amount, used: int) -> LimitClause | None:
     return LimitClause(most, False, used) if most.unit in _LIMITED else None
 
 
+@construction("limit: said=limit [COMMA] [AND] NOTMORE", "limit: [subject] [MUST] BEDONE said=limit", cost=0.2)
+def emphasised(said: LimitClause, used: int) -> LimitClause | None:
+    """Compose "within 20 minutes and not a minute more" and "be done in 20 minutes"."""
+    return None if said.keep else replace(said, used=used)
+
+
 @construction("limit: UPTO most=amount [of_what]", "limit: less most=amount of_what", cost=0.5)
 def at_most_so_much(most: Amount, used: int) -> LimitClause | None:
     """Compose "max 20 minutes" and "less than 100 m of driving"."""
     return limited_to(most, used)
+
+
+@construction("limit: less most=amount", "limit: subject COMMA time=amount", cost=0.5)
+def no_more_than(used: int, most: Amount | None = None, time: Amount | None = None) -> LimitClause | None:
+    """Compose "at most 400 m" and "time: 20 min"; "at most 30 %" may be a reading, "distance: 20 m" one of stops."""
+    amount = most or time
+    units = ("metres", "seconds") if time is None else ("seconds",)
+    return LimitClause(amount, False, used) if amount is not None and amount.unit in units else None
 
 
 @construction("limit: word=AT most=amount [of_what]", cost=0.4)
@@ -123,7 +144,15 @@ def reserve(least: Amount) -> Amount | None:
     return least if least.unit == "percent" else None
 
 
-@construction("reserve: check=CMP least=amount [of_what]", "reserve: [DET] BATTERY check=CMP least=amount", cost=0.1)
+@construction(
+    "reserve: least=at_least", "reserve: least=battery_at_least", "battery_at_least: least=at_least of_what", cost=0.0
+)
+def left_at_least(least: Amount) -> Amount:
+    """Compose "at least 30 % of the battery"."""
+    return least
+
+
+@construction("at_least: check=CMP least=amount", "battery_at_least: [DET] BATTERY check=CMP least=amount", cost=0.1)
 def at_least(check: Lex, least: Amount) -> Amount | None:
     """Compose "at least 30 % of the battery"."""
     return least if least.unit == "percent" and check.value[0] in ("gt", "ge") else None
@@ -142,6 +171,10 @@ def at_least(check: Lex, least: Amount) -> Amount | None:
     "limit: STOP in_case [DET] BATTERY [IS] at least=amount",
     "limit: [DET] BATTERY STAYSOVER least=amount",
     "limit: NEVERLET [DET] BATTERY GOUNDER least=amount",
+    "limit: WITHOUT [DET] BATTERY GOUNDER least=amount",
+    "limit: STOP at least=reserve",
+    "limit: least=at_least LEFT [word=THEN]",
+    "limit: least=battery_at_least [LEFT] [word=THEN]",
     "limit: WITHOUT GOUNDER least=reserve",
     cost=0.3,
 )
@@ -224,3 +257,28 @@ def visits_at_most(n: int, used: int, word: Lex | None = None, check: Lex | None
     if (word is not None and "after_doing" not in word.features) or (check is not None and check.value != ("le", "")):
         return None
     return VisitLimit(n, used)
+
+
+@construction(
+    "visit_limit: ASMANY as_can [COMMA] [AND] [NOTMORE]", "visit_limit: HOWEVERMANY as_can [COMMA] [NOTMORE]", cost=0.5
+)
+def as_many_of_them(used: int) -> VisitLimit:
+    """Compose "as many as you can", of the places before it."""
+    return VisitLimit(None, used)
+
+
+@construction(
+    "place: ASMANY as_can OF whole=place",
+    "place: ASMANY [OF] [OTHER] whole=place as_can",
+    "place: HOWEVERMANY [OF] whole=place as_can",
+    cost=0.3,
+)
+def as_many_of(whole: PlaceMeaning) -> PlaceMeaning | None:
+    """Compose "as many as you can of trees 4 to 9", "as many different trees as possible" and "however many fit"."""
+    if whole.shape not in ("several", "area") or whole.per is not None or whole.optional or whole.at_most is not None:
+        return None
+    if are_unvisited(whole.selector):
+        return None
+    if whole.count is not None and not all(one.named_tree for one in whole.selector.members):
+        return None
+    return replace(whole, shape="several", optional=True, count=None)

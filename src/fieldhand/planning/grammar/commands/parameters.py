@@ -8,13 +8,24 @@ from dataclasses import replace
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import (
+    DEFAULT_VALUE,
     LAST_THING,
     SAME_VALUE,
     Amount,
     CaptureCommand,
+    DriveCommand,
+    Home,
+    InAnOrder,
+    Lead,
+    LimitClause,
+    LinkedCommand,
     ParameterValue,
     PlaceMeaning,
+    Said,
+    StopCommand,
     Thing,
+    VisitLimit,
+    When,
 )
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.robot.model import Parameter, RobotProfile
@@ -22,6 +33,10 @@ from fieldhand.robot.model import Parameter, RobotProfile
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
+#: Values that are no choices of a parameter.
+_NO_CHOICES = (SAME_VALUE, DEFAULT_VALUE)
+#: Commands without captures inside them.
+_PLAIN = CaptureCommand | DriveCommand | Home | InAnOrder | Lead | LimitClause | StopCommand | VisitLimit | When
 #: Units of parameters by the unit of an amount, each with its size in that unit.
 _SIZES: Mapping[str, Mapping[str, float]] = {
     "metres": {"m": 1.0, "cm": 0.01, "mm": 0.001},
@@ -37,8 +52,6 @@ _SIZES: Mapping[str, Mapping[str, float]] = {
     "parameter: amount=amount name=PARAMETER",
     "parameter: amount=amount DOWNTO",
     "parameter: word=AT [DET] name=PARAMETER OF amount=amount",
-    "parameter: WITH [DET] name=PARAMETER OF amount=amount",
-    "parameter: [DET] name=PARAMETER OF amount=amount",
     cost=0.2,
 )
 def parameter(amount: Amount, word: Lex | None = None, name: Lex | None = None) -> ParameterValue | None:
@@ -46,6 +59,39 @@ def parameter(amount: Amount, word: Lex | None = None, name: Lex | None = None) 
     if word is not None and "setting" not in word.features:
         return None
     return ParameterValue(amount.number, amount.unit, () if name is None else tuple(name.value))
+
+
+@construction(
+    "setting: [WITH] [DET] name=PARAMETER [COMMA] [OF] amount=amount",
+    "setting: [DET] name=PARAMETER IS amount=amount",
+    "setting: [DET] name=PARAMETER SHOULD amount=amount",
+    "setting: [WITH] [DET] name=PARAMETER [COMMA] [OF] [DET] choice=CHOICE",
+    "setting: [WITH] [DET] choice=CHOICE [DASH] name=PARAMETER",
+    "setting: word=AT [DET] DEFAULTWORD name=PARAMETER",
+    "setting: [WITH] [DET] DEFAULTWORD name=PARAMETER",
+    "setting: how=setting REMAINS",
+    cost=0.1,
+)
+def setting(
+    name: Lex | None = None,
+    amount: Amount | None = None,
+    choice: Lex | None = None,
+    word: Lex | None = None,
+    how: ParameterValue | None = None,
+) -> list[ParameterValue] | None:
+    """Compose "depth: 10 cm", "view: ground" and "standard depth", which name the parameter."""
+    if name is None or (word is not None and "setting" not in word.features):
+        return None if how is None else [how]
+    names = tuple(name.value)
+    if choice is not None:
+        return [value for value in chosen(choice) if value.names[0] in names] or None
+    return [ParameterValue(amount.number, amount.unit, names) if amount else ParameterValue(DEFAULT_VALUE, "", names)]
+
+
+@construction("parameter: how=setting", cost=0.1)
+def by_setting(how: ParameterValue) -> ParameterValue:
+    """Compose "of a depth of 40 cm"."""
+    return how
 
 
 @construction("parameter: [DET] choice=CHOICE", cost=0.2)
@@ -65,7 +111,7 @@ def thing_with(
 ) -> Thing | None:
     """Compose "soil moisture at 30 cm" and "soil moisture, 30 cm"."""
     value = how if amount is None else ParameterValue(amount.number, amount.unit, ())
-    if value is None or (isinstance(value.value, str) and value.value != SAME_VALUE):
+    if value is None or (isinstance(value.value, str) and value.value not in _NO_CHOICES):
         return None
     return with_parameter(one, value, robot)
 
@@ -105,14 +151,15 @@ def another_with(how: ParameterValue, robot: RobotProfile) -> list[Thing] | None
     return [Thing(LAST_THING, count=1, parameters=parameters) for parameters in fitting] or None
 
 
-@construction("NOUN: choice=CHOICE noun=NOUN", cost=0.1, given=("robot",))
-def noun_of(choice: Lex, noun: Lex, robot: RobotProfile) -> list[Lex] | None:
-    """Compose "trunk photos"."""
+@construction("NOUN: choice=CHOICE [DASH] [name=PARAMETER] noun=NOUN", cost=0.1, given=("robot",))
+def noun_of(choice: Lex, noun: Lex, robot: RobotProfile, name: Lex | None = None) -> list[Lex] | None:
+    """Compose "trunk photos" and "ground-view photograph"."""
     naming: Naming = noun.value
     if not naming.actions or naming.parameters:
         return None
     thing = Thing(naming.actions[0])
-    made = [with_parameter(thing, value, robot) for value in chosen(choice)]
+    values = [value for value in chosen(choice) if name is None or value.names[0] in name.value]
+    made = [with_parameter(thing, value, robot) for value in values]
     named = [replace(naming, parameters=one.parameters) for one in made if one is not None]
     return [replace(noun, value=one) for one in named] or None
 
@@ -135,7 +182,11 @@ def act_on_part(
 
 @construction(
     "capture: said=capture [COMMA] how=parameter",
+    "capture: said=capture [COMMA] named=setting",
     "capture: said=capture COMMA INEACH how=parameter",
+    "capture: said=capture FULLSTOP INEACH how=parameter",
+    "capture: said=capture COMMA GROUPALL how=parameter",
+    "capture: named=setting COMMA said=capture",
     "capture: said=capture AND how=parameter",
     "capture: how=parameter COMMA said=capture",
     "capture: said=capture COMMA amount=amount",
@@ -147,17 +198,63 @@ def capture_with(
     used: int,
     robot: RobotProfile,
     how: ParameterValue | None = None,
+    named: ParameterValue | None = None,
     amount: Amount | None = None,
 ) -> CaptureCommand | None:
-    """Compose "measure moisture along row 1, 25 cm deep"."""
-    value = how if amount is None else ParameterValue(amount.number, amount.unit, ())
-    if value is None or (isinstance(value.value, str) and value.value != SAME_VALUE):
+    """Compose "measure moisture along row 1, 25 cm deep" and "photograph tree 4, view: ground"."""
+    value = named or (how if amount is None else ParameterValue(amount.number, amount.unit, ()))
+    if value is None or (named is None and isinstance(value.value, str) and value.value not in _NO_CHOICES):
         return None
     made = tuple(with_parameter(one, value, robot) for one in said.things)
     if all(one is None for one in made):
         return None
     things = tuple(one if new is None else new for one, new in zip(said.things, made, strict=True))
     return replace(said, things=things, used=used)
+
+
+@construction(
+    "said: before=said FULLSTOP how=setting",
+    "said: before=said COMMA how=setting",
+    "said: how=setting FULLSTOP before=said",
+    cost=0.3,
+    given=("robot",),
+)
+def setting_of_all(before: Said, how: ParameterValue, used: int, robot: RobotProfile) -> list[Said] | None:
+    """Compose "moisture at trees 4 and 9. Depth: 10 cm.", of all captures that have the parameter or of the last."""
+    own, made = used, dict[int, LinkedCommand]()
+    for clause in before.clauses:
+        if not isinstance(clause.command, _PLAIN):
+            return None
+        own &= ~(clause.command.used | (clause.before.used if clause.before is not None else 0))
+    for number, clause in enumerate(before.clauses):
+        command = clause.command
+        if isinstance(command, CaptureCommand):
+            changed = capture_with(command, command.used, robot, named=how)
+            made |= {} if changed is None else {number: replace(clause, command=changed)}
+    if made:
+        last = made[max(made)]
+        made[max(made)] = replace(last, command=replace(last.command, used=last.command.used | own))
+    ways = (made, {max(made): made[max(made)]}) if len(made) > 1 else (made,) if made else ()
+    return [Said(tuple(way.get(k, clause) for k, clause in enumerate(before.clauses))) for way in ways]
+
+
+@construction(
+    "thing: one=thing [COMMA] [AND] NOT [OF] [DET] choice=CHOICE [ONE]",
+    "thing: one=thing [COMMA] [AND] NOT [DET] choice=CHOICE NOUN",
+    "thing: NOT [DET] choice=CHOICE CONTRAST one=thing",
+    cost=0.2,
+)
+def thing_and_not(one: Thing, choice: Lex) -> Thing | None:
+    """Compose "ground photos, not canopy ones"."""
+    given = dict(one.parameters)
+    return one if all(name in given and given[name] != value for name, value in choice.value) else None
+
+
+@construction("capture: said=capture [COMMA] [AND] NOT [OF] [DET] choice=CHOICE [ONE]", cost=0.3)
+def capture_and_not(said: CaptureCommand, choice: Lex, used: int) -> CaptureCommand | None:
+    """Compose "photograph the ground at tree 4, not the canopy"."""
+    agrees = any(thing_and_not(one, choice) is not None for one in said.things)
+    return replace(said, used=used) if agrees else None
 
 
 @construction(
@@ -249,6 +346,9 @@ def with_parameter(thing: Thing, value: ParameterValue, robot: RobotProfile) -> 
     action = robot.action.get(thing.action)
     fitting = [] if action is None else list(_fitting(action.parameters, value))
     taken = {name for name, _ in thing.parameters}
+    if value.value == DEFAULT_VALUE and action is not None:
+        known = {parameter.name for parameter in action.parameters} & {*value.names}
+        return thing if known and not known & taken else None
     if len(fitting) != 1 or fitting[0][0] in taken:
         return None
     return replace(thing, parameters=(*thing.parameters, fitting[0]))

@@ -382,3 +382,22 @@ def stops_at_end() -> str:
 def request(said: Said) -> Said:
     """Compose "take a picture at tree 4."."""
     return said
+
+
+@construction(
+    "closing: [COMMA] [AND] [then] [COMMA] CLOSING",
+    "closing: FULLSTOP [AND] [then] CLOSING",
+    "closing: closing CLOSING",
+    "closing: closing COMMA CLOSING",
+    "closing: closing FULLSTOP CLOSING",
+    cost=0.2,
+)
+def closing(used: int) -> StopCommand:
+    """Compose "and that's it", which says that nothing follows."""
+    return StopCommand(used)
+
+
+@construction("request: [FULLSTOP] said=said end=closing [stops_at_end]", cost=0.2)
+def closed_request(said: Said, end: StopCommand) -> Said:
+    """Compose "take a picture at tree 4, and that's it"."""
+    return Said((*said.clauses, LinkedCommand(Connective(True, False, 0), end)))

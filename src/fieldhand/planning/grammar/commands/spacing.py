@@ -1,4 +1,4 @@
-"""Constructions of distances between captures, or between trees: "every 10 m", "at least 20 m apart"."""
+"""Constructions of distances between captures, or between trees: "every 10 m", "stops 20 m apart"."""
 
 from __future__ import annotations
 
@@ -22,13 +22,17 @@ def every_so_far(far: Amount) -> float | None:
     "apart: SPACEDBY every=every",
     "apart: SPACEDBY far=amount",
     "apart: AT far=amount INTERVAL",
-    "apart: AT INTERVAL OF far=amount",
     "apart: far=amount INTERVAL",
     "apart: EACH far=amount APART",
     "apart: EACH ONE far=amount APART",
     "apart: WITH far=amount APART",
     "apart: ABOUT far=amount APART",
     "apart: WITH far=amount BETWEEN ONE READING AND [DET] NEXTONE",
+    "apart: [WITH] far=amount BETWEEN [DET] POINT",
+    "apart: [WITH] far=amount BETWEEN [DET] READING",
+    "apart: AT [DET] INTERVAL OF far=amount",
+    "apart: WITH [DET] INTERVAL OF far=amount",
+    "apart: INTERVAL [COMMA] far=amount",
     cost=0.1,
 )
 def apart(far: Amount | None = None, every: float | None = None) -> float | None:
@@ -61,3 +65,19 @@ def spacing_of_one(dist: float) -> tuple[float, bool]:
 def spacing_of_many(dist: float) -> tuple[float, bool]:
     """Compose "10 m apart"."""
     return (dist, True)
+
+
+@construction(
+    "own_stops: [STOPBY] POINT [COMMA] dist=spaced",
+    "own_stops: STOPEACH dist=every",
+    "own_stops: [DET] READING dist=every",
+    "own_stops: ONE READING dist=every",
+    "own_stops: dist=spaced REMAINS",
+    "own_stops: INTERVAL COMMA far=amount",
+    cost=0.1,
+)
+def own_stops(dist: tuple[float, bool] | float | None = None, far: Amount | None = None) -> tuple[float, bool] | None:
+    """Compose "stops 20 m apart", "stop every 20 m" and "one reading every 20 m"."""
+    if far is not None:
+        return (far.number, False) if far.unit == "metres" else None
+    return dist if isinstance(dist, tuple) else (dist or 0.0, False)

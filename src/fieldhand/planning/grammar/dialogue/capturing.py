@@ -165,7 +165,7 @@ def _capture_at_each(
     """Return the state after captures at each of several places."""
     loop = visits(place, at_said)
     if state.order is not None:
-        loop = ordered(loop, state.order, setting.spans_of(state.order.used), setting.site)
+        loop = ordered(setting, loop, state.order, setting.spans_of(state.order.used))
         state = replace(state, order=None)
     inside = (*state.next_step, "body")
     state = with_step(state, loop)

@@ -26,6 +26,7 @@ from fieldhand.planning.grammar.dialogue.driving import (
     is_there,
     limit_visits,
     put_in_order,
+    with_order_kept,
     without_home,
 )
 from fieldhand.planning.grammar.dialogue.faults import Fork
@@ -126,7 +127,7 @@ def read_clauses(setting: Setting, said: Said) -> DialogueState:
             state = _read(setting, state, clause, clauses[k + 1 :])
         except NotComposed as fault:
             raise fault.about(clause.command.used) from None
-    return _ended(capture_elided(setting, state))
+    return _ended(with_order_kept(setting, capture_elided(setting, state)))
 
 
 def _ended(state: DialogueState) -> DialogueState:
@@ -196,7 +197,7 @@ def _read(
     joint, command = clause.before, with_known_place(setting, state, clause.command)
     if joint is not None and joint.first:
         return _do_before_last(setting, state, command, joint, following)
-    if state.plan.steps and isinstance(command, CaptureCommand | DriveCommand | Lead | When | Again | StopCommand):
+    if state.plan.steps and isinstance(command, CaptureCommand | DriveCommand | Lead | When | Again):
         state = driven_home(setting, state)
     elided = state.lead is not None and state.lead.relation == "of" and isinstance(command, CaptureCommand)
     own_place = _has_own_place(command) or elided
@@ -288,6 +289,8 @@ def _read(
 def _stop(setting: Setting, state: DialogueState, command: StopCommand) -> DialogueState:
     """Return the state after the end of the mission."""
     said = setting.spans_of(command.used)
+    if state.home is not None and not command.stays:
+        return replace(state, nominal_said=(*state.nominal_said, *said))  # "..., then home, nothing else"
     if command.stays and not state.scope:
         before = state.nominal_said if state.nominal == "stay" else ()
         return replace(state, nominal="stay", nominal_said=(*before, *said))

@@ -9,7 +9,14 @@ from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.places.picks.ordered import Order
 from fieldhand.planning.grammar.dialogue.fitting import in_area
-from fieldhand.planning.grammar.dialogue.plans import EMPTY, for_each_at, is_conditional, is_inside, with_node
+from fieldhand.planning.grammar.dialogue.plans import (
+    EMPTY,
+    as_for_each,
+    for_each_at,
+    is_conditional,
+    is_inside,
+    with_node,
+)
 from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
     NotComposed,
@@ -22,6 +29,7 @@ from fieldhand.planning.grammar.dialogue.state import (
     with_step,
 )
 from fieldhand.planning.grammar.meaning import DriveCommand, Home, InAnOrder, Lead, PlaceMeaning, VisitLimit
+from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.selections import (
     are_rows,
     as_every_nth,
@@ -32,11 +40,11 @@ from fieldhand.planning.selections import (
     is_one_row,
     measures_distance,
     starts_here,
+    swapped,
 )
 from fieldhand.site.model import Site
 from fieldhand.task import plan as p
-
-_COMPASS = frozenset({"north", "east", "south", "west"})
+from fieldhand.terms import Side
 
 
 def drive(setting: Setting, state: DialogueState, command: DriveCommand) -> DialogueState:
@@ -147,7 +155,7 @@ def require_known(setting: Setting, state: DialogueState, place: PlaceMeaning | 
         if state.where is None or (state.where.shape != "one" and not is_inside(state.scope, state.loop or (-1,))):
             asked = message("'{said}': from which tree?", context="question", said=setting.quoted(used))
             raise OpenQuestion(asked)
-        sides = {part.towards for part in from_here if isinstance(part, s.AlongRow)} & _COMPASS
+        sides = {part.towards for part in from_here if isinstance(part, s.AlongRow)} & {*SIDES}
         if not all(_rows_run_to(side, setting.site) for side in sides):
             raise NotComposed(message("the rows have no end on that side", context="fault"))
     after_several = state.where is not None and state.where.shape == "several"
@@ -243,43 +251,99 @@ def put_in_order(setting: Setting, state: DialogueState, command: InAnOrder) -> 
     if command.by == "each" and state.area is not None:
         place = replace(state.area.place, each=True)  # "along row 3 tree by tree"
         return replace(state, area=replace(state.area, place=place, used=state.area.used | command.used))
-    if command.by == "any" and state.lead is not None and state.lead.place.shape == "several":
-        return replace(state, order=command)
+    if not command.by and _are_in_order(state):
+        return _with_order_said(state, said)  # "tree 100, then 23, then 157, in that order"
     if state.loop is None:
-        if command.by in ("", "any") or state.order is not None or state.commands_in_sentence:
+        if state.order is not None or (state.commands_in_sentence and state.lead is None):
             raise NotComposed(message("an order needs several places", context="fault"))
         return replace(state, order=command)
     path = state.loop[:-1]
     loop = for_each_at(state.plan, path)
-    if command.by == "any":
-        if loop.order != "best":
-            raise NotComposed(message("the places cannot have two different orders", context="fault"))
-        return replace(state, plan=with_node(state.plan, path, replace(loop, said=(*loop.said, *said))))
-    return replace(state, plan=with_node(state.plan, path, ordered(loop, command, said, setting.site)))
+    return replace(state, plan=with_node(state.plan, path, ordered(setting, loop, command, said)))
 
 
-def ordered(loop: p.ForEach, command: InAnOrder, said: Spans, site: Site) -> p.ForEach:
+def with_order_kept(setting: Setting, state: DialogueState) -> DialogueState:
+    """Return the state at the end of commands that are done in the order that was announced ("in this order: ...")."""
+    order = state.order
+    if order is None or order.by or not _are_in_order(state):
+        return state
+    return put_in_order(setting, replace(state, order=None), order)
+
+
+def _are_in_order(state: DialogueState) -> bool:
+    """Return True for several commands that are done one after the other, or several captures at each place."""
+    if state.scope or state.awaits_command:
+        return False
+    steps = state.plan.steps
+    if len(steps) == 1 and (loop := as_for_each(steps[0])) is not None:
+        named = len(loop.select.members) > 1 or loop.select.keeps_order
+        return len(loop.body.children) > 1 and not named
+    return len(steps) > 1
+
+
+def _with_order_said(state: DialogueState, said: Spans) -> DialogueState:
+    """Return the state with the places that were named one by one in that order, where that was said."""
+    for number, step in enumerate(state.plan.steps):
+        loop = as_for_each(step)
+        if loop is not None and len(loop.select.members) > 1 and not loop.optional and loop.at_most is None:
+            state = replace(state, plan=with_node(state.plan, (number,), replace(loop, order="given")))
+    only = as_for_each(state.plan.steps[0]) if len(state.plan.steps) == 1 else None
+    if only is None:
+        return with_joints(state, said)
+    return replace(state, plan=with_node(state.plan, (0,), replace(only, said=(*only.said, *said))))
+
+
+def ordered(setting: Setting, loop: p.ForEach, command: InAnOrder, said: Spans) -> p.ForEach:
     """Return a for-each in an order.
 
     Raises:
         NotComposed: The places are not fixed, or what the order refers to is unclear.
     """
+    said = (*loop.said, *said)
+    if command.by == "any" and loop.order != "best":
+        raise NotComposed(message("the places cannot have two different orders", context="fault"))
     if command.by in ("each", "any"):
-        return replace(loop, said=(*loop.said, *said))
+        return replace(loop, said=said)
     if loop.order == "given" or loop.optional or loop.at_most is not None:
         raise NotComposed(message("an order of places cannot be combined with a choice of how many", context="fault"))
-    said = (*loop.said, *said)
     if command.by == "reverse":
-        return replace(loop, select=_reversed(loop.select, site), order="given", said=said)
+        backwards = _reversed(loop.select, setting.site)
+        if (every := as_every_nth(loop.select)) is not None and isinstance(backwards, s.Ordered):
+            side = cast(Side, backwards.by.partition("_to_")[0])
+            ways = (every, replace(every, counted_from=side))
+            backwards = replace(backwards, of=setting.either("counted from there?", command.used, ways))
+        return replace(loop, select=backwards, order="given", said=said)
     if not command.by:
         return replace(loop, order="given", said=said)
-    if any(as_every_nth(part) is not None for part in loop.select.walk()) and command.by not in ("attribute", "rows"):
-        raise NotComposed(
-            message("it is not clear whether the trees are counted or visited from there", context="fault")
-        )
     by = cast(Order, command.by)
-    select = s.Ordered(by=by, attribute=command.attribute, descending=command.descending, of=loop.select)
+    counted = _counted_from(setting, loop.select, command)
+    select = s.Ordered(by=by, attribute=command.attribute, descending=command.descending, of=counted)
     return replace(loop, select=select, order="given", said=said)
+
+
+def _counted_from(setting: Setting, select: s.Selector, command: InAnOrder) -> s.Selector:
+    """Return trees that are counted along their rows from the side where the visits begin.
+
+    Raises:
+        NotComposed: The rows do not run that way.
+        Fork: The numbers may be those of the row as well ("trees 1 to 6, from the south").
+    """
+    if command.by in ("attribute", "rows"):
+        return select
+    side = command.by.partition("_to_")[0]
+    along = side in SIDES and _rows_run_to(side, setting.site)
+    for part in tuple(select.walk()):
+        every, some = as_every_nth(part), as_in_row(part)
+        if every is not None and every.counted_from == "usual":
+            if not along:
+                raise NotComposed(
+                    message("it is not clear whether the trees are counted or visited from there", context="fault")
+                )
+            select = swapped(select, every, replace(every, counted_from=cast(Side, side)))
+        elif along and some is not None and some.counted_from == "usual" and 1 == some.first < some.last:
+            ways = (replace(some, counted_from=cast(Side, side)), some)
+            select = swapped(select, some, setting.either("counted from there?", command.used, ways))
+    return select
 
 
 def _reversed(select: s.Selector, site: Site) -> s.Selector:
@@ -300,7 +364,7 @@ def _reversed(select: s.Selector, site: Site) -> s.Selector:
 
 
 def limit_visits(setting: Setting, state: DialogueState, command: VisitLimit) -> DialogueState:
-    """Return the state with a maximum number of visits of the last for-each.
+    """Return the state with a maximum number of visits of the last for-each, or as many as the budget allows.
 
     Raises:
         NotComposed: It has one, or visits a number of places that was named.
@@ -312,4 +376,5 @@ def limit_visits(setting: Setting, state: DialogueState, command: VisitLimit) ->
     if loop.optional or loop.at_most is not None or (state.where is not None and state.where.count is not None):
         raise NotComposed(message("it is not clear whether so many are meant, or at most so many", context="fault"))
     said = (*loop.said, *setting.spans_of(command.used))
-    return replace(state, plan=with_node(state.plan, path, replace(loop, at_most=command.count, said=said)))
+    limited = replace(loop, at_most=command.count, optional=command.count is None, said=said)
+    return replace(state, plan=with_node(state.plan, path, limited))
