@@ -16,6 +16,7 @@ from fieldhand.planning.grammar.dialogue.fitting import (
     spaced,
     within_area,
 )
+from fieldhand.planning.grammar.dialogue.likewise import anchors
 from fieldhand.planning.grammar.dialogue.plans import (
     EMPTY,
     as_choice,
@@ -264,6 +265,8 @@ def _place_of(
         further = along_row(before, place)
         if further is not None:
             return further, state, said
+    if place is not None and first.selector in anchors(place.selector):
+        return place, state, said  # "begin at the pond: ... the five trees closest to it"
     if first.shape == "area" and first.per is None:
         return in_area(setting, before, place), replace(state, within=first.selector), said
     if first.per is not None and place is not None and place.per is None and place.shape in ("one", "several"):

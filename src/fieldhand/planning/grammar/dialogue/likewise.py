@@ -69,14 +69,16 @@ def _beside(setting: Setting, state: DialogueState, place: PlaceMeaning, used: i
     before = state.where if state.lead is None else state.lead.place
     if before is None and state.area is not None:
         before = state.area.place
-    from_here = before is not None and s.Here() in _anchors(before.selector)
+    from_here = before is not None and s.Here() in anchors(before.selector)
     if from_here and before is not None and place.selector != before.selector:
         return replace(place, beside=False, selector=swapped(place.selector, s.Here(), _last_known(state)))
+    if before is not None and before.shape == "area" and as_zone(before.selector) is not None and state.awaits_command:
+        return replace(place, beside=False, selector=swapped(place.selector, s.Here(), before.selector))
     in_loop = state.loop is not None and is_inside(state.scope, state.loop)
     if before is None or (before.shape != "one" and not in_loop):
         raise NotComposed(message("which place is meant?", context="fault"))
     known = replace(place, beside=False)
-    named = [to for to in _anchors(before.selector) if to.named_marker or as_zone(to) is not None]
+    named = [to for to in anchors(before.selector) if to.named_marker or as_zone(to) is not None]
     ways = [known, *(replace(known, selector=swapped(place.selector, s.Here(), to)) for to in named)]
     return setting.either("near the tree, or near what was named?", used, ways)
 
@@ -93,7 +95,7 @@ def _last_known(state: DialogueState) -> s.Selector:
     return named[-1]
 
 
-def _anchors(selector: s.Selector) -> tuple[s.Selector, ...]:
+def anchors(selector: s.Selector) -> tuple[s.Selector, ...]:
     """Return what trees are said to be near to, or far from."""
     found = (getattr(selector, name, None) for name in ("to", "origin", "near"))
     return tuple(one for one in found if isinstance(one, s.Selector))
