@@ -26,6 +26,8 @@ OfLast = Literal["", "all", "any", "none"] | int
 SAME_THRESHOLD = "="
 #: Action of a capture that refers to the last one ("another one").
 LAST_THING = "*"
+#: Action of captures that refer to all that was captured together last ("both again").
+LAST_THINGS = "**"
 #: Action of a capture that is not named ("check tree 4").
 UNSAID_THING = "?"
 #: Value of a parameter that is the one it had before ("at the same depth").
@@ -404,10 +406,32 @@ class InTurn:
 
 @dataclass(frozen=True, slots=True)
 class Correction:
-    """A place that is meant in the stead of the last one ("no wait, tree 9")."""
+    """A place that is meant in the stead of the last one ("no wait, tree 9"), or of the one that it names.
+
+    Attributes:
+        place: Place that is meant.
+        used: Tokens of the phrase.
+        old: Place that is not meant ("scratch tree 4, make it tree 9"); None for the last one.
+    """
 
     place: PlaceMeaning
     used: int
+    old: PlaceMeaning | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Reordered:
+    """An order of the steps before it that is said behind them.
+
+    Attributes:
+        first: Place that comes first ("tree 9 first"); None if it is not said.
+        used: Tokens of the phrase.
+        swapped: True if two steps change places ("the other way round").
+    """
+
+    first: PlaceMeaning | None
+    used: int
+    swapped: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -421,9 +445,17 @@ class ReadingQuestion:
 
 @dataclass(frozen=True, slots=True)
 class Failing:
-    """The case in which the command before it fails."""
+    """The case in which the command before it fails.
+
+    Attributes:
+        used: Tokens of the phrase.
+        action: Action that fails, if the phrase names it.
+        at_one: True if it may fail at each of several places by itself ("at one of them").
+    """
 
     used: int
+    action: str = ""
+    at_one: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -474,6 +506,7 @@ class Connective:
         then: True if it says that one follows the other.
         both: True if it contains "and".
         first: True if it says that what follows is to be done before ("but first").
+        of_all: True if it is to be done before all others ("before all of that").
         from_here: True if what follows begins where the robot is then ("from there").
         bare: True if it is only a comma.
         purpose: True for "to" before what is done at the place.
@@ -483,6 +516,7 @@ class Connective:
     then: bool
     used: int
     first: bool = False
+    of_all: bool = False
     both: bool = False
     from_here: bool = False
     bare: bool = False
@@ -511,6 +545,7 @@ Command = (
     | Failing
     | InTurn
     | Correction
+    | Reordered
 )
 
 

@@ -44,6 +44,7 @@ from fieldhand.planning.grammar.dialogue.state import (
 )
 from fieldhand.planning.grammar.meaning import (
     LAST_THING,
+    LAST_THINGS,
     SAME_VALUE,
     UNSAID_THING,
     Again,
@@ -204,6 +205,10 @@ def meant_things(state: DialogueState, things: tuple[Thing, ...]) -> tuple[Thing
         NotComposed: What they refer to is unclear.
     """
     things = _with_same_values(state, things)
+    if things[0].action == LAST_THINGS:
+        if len(things) > 1 or len(state.things) < 2 or things[0].count not in (None, len(state.things)):
+            raise NotComposed(message("it is not clear what another one is meant", context="fault"))
+        return state.things
     if not any(thing.action == LAST_THING for thing in things):
         return things
     if len(things) != 1 or len(state.things) != 1:

@@ -71,6 +71,7 @@ from fieldhand.planning.grammar.meaning import (
     PlaceMeaning,
     RankCommand,
     ReadingQuestion,
+    Reordered,
     Said,
     StopCommand,
     UntilCondition,
@@ -200,6 +201,7 @@ def _read(
         state = driven_home(setting, state)
     elided = state.lead is not None and state.lead.relation == "of" and isinstance(command, CaptureCommand)
     own_place = _has_own_place(command) or elided
+    own_place = own_place or (isinstance(command, Again) and command.whole)
     if joint is not None and (joint.both or joint.then) and own_place and state.commands_in_sentence:
         state = capture_elided(setting, state)  # "take a picture at tree 4, at tree 5 and read CO2 at tree 6"
     if joint is not None and joint.full:
@@ -281,7 +283,7 @@ def _read(
             return question(setting, state, command)
         case Failing():
             return failing(setting, state, command)
-        case InTurn() | Correction():
+        case InTurn() | Correction() | Reordered():
             raise AssertionError("these are resolved before the clauses are read")
 
 
@@ -346,6 +348,8 @@ def _rest_of_sentence(following: Sequence[LinkedCommand]) -> list[LinkedCommand]
 def _new_sentence(setting: Setting, state: DialogueState, command: Command) -> DialogueState:
     """Return the state at the beginning of a sentence whose first command is known."""
     state = capture_elided(setting, state)
+    if state.lead is not None and not state.lead.relation and _is_done_there(command):
+        state = replace(state, lead=replace(state.lead, relation="topic"))  # "Row 6. A picture of each tree."
     if state.open or (state.lead is not None and state.lead.relation != "topic"):
         raise NotComposed(_IDLE, advice=_WHAT_THERE)
     place = command.place if isinstance(command, CaptureCommand) else None
@@ -353,6 +357,13 @@ def _new_sentence(setting: Setting, state: DialogueState, command: Command) -> D
         state = enter(setting, state, state.area)
     scope = state.scope if isinstance(command, Otherwise) else ()
     return replace(state, scope=scope, commands_in_sentence=0, within=None, runs_on=False)
+
+
+def _is_done_there(command: Command) -> bool:
+    """Return True for a capture that names no place of its own."""
+    if not isinstance(command, CaptureCommand):
+        return False
+    return is_spoken_of(command.place) or (command.place is not None and command.place.selector == s.Trees())
 
 
 def _lead(setting: Setting, state: DialogueState, command: Lead) -> DialogueState:
@@ -410,6 +421,12 @@ def _do_before_last(
     steps = state.plan.steps
     if state.scope or not steps or following or not isinstance(command, CaptureCommand):
         raise NotComposed(message("it is not clear before what", context="fault"))
+    if joint.of_all and command.place is not None and not command.place.selector.relative:
+        made = capture(setting, DialogueState(readings=state.readings), command)
+        plan = p.InOrder(id="", steps=(*made.plan.steps, *steps))
+        return replace(
+            with_joints(state, setting.spans_of(joint.used)), plan=plan, captured=None, loop=None, choice=None
+        )
     last = steps[-1]
     if not last.visits_each and (last.act is None or last.act.at is None):
         raise NotComposed(message("it is not clear before what", context="fault"))

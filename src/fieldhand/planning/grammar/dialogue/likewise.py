@@ -56,7 +56,8 @@ def with_known_place(setting: Setting, state: DialogueState, command: Command) -
     if place.like is not None and place.like.kind == "rest":
         return replace(command, place=replace(place, selector=_rest(state, place.selector), like=None))
     if place.like is not None and place.like.kind == "nth":
-        return replace(command, place=replace(place, selector=_nth(state, place.like.number), like=None))
+        one = _nth(state, place.like.number) if place.like.number else _described(state, place.selector)
+        return replace(command, place=replace(place, selector=one, like=None))
     return command if place.like is None else replace(command, place=_likewise(state, place, place.like))
 
 
@@ -134,6 +135,18 @@ def _nth(state: DialogueState, number: int) -> s.Selector:
     if not 1 < len(named) >= number or not all(place.single and not place.relative for place in named):
         raise NotComposed(message("it is not clear which one is meant", context="fault"))
     return named[number - 1 if number > 0 else -1]
+
+
+def _described(state: DialogueState, mark: s.Selector) -> s.Selector:
+    """Return the only one of the single places named before that is described by a zone ("the pond one").
+
+    Raises:
+        NotComposed: None or several of them are.
+    """
+    found = [place for place in _single_places(state) if mark in place.walk()]
+    if len(found) != 1:
+        raise NotComposed(message("it is not clear which one is meant", context="fault"))
+    return found[0]
 
 
 def _best_of_ranked(state: DialogueState, command: _WithPlace, best: s.Top) -> Command:

@@ -38,6 +38,12 @@ def other_of_its_kind(side: Lex, noun: Lex) -> Likewise | None:
     return None if "plural" in noun.features else Likewise("", side.value)
 
 
+@construction("place: DET zone=ZONE ONE", cost=0.5)
+def one_by_zone(zone: Lex) -> PlaceMeaning:
+    """Compose "the pond one", of the places that were named before."""
+    return PlaceMeaning(s.InZone(zone=zone.value), "one", like=Likewise("nth"))
+
+
 @construction("place: like=likewise", cost=0.3)
 def likewise(like: Likewise) -> list[PlaceMeaning]:
     """Compose "the southern one" as a place: a single place, or an area."""
