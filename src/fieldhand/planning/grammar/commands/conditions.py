@@ -30,9 +30,11 @@ from fieldhand.planning.grammar.meaning import (
     UntilCondition,
     When,
 )
+from fieldhand.planning.grammar.places.numbers import named_trees
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_in_row, as_some, is_one_row
 from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -146,7 +148,7 @@ def medium_measured(noun: Lex, place: PlaceMeaning, test: Test) -> tuple[PlaceMe
 @construction(
     "measured: place=place [IS] test=predicate",
     "measured: IT [IS] test=predicate AT place=place",
-    cost=0.5,
+    cost=0.6,
     given=("robot",),
 )
 def tree_measured(place: PlaceMeaning, test: Test, robot: RobotProfile) -> list[tuple[PlaceMeaning, Test]] | None:
@@ -156,6 +158,23 @@ def tree_measured(place: PlaceMeaning, test: Test, robot: RobotProfile) -> list[
     measured_by_it = [name for action in robot.actions for name in action.measures]
     found = [name for name in measured_by_it if test.unit in ("", robot.quantity[name].unit)]
     return [(place, replace(test, quantity=name)) for name in found]
+
+
+@construction(
+    "measured: place=place [IS] test=predicate",
+    "measured: IT [IS] test=predicate AT place=place",
+    "measured: number=NUM IS test=predicate",
+    cost=0.0,
+    given=("site",),
+)
+def measured_before(
+    test: Test, site: Site, place: PlaceMeaning | None = None, number: Lex | None = None
+) -> tuple[PlaceMeaning, Test] | None:
+    """Compose "tree 31 came out high" and "31 came out high", of a reading that was taken there."""
+    if number is not None:
+        place = named_trees((number.text,)) if number.text.isdecimal() and number.text in site.by_id else None
+    known = place is not None and _is_known(place) and test.value != SAME_THRESHOLD
+    return (place, test) if known and place is not None else None
 
 
 @construction("question: IS one=measured [FULLSTOP]", cost=0.2)
@@ -401,7 +420,13 @@ def is_it(test: Test, subject: str) -> Test:
     return replace(test, quantity=subject)
 
 
-@construction("when: IF tests=tests", "when: IF tests=tests INVERTED", "when: where=WHERE tests=tests", cost=0.3)
+@construction(
+    "when: IF tests=tests",
+    "when: IF tests=tests INVERTED",
+    "when: INVERTS tests=tests",
+    "when: where=WHERE tests=tests",
+    cost=0.3,
+)
 def when(tests: AllTests, used: int, where: Lex | None = None) -> When:
     """Compose "if it is high" and "wherever a tree is yellow"."""
     return When(tests, used, among="" if where is None else "area")
@@ -429,10 +454,32 @@ def question_at(one: tuple[PlaceMeaning, Test], used: int) -> ReadingQuestion:
     return ReadingQuestion(AllTests((one[1],)), one[0], used)
 
 
-@construction("failing: TRY", cost=0.2)
-def failing(used: int) -> Failing:
-    """Compose "if that fails"."""
-    return Failing(used)
+@construction(
+    "failing: TRY",
+    "failing: IF CANNOT",
+    "failing: IF IT CANNOT",
+    "failing: IF DOES CANNOT",
+    "failing: IF [DET] reading=READING CANNOT",
+    "failing: IF things=things CANNOT [verb]",
+    cost=0.2,
+)
+def failing(used: int, things: tuple[Thing, ...] = (), reading: Lex | None = None) -> Failing | None:
+    """Compose "if that fails", "if you can't get to it" and "if the leaf sample does not succeed"."""
+    if len(things) > 1 or (reading is not None and reading.plural):
+        return None
+    return Failing(used, action=things[0].action if things else "")
+
+
+@construction(
+    "failing: one=failing relation ONE [TREE]",
+    "failing: one=failing relation ANY [TREE]",
+    "failing: one=failing THERE",
+    "failing: one=failing relation GROUPANY",
+    cost=0.2,
+)
+def failing_at_one(one: Failing, used: int) -> Failing:
+    """Compose "if the leaf sample does not succeed at one of them"."""
+    return replace(one, used=used, at_one=True)
 
 
 @construction("when: IF test=predicate", cost=0.8)
@@ -480,10 +527,15 @@ def both_means(first: str, second: str) -> str:
     return first or second
 
 
-@construction("tests: SOMEONE [IS] test=predicate", "tests: SOMEONE READING [IS] test=predicate", cost=0.3)
-def someone(test: Test) -> AllTests:
-    """Compose "one is above 38 degC"."""
-    return AllTests((test,))
+@construction(
+    "tests: SOMEONE [IS] test=predicate",
+    "tests: SOMEONE READING [IS] test=predicate",
+    "tests: SOMEONE WITH [DET] noun=NOUN test=predicate",
+    cost=0.3,
+)
+def someone(test: Test, noun: Lex | None = None) -> list[AllTests]:
+    """Compose "one is above 38 degC" and "you find a tree with a canopy temperature above 38 degC"."""
+    return [AllTests((replace(test, quantity=name),)) for name in ([""] if noun is None else measured_by(noun))]
 
 
 @construction(
@@ -493,12 +545,6 @@ def someone(test: Test) -> AllTests:
 def it_is_one(value: Lex) -> list[Test]:
     """Compose "it's a Carmel"."""
     return tree_is(value)
-
-
-@construction("failing: IF things=things CANNOT verb", "failing: IF things=things CANNOT", cost=0.3)
-def if_it_cannot(things: tuple[Thing, ...], used: int) -> Failing | None:
-    """Compose "if the picture can't be taken"."""
-    return Failing(used) if len(things) == 1 else None
 
 
 @construction("when: IF place=place [IS] value=ATTRVAL", "when: IF place=place IS DET value=ATTRVAL", cost=0.3)
@@ -642,6 +688,9 @@ def act_where(verb: Lex, tests: tuple[AllTests, PlaceMeaning | None], used: int)
 @construction(
     "capture_where: tests=tested SHOULD things=things",
     "capture_where: tests=tested TAKE things=things",
+    "capture_where: tests=tested COMMA things=things",
+    "capture_where: tests=tested SHOULD things=things INSTEAD",
+    "capture_where: tests=tested COMMA things=things INSTEAD",
     cost=0.4,
 )
 def those_get(things: tuple[Thing, ...], tests: tuple[AllTests, PlaceMeaning | None], used: int) -> CaptureWhere:
@@ -654,7 +703,10 @@ def those_get(things: tuple[Thing, ...], tests: tuple[AllTests, PlaceMeaning | N
     "until: ASSOONAS tests=tests [COMMA] STOP",
     "until: WHERE tests=tests [COMMA] STOP",
     "until: HALTWHEN tests=tests",
-    "until: STOP AT [DET] FIRSTONE ONE [WHICH] [IS] test=predicate",
+    "until: STOP ASSOONAS tests=tests",
+    "until: STOP WHERE tests=tests",
+    "until: [MISSION] [IS] STOP AT [DET] FIRSTONE ONE [WHICH] [IS] test=predicate",
+    "until: [MISSION] [IS] STOP AT [DET] FIRSTONE READING [WHICH] [IS] test=predicate",
     "until: STOP AT [DET] ORD ONE [WHICH] [IS] test=predicate",
     cost=0.3,
 )

@@ -232,6 +232,10 @@ def _read(
                 command = replace(command, relation="at")  # "at tree 40 a picture, then CO2"
             elif command.relation == "bare" and state.lead is not None and joint is not None and not joint.both:
                 command = replace(command, relation="at")  # "at every tree of row 3, a picture and CO2"
+            one_more = command.relation == "plain" and any(thing.count for thing in command.things)
+            decided = command.relation == "bare" and bool(following) and following[0].before is None
+            if again and (one_more or decided):
+                command = replace(command, relation="at")  # "a second reading whenever the first is below 400 ppm"
             if command.relation == "bare" and (not state.open or (again and state.choice is None)):
                 raise NotComposed(message("it does not say what to do with it", context="fault"))
             return capture(setting, state, command)
