@@ -330,6 +330,25 @@ def done_there(act: CaptureCommand, place: PlaceMeaning, used: int) -> CaptureCo
     return replace(act, place=place, used=used, relation=relation) if known and act.spacing is None else None
 
 
+@construction("capture: TAKE INSTEAD things=things [relation] [place=place]", cost=0.4)
+def take_instead(things: tuple[Thing, ...], used: int, place: PlaceMeaning | None = None) -> CaptureCommand:
+    """Compose "take instead a picture", in another case."""
+    return CaptureCommand(things, place, used, instead=True)
+
+
+@construction("capture: things=things OF place=place", cost=1.2)
+def another_of_each(things: tuple[Thing, ...], place: PlaceMeaning, used: int) -> CaptureCommand | None:
+    """Compose "(and then) one of the tree on each side of it"."""
+    one_more = [(one.action, one.count) for one in things] == [(LAST_THING, 1)]
+    return CaptureCommand(things, place, used, relation="of") if one_more and place.each else None
+
+
+@construction("thing: DET SAME reading=READING", cost=0.5)
+def same_reading(reading: Lex) -> Thing | None:
+    """Compose "the same measurement"."""
+    return None if reading.plural else Thing(LAST_THING)
+
+
 @construction("here: SAME noun=TREE", cost=0.3)
 def same_tree(noun: Lex) -> PlaceMeaning | None:
     """Compose "same tree"."""

@@ -576,6 +576,7 @@ def otherwise(setting: Setting, state: DialogueState, said: Spans, *, in_all: bo
         nested = replace(before, otherwise=p.InOrder(id="", steps=(both,)))
         plan = with_node(plan, state.choice[:-1], p.InOrder(id="", steps=(*steps[: number - 1], nested)))
         case = (*state.choice[:-1], number - 1, "otherwise", 0)
+    tested = _capture_of_choice(state)  # what was captured in the first case was not in this one
     where, where_scope = state.tested_at  # the robot stands where it was when the condition was tested
     return replace(
         state,
@@ -584,6 +585,7 @@ def otherwise(setting: Setting, state: DialogueState, said: Spans, *, in_all: bo
         scope=(*case, branch),
         open=True,
         loop=_loop_around(state),
+        captured=state.captured if tested is None else tested,
         where=where,
         where_scope=where_scope,
     )

@@ -133,7 +133,16 @@ def on_each_side(n: int = 2, to: PlaceMeaning | None = None, noun: Lex | None = 
         return None
     origin = s.Here() if to is None else to.selector
     sides = tuple(s.AlongRow(trees=1, towards=towards, origin=origin) for towards in ("down", "up"))
-    return PlaceMeaning(s.UnionOf(parts=sides), "several", count=2)
+    each = noun is not None and not noun.plural and "plural" not in noun.features
+    return PlaceMeaning(s.UnionOf(parts=sides), "several", count=2, each=each)
+
+
+@construction("place: [DET] inner=nominal [which_is] ASFAR FROM to=place as_can", cost=0.2)
+def as_far_from_it(inner: Nominal, to: PlaceMeaning) -> PlaceMeaning | None:
+    """Compose "the tree that is as far away from it as possible"."""
+    if inner.single or inner.plural or inner.complete or to.shape not in ("one", "here"):
+        return None
+    return PlaceMeaning(s.Farthest(origin=to.selector, of=inner.selector), "one", beside=to.shape == "here")
 
 
 @construction("place: far=place in_ rows=rows", "place: in_ rows=rows COMMA far=place", cost=0.2)
