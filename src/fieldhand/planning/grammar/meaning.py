@@ -30,6 +30,8 @@ LAST_THING = "*"
 LAST_THINGS = "**"
 #: Action of a capture that is not named ("check tree 4").
 UNSAID_THING = "?"
+#: Actions of captures that only what was said before, or a person, can tell.
+UNKNOWN_THINGS = frozenset({LAST_THING, LAST_THINGS, UNSAID_THING})
 #: Value of a parameter that is the one it had before ("at the same depth").
 SAME_VALUE = "="
 #: Quantity of a test of a reading of the request by its number: "^1" is the first, "^-1" the last.
@@ -79,12 +81,14 @@ class Likewise:
         number: Which one of several, from 1 on; -1 for the last.
         side: Side of the compass; empty for the opposite side.
         holds: True if the places are inside it.
+        of_number: Number of those of which it is one, if the phrase says it ("the last of the four").
     """
 
     kind: Literal["", "half", "quarter", "corner", "ranked", "rest", "nth", "those"]
     side: str = ""
     holds: bool = False
     number: int = 0
+    of_number: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -313,6 +317,7 @@ class When:
         among: What it may choose from: the trees of an area ("wherever a tree is yellow"), or the places visited last
             ("those above 30 degC").
         terse: True for a test without "if" ("above 30 degC: a picture").
+        affirms: True for "if it is", of a test that was denied before ("unless it is high, ..., if it is, ...").
     """
 
     tests: AllTests
@@ -320,6 +325,7 @@ class When:
     measured_at: PlaceMeaning | None = None
     among: Literal["", "area", "visited"] = ""
     terse: bool = False
+    affirms: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -378,6 +384,7 @@ class Again:
         times: Number of repetitions of all that was done so far; 0 if the phrase gives none.
         in_all: True if the number includes what was done so far.
         whole: True if the phrase says that all of it is repeated, from the first place on.
+        both: True if the phrase says that it was done at two places ("both again").
     """
 
     place: PlaceMeaning | None
@@ -385,6 +392,7 @@ class Again:
     times: int = 0
     in_all: bool = False
     whole: bool = False
+    both: bool = False
 
 
 @dataclass(frozen=True, slots=True)

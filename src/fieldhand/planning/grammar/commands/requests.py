@@ -385,17 +385,23 @@ def whole_round(word: Lex) -> Lex:
     "again: word=repeated n=count TIMES [INALL]",
     "again: word=repeated more=more_times",
     "again: word=repeated [AGAIN]",
-    "again: AGAIN GROUPALL",
-    "again: GROUPALL AGAIN",
+    "again: AGAIN several=GROUPALL",
+    "again: several=GROUPALL AGAIN",
     cost=0.2,
 )
 def round_again(
-    used: int, word: Lex | None = None, times: Lex | None = None, n: int = 1, more: int | None = None
+    used: int,
+    word: Lex | None = None,
+    times: Lex | None = None,
+    n: int = 1,
+    more: int | None = None,
+    several: Lex | None = None,
 ) -> list[Again] | None:
     """Compose "do that whole round three times" and "once more both"."""
     often = more if more is not None else n if times is None else int(times.value)
     if often < 2 or more is not None:
-        return [Again(None, used, times=often, whole=True)]
+        both = several is not None and "two" in several.features
+        return [Again(None, used, times=often, whole=True, both=both)]
     in_all = Again(None, used, times=often, in_all=True, whole=True)
     return (
         [in_all]

@@ -364,10 +364,9 @@ def _new_sentence(setting: Setting, state: DialogueState, command: Command) -> D
 
 
 def _is_done_there(command: Command) -> bool:
-    """Return True for a capture that names no place of its own."""
-    if not isinstance(command, CaptureCommand):
-        return False
-    return is_spoken_of(command.place) or (command.place is not None and command.place.selector == s.Trees())
+    """Return True for a capture at places that were spoken of, or at each tree."""
+    place = command.place if isinstance(command, CaptureCommand) else None
+    return place is not None and (is_spoken_of(place) or place.selector == s.Trees())
 
 
 def _lead(setting: Setting, state: DialogueState, command: Lead) -> DialogueState:

@@ -35,7 +35,7 @@ from fieldhand.planning.grammar.dialogue.state import (
     with_last_step,
     with_step,
 )
-from fieldhand.planning.grammar.dialogue.tested import TREE_TESTS, condition_of, reading_at, reading_before
+from fieldhand.planning.grammar.dialogue.tested import TREE_TESTS, condition_of, reading_before, readings_at
 from fieldhand.planning.grammar.meaning import (
     NTH_READING,
     SAME_THRESHOLD,
@@ -88,15 +88,21 @@ def when(setting: Setting, state: DialogueState, command: When, following: Seque
         raise NotComposed(message("it does not say what depends on it", context="fault"))
     command = replace(command, tests=_of_last_threshold(state, _of_quantity(setting, command.tests)))
     if command.measured_at is not None:
-        state, known = reading_at(state, command.measured_at.selector, command.tests.tests[0], setting.robot)
-        if known is not None:
+        state, taken = readings_at(state, command.measured_at.selector, command.tests.tests[0], setting.robot)
+        if taken:
+            known = setting.either("which reading is tested?", command.used, taken)
             return _of_reading_there(setting, state, command, known, following)
     if (place := command.measured_at) is not None:
         if decides_last:
             raise NotComposed(message("it does not say what depends on it", context="fault"))
         state = _at_tested_place(setting, state, command, place)
     if not command.tests.tests:
-        if state.asked is None and state.decided is not None and all(one.negated for one in state.decided.tests):
+        if (
+            command.affirms
+            and state.asked is None
+            and state.decided is not None
+            and all(one.negated for one in state.decided.tests)
+        ):
             return otherwise(setting, state, setting.spans_of(command.used))  # "unless it is high ..., if it is ..."
         if state.asked is None:
             raise NotComposed(message("it is not clear what has to be so", context="fault"))

@@ -56,7 +56,7 @@ def with_known_place(setting: Setting, state: DialogueState, command: Command) -
     if place.like is not None and place.like.kind == "rest":
         return replace(command, place=replace(place, selector=_rest(state, place.selector), like=None))
     if place.like is not None and place.like.kind == "nth":
-        one = _nth(state, place.like.number) if place.like.number else _described(state, place.selector)
+        one = _nth(state, place.like) if place.like.number else _described(state, place.selector)
         return replace(command, place=replace(place, selector=one, like=None))
     return command if place.like is None else replace(command, place=_likewise(state, place, place.like))
 
@@ -117,18 +117,22 @@ def _rest(state: DialogueState, area: s.Selector) -> s.Selector:
     return s.Excluding(places=last, of=group)
 
 
-def _nth(state: DialogueState, number: int) -> s.Selector:
+def _nth(state: DialogueState, like: Likewise) -> s.Selector:
     """Return one of the places that were named last.
 
     Raises:
         NotComposed: There are fewer, or they were not named one by one.
     """
+    number = like.number
     before = state.where if state.where is not None or state.area is None else state.area.place
     last = None if before is None else before.selector
     counted = None if last is None else as_in_row(last)
     if counted is not None and counted.first == counted.last and is_one_row(counted.of):
         return replace(counted, first=number, last=number)  # "at the first tree of row 4, then at the last one"
     named = () if last is None else named_places(last)
+    known = len(named) if before is None or before.count is None else before.count
+    if like.of_number and known != like.of_number:
+        raise NotComposed(message("it is not clear which one is meant", context="fault"))
     visited = state.loop is not None and not is_inside(state.scope, state.loop)
     if number == -1 and visited and len(named) < 2 and last is not None and not counts_in_row(last):
         return s.Here()  # the last of those that were visited

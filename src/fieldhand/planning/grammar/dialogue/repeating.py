@@ -96,6 +96,8 @@ def done_more_times(setting: Setting, state: DialogueState, command: Again) -> D
     steps = state.plan.steps
     if state.scope or state.awaits_command or state.open or not steps or not _can_be_repeated(steps):
         raise NotComposed(message("it is not clear what is repeated", context="fault"))
+    if command.both and len([step for step in steps if step.selector is not None]) != 2:
+        raise NotComposed(message("it is not clear what is repeated", context="fault"))
     begin = 0 if command.whole else _last_stride(steps)  # "go 10 trees further down the row, repeat that twice more"
     before, steps = steps[:begin], steps[begin:]
     if steps[0].selector is None or (not command.whole and any(step.selector is not None for step in steps[1:])):

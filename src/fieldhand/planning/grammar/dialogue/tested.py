@@ -193,20 +193,23 @@ def _fits(node: p.Node, test: Test, robot: RobotProfile) -> bool:
     return bool(measures) and (not test.unit or robot.quantity[measures[0]].unit == test.unit)
 
 
-def reading_at(
+def readings_at(
     state: DialogueState, place: s.Selector, test: Test, robot: RobotProfile
-) -> tuple[DialogueState, Path | None]:
-    """Return the path of the last reading at a place, outside of conditions; a for-each over it becomes one each."""
+) -> tuple[DialogueState, list[Path]]:
+    """Return the paths of the last reading of each action at a place, outside of conditions.
+
+    A for-each over that place and others becomes one capture each.
+    """
     steps = state.plan.steps
     if steps and as_for_each(steps[-1]) is not None and place in named_places(steps[-1].selector or place):
         state, _ = _last_readings(replace(state, scope=()), test, robot)
-    found: Path | None = None
+    found: dict[str, Path] = {}
     where: s.Selector | None = None
     for number, step in enumerate(state.plan.steps):
         where = step.selector if step.selector is not None else where
         if step.act is not None and where == place and _fits(step, test, robot):
-            found = (number,)
-    return state, found
+            found[step.act.action] = (number,)
+    return state, list(found.values())
 
 
 def reading_before(plan: p.InOrder, before: Path, robot: RobotProfile) -> Path | None:

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from fieldhand.language import message
 from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.dialogue.reordering import reordered
 from fieldhand.planning.grammar.dialogue.state import Edits, NotComposed, Setting
 from fieldhand.planning.grammar.meaning import (
     Again,
@@ -37,7 +38,7 @@ def as_meant(setting: Setting, clauses: Sequence[LinkedCommand]) -> tuple[tuple[
     edits: Edits = ()
     for clause in clauses:
         if isinstance(clause.command, Reordered):
-            found = _reordered(setting, found, clause.command)
+            found = reordered(found, clause.command)
             continue
         if not isinstance(clause.command, Correction):
             found.append(clause)
@@ -72,7 +73,9 @@ def _corrected(
     if not isinstance(command, CaptureCommand | DriveCommand | Lead) or command.place is None:
         raise _unclear(correction)
     if correction.old is not None:
-        return _corrected_part(setting, last, clause, correction, correction.old)
+        used = correction.used | (clause.before.used if clause.before is not None else 0)
+        other, edits = _other_part(setting, command.place, correction.old, correction, used)
+        return replace(last, command=replace(command, place=other, used=command.used | used)), edits
     old, place = command.place, _other_place(command.place, new)
     if place is None or not old.tokens:
         raise _unclear(correction)
@@ -87,115 +90,25 @@ def _corrected(
     return replace(last, command=changed), (((start, end), words), (_range(setting, used), ""))
 
 
-def _corrected_part(
-    setting: Setting, last: LinkedCommand, clause: LinkedCommand, correction: Correction, old: PlaceMeaning
-) -> tuple[LinkedCommand, Edits]:
-    """Return the last clause with one of its places replaced, and what that changes in the request.
+def _other_part(
+    setting: Setting, place: PlaceMeaning, old: PlaceMeaning, correction: Correction, used: int
+) -> tuple[PlaceMeaning, Edits]:
+    """Return places with another one in the stead of one of them, and what that changes in the request.
 
     Raises:
-        NotComposed: It does not name that place once.
+        NotComposed: It is not one of them.
     """
-    command = last.command
-    assert isinstance(command, CaptureCommand | DriveCommand | Lead)
-    assert command.place is not None
     before, meant = old.selector.named_tree, correction.place.selector.named_tree
-    named = named_places(command.place.selector) or (command.place.selector,)
-    if not before or not meant or not command.place.tokens or named.count(old.selector) != 1:
+    named = named_places(place.selector) or (place.selector,)
+    if not before or not meant or not place.tokens or named.count(old.selector) != 1:
         raise _unclear(correction)
-    used = correction.used | (clause.before.used if clause.before is not None else 0)
-    start, end = _range(setting, command.place.tokens)
+    start, end = _range(setting, place.tokens)
     said = list(re.finditer(rf"\b{re.escape(before)}\b", setting.request[start:end], re.IGNORECASE))
     if len(said) != 1:
         raise _unclear(correction)
-    place = replace(command.place, selector=swapped(command.place.selector, old.selector, correction.place.selector))
-    changed = replace(command, place=place, used=command.used | used)
+    other = replace(place, selector=swapped(place.selector, old.selector, correction.place.selector))
     part = (start + said[0].start(), start + said[0].end())
-    return replace(last, command=changed), ((part, meant), (_range(setting, used), ""))
-
-
-def _reordered(setting: Setting, clauses: Sequence[LinkedCommand], order: Reordered) -> list[LinkedCommand]:
-    """Return clauses in the order that is said behind them ("the other way round", "tree 9 first").
-
-    Raises:
-        NotComposed: They are not two steps of their own, or do not name the place that comes first.
-    """
-    unclear = NotComposed(message("it is not clear in which order", context="fault"), order.used)
-    clauses = [_as_capture(clauses, number) for number in range(len(clauses))]
-    steps = [clause.command for clause in clauses]
-    if len(steps) == 1 and isinstance(steps[0], CaptureCommand) and steps[0].place is not None:
-        return [replace(clauses[0], command=_visits_reordered(steps[0], steps[0].place, order, unclear))]
-    if len(steps) != 2 or not all(isinstance(one, CaptureCommand) and _is_at_its_own(one.place) for one in steps):
-        raise unclear
-    one, other = clauses
-    if order.first is not None and order.first.like is not None and order.first.like.number:
-        if order.first.like.number not in (-1, 2):
-            return [_with_words(one, order.used), other]
-    elif order.first is not None:
-        named = [_names(one.command, order.first), _names(other.command, order.first)]
-        if sorted(named) != [False, True] or (order.swapped and named[0]):
-            raise unclear
-        if named[0]:
-            return [_with_words(one, order.used), other]
-    return [
-        _with_words(replace(other, before=None), order.used),
-        replace(one, before=Connective(True, True, _joins(other))),
-    ]
-
-
-def _as_capture(clauses: Sequence[LinkedCommand], number: int) -> LinkedCommand:
-    """Return a clause; one that only names another place as the capture before it, there ("..., then tree 9")."""
-    clause, before = clauses[number], clauses[number - 1].command if number else None
-    lead = clause.command
-    if not isinstance(lead, Lead) or lead.things or not isinstance(before, CaptureCommand):
-        return clause
-    return replace(clause, command=replace(before, place=lead.place, used=lead.used))
-
-
-def _joins(clause: LinkedCommand) -> int:
-    """Return the tokens of the connective before a clause."""
-    return 0 if clause.before is None else clause.before.used
-
-
-def _with_words(clause: LinkedCommand, used: int) -> LinkedCommand:
-    """Return a clause that is said by further words."""
-    command = clause.command
-    assert isinstance(command, CaptureCommand)
-    return replace(clause, command=replace(command, used=command.used | used))
-
-
-def _is_at_its_own(place: PlaceMeaning | None) -> bool:
-    """Return True for places that a phrase names by themselves."""
-    if place is None or place.shape not in ("one", "several", "area") or place.like is not None or place.beside:
-        return False
-    return not place.selector.relative
-
-
-def _names(command: object, first: PlaceMeaning) -> bool:
-    """Return True if a command is at a place, or at one that is described by it ("the pond one")."""
-    assert isinstance(command, CaptureCommand)
-    place = None if command.place is None else command.place.selector
-    return place is not None and (place == first.selector or first.selector in place.walk())
-
-
-def _visits_reordered(
-    command: CaptureCommand, place: PlaceMeaning, order: Reordered, unclear: NotComposed
-) -> CaptureCommand:
-    """Return a capture at several named places, of which another comes first."""
-    named = list(named_places(place.selector))
-    if order.first is None:
-        if len(named) != 2:
-            raise unclear
-        named.reverse()
-    elif order.first.like is not None and order.first.like.number:
-        named.insert(0, named.pop(order.first.like.number - 1 if order.first.like.number > 0 else -1))
-    elif named.count(order.first.selector) == 1:
-        named.sort(key=lambda one: one != order.first.selector)
-    else:
-        raise unclear
-    if not all(one.single and not one.relative for one in named):
-        raise unclear
-    select = s.UnionOf(parts=tuple(named))
-    return replace(command, place=replace(place, selector=select, in_order=True), used=command.used | order.used)
+    return other, ((part, meant), (_range(setting, used), ""))
 
 
 def _range(setting: Setting, used: int) -> Span:

@@ -1,4 +1,4 @@
-"""Constructions of places named by others before them: "the other half", "its nearest neighbour", "the last of them"."""
+"""Constructions of places named by others before them: "the other half", "its neighbour", "the last of them"."""
 
 from __future__ import annotations
 
@@ -73,12 +73,16 @@ def rest_of_area(where: s.Selector, noun: Lex | None = None) -> PlaceMeaning | N
     "place: word=DET last=LAST noun=ONE",
     "place: DET last=LATTER",
     "place: DET FORMER",
-    "place: DET rank=ORD of_those",
-    "place: DET last=LAST of_those",
+    "place: DET rank=ORD group=of_those",
+    "place: DET last=LAST group=of_those",
     cost=0.5,
 )
 def one_of_those_named(
-    rank: Lex | None = None, last: Lex | None = None, noun: Lex | None = None, word: Lex | None = None
+    rank: Lex | None = None,
+    last: Lex | None = None,
+    noun: Lex | None = None,
+    word: Lex | None = None,
+    group: int = 0,
 ) -> PlaceMeaning | None:
     """Compose "the first one", "the latter" and "the last of these", of places that were named before."""
     if noun is not None and "plural" in noun.features:
@@ -86,13 +90,13 @@ def one_of_those_named(
     if word is not None and "indefinite" in word.features:
         return None
     number = -1 if last is not None else 1 if rank is None else rank.value
-    return PlaceMeaning(s.Trees(), "one", like=Likewise("nth", number=number))
+    return PlaceMeaning(s.Trees(), "one", like=Likewise("nth", number=number, of_number=group))
 
 
-@construction("of_those: OFTHEM", "of_those: word=THERE", "of_those: OF word=DET", cost=0.1)
-def of_those(word: Lex | None = None) -> str | None:
-    """Compose "of them" and "of these"."""
-    return "those" if word is None or not word.features.isdisjoint({"of_several", "those"}) else None
+@construction("of_those: word=THERE", "of_those: OF word=DET", "of_those: OF DET n=count", cost=0.1)
+def of_those(word: Lex | None = None, n: int = 0) -> int | None:
+    """Compose "of them", "of these" and "of the four": their number, 0 if it is not said."""
+    return n if word is None or not word.features.isdisjoint({"of_several", "those"}) else None
 
 
 @construction("owned_by: ITS", cost=0.2)
