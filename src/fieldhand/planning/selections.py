@@ -76,6 +76,14 @@ def as_along_row(selector: s.Selector) -> s.AlongRow | None:
     return selector if isinstance(selector, s.AlongRow) else None
 
 
+def moves_on(selector: s.Selector) -> bool:
+    """Return True for a place so many trees along the row, or rows across, from where the robot is."""
+    row = as_along_row(selector)
+    return (row is not None and row.origin == s.Here()) or (
+        isinstance(selector, s.Take) and is_row_of_place(selector.of)
+    )
+
+
 def as_random(selector: s.Selector) -> s.RandomSample | None:
     """Return the selector if it draws at random, None otherwise."""
     return selector if isinstance(selector, s.RandomSample) else None

@@ -26,8 +26,12 @@ OfLast = Literal["", "all", "any", "none"] | int
 SAME_THRESHOLD = "="
 #: Action of a capture that refers to the last one ("another one").
 LAST_THING = "*"
+#: Action of captures that refer to all that was captured together last ("both again").
+LAST_THINGS = "**"
 #: Action of a capture that is not named ("check tree 4").
 UNSAID_THING = "?"
+#: Actions of captures that only what was said before, or a person, can tell.
+UNKNOWN_THINGS = frozenset({LAST_THING, LAST_THINGS, UNSAID_THING})
 #: Value of a parameter that is the one it had before ("at the same depth").
 SAME_VALUE = "="
 #: Value of a parameter that is the profile's own ("at the standard depth").
@@ -79,12 +83,14 @@ class Likewise:
         number: Which one of several, from 1 on; -1 for the last.
         side: Side of the compass; empty for the opposite side.
         holds: True if the places are inside it.
+        of_number: Number of those of which it is one, if the phrase says it ("the last of the four").
     """
 
     kind: Literal["", "half", "quarter", "corner", "ranked", "rest", "nth", "those"]
     side: str = ""
     holds: bool = False
     number: int = 0
+    of_number: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -313,6 +319,7 @@ class When:
         among: What it may choose from: the trees of an area ("wherever a tree is yellow"), or the places visited last
             ("those above 30 degC").
         terse: True for a test without "if" ("above 30 degC: a picture").
+        affirms: True for "if it is", of a test that was denied before ("unless it is high, ..., if it is, ...").
     """
 
     tests: AllTests
@@ -320,6 +327,7 @@ class When:
     measured_at: PlaceMeaning | None = None
     among: Literal["", "area", "visited"] = ""
     terse: bool = False
+    affirms: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -378,6 +386,7 @@ class Again:
         times: Number of repetitions of all that was done so far; 0 if the phrase gives none.
         in_all: True if the number includes what was done so far.
         whole: True if the phrase says that all of it is repeated, from the first place on.
+        both: True if the phrase says that it was done at two places ("both again").
     """
 
     place: PlaceMeaning | None
@@ -385,6 +394,7 @@ class Again:
     times: int = 0
     in_all: bool = False
     whole: bool = False
+    both: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -406,10 +416,32 @@ class InTurn:
 
 @dataclass(frozen=True, slots=True)
 class Correction:
-    """A place that is meant in the stead of the last one ("no wait, tree 9")."""
+    """A place that is meant in the stead of the last one ("no wait, tree 9"), or of the one that it names.
+
+    Attributes:
+        place: Place that is meant.
+        used: Tokens of the phrase.
+        old: Place that is not meant ("scratch tree 4, make it tree 9"); None for the last one.
+    """
 
     place: PlaceMeaning
     used: int
+    old: PlaceMeaning | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Reordered:
+    """An order of the steps before it that is said behind them.
+
+    Attributes:
+        first: Place that comes first ("tree 9 first"); None if it is not said.
+        used: Tokens of the phrase.
+        swapped: True if two steps change places ("the other way round").
+    """
+
+    first: PlaceMeaning | None
+    used: int
+    swapped: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -423,9 +455,17 @@ class ReadingQuestion:
 
 @dataclass(frozen=True, slots=True)
 class Failing:
-    """The case in which the command before it fails."""
+    """The case in which the command before it fails.
+
+    Attributes:
+        used: Tokens of the phrase.
+        action: Action that fails, if the phrase names it.
+        at_one: True if it may fail at each of several places by itself ("at one of them").
+    """
 
     used: int
+    action: str = ""
+    at_one: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -476,6 +516,7 @@ class Connective:
         then: True if it says that one follows the other.
         both: True if it contains "and".
         first: True if it says that what follows is to be done before ("but first").
+        of_all: True if it is to be done before all others ("before all of that").
         from_here: True if what follows begins where the robot is then ("from there").
         bare: True if it is only a comma.
         purpose: True for "to" before what is done at the place.
@@ -485,6 +526,7 @@ class Connective:
     then: bool
     used: int
     first: bool = False
+    of_all: bool = False
     both: bool = False
     from_here: bool = False
     bare: bool = False
@@ -513,6 +555,7 @@ Command = (
     | Failing
     | InTurn
     | Correction
+    | Reordered
 )
 
 

@@ -128,7 +128,7 @@ def _label(words: Sequence[Word], sentence: Sequence[int], kinds: Sequence[set[s
 def _corrected_numbers(words: Sequence[Word], kinds: Sequence[set[str]], sentence: Sequence[int]) -> Sequence[int]:
     """Return the only numbers of a sentence up to those that correct them ("above 400, sorry, 450 ppm")."""
     begin = next((k for k in sentence[2:] if "CORRECTION" in kinds[k] and words[k - 1].kind == "comma"), None)
-    if begin is None:
+    if begin is None or any("SCRATCH" in kinds[k] for k in range(sentence[0], begin)):
         return ()
     end = begin
     while end <= sentence[-1] and ("CORRECTION" in kinds[end] or words[end].kind == "comma"):

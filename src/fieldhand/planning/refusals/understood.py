@@ -15,7 +15,7 @@ from fieldhand.places.wording import say_selector
 from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.grammar.chart import Chart, PhraseEdge, tokens_of
 from fieldhand.planning.grammar.english import ENGLISH
-from fieldhand.planning.grammar.meaning import LAST_THING, UNSAID_THING, PlaceMeaning, Said, Thing
+from fieldhand.planning.grammar.meaning import UNKNOWN_THINGS, PlaceMeaning, Said, Thing
 from fieldhand.planning.grammar.reader import planned_clauses
 from fieldhand.planning.grammar.words import edges_of, fillers_of
 from fieldhand.planning.planner import Planned
@@ -141,7 +141,7 @@ def _part(parsed: ParsedRequest, edge: PhraseEdge) -> UnderstoodPart | None:
     if isinstance(meaning, PlaceMeaning):
         known = meaning.shape not in _RELATIVE and meaning.selector != Trees()
         return UnderstoodPart(text=_text(parsed, edge), place=meaning) if known and _exists(meaning, parsed) else None
-    if any(thing.action in (LAST_THING, UNSAID_THING) for thing in meaning):
+    if any(thing.action in UNKNOWN_THINGS for thing in meaning):
         return None
     return UnderstoodPart(text=_text(parsed, edge), things=meaning)
 

@@ -10,6 +10,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import (
+    LAST_THING,
     NTH_READING,
     SAME_THRESHOLD,
     Allowed,
@@ -30,9 +31,11 @@ from fieldhand.planning.grammar.meaning import (
     UntilCondition,
     When,
 )
+from fieldhand.planning.grammar.places.numbers import named_trees
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_in_row, as_some, is_one_row
 from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -55,12 +58,6 @@ def that(word: Lex) -> str | None:
     return "" if "demonstrative" in word.features else None
 
 
-@construction("subject: ITS AVERAGEWORD noun=NOUN", cost=0.0)
-def its_average(noun: Lex) -> list[str] | None:
-    """Compose "its average temperature", of which one capture is an average."""
-    return named_quantity(noun)
-
-
 @construction("subject: DET rank=ORD READING", "subject: DET rank=ORD ONE", "subject: DET rank=ORD", cost=0.0)
 def nth_reading(rank: Lex) -> str:
     """Compose "the first reading"."""
@@ -79,9 +76,11 @@ def quantity_of_tree(noun: Lex, word: Lex, tree: Lex) -> list[str] | None:
     return None if tree.plural or "definite" in word.features else named_quantity(noun)
 
 
-@construction("asked: [DET] noun=NOUN [READING] relation place=place", cost=0.0)
+@construction(
+    "asked: [DET] noun=NOUN [READING] relation place=place", "asked: [DET] noun=MEDIUM relation place=place", cost=0.0
+)
 def quantity_at(noun: Lex, place: PlaceMeaning) -> tuple[str, PlaceMeaning] | None:
-    """Compose "the temperature at tree 4"."""
+    """Compose "the temperature at tree 4" and "the air at tree 4"."""
     naming: Naming = noun.value
     if len(set(naming.quantities)) != 1 or not _is_known(place):
         return None  # "the temperature at any tree": at which?
@@ -96,27 +95,25 @@ def _is_known(place: PlaceMeaning) -> bool:
     return counted is None or is_one_row(counted.of)
 
 
-@construction("measured: asked=asked IS test=predicate", "measured: asked=asked test=predicate", cost=0.2)
-def measured(asked: tuple[str, PlaceMeaning], test: Test) -> tuple[PlaceMeaning, Test]:
+@construction(
+    "measured: asked=asked [IS] test=predicate",
+    "measured: asked=asked denied=ISNOT test=predicate",
+    cost=0.2,
+)
+def measured(asked: tuple[str, PlaceMeaning], test: Test, denied: Lex | None = None) -> tuple[PlaceMeaning, Test]:
     """Compose "the temperature at tree 4 is above 30 degC"."""
-    return (asked[1], replace(test, quantity=asked[0]))
+    return (asked[1], replace(test, quantity=asked[0], negated=test.negated != (denied is not None)))
 
 
 @construction(
-    "measured: [DET] noun=NOUN [READING] IS test=predicate relation place=place",
-    "measured: [DET] noun=NOUN [READING] test=predicate relation place=place",
+    "measured: [DET] noun=NOUN [READING] [IS] test=predicate relation place=place",
+    "measured: [DET] noun=MEDIUM [IS] test=predicate relation place=place",
     cost=0.3,
 )
 def measured_at(noun: Lex, test: Test, place: PlaceMeaning) -> tuple[PlaceMeaning, Test] | None:
     """Compose "the temperature is above 30 degC at tree 4"."""
     asked = quantity_at(noun, place)
     return None if asked is None else measured(asked, test)
-
-
-@construction("measured: asked=asked ISNOT test=predicate", cost=0.2)
-def not_measured(asked: tuple[str, PlaceMeaning], test: Test) -> tuple[PlaceMeaning, Test]:
-    """Compose "the temperature at tree 4 is not above 30 degC"."""
-    return (asked[1], replace(test, quantity=asked[0], negated=not test.negated))
 
 
 @construction("when: IF one=measured", "when: WHERE one=measured", "when: word=UNLESS one=measured", cost=0.3)
@@ -133,20 +130,9 @@ def terse(test: Test, used: int) -> When:
 
 
 @construction(
-    "measured: [DET] noun=MEDIUM relation place=place [IS] test=predicate",
-    "measured: [DET] noun=MEDIUM [IS] test=predicate relation place=place",
-    cost=0.2,
-)
-def medium_measured(noun: Lex, place: PlaceMeaning, test: Test) -> tuple[PlaceMeaning, Test] | None:
-    """Compose "the air at tree 4 is hotter than 30 degC"."""
-    asked = quantity_at(noun, place)
-    return None if asked is None else measured(asked, test)
-
-
-@construction(
     "measured: place=place [IS] test=predicate",
     "measured: IT [IS] test=predicate AT place=place",
-    cost=0.5,
+    cost=0.6,
     given=("robot",),
 )
 def tree_measured(place: PlaceMeaning, test: Test, robot: RobotProfile) -> list[tuple[PlaceMeaning, Test]] | None:
@@ -158,6 +144,23 @@ def tree_measured(place: PlaceMeaning, test: Test, robot: RobotProfile) -> list[
     return [(place, replace(test, quantity=name)) for name in found]
 
 
+@construction(
+    "measured: place=place [IS] test=predicate",
+    "measured: IT [IS] test=predicate AT place=place",
+    "measured: number=NUM IS test=predicate",
+    cost=0.0,
+    given=("site",),
+)
+def measured_before(
+    test: Test, site: Site, place: PlaceMeaning | None = None, number: Lex | None = None
+) -> tuple[PlaceMeaning, Test] | None:
+    """Compose "tree 31 came out high" and "31 came out high", of a reading that was taken there."""
+    if number is not None:
+        place = named_trees((number.text,)) if number.text.isdecimal() and number.text in site.by_id else None
+    known = place is not None and _is_known(place) and test.value != SAME_THRESHOLD
+    return (place, test) if known and place is not None else None
+
+
 @construction("question: IS one=measured [FULLSTOP]", cost=0.2)
 def is_it_there(one: tuple[PlaceMeaning, Test], used: int) -> ReadingQuestion:
     """Compose "is tree 4 hotter than 36 degC?"."""
@@ -165,10 +168,15 @@ def is_it_there(one: tuple[PlaceMeaning, Test], used: int) -> ReadingQuestion:
 
 
 @construction(
-    "subject: [DET] noun=NOUN", "subject: [DET] noun=NOUN READING", "subject: [DET] noun=NOUN THERE", cost=0.0
+    "subject: [DET] noun=NOUN",
+    "subject: [DET] noun=NOUN READING",
+    "subject: [DET] noun=NOUN THERE",
+    "subject: ITS AVERAGEWORD noun=NOUN",
+    "subject: [DET] noun=MEDIUM",
+    cost=0.0,
 )
 def named_quantity(noun: Lex) -> list[str] | None:
-    """Compose "the temperature"."""
+    """Compose "the temperature", "its average temperature" and "the air"."""
     naming: Naming = noun.value
     return list(naming.quantities or naming.actions[:1]) or None
 
@@ -280,27 +288,15 @@ def negated(test: Test) -> Test:
 
 
 @construction(
-    "test: subject=subject IS test=predicate",
+    "test: [subject=subject] IS test=predicate",
     "test: subject=subject test=predicate",
-    "test: IS test=predicate",
+    "test: IS subject=subject test=predicate",
+    "test: [subject=subject] denied=ISNOT test=predicate",
     cost=0.2,
 )
-def reading_is(test: Test, subject: str = "") -> Test:
-    """Compose "it is above 30 degC"."""
-    return replace(test, quantity=subject)
-
-
-@construction("test: subject=subject ISNOT test=predicate", "test: ISNOT test=predicate", cost=0.2)
-def reading_is_not(test: Test, subject: str = "") -> Test:
-    """Compose "it is not above 30 degC"."""
-    return replace(test, quantity=subject, negated=not test.negated)
-
-
-@construction("test: [DET] noun=MEDIUM [IS] test=predicate", cost=0.3)
-def medium_is(noun: Lex, test: Test) -> list[Test]:
-    """Compose "the air is hotter than 30 degC"."""
-    naming: Naming = noun.value
-    return [replace(test, quantity=name) for name in naming.quantities]
+def reading_is(test: Test, subject: str = "", denied: Lex | None = None) -> Test:
+    """Compose "it is above 30 degC", "it is not above 30 degC" and "is it above 30 degC"."""
+    return replace(test, quantity=subject, negated=test.negated != (denied is not None))
 
 
 @construction("tests: test=test", cost=0.0)
@@ -309,30 +305,23 @@ def one_test(test: Test) -> AllTests:
     return AllTests((test,))
 
 
-@construction("tests: first=tests AND second=test", cost=0.3)
-def all_tests(first: AllTests, second: Test) -> AllTests | None:
+@construction("tests: first=tests AND second=test", "tests: first=tests any_of=OR second=test", cost=0.3)
+def several_tests(first: AllTests, second: Test, any_of: Lex | None = None) -> AllTests | None:
     """Compose "it is above 20 degC and it is below 30 degC"."""
-    return None if first.any_of else AllTests((*first.tests, second))
-
-
-@construction("tests: first=tests OR second=test", cost=0.3)
-def any_test(first: AllTests, second: Test) -> AllTests | None:
-    """Compose "it is below 20 degC or it is above 30 degC"."""
-    if len(first.tests) > 1 and not first.any_of:
+    if len(first.tests) > 1 and first.any_of != (any_of is not None):
         return None
-    return AllTests((*first.tests, second), any_of=True)
+    return AllTests((*first.tests, second), any_of=any_of is not None)
 
 
-@construction("tests: subject=subject IS first=predicate OR second=predicate", cost=0.2)
-def either(subject: str, first: Test, second: Test) -> AllTests:
+@construction(
+    "tests: subject=subject IS first=predicate AND second=predicate",
+    "tests: subject=subject IS first=predicate any_of=OR second=predicate",
+    cost=0.2,
+)
+def two_tests_of_one(subject: str, first: Test, second: Test, any_of: Lex | None = None) -> AllTests:
     """Compose "it is below 20 degC or above 30 degC"."""
-    return AllTests((replace(first, quantity=subject), replace(second, quantity=subject)), any_of=True)
-
-
-@construction("tests: subject=subject IS first=predicate AND second=predicate", cost=0.2)
-def both_hold(subject: str, first: Test, second: Test) -> AllTests:
-    """Compose "it is above 20 degC and below 30 degC"."""
-    return AllTests((replace(first, quantity=subject), replace(second, quantity=subject)))
+    both = (replace(first, quantity=subject), replace(second, quantity=subject))
+    return AllTests(both, any_of=any_of is not None)
 
 
 @construction("when: UNLESS tests=tests", cost=0.3)
@@ -344,29 +333,17 @@ def unless(tests: AllTests, used: int) -> When | None:
 
 
 @construction(
-    "test: IT IS value=ATTRVAL",
-    "test: IT value=ATTRVAL",
-    "test: IT IS DET value=ATTRVAL",
-    "test: DET TREE IS value=ATTRVAL",
-    "test: DET TREE IS DET value=ATTRVAL [ONE]",
-    "test: IT IS DET value=ATTRVAL ONE",
+    "test: IT [IS] [DET] value=ATTRVAL [ONE]",
+    "test: DET TREE IS [DET] value=ATTRVAL [ONE]",
+    "test: IT denied=ISNOT [DET] value=ATTRVAL [ONE]",
+    "test: IT IS denied=NOT [DET] value=ATTRVAL [ONE]",
+    "test: DET TREE denied=ISNOT [DET] value=ATTRVAL [ONE]",
+    "test: DET TREE IS denied=NOT [DET] value=ATTRVAL [ONE]",
     cost=0.3,
 )
-def tree_is(value: Lex) -> list[Test]:
-    """Compose "it is yellow"."""
-    return [Test("", "eq", text, attribute=name) for name, text in value.value]
-
-
-@construction(
-    "test: IT ISNOT value=ATTRVAL",
-    "test: IT IS NOT value=ATTRVAL",
-    "test: DET TREE ISNOT value=ATTRVAL",
-    "test: DET TREE IS NOT value=ATTRVAL",
-    cost=0.3,
-)
-def tree_is_not(value: Lex) -> list[Test]:
-    """Compose "it is not yellow"."""
-    return [Test("", "eq", text, attribute=name, negated=True) for name, text in value.value]
+def tree_is(value: Lex, denied: Lex | None = None) -> list[Test]:
+    """Compose "it is yellow" and "it is not a Carmel"."""
+    return [Test("", "eq", text, attribute=name, negated=denied is not None) for name, text in value.value]
 
 
 @construction("test: IT IS check=CMP value=amount", "test: IT check=CMP value=amount", cost=0.3)
@@ -395,13 +372,13 @@ def test_as_question(test: Test, mark: Lex, used: int) -> When | None:
     return When(AllTests((test,)), used) if "question" in mark.features else None
 
 
-@construction("test: IS subject=subject test=predicate", cost=0.3)
-def is_it(test: Test, subject: str) -> Test:
-    """Compose "is it below 33 degC", of a question."""
-    return replace(test, quantity=subject)
-
-
-@construction("when: IF tests=tests", "when: IF tests=tests INVERTED", "when: where=WHERE tests=tests", cost=0.3)
+@construction(
+    "when: IF tests=tests",
+    "when: IF tests=tests INVERTED",
+    "when: INVERTS tests=tests",
+    "when: where=WHERE tests=tests",
+    cost=0.3,
+)
 def when(tests: AllTests, used: int, where: Lex | None = None) -> When:
     """Compose "if it is high" and "wherever a tree is yellow"."""
     return When(tests, used, among="" if where is None else "area")
@@ -429,10 +406,32 @@ def question_at(one: tuple[PlaceMeaning, Test], used: int) -> ReadingQuestion:
     return ReadingQuestion(AllTests((one[1],)), one[0], used)
 
 
-@construction("failing: TRY", cost=0.2)
-def failing(used: int) -> Failing:
-    """Compose "if that fails"."""
-    return Failing(used)
+@construction(
+    "failing: TRY",
+    "failing: IF CANNOT",
+    "failing: IF IT CANNOT",
+    "failing: IF DOES CANNOT",
+    "failing: IF [DET] reading=READING CANNOT",
+    "failing: IF things=things CANNOT [verb]",
+    cost=0.2,
+)
+def failing(used: int, things: tuple[Thing, ...] = (), reading: Lex | None = None) -> Failing | None:
+    """Compose "if that fails", "if you can't get to it" and "if the leaf sample does not succeed"."""
+    if len(things) > 1 or (reading is not None and reading.plural):
+        return None
+    return Failing(used, action=things[0].action if things else "" if reading is None else LAST_THING)
+
+
+@construction(
+    "failing: one=failing relation ONE [TREE]",
+    "failing: one=failing relation ANY [TREE]",
+    "failing: one=failing THERE",
+    "failing: one=failing relation GROUPANY",
+    cost=0.2,
+)
+def failing_at_one(one: Failing, used: int) -> Failing:
+    """Compose "if the leaf sample does not succeed at one of them"."""
+    return replace(one, used=used, at_one=True)
 
 
 @construction("when: IF test=predicate", cost=0.8)
@@ -441,10 +440,10 @@ def when_so(test: Test, used: int) -> When:
     return When(AllTests((test,)), used)
 
 
-@construction("when: IFSO", cost=0.2)
-def if_so(used: int) -> When:
-    """Compose "if so"."""
-    return When(AllTests(()), used)
+@construction("when: word=IFSO", cost=0.2)
+def if_so(word: Lex, used: int) -> When:
+    """Compose "if so" and "if it is"."""
+    return When(AllTests(()), used, affirms="affirms" in word.features)
 
 
 @construction(
@@ -480,25 +479,15 @@ def both_means(first: str, second: str) -> str:
     return first or second
 
 
-@construction("tests: SOMEONE [IS] test=predicate", "tests: SOMEONE READING [IS] test=predicate", cost=0.3)
-def someone(test: Test) -> AllTests:
-    """Compose "one is above 38 degC"."""
-    return AllTests((test,))
-
-
 @construction(
-    "test: IT DET value=ATTRVAL",
+    "tests: SOMEONE [IS] test=predicate",
+    "tests: SOMEONE READING [IS] test=predicate",
+    "tests: SOMEONE WITH [DET] noun=NOUN test=predicate",
     cost=0.3,
 )
-def it_is_one(value: Lex) -> list[Test]:
-    """Compose "it's a Carmel"."""
-    return tree_is(value)
-
-
-@construction("failing: IF things=things CANNOT verb", "failing: IF things=things CANNOT", cost=0.3)
-def if_it_cannot(things: tuple[Thing, ...], used: int) -> Failing | None:
-    """Compose "if the picture can't be taken"."""
-    return Failing(used) if len(things) == 1 else None
+def someone(test: Test, noun: Lex | None = None) -> list[AllTests]:
+    """Compose "one is above 38 degC" and "you find a tree with a canopy temperature above 38 degC"."""
+    return [AllTests((replace(test, quantity=name),)) for name in ([""] if noun is None else measured_by(noun))]
 
 
 @construction("when: IF place=place [IS] value=ATTRVAL", "when: IF place=place IS DET value=ATTRVAL", cost=0.3)
@@ -568,27 +557,17 @@ def those_of_kind(
     return [(AllTests((test,)), None) for test in tree_is(value)]
 
 
-@construction("tested: those=tested AT [DET] noun=NOUN", "tested: those=tested INSIDE [DET] noun=NOUN", cost=0.2)
-def tested_by(those: tuple[AllTests, PlaceMeaning | None], noun: Lex) -> list[tuple[AllTests, PlaceMeaning | None]]:
+@construction("tested: those=tested by=measured_by", cost=0.2)
+def tested_by(those: tuple[AllTests, PlaceMeaning | None], by: str) -> tuple[AllTests, PlaceMeaning | None]:
     """Compose "any tree that is above 38 degC in the thermal picture"."""
     (test,) = those[0].tests
-    return [(AllTests((replace(test, quantity=name),)), those[1]) for name in measured_by(noun)]
-
-
-@construction("tested: those=tested OF noun=NOUN", cost=0.2)
-def tested_of(those: tuple[AllTests, PlaceMeaning | None], noun: Lex) -> list[tuple[AllTests, PlaceMeaning | None]]:
-    """Compose "any tree that has more than 450 ppm of CO2"."""
-    return tested_by(those, noun)
+    return (AllTests((replace(test, quantity=by),)), those[1])
 
 
 @construction(
-    "capture_where: WHERE DET inner=nominal [IS] test=predicate COMMA act=capture",
-    "capture_where: IF DET inner=nominal [IS] test=predicate COMMA act=capture",
-    "capture_where: IF ANY inner=nominal [IS] test=predicate COMMA act=capture",
-    "capture_where: WHERE ANY inner=nominal [IS] test=predicate COMMA act=capture",
-    "capture_where: WHERE DET inner=nominal [IS] test=predicate by=measured_by COMMA act=capture",
-    "capture_where: IF DET inner=nominal [IS] test=predicate by=measured_by COMMA act=capture",
-    "capture_where: IF ANY inner=nominal [IS] test=predicate by=measured_by COMMA act=capture",
+    "capture_where: WHERE DET inner=nominal [IS] test=predicate [by=measured_by] COMMA act=capture",
+    "capture_where: IF DET inner=nominal [IS] test=predicate [by=measured_by] COMMA act=capture",
+    "capture_where: IF ANY inner=nominal [IS] test=predicate [by=measured_by] COMMA act=capture",
     cost=0.3,
 )
 def whenever_one_is(inner: Nominal, test: Test, act: CaptureCommand, used: int, by: str = "") -> CaptureWhere | None:
@@ -642,6 +621,9 @@ def act_where(verb: Lex, tests: tuple[AllTests, PlaceMeaning | None], used: int)
 @construction(
     "capture_where: tests=tested SHOULD things=things",
     "capture_where: tests=tested TAKE things=things",
+    "capture_where: tests=tested COMMA things=things",
+    "capture_where: tests=tested SHOULD things=things INSTEAD",
+    "capture_where: tests=tested COMMA things=things INSTEAD",
     cost=0.4,
 )
 def those_get(things: tuple[Thing, ...], tests: tuple[AllTests, PlaceMeaning | None], used: int) -> CaptureWhere:
@@ -654,7 +636,10 @@ def those_get(things: tuple[Thing, ...], tests: tuple[AllTests, PlaceMeaning | N
     "until: ASSOONAS tests=tests [COMMA] STOP",
     "until: WHERE tests=tests [COMMA] STOP",
     "until: HALTWHEN tests=tests",
-    "until: STOP AT [DET] FIRSTONE ONE [WHICH] [IS] test=predicate",
+    "until: STOP ASSOONAS tests=tests",
+    "until: STOP WHERE tests=tests",
+    "until: [MISSION] [IS] STOP AT [DET] FIRSTONE ONE [WHICH] [IS] test=predicate",
+    "until: [MISSION] [IS] STOP AT [DET] FIRSTONE READING [WHICH] [IS] test=predicate",
     "until: STOP AT [DET] ORD ONE [WHICH] [IS] test=predicate",
     cost=0.3,
 )
@@ -718,47 +703,25 @@ def pass_to_next(used: int) -> PassOn:
 
 
 @construction(
-    "tests: GROUPALL [IS] test=predicate", "tests: GROUPALL noun=NOUN [READING] [IS] test=predicate", cost=0.2
-)
-def all_of_them(test: Test, noun: Lex | None = None) -> AllTests | None:
-    """Compose "both are low"."""
-    return _of_group(test, noun, "all")
-
-
-@construction(
+    "tests: every=GROUPALL [IS] test=predicate",
+    "tests: every=GROUPALL noun=NOUN [READING] [IS] test=predicate",
     "tests: GROUPANY [IS] test=predicate",
     "tests: GROUPANY noun=NOUN [READING] [IS] test=predicate",
     "tests: AT GROUPANY [COMMA] test=test",
     "tests: test=test AT GROUPANY",
+    "tests: none=GROUPNONE [IS] test=predicate",
+    "tests: [ATLEAST] n=count OFTHEM [IS] test=predicate",
     cost=0.2,
 )
-def any_of_them(test: Test, noun: Lex | None = None) -> AllTests | None:
-    """Compose "either one is low" and "at one of them it is low"."""
-    return _of_group(test, noun, "any")
-
-
-@construction("tests: GROUPNONE [IS] test=predicate", cost=0.2)
-def none_of_them(test: Test) -> AllTests | None:
-    """Compose "neither is low"."""
-    return _of_group(test, None, "none")
-
-
-@construction(
-    "tests: ATLEAST n=count OFTHEM [IS] test=predicate", "tests: n=count OFTHEM [IS] test=predicate", cost=0.2
-)
-def so_many_of_them(n: int, test: Test) -> AllTests:
-    """Compose "at least two of them are low"."""
-    return AllTests((test,), of_last=n)
-
-
-def _of_group(test: Test, noun: Lex | None, of_last: OfLast) -> AllTests | None:
-    """Return a test of the last several readings."""
-    if noun is None:
-        return AllTests((test,), of_last=of_last)
-    naming: Naming = noun.value
-    if len(set(naming.quantities)) != 1:
+def of_several(
+    test: Test, every: Lex | None = None, none: Lex | None = None, noun: Lex | None = None, n: int = 0
+) -> AllTests | None:
+    """Compose "both are low", "at one of them it is low", "neither is low" and "at least two of them are low"."""
+    of_last: OfLast = n or ("all" if every is not None else "none" if none is not None else "any")
+    quantities = {test.quantity} if noun is None else set(noun.value.quantities)
+    if len(quantities) != 1:
         return None
-    return AllTests((replace(test, quantity=naming.quantities[0]),), of_last=of_last)
+    return AllTests((replace(test, quantity=quantities.pop()),), of_last=of_last)
 
 
 @construction("otherwise: IF GROUPNONE IS", "otherwise: IF GROUPNONE", cost=0.3)

@@ -141,6 +141,13 @@ def another_of(how: ParameterValue, robot: RobotProfile, n: int = 1, other: Lex 
     return [one for one in made if one is not None] or None
 
 
+@construction("capture: how=parameter", cost=1.5, given=("robot",))
+@construction("capture: AGAIN how=parameter", "capture: how=parameter AGAIN", cost=0.6, given=("robot",))
+def again_with(how: ParameterValue, used: int, robot: RobotProfile) -> list[CaptureCommand] | None:
+    """Compose "(then) again at 40 cm", of what was captured last."""
+    return [CaptureCommand((one,), None, used) for one in another_with(how, robot) or ()] or None
+
+
 @construction("thing: ONE how=parameter", "thing: ANOTHER [ONE] how=parameter", cost=0.8, given=("robot",))
 def another_with(how: ParameterValue, robot: RobotProfile) -> list[Thing] | None:
     """Compose "one at 60 cm", of what was captured last."""
@@ -276,15 +283,24 @@ def one_of_several_values(how: ParameterValue) -> ParameterValue | None:
     return None if isinstance(how.value, str) else how
 
 
-@construction("parameters: first=value AND second=value", "parameters: first=value COMMA second=value", cost=0.1)
+@construction(
+    "and_again: [COMMA] AND [then] [AGAIN]",
+    "and_again: COMMA [then] [AGAIN]",
+    "and_again: then [AGAIN]",
+    cost=0.0,
+)
+def and_again() -> str:
+    """Compose "and again", between values of which each is taken."""
+    return "and"
+
+
+@construction("parameters: [FIRSTONE] first=value and_again second=value", cost=0.1)
 def two_parameters(first: ParameterValue, second: ParameterValue) -> tuple[ParameterValue, ...]:
     """Compose "at 10 cm and at 50 cm"."""
     return first, second
 
 
-@construction(
-    "parameters: first=parameters [COMMA] AND last=value", "parameters: first=parameters COMMA last=value", cost=0.1
-)
+@construction("parameters: first=parameters and_again last=value", cost=0.1)
 def more_parameters(first: tuple[ParameterValue, ...], last: ParameterValue) -> tuple[ParameterValue, ...]:
     """Compose "at 10 cm, at 30 cm and at 50 cm"."""
     return (*first, last)
@@ -296,23 +312,31 @@ def first_of_amounts(first: Lex | Amount) -> tuple[Lex | Amount, ...]:
     return (first,)
 
 
-@construction("amounts: first=amounts COMMA then=NUM", "amounts: first=amounts COMMA then=amount", cost=0.0)
+@construction("amounts: first=amounts and_again then=NUM", "amounts: first=amounts and_again then=amount", cost=0.0)
 def more_amounts(first: tuple[Lex | Amount, ...], then: Lex | Amount) -> tuple[Lex | Amount, ...]:
     """Compose "10, 30" of "10, 30 and 60 cm"."""
     return (*first, then)
 
 
 @construction(
-    "parameters: word=AT first=amounts [COMMA] AND last=amount",
-    "parameters: word=AT PARAMETER [OF] first=amounts [COMMA] AND last=amount",
+    "parameters: [word=AT] first=amounts and_again last=amount",
+    "parameters: word=AT PARAMETER [OF] first=amounts and_again last=amount",
+    "parameters: [word=AT] first=amounts and_again last=NUM",
     cost=0.1,
 )
-def one_unit_of_several(word: Lex, first: tuple[Lex | Amount, ...], last: Amount) -> tuple[ParameterValue, ...] | None:
+def one_unit_of_several(
+    first: tuple[Lex | Amount, ...], last: Lex | Amount, word: Lex | None = None
+) -> tuple[ParameterValue, ...] | None:
     """Compose "at 10, 30 and 50 cm"; metres, into which every length is turned, hide the unit of the first numbers."""
-    if "setting" not in word.features or last.unit != "metres" or not 0 < last.number < 1:
+    said = [one for one in (*first, last) if isinstance(one, Amount)]
+    if (word is not None and "setting" not in word.features) or not said:
         return None
-    numbers = [one.number if isinstance(one, Amount) else round(one.value / 100, 6) for one in first]
-    return tuple(ParameterValue(number, last.unit, ()) for number in (*numbers, last.number))
+    if not all(one.unit == "metres" and 0 < one.number < 1 for one in said):
+        return None
+    if isinstance(last, Lex) and not isinstance(first[0], Amount):
+        return None  # "at 10, 30 cm and 50"
+    numbers = [one.number if isinstance(one, Amount) else round(one.value / 100, 6) for one in (*first, last)]
+    return tuple(ParameterValue(number, "metres", ()) for number in numbers)
 
 
 @construction("things: one=thing each=parameters", cost=0.3, given=("robot",))
@@ -327,6 +351,7 @@ def thing_at_each(one: Thing, each: tuple[ParameterValue, ...], robot: RobotProf
     "capture: said=capture each=parameters",
     "capture: said=capture COMMA each=parameters",
     "capture: said=capture [COMMA] WITH each=parameters",
+    "capture: each=parameters COMMA said=capture",
     cost=0.4,
     given=("robot",),
 )

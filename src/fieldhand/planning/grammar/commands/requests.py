@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import (
+    LAST_THING,
+    LAST_THINGS,
     After,
     Again,
     Allowed,
@@ -27,11 +30,16 @@ from fieldhand.planning.grammar.meaning import (
     PlaceMeaning,
     RankCommand,
     ReadingQuestion,
+    Reordered,
     Said,
     StopCommand,
+    Thing,
     When,
 )
+from fieldhand.planning.grammar.places.numbers import named_trees
 from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.selections import named_places
+from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -60,6 +68,7 @@ _LEADS_ON = When | Otherwise | Lead | LimitClause | Allowed | InAnOrder | Failin
     "command: one=after",
     "command: one=question",
     "command: one=failing",
+    "command: one=reordered",
     cost=0.0,
 )
 def command(one: Command) -> Command:
@@ -80,14 +89,14 @@ def joint_with_comma(used: int, then: str = "") -> Connective:
 
 
 @construction(
-    "joint: [COMMA] [and_or_but] FIRSTLY [COMMA]",
-    "joint: FULLSTOP [and_or_but] FIRSTLY [COMMA]",
-    "joint: COMMA BUT FIRSTLY",
+    "joint: [COMMA] [and_or_but] word=FIRSTLY [COMMA]",
+    "joint: FULLSTOP [and_or_but] word=FIRSTLY [COMMA]",
+    "joint: COMMA BUT word=FIRSTLY",
     cost=0.2,
 )
-def but_first(used: int) -> Connective:
-    """Compose ", but first"."""
-    return Connective(False, True, used, first=True)
+def but_first(used: int, word: Lex) -> Connective:
+    """Compose ", but first" and "before all of that,"."""
+    return Connective(False, True, used, first=True, of_all="of_several" in word.features)
 
 
 @construction("joint: [COMMA] both=and_or_but [after=then]", "joint: COMMA [after=then]", "joint: after=then", cost=0.2)
@@ -189,10 +198,49 @@ def correction(place: PlaceMeaning, used: int) -> Correction:
     return Correction(place, used)
 
 
+@construction("scratched: SCRATCH place=place", "scratched: SCRATCH trees=numbers", cost=0.1, given=("site",))
+def scratched(site: Site, place: PlaceMeaning | None = None, trees: tuple[str, ...] = ()) -> PlaceMeaning | None:
+    """Compose "scratch tree 4" and, on a site whose trees have numbers, "scratch 4"."""
+    if place is not None:
+        return place
+    return named_trees(trees) if all(name in site.by_id for name in trees) else None
+
+
+@construction(
+    "command: old=scratched [COMMA] [AND] corrects place=place",
+    "command: old=scratched [COMMA] [AND] corrects trees=numbers",
+    cost=0.2,
+    given=("site",),
+)
+def correction_of(
+    old: PlaceMeaning, used: int, site: Site, place: PlaceMeaning | None = None, trees: tuple[str, ...] = ()
+) -> Correction | None:
+    """Compose "scratch tree 4, make it tree 9"."""
+    new = scratched(site, place, trees)
+    return None if new is None else Correction(new, used, old=old)
+
+
 @construction("said: before=said DASH one=command", cost=0.3)
 def corrected_by_dash(before: Said, one: Command) -> Said | None:
-    """Compose "take a picture of tree 4 - no, tree 9"."""
-    return Said((*before.clauses, LinkedCommand(None, one))) if isinstance(one, Correction) else None
+    """Compose "take a picture of tree 4 - no, tree 9" and what follows the second dash."""
+    last = before.clauses[-1].command
+    joint = None if isinstance(one, Correction) else Connective(False, False, 0, bare=True)
+    fits = isinstance(one, Correction | Reordered) or isinstance(last, Correction)
+    return Said((*before.clauses, LinkedCommand(joint, one))) if fits else None
+
+
+@construction(
+    "reordered: [CORRECTION] [COMMA] SWAP", "reordered: [CORRECTION] [COMMA] SWAP COMMA one=reordered", cost=0.2
+)
+def swapped_steps(used: int, one: Reordered | None = None) -> Reordered:
+    """Compose "actually, the other way round"."""
+    return Reordered(None if one is None else one.first, used, swapped=True)
+
+
+@construction("reordered: place=place FIRSTONE", cost=0.3)
+def comes_first(place: PlaceMeaning, used: int) -> Reordered | None:
+    """Compose "tree 9 first", behind the steps."""
+    return Reordered(place, used) if place.shape in ("one", "several", "area") else None
 
 
 @construction("said: last=home COMMA rest=said", "said: last=home FULLSTOP rest=said", cost=0.2)
@@ -263,6 +311,118 @@ def next_task_is() -> str:
 
 
 @construction(
+    "capture: place=place IS TAKE WITH things=things",
+    "capture: MUST things=things IS verb relation place=place",
+    cost=0.5,
+)
+def is_done(place: PlaceMeaning, things: tuple[Thing, ...], used: int) -> CaptureCommand | None:
+    """Compose "(after) row 2 has been done with the thermal camera" and "should the CO2 be taken at tree 4"."""
+    return CaptureCommand(tuple(replace(one, plural=place.shape == "area") for one in things), place, used)
+
+
+@construction("capture: act=capture [COMMA] place=here", cost=0.5)
+def done_there(act: CaptureCommand, place: PlaceMeaning, used: int) -> CaptureCommand | None:
+    """Compose "photograph the ground there"."""
+    known = (
+        act.place is None or act.place == place or (act.place.shape == place.shape == "here" and not act.place.itself)
+    )
+    relation = "plain" if act.relation == "bare" else act.relation
+    return replace(act, place=place, used=used, relation=relation) if known and act.spacing is None else None
+
+
+@construction("capture: TAKE INSTEAD things=things [relation] [place=place]", cost=0.4)
+def take_instead(things: tuple[Thing, ...], used: int, place: PlaceMeaning | None = None) -> CaptureCommand:
+    """Compose "take instead a picture", in another case."""
+    return CaptureCommand(things, place, used, instead=True)
+
+
+@construction("capture: things=things OF place=place", cost=1.2)
+def another_of_each(things: tuple[Thing, ...], place: PlaceMeaning, used: int) -> CaptureCommand | None:
+    """Compose "(and then) one of the tree on each side of it"."""
+    one_more = [(one.action, one.count) for one in things] == [(LAST_THING, 1)]
+    return CaptureCommand(things, place, used, relation="of") if one_more and place.each else None
+
+
+@construction("thing: DET SAME reading=READING", cost=0.5)
+def same_reading(reading: Lex) -> Thing | None:
+    """Compose "the same measurement"."""
+    return None if reading.plural else Thing(LAST_THING)
+
+
+@construction("here: SAME noun=TREE", cost=0.3)
+def same_tree(noun: Lex) -> PlaceMeaning | None:
+    """Compose "same tree"."""
+    return None if noun.plural else PlaceMeaning(s.Here(), "here", one_tree=True)
+
+
+@construction(
+    "thing: word=DET rank=ORD ONE", "thing: word=DET rank=ORD reading=READING", "thing: word=DET rank=ORD", cost=1.5
+)
+def second_one(word: Lex, rank: Lex, reading: Lex | None = None) -> Thing | None:
+    """Compose "a second one", of what was captured last."""
+    if "indefinite" not in word.features or rank.value < 2 or (reading is not None and reading.plural):
+        return None
+    return Thing(LAST_THING, count=1)
+
+
+@construction("things: several=GROUPALL AGAIN", "things: DET SAME n=count", cost=0.5)
+def those_things(several: Lex | None = None, n: int = 0) -> tuple[Thing, ...] | None:
+    """Compose "both again" and "the same two", of what was captured together."""
+    if several is not None and "of_trees" in several.features:
+        return None
+    number = 2 if several is not None and "two" in several.features else n or None
+    return None if n == 1 else (Thing(LAST_THINGS, count=number, plural=True),)
+
+
+@construction("repeated: word=REPEAT [DET] ROUND", "repeated: word=TAKE DET ROUND", cost=0.1)
+def whole_round(word: Lex) -> Lex:
+    """Compose "do that whole round"."""
+    return word
+
+
+@construction(
+    "again: word=repeated times=COUNT [INALL]",
+    "again: word=repeated n=count TIMES [INALL]",
+    "again: word=repeated more=more_times",
+    "again: word=repeated [AGAIN]",
+    "again: AGAIN several=GROUPALL",
+    "again: several=GROUPALL AGAIN",
+    cost=0.2,
+)
+def round_again(
+    used: int,
+    word: Lex | None = None,
+    times: Lex | None = None,
+    n: int = 1,
+    more: int | None = None,
+    several: Lex | None = None,
+) -> list[Again] | None:
+    """Compose "do that whole round three times" and "once more both"."""
+    often = more if more is not None else n if times is None else int(times.value)
+    if often < 2 or more is not None:
+        both = several is not None and "two" in several.features
+        return [Again(None, used, times=often, whole=True, both=both)]
+    in_all = Again(None, used, times=often, in_all=True, whole=True)
+    return (
+        [in_all]
+        if word is not None and "performs" in word.features
+        else [Again(None, used, times=often, whole=True), in_all]
+    )
+
+
+@construction("again: one=again [COMMA] INORDER", cost=0.2)
+def again_in_that_order(one: Again, used: int) -> Again | None:
+    """Compose "both again, same order"."""
+    return replace(one, used=used) if one.times else None
+
+
+@construction("again: place=place COMMA SAMEWAY", cost=0.4)
+def likewise_there(place: PlaceMeaning, used: int) -> Again:
+    """Compose "tree 9: the same"."""
+    return Again(place, used)
+
+
+@construction(
     "after: word=THEN done=capture",
     "after: word=THEN done=drive",
     "after: HAVINGDONE done=capture",
@@ -299,8 +459,11 @@ def first_of_all(first: Connective, one: Command) -> Said:
 
 
 @construction("said: one=capture FIRSTONE", "said: one=drive FIRSTONE", cost=0.2)
-def what_is_first(one: CaptureCommand | DriveCommand, used: int) -> Said:
-    """Compose "photograph tree 4 first"."""
+def what_is_first(one: CaptureCommand | DriveCommand, used: int) -> Said | None:
+    """Compose "photograph tree 4 first"; "photograph trees 4 and 9, tree 9 first" is an order."""
+    places = () if one.place is None else named_places(one.place.selector)
+    if len(set(places)) < len(places):
+        return None
     return Said((LinkedCommand(Connective(False, True, used & ~one.used), one),))
 
 
@@ -345,7 +508,7 @@ def without_joint(before: Said, one: Command) -> Said | None:
     """Compose "take a picture if it is high"."""
     last = before.clauses[-1].command
     match one:
-        case Again() | InTurn() | CaptureWhere() | ReadingQuestion() | Failing() | RankCommand():
+        case Again() | InTurn() | Reordered() | CaptureWhere() | ReadingQuestion() | Failing() | RankCommand():
             return None
         case Otherwise():
             follows = any(isinstance(clause.command, When) for clause in before.clauses)
@@ -362,7 +525,7 @@ def without_joint(before: Said, one: Command) -> Said | None:
     return Said((*before.clauses, LinkedCommand(None, one))) if follows else None
 
 
-@construction("said: REPEAT times=COUNT COMMA rest=said", "said: times=COUNT COMMA rest=said", cost=0.3)
+@construction("said: REPEAT times=COUNT COMMA rest=said", "said: times=COUNT [OVER] COMMA rest=said", cost=0.3)
 def so_often_first(times: Lex, rest: Said, used: int) -> Said:
     """Compose "do this three times: photograph tree 4 and measure CO2 at tree 9"."""
     own = used

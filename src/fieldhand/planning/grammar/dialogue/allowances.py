@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from fieldhand.language import message
 from fieldhand.planning.grammar.dialogue.fitting import is_spoken_of
-from fieldhand.planning.grammar.dialogue.plans import EMPTY, Path
+from fieldhand.planning.grammar.dialogue.plans import EMPTY, Path, block_at, node_at, with_node
 from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
     NotComposed,
@@ -16,7 +16,7 @@ from fieldhand.planning.grammar.dialogue.state import (
     with_last_step,
     with_step,
 )
-from fieldhand.planning.grammar.meaning import Allowed, CaptureCommand, Connective, Failing, LinkedCommand
+from fieldhand.planning.grammar.meaning import LAST_THING, Allowed, CaptureCommand, Connective, Failing, LinkedCommand
 from fieldhand.task import plan as p
 
 
@@ -76,7 +76,28 @@ def failing(setting: Setting, state: DialogueState, command: Failing) -> Dialogu
     steps = state.block.steps
     if not steps:
         raise NotComposed(message("it is not clear what may fail", context="fault"))
+    if (command.action or command.at_one) and state.loop is not None and state.captured is not None:
+        return _failing_at_each(setting, state, command, state.captured)
+    last = steps[-1].act
+    if command.at_one or (command.action and (last is None or command.action not in (LAST_THING, last.action))):
+        raise NotComposed(message("it is not clear what may fail", context="fault"))
     inside = (*state.scope, len(steps) - 1, "otherwise")
     body = p.InOrder(id="", steps=steps[-1:])
     state = with_last_step(state, p.Try(id="", body=body, otherwise=EMPTY, said=setting.spans_of(command.used)))
     return replace(state, scope=inside, open=True, loop=None, captured=None, choice=None)
+
+
+def _failing_at_each(setting: Setting, state: DialogueState, command: Failing, captured: Path) -> DialogueState:
+    """Return the state in which the next commands are done at each of several places where the last capture fails.
+
+    Raises:
+        NotComposed: Another capture than the last one there is meant.
+    """
+    block, act = block_at(state.plan, captured[:-1]), node_at(state.plan, captured).act
+    is_last = captured[-1] == len(block.steps) - 1 and captured[:-1] == state.loop
+    if act is None or not is_last or command.action not in ("", LAST_THING, act.action):
+        raise NotComposed(message("it is not clear what may fail", context="fault"))
+    body = p.InOrder(id="", steps=(act,))
+    tried = p.Try(id="", body=body, otherwise=EMPTY, said=setting.spans_of(command.used))
+    plan = with_node(state.plan, captured, tried)
+    return replace(state, plan=plan, scope=(*captured, "otherwise"), open=True, captured=None, choice=None)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from fieldhand.language import message
+from fieldhand.language.words import say_action
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.driving import drive, enter, may_be_left_out, ordered, require_known, visits
 from fieldhand.planning.grammar.dialogue.fitting import (
@@ -16,6 +17,7 @@ from fieldhand.planning.grammar.dialogue.fitting import (
     spaced,
     within_area,
 )
+from fieldhand.planning.grammar.dialogue.likewise import anchors
 from fieldhand.planning.grammar.dialogue.plans import (
     EMPTY,
     as_choice,
@@ -37,12 +39,14 @@ from fieldhand.planning.grammar.dialogue.state import (
     Setting,
     Spans,
     done_at,
+    with_assumption,
     with_capture,
     with_last_step,
     with_step,
 )
 from fieldhand.planning.grammar.meaning import (
     LAST_THING,
+    LAST_THINGS,
     SAME_VALUE,
     UNSAID_THING,
     Again,
@@ -85,6 +89,7 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
     same = any(one.action == LAST_THING and one.count is None for one in command.things)
     if same and command.place is not None and command.place.shape == "area":
         raise NotComposed(message("at every tree, or at how many?", context="fault"))
+    state, command = _with_unsaid_again(setting, state, command)
     things = meant_things(state, said_things(setting, command))
     place, state, before = _place_of(setting, state, command)
     tokens = 0 if command.place is None else command.place.tokens & command.used
@@ -196,6 +201,23 @@ def said_things(setting: Setting, command: CaptureCommand) -> tuple[Thing, ...]:
     return tuple(replace(thing, action=action) for thing in command.things)
 
 
+def _with_unsaid_again(
+    setting: Setting, state: DialogueState, command: CaptureCommand
+) -> tuple[DialogueState, CaptureCommand]:
+    """Return a capture that is not named as the last one if a test of it decides it ("if it is high, check tree 9")."""
+    if not state.open or len(state.things) != 1 or [one.action for one in command.things] != [UNSAID_THING]:
+        return state, command
+    (last,) = state.things
+    same = message(
+        "'{said}': the same as before is taken ({action}).",
+        context="assumption",
+        said=setting.quoted(command.used),
+        action=say_action(last.action, 1),
+    )
+    things = (replace(last, count=None, plural=command.things[0].plural),)
+    return with_assumption(state, same), replace(command, things=things)
+
+
 def meant_things(state: DialogueState, things: tuple[Thing, ...]) -> tuple[Thing, ...]:
     """Return captures, those that refer to the last ones resolved.
 
@@ -203,6 +225,10 @@ def meant_things(state: DialogueState, things: tuple[Thing, ...]) -> tuple[Thing
         NotComposed: What they refer to is unclear.
     """
     things = _with_same_values(state, things)
+    if things[0].action == LAST_THINGS:
+        if len(things) > 1 or len(state.things) < 2 or things[0].count not in (None, len(state.things)):
+            raise NotComposed(message("it is not clear what another one is meant", context="fault"))
+        return state.things
     if not any(thing.action == LAST_THING for thing in things):
         return things
     if len(things) != 1 or len(state.things) != 1:
@@ -264,6 +290,8 @@ def _place_of(
         further = along_row(before, place)
         if further is not None:
             return further, state, said
+    if place is not None and first.selector in anchors(place.selector):
+        return place, state, said  # "begin at the pond: ... the five trees closest to it"
     if first.shape == "area" and first.per is None:
         return in_area(setting, before, place), replace(state, within=first.selector), said
     if first.per is not None and place is not None and place.per is None and place.shape in ("one", "several"):

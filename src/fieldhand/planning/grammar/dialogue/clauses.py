@@ -72,6 +72,7 @@ from fieldhand.planning.grammar.meaning import (
     PlaceMeaning,
     RankCommand,
     ReadingQuestion,
+    Reordered,
     Said,
     StopCommand,
     UntilCondition,
@@ -201,6 +202,7 @@ def _read(
         state = driven_home(setting, state)
     elided = state.lead is not None and state.lead.relation == "of" and isinstance(command, CaptureCommand)
     own_place = _has_own_place(command) or elided
+    own_place = own_place or (isinstance(command, Again) and command.whole)
     if joint is not None and (joint.both or joint.then) and own_place and state.commands_in_sentence:
         state = capture_elided(setting, state)  # "take a picture at tree 4, at tree 5 and read CO2 at tree 6"
     if joint is not None and joint.full:
@@ -231,6 +233,10 @@ def _read(
                 command = replace(command, relation="at")  # "at tree 40 a picture, then CO2"
             elif command.relation == "bare" and state.lead is not None and joint is not None and not joint.both:
                 command = replace(command, relation="at")  # "at every tree of row 3, a picture and CO2"
+            one_more = command.relation == "plain" and any(thing.count for thing in command.things)
+            decided = command.relation == "bare" and bool(following) and following[0].before is None
+            if again and (one_more or decided):
+                command = replace(command, relation="at")  # "a second reading whenever the first is below 400 ppm"
             if command.relation == "bare" and (not state.open or (again and state.choice is None)):
                 raise NotComposed(message("it does not say what to do with it", context="fault"))
             return capture(setting, state, command)
@@ -282,7 +288,7 @@ def _read(
             return question(setting, state, command)
         case Failing():
             return failing(setting, state, command)
-        case InTurn() | Correction():
+        case InTurn() | Correction() | Reordered():
             raise AssertionError("these are resolved before the clauses are read")
 
 
@@ -349,6 +355,8 @@ def _rest_of_sentence(following: Sequence[LinkedCommand]) -> list[LinkedCommand]
 def _new_sentence(setting: Setting, state: DialogueState, command: Command) -> DialogueState:
     """Return the state at the beginning of a sentence whose first command is known."""
     state = capture_elided(setting, state)
+    if state.lead is not None and not state.lead.relation and _is_done_there(command):
+        state = replace(state, lead=replace(state.lead, relation="topic"))  # "Row 6. A picture of each tree."
     if state.open or (state.lead is not None and state.lead.relation != "topic"):
         raise NotComposed(_IDLE, advice=_WHAT_THERE)
     place = command.place if isinstance(command, CaptureCommand) else None
@@ -356,6 +364,12 @@ def _new_sentence(setting: Setting, state: DialogueState, command: Command) -> D
         state = enter(setting, state, state.area)
     scope = state.scope if isinstance(command, Otherwise) else ()
     return replace(state, scope=scope, commands_in_sentence=0, within=None, runs_on=False)
+
+
+def _is_done_there(command: Command) -> bool:
+    """Return True for a capture at places that were spoken of, or at each tree."""
+    place = command.place if isinstance(command, CaptureCommand) else None
+    return place is not None and (is_spoken_of(place) or place.selector == s.Trees())
 
 
 def _lead(setting: Setting, state: DialogueState, command: Lead) -> DialogueState:
@@ -413,6 +427,12 @@ def _do_before_last(
     steps = state.plan.steps
     if state.scope or not steps or following or not isinstance(command, CaptureCommand):
         raise NotComposed(message("it is not clear before what", context="fault"))
+    if joint.of_all and command.place is not None and not command.place.selector.relative:
+        made = capture(setting, DialogueState(readings=state.readings), command)
+        plan = p.InOrder(id="", steps=(*made.plan.steps, *steps))
+        return replace(
+            with_joints(state, setting.spans_of(joint.used)), plan=plan, captured=None, loop=None, choice=None
+        )
     last = steps[-1]
     if not last.visits_each and (last.act is None or last.act.at is None):
         raise NotComposed(message("it is not clear before what", context="fault"))

@@ -10,6 +10,7 @@ from fieldhand.language.words import say_action
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.capturing import capture, capture_once
 from fieldhand.planning.grammar.dialogue.driving import drive, visits
+from fieldhand.planning.grammar.dialogue.fitting import is_spoken_of
 from fieldhand.planning.grammar.dialogue.plans import (
     EMPTY,
     Path,
@@ -18,6 +19,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
     for_each_at,
     is_conditional,
     is_inside,
+    last_capture,
     node_at,
     walk,
     with_node,
@@ -33,8 +35,9 @@ from fieldhand.planning.grammar.dialogue.state import (
     with_last_step,
     with_step,
 )
-from fieldhand.planning.grammar.dialogue.tested import TREE_TESTS, condition_of, reading_before
+from fieldhand.planning.grammar.dialogue.tested import TREE_TESTS, condition_of, reading_before, readings_at
 from fieldhand.planning.grammar.meaning import (
+    NTH_READING,
     SAME_THRESHOLD,
     AllTests,
     CaptureCommand,
@@ -58,7 +61,12 @@ from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
 
 #: Comparisons to the other side of a threshold, by comparison.
-_OPPOSITES: Mapping[Check, tuple[Check, ...]] = {"lt": ("gt", "ge"), "gt": ("lt", "le")}
+_OPPOSITES: Mapping[Check, tuple[Check, ...]] = {
+    "lt": ("gt", "ge"),
+    "le": ("gt", "ge"),
+    "gt": ("lt", "le"),
+    "ge": ("lt", "le"),
+}
 #: A threshold is of the size of a quantity if it is less than so many times as high or low as the quantity's levels.
 _SIZES = 4
 
@@ -79,11 +87,23 @@ def when(setting: Setting, state: DialogueState, command: When, following: Seque
     if command.terse and (decides_last or not following):
         raise NotComposed(message("it does not say what depends on it", context="fault"))
     command = replace(command, tests=_of_last_threshold(state, _of_quantity(setting, command.tests)))
+    if command.measured_at is not None:
+        state, taken = readings_at(state, command.measured_at.selector, command.tests.tests[0], setting.robot)
+        if taken:
+            known = setting.either("which reading is tested?", command.used, taken)
+            return _of_reading_there(setting, state, command, known, following)
     if (place := command.measured_at) is not None:
         if decides_last:
             raise NotComposed(message("it does not say what depends on it", context="fault"))
         state = _at_tested_place(setting, state, command, place)
     if not command.tests.tests:
+        if (
+            command.affirms
+            and state.asked is None
+            and state.decided is not None
+            and all(one.negated for one in state.decided.tests)
+        ):
+            return otherwise(setting, state, setting.spans_of(command.used))  # "unless it is high ..., if it is ..."
         if state.asked is None:
             raise NotComposed(message("it is not clear what has to be so", context="fault"))
         command = replace(command, tests=state.asked)
@@ -110,6 +130,8 @@ def when(setting: Setting, state: DialogueState, command: When, following: Seque
         if not ways:
             raise NotComposed(message("nothing before it measures that", context="fault"))
         ways = [path for path in ways if _may_be_of(state, path, command.tests, robot)] or ways
+        if before in ways and _is_other_end(state.decided, command.tests):
+            ways = [before]  # "if it is low, read the air temperature; if it is high, read CO2"
         state = replace(state, captured=setting.either("which reading is tested?", command.used, ways))
     return _choice(setting, state, command, said)
 
@@ -124,9 +146,23 @@ def _of_last_threshold(state: DialogueState, tests: AllTests) -> AllTests:
         return tests
     last = None if state.decided is None or len(state.decided.tests) != 1 else state.decided.tests[0]
     test = tests.tests[0]
-    if last is None or len(tests.tests) > 1 or last.check not in _OPPOSITES[test.check] or last.negated:
+    denies = (
+        last is not None and last.check == test.check and last.negated
+    )  # "unless it is above 35 ...; if it is above"
+    opposes = last is not None and last.check in _OPPOSITES[test.check] and not last.negated
+    if last is None or len(tests.tests) > 1 or not (denies or opposes):
         raise NotComposed(message("it is not clear with what it is compared", context="fault"))
-    return AllTests((replace(last, negated=True),))
+    return AllTests((replace(last, negated=opposes),))
+
+
+def _is_other_end(last: AllTests, tests: AllTests) -> bool:
+    """Return True if a test is of the other end of the scale than the last one: high after low, above after below."""
+    if len(last.tests) != 1 or len(tests.tests) != 1:
+        return False
+    one, other = last.tests[0], tests.tests[0]
+    if one.check == other.check == "level":
+        return one.value != other.value and not one.negated and not other.negated
+    return one.check in _OPPOSITES.get(other.check, ()) and not one.negated and not other.negated
 
 
 def _may_be_of(state: DialogueState, path: Path, tests: AllTests, robot: RobotProfile) -> bool:
@@ -198,7 +234,7 @@ def captured_where(setting: Setting, state: DialogueState, command: CaptureWhere
     loop = state.loop
     state = capture(setting, state, command.capture)
     done = state.commands_in_sentence + 1
-    return replace(state, scope=scope, loop=loop, decided=None, commands_in_sentence=done)
+    return replace(state, scope=scope, loop=loop, commands_in_sentence=done)
 
 
 def _chosen_by(state: DialogueState, attributes: set[str]) -> bool:
@@ -292,7 +328,13 @@ def _decide_last_at_each(state: DialogueState, command: When, said: Spans, robot
     if len(steps) <= number or any(step.act is None for step in steps):
         return None
     tested = (*body, len(steps) - number - 1)
-    condition, state = condition_of(replace(state, captured=tested), command.tests, robot)
+    tests = command.tests
+    if len(steps) == number + 1:  # "a second reading whenever the first is below 400 ppm"
+        one_of = {f"{NTH_READING}1": ""}
+        tests = replace(
+            tests, tests=tuple(replace(test, quantity=one_of.get(test.quantity, test.quantity)) for test in tests.tests)
+        )
+    condition, state = condition_of(replace(state, captured=tested), tests, robot)
     if state.captured != tested:
         raise NotComposed(message("nothing before it measures that", context="fault"))
     steps = block_at(state.plan, body).steps
@@ -353,6 +395,8 @@ def _scope_of_test(setting: Setting, state: DialogueState, command: When) -> Pat
     """
     if all(test.attribute for test in command.tests.tests):
         return _scope_at_tree(setting, state, command)
+    if state.open and state.scope[-1:] == ("otherwise",) and is_inside(state.scope, (state.captured or ())[:-1]):
+        return state.scope  # "otherwise, if it is low, ..."
     if state.captured is not None:
         return state.captured[:-1]
     return state.loop if state.loop is not None else state.scope
@@ -387,6 +431,39 @@ def _decide_last(setting: Setting, state: DialogueState, command: When, said: Sp
     last = p.InOrder(id="", steps=state.block.steps[-1:])
     state = with_last_step(state, p.If(id="", condition=condition, then=last, said=said))
     return replace(state, choice=inside, decided=command.tests, loop=None, tested_at=(state.where, state.where_scope))
+
+
+def _of_reading_there(
+    setting: Setting, state: DialogueState, command: When, known: Path, following: Sequence[LinkedCommand]
+) -> DialogueState:
+    """Return the state after a condition on a reading that was taken at another place ("if tree 31 was high, ...")."""
+    said, place = setting.spans_of(command.used), command.measured_at
+    is_last = known == last_capture(state.plan)
+    state = replace(state, captured=known, loop=None)
+    if state.commands_in_sentence and (not following or isinstance(following[0].command, Otherwise)):
+        return _decided_by(state, command, said, setting.robot)
+    state = _choice(setting, replace(state, scope=()), command, said)
+    then = following[0].command if following else None
+    goes_there = isinstance(then, CaptureCommand) and is_spoken_of(then.place) and not is_last
+    return replace(state, lead=Lead(place, command.used)) if goes_there and place is not None else state
+
+
+def _decided_by(state: DialogueState, command: When, said: Spans, robot: RobotProfile) -> DialogueState:
+    """Return the state in which a reading at another place decides the last command ("..., but only if 31 was high").
+
+    Raises:
+        NotComposed: That reading was not taken before the command.
+    """
+    condition, state = condition_of(state, command.tests, robot)
+    steps = state.block.steps
+    drives = len(steps) > 1 and steps[-2].only_drives and steps[-2].said == steps[-1].said
+    first = len(steps) - (2 if drives else 1)
+    if state.scope or state.captured is None or is_inside(state.captured, (first,)):
+        raise NotComposed(message("nothing before it measures that", context="fault"))
+    choice = p.If(id="", condition=condition, then=p.InOrder(id="", steps=steps[first:]), said=said)
+    plan = replace(state.plan, steps=(*steps[:first], choice))
+    made = replace(state, plan=plan, choice=(first,), decided=command.tests, loop=None)
+    return replace(made, tested_at=(state.where, state.where_scope))
 
 
 def _measured_before_last(setting: Setting, state: DialogueState, command: When, said: Spans) -> DialogueState | None:
@@ -505,6 +582,7 @@ def otherwise(setting: Setting, state: DialogueState, said: Spans, *, in_all: bo
         nested = replace(before, otherwise=p.InOrder(id="", steps=(both,)))
         plan = with_node(plan, state.choice[:-1], p.InOrder(id="", steps=(*steps[: number - 1], nested)))
         case = (*state.choice[:-1], number - 1, "otherwise", 0)
+    tested = _capture_of_choice(state)  # what was captured in the first case was not in this one
     where, where_scope = state.tested_at  # the robot stands where it was when the condition was tested
     return replace(
         state,
@@ -513,6 +591,7 @@ def otherwise(setting: Setting, state: DialogueState, said: Spans, *, in_all: bo
         scope=(*case, branch),
         open=True,
         loop=_loop_around(state),
+        captured=state.captured if tested is None else tested,
         where=where,
         where_scope=where_scope,
     )
@@ -559,7 +638,8 @@ def until(setting: Setting, state: DialogueState, command: UntilCondition) -> Di
     if state.loop is None or state.captured is None or not is_inside(state.captured, state.loop):
         raise NotComposed(message("it is not clear what ends then", context="fault"))
     path = state.loop[:-1]
-    condition, state = condition_of(state, command.tests, setting.robot)
+    tests = replace(command.tests, of_last="") if command.tests.of_last == "any" else command.tests
+    condition, state = condition_of(state, tests, setting.robot)
     loop = for_each_at(state.plan, path)
     said = (*loop.said, *setting.spans_of(command.used))
     plan = with_node(state.plan, path, replace(loop, until=condition, said=said))

@@ -56,7 +56,8 @@ def with_known_place(setting: Setting, state: DialogueState, command: Command) -
     if place.like is not None and place.like.kind == "rest":
         return replace(command, place=replace(place, selector=_rest(state, place.selector), like=None))
     if place.like is not None and place.like.kind == "nth":
-        return replace(command, place=replace(place, selector=_nth(state, place.like.number), like=None))
+        one = _nth(state, place.like) if place.like.number else _described(state, place.selector)
+        return replace(command, place=replace(place, selector=one, like=None))
     return command if place.like is None else replace(command, place=_likewise(state, place, place.like))
 
 
@@ -69,14 +70,16 @@ def _beside(setting: Setting, state: DialogueState, place: PlaceMeaning, used: i
     before = state.where if state.lead is None else state.lead.place
     if before is None and state.area is not None:
         before = state.area.place
-    from_here = before is not None and s.Here() in _anchors(before.selector)
+    from_here = before is not None and s.Here() in anchors(before.selector)
     if from_here and before is not None and place.selector != before.selector:
         return replace(place, beside=False, selector=swapped(place.selector, s.Here(), _last_known(state)))
+    if before is not None and before.shape == "area" and as_zone(before.selector) is not None and state.awaits_command:
+        return replace(place, beside=False, selector=swapped(place.selector, s.Here(), before.selector))
     in_loop = state.loop is not None and is_inside(state.scope, state.loop)
     if before is None or (before.shape != "one" and not in_loop):
         raise NotComposed(message("which place is meant?", context="fault"))
     known = replace(place, beside=False)
-    named = [to for to in _anchors(before.selector) if to.named_marker or as_zone(to) is not None]
+    named = [to for to in anchors(before.selector) if to.named_marker or as_zone(to) is not None]
     ways = [known, *(replace(known, selector=swapped(place.selector, s.Here(), to)) for to in named)]
     return setting.either("near the tree, or near what was named?", used, ways)
 
@@ -93,7 +96,7 @@ def _last_known(state: DialogueState) -> s.Selector:
     return named[-1]
 
 
-def _anchors(selector: s.Selector) -> tuple[s.Selector, ...]:
+def anchors(selector: s.Selector) -> tuple[s.Selector, ...]:
     """Return what trees are said to be near to, or far from."""
     found = (getattr(selector, name, None) for name in ("to", "origin", "near"))
     return tuple(one for one in found if isinstance(one, s.Selector))
@@ -114,24 +117,40 @@ def _rest(state: DialogueState, area: s.Selector) -> s.Selector:
     return s.Excluding(places=last, of=group)
 
 
-def _nth(state: DialogueState, number: int) -> s.Selector:
+def _nth(state: DialogueState, like: Likewise) -> s.Selector:
     """Return one of the places that were named last.
 
     Raises:
         NotComposed: There are fewer, or they were not named one by one.
     """
+    number = like.number
     before = state.where if state.where is not None or state.area is None else state.area.place
     last = None if before is None else before.selector
     counted = None if last is None else as_in_row(last)
     if counted is not None and counted.first == counted.last and is_one_row(counted.of):
         return replace(counted, first=number, last=number)  # "at the first tree of row 4, then at the last one"
     named = () if last is None else named_places(last)
+    known = len(named) if before is None or before.count is None else before.count
+    if like.of_number and known != like.of_number:
+        raise NotComposed(message("it is not clear which one is meant", context="fault"))
     visited = state.loop is not None and not is_inside(state.scope, state.loop)
     if number == -1 and visited and len(named) < 2 and last is not None and not counts_in_row(last):
         return s.Here()  # the last of those that were visited
     if not 1 < len(named) >= number or not all(place.single and not place.relative for place in named):
         raise NotComposed(message("it is not clear which one is meant", context="fault"))
     return named[number - 1 if number > 0 else -1]
+
+
+def _described(state: DialogueState, mark: s.Selector) -> s.Selector:
+    """Return the only one of the single places named before that is described by a zone ("the pond one").
+
+    Raises:
+        NotComposed: None or several of them are.
+    """
+    found = [place for place in _single_places(state) if mark in place.walk()]
+    if len(found) != 1:
+        raise NotComposed(message("it is not clear which one is meant", context="fault"))
+    return found[0]
 
 
 def _best_of_ranked(state: DialogueState, command: _WithPlace, best: s.Top) -> Command:

@@ -92,6 +92,12 @@ def walk(node: p.Node, path: Path = ()) -> Iterator[tuple[Path, p.Node]]:
             yield from walk(inner, (*path, name))
 
 
+def last_capture(plan: p.InOrder) -> Path | None:
+    """Return the path of the last capture of a plan; None if it has none."""
+    found = [path for path, node in walk(plan) if node.act is not None]
+    return found[-1] if found else None
+
+
 def is_inside(path: Path, outer: Path) -> bool:
     """Return True if a path leads to a node or to one inside it."""
     return path[: len(outer)] == outer

@@ -9,7 +9,6 @@ from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.driving import drive, visits
 from fieldhand.planning.grammar.dialogue.plans import (
-    EMPTY,
     Path,
     as_choice,
     as_for_each,
@@ -20,7 +19,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
 )
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, done_at, with_step
 from fieldhand.planning.grammar.meaning import Again, DriveCommand, PlaceMeaning
-from fieldhand.planning.selections import is_one_row, replaceable_area, swapped
+from fieldhand.planning.selections import is_one_row, moves_on, replaceable_area, swapped
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
 
@@ -97,18 +96,32 @@ def done_more_times(setting: Setting, state: DialogueState, command: Again) -> D
     steps = state.plan.steps
     if state.scope or state.awaits_command or state.open or not steps or not _can_be_repeated(steps):
         raise NotComposed(message("it is not clear what is repeated", context="fault"))
+    if command.both and len([step for step in steps if step.selector is not None]) != 2:
+        raise NotComposed(message("it is not clear what is repeated", context="fault"))
+    begin = 0 if command.whole else _last_stride(steps)  # "go 10 trees further down the row, repeat that twice more"
+    before, steps = steps[:begin], steps[begin:]
     if steps[0].selector is None or (not command.whole and any(step.selector is not None for step in steps[1:])):
         raise NotComposed(message("it is not clear from which place on", context="fault"))
     said, names = setting.spans_of(command.used), _Names(state.readings)
+    last = replace(state, captured=None, loop=None, choice=None, things=())
     if command.in_all:
-        every = p.Repeat(id="", times=command.times, body=state.plan, said=said)
-        return replace(with_step(replace(state, plan=EMPTY), every), captured=None, loop=None, choice=None, things=())
+        every = p.Repeat(id="", times=command.times, body=p.InOrder(id="", steps=steps), said=said)
+        return with_step(replace(last, plan=p.InOrder(id="", steps=before)), every)
     body = p.InOrder(id="", steps=tuple(_renamed(step, names, said) for step in steps))
+    last = replace(last, readings=names.last)
     if command.times == 1 and command.whole:
-        state = replace(state, plan=replace(state.plan, steps=(*steps, *body.steps)))
-        return replace(state, readings=names.last, captured=None, loop=None, choice=None, things=())
-    state = with_step(state, p.Repeat(id="", times=command.times, body=body, said=said))
-    return replace(state, readings=names.last, captured=None, loop=None, choice=None, things=())
+        return replace(last, plan=replace(state.plan, steps=(*steps, *body.steps)))
+    return with_step(last, p.Repeat(id="", times=command.times, body=body, said=said))
+
+
+def _last_stride(steps: Sequence[p.Node]) -> int:
+    """Return the index of the last step that goes along or across rows from where the robot is, if no place follows it.
+
+    0 if there is none.
+    """
+    named = [number for number, step in enumerate(steps) if step.selector is not None]
+    place = steps[named[-1]].selector if named else None
+    return named[-1] if place is not None and moves_on(place) else 0
 
 
 def repeated_in(setting: Setting, state: DialogueState, area: s.Selector, used: int) -> DialogueState:

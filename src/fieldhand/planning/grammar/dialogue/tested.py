@@ -8,6 +8,7 @@ from itertools import combinations
 
 from fieldhand.language import message, named
 from fieldhand.language.words import say_name
+from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.plans import (
     Path,
     as_for_each,
@@ -190,6 +191,25 @@ def _fits(node: p.Node, test: Test, robot: RobotProfile) -> bool:
     if test.quantity:
         return test.quantity in measures
     return bool(measures) and (not test.unit or robot.quantity[measures[0]].unit == test.unit)
+
+
+def readings_at(
+    state: DialogueState, place: s.Selector, test: Test, robot: RobotProfile
+) -> tuple[DialogueState, list[Path]]:
+    """Return the paths of the last reading of each action at a place, outside of conditions.
+
+    A for-each over that place and others becomes one capture each.
+    """
+    steps = state.plan.steps
+    if steps and as_for_each(steps[-1]) is not None and place in named_places(steps[-1].selector or place):
+        state, _ = _last_readings(replace(state, scope=()), test, robot)
+    found: dict[str, Path] = {}
+    where: s.Selector | None = None
+    for number, step in enumerate(state.plan.steps):
+        where = step.selector if step.selector is not None else where
+        if step.act is not None and where == place and _fits(step, test, robot):
+            found[step.act.action] = (number,)
+    return state, list(found.values())
 
 
 def reading_before(plan: p.InOrder, before: Path, robot: RobotProfile) -> Path | None:

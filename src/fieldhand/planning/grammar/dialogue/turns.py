@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 
 from fieldhand.language import message
 from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.dialogue.reordering import reordered
 from fieldhand.planning.grammar.dialogue.state import Edits, NotComposed, Setting
 from fieldhand.planning.grammar.meaning import (
     Again,
@@ -15,8 +17,10 @@ from fieldhand.planning.grammar.meaning import (
     Correction,
     DriveCommand,
     InTurn,
+    Lead,
     LinkedCommand,
     PlaceMeaning,
+    Reordered,
 )
 from fieldhand.planning.selections import named_places, replaceable_area, swapped
 from fieldhand.task.plan import Span
@@ -33,6 +37,9 @@ def as_meant(setting: Setting, clauses: Sequence[LinkedCommand]) -> tuple[tuple[
     found: list[LinkedCommand] = []
     edits: Edits = ()
     for clause in clauses:
+        if isinstance(clause.command, Reordered):
+            found = reordered(found, clause.command)
+            continue
         if not isinstance(clause.command, Correction):
             found.append(clause)
             continue
@@ -63,8 +70,12 @@ def _corrected(
 ) -> tuple[LinkedCommand, Edits]:
     """Return the last clause with the place of a correction, and what the correction changes in the request."""
     command, new = last.command, correction.place
-    if not isinstance(command, CaptureCommand | DriveCommand) or command.place is None:
+    if not isinstance(command, CaptureCommand | DriveCommand | Lead) or command.place is None:
         raise _unclear(correction)
+    if correction.old is not None:
+        used = correction.used | (clause.before.used if clause.before is not None else 0)
+        other, edits = _other_part(setting, command.place, correction.old, correction, used)
+        return replace(last, command=replace(command, place=other, used=command.used | used)), edits
     old, place = command.place, _other_place(command.place, new)
     if place is None or not old.tokens:
         raise _unclear(correction)
@@ -77,6 +88,27 @@ def _corrected(
             raise _unclear(correction)
     changed = replace(command, place=place, used=command.used | used)
     return replace(last, command=changed), (((start, end), words), (_range(setting, used), ""))
+
+
+def _other_part(
+    setting: Setting, place: PlaceMeaning, old: PlaceMeaning, correction: Correction, used: int
+) -> tuple[PlaceMeaning, Edits]:
+    """Return places with another one in the stead of one of them, and what that changes in the request.
+
+    Raises:
+        NotComposed: It is not one of them.
+    """
+    before, meant = old.selector.named_tree, correction.place.selector.named_tree
+    named = named_places(place.selector) or (place.selector,)
+    if not before or not meant or not place.tokens or named.count(old.selector) != 1:
+        raise _unclear(correction)
+    start, end = _range(setting, place.tokens)
+    said = list(re.finditer(rf"\b{re.escape(before)}\b", setting.request[start:end], re.IGNORECASE))
+    if len(said) != 1:
+        raise _unclear(correction)
+    other = replace(place, selector=swapped(place.selector, old.selector, correction.place.selector))
+    part = (start + said[0].start(), start + said[0].end())
+    return other, ((part, meant), (_range(setting, used), ""))
 
 
 def _range(setting: Setting, used: int) -> Span:

@@ -1,4 +1,4 @@
-"""Constructions of places named by others before them: "the other half", "the southern one", "the best five"."""
+"""Constructions of places named by others before them: "the other half", "its neighbour", "the last of them"."""
 
 from __future__ import annotations
 
@@ -38,6 +38,12 @@ def other_of_its_kind(side: Lex, noun: Lex) -> Likewise | None:
     return None if "plural" in noun.features else Likewise("", side.value)
 
 
+@construction("place: DET zone=ZONE ONE", cost=0.5)
+def one_by_zone(zone: Lex) -> PlaceMeaning:
+    """Compose "the pond one", of the places that were named before."""
+    return PlaceMeaning(s.InZone(zone=zone.value), "one", like=Likewise("nth"))
+
+
 @construction("place: like=likewise", cost=0.3)
 def likewise(like: Likewise) -> list[PlaceMeaning]:
     """Compose "the southern one" as a place: a single place, or an area."""
@@ -63,20 +69,93 @@ def rest_of_area(where: s.Selector, noun: Lex | None = None) -> PlaceMeaning | N
 
 
 @construction(
-    "place: DET rank=ORD noun=ONE",
-    "place: DET last=LAST noun=ONE",
+    "place: word=DET rank=ORD noun=ONE",
+    "place: word=DET last=LAST noun=ONE",
     "place: DET last=LATTER",
     "place: DET FORMER",
+    "place: DET rank=ORD group=of_those",
+    "place: DET last=LAST group=of_those",
     cost=0.5,
 )
 def one_of_those_named(
-    rank: Lex | None = None, last: Lex | None = None, noun: Lex | None = None
+    rank: Lex | None = None,
+    last: Lex | None = None,
+    noun: Lex | None = None,
+    word: Lex | None = None,
+    group: int = 0,
 ) -> PlaceMeaning | None:
-    """Compose "the first one" and "the latter", of places that were named before."""
+    """Compose "the first one", "the latter" and "the last of these", of places that were named before."""
     if noun is not None and "plural" in noun.features:
         return None
+    if word is not None and "indefinite" in word.features:
+        return None
     number = -1 if last is not None else 1 if rank is None else rank.value
-    return PlaceMeaning(s.Trees(), "one", like=Likewise("nth", number=number))
+    return PlaceMeaning(s.Trees(), "one", like=Likewise("nth", number=number, of_number=group))
+
+
+@construction("of_those: word=THERE", "of_those: OF word=DET", "of_those: OF DET n=count", cost=0.1)
+def of_those(word: Lex | None = None, n: int = 0) -> int | None:
+    """Compose "of them", "of these" and "of the four": their number, 0 if it is not said."""
+    return n if word is None or not word.features.isdisjoint({"of_several", "those"}) else None
+
+
+@construction("owned_by: ITS", cost=0.2)
+def its() -> PlaceMeaning:
+    """Compose "its", of the place spoken of last."""
+    return PlaceMeaning(s.Here(), "here")
+
+
+@construction(
+    "place: to=owned_by [n=count] NEAREST noun=NEIGHBOUR",
+    "place: [DET] [n=count] NEAREST noun=NEIGHBOUR OF to=place",
+    cost=0.2,
+)
+def nearest_neighbours(to: PlaceMeaning, noun: Lex, n: int | None = None) -> list[PlaceMeaning] | None:
+    """Compose "its four nearest neighbours"."""
+    plural = "plural" in noun.features
+    if to.shape not in ("one", "here") or (n is not None and (n > 1) != plural):
+        return None
+    return [
+        PlaceMeaning(
+            s.Nearest(to=to.selector, count=number),
+            "one" if number == 1 else "several",
+            count=number,
+            beside=to.shape == "here",
+        )
+        for number in ((n,) if n is not None else (2, 4) if plural else (1,))
+    ]
+
+
+@construction(
+    "place: [DET] [n=count] noun=TREE EACHSIDE [OF] [to=place]",
+    "place: [DET] [n=count] noun=NEIGHBOUR EACHSIDE [OF] [to=place]",
+    cost=0.2,
+)
+def on_each_side(n: int = 2, to: PlaceMeaning | None = None, noun: Lex | None = None) -> PlaceMeaning | None:
+    """Compose "the trees on either side of it": the next one of its row to each side."""
+    if n != 2 or (to is not None and to.shape not in ("one", "here")):
+        return None
+    origin = s.Here() if to is None else to.selector
+    sides = tuple(s.AlongRow(trees=1, towards=towards, origin=origin) for towards in ("down", "up"))
+    each = noun is not None and not noun.plural and "plural" not in noun.features
+    return PlaceMeaning(s.UnionOf(parts=sides), "several", count=2, each=each)
+
+
+@construction("place: [DET] inner=nominal [which_is] ASFAR FROM to=place as_can", cost=0.2)
+def as_far_from_it(inner: Nominal, to: PlaceMeaning) -> PlaceMeaning | None:
+    """Compose "the tree that is as far away from it as possible"."""
+    if inner.single or inner.plural or inner.complete or to.shape not in ("one", "here"):
+        return None
+    return PlaceMeaning(s.Farthest(origin=to.selector, of=inner.selector), "one", beside=to.shape == "here")
+
+
+@construction("place: far=place in_ rows=rows", "place: in_ rows=rows COMMA far=place", cost=0.2)
+def farthest_in_row(far: PlaceMeaning, rows: s.Selector) -> PlaceMeaning | None:
+    """Compose "the tree farthest from it in the same row"."""
+    end = far.selector
+    if rows != s.RowOf() or not isinstance(end, s.Farthest) or end.of != s.Trees():
+        return None
+    return replace(far, selector=replace(end, of=s.RowOf(origin=end.origin)))
 
 
 @construction("place: whole=place in_ like=likewise", cost=0.3)
