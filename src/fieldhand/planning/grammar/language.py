@@ -16,11 +16,6 @@ from fieldhand.site.model import Site
 Respelling = Callable[[Sequence[Word], Lexicon], tuple[list[Word], list[str]]]
 
 
-def no_frames(words: Sequence[Word]) -> Iterator[tuple[int, int]]:
-    """Return no polite frames."""
-    return iter(())
-
-
 @dataclass(frozen=True, kw_only=True)
 class GrammarLanguage:
     """A language that requests can be in.
@@ -31,7 +26,8 @@ class GrammarLanguage:
         phrases: Returns the words of the language for a robot on a site.
         grammar: Returns the constructions of the language; most are shared by all languages.
         respelt: Returns words with small misspellings mended, and what was mended as sentences; None for none.
-        frames: Returns the ranges of polite frames ("would you be able to"), for requests that are not read otherwise.
+        frames: Returns the ranges of polite frames ("would you be able to"), for requests that are not read otherwise;
+            None for none.
     """
 
     code: str
@@ -39,4 +35,4 @@ class GrammarLanguage:
     phrases: Callable[[RobotProfile, Site], Phrases]
     grammar: Callable[[], Grammar]
     respelt: Respelling | None = None
-    frames: Callable[[Sequence[Word]], Iterator[tuple[int, int]]] = no_frames
+    frames: Callable[[Sequence[Word]], Iterator[tuple[int, int]]] | None = None

@@ -109,7 +109,8 @@ def read(request: str, site: Site, robot: RobotProfile, language: GrammarLanguag
             return _with_notes(respelt, mended.notes)
     edges = edges_of(words, phrases, tells=True)
     likely = edges_of(mended.words, phrases)
-    told = without_remarks(words, edges, tells=True, respelt=likely, frames=language.frames(words))
+    frames = language.frames(words) if language.frames is not None else ()
+    told = without_remarks(words, edges, tells=True, respelt=likely, frames=frames)
     if told == plain:
         return found
     bare = read_besides(told)

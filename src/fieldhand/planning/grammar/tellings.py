@@ -1,4 +1,4 @@
-"""Sentences and clauses that tell something and ask for nothing: greetings, memories, opinions, rhetorical questions."""
+"""Sentences and clauses that tell something and ask for nothing: greetings, memories, opinions, idle questions."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ from fieldhand.planning.english.tokens import Word
 #: Categories of words that no telling contains: conditions, prohibitions, numbers, limits, orders, demands, captures.
 _NEVER = frozenset(
     {
-        "ACTV", "ALLOW", "APART", "ASFIT", "ASMANY", "ATLEAST", "BATTERY", "BEFORE", "CAMERA", "CLIP", "CORRECTION", "COUNT",
-        "DEMANDS", "DISTINCT", "EVENLYALONG", "EVENLYSPACED", "EXCEPT", "FARAPART", "FITS", "GOHOME", "IF", "IFSO",
-        "INCASE", "INORDER", "INSTEAD", "INTERVAL", "ISNOT", "KEEP", "LAST", "LIMIT", "LIMITEDTO", "MAXIMISE",
+        "ACTV", "ALLOW", "APART", "ASFIT", "ASMANY", "ATLEAST", "BATTERY", "BEFORE", "CAMERA", "CLIP", "CORRECTION",
+        "COUNT", "DEMANDS", "DISTINCT", "EVENLYALONG", "EVENLYSPACED", "EXCEPT", "FARAPART", "FITS", "GOHOME", "IF",
+        "IFSO", "INCASE", "INORDER", "INSTEAD", "INTERVAL", "ISNOT", "KEEP", "LAST", "LIMIT", "LIMITEDTO", "MAXIMISE",
         "MUST", "NOORDER", "NOT", "NOTYET", "NOUN", "NUM", "ONLY", "ORD", "ORDERED", "OTHERWISE", "PART", "PASSON",
-        "READING", "REPEAT", "REVERSE", "SAMEFOR", "SHOULD", "SORT", "STAY", "STOP", "TIMES", "TIMEWORD", "TOPIC", "TRY", "UNIT",
-        "UNLESS", "UNTIL", "UPTO", "WANTED", "WANTS", "WITHOUT",
+        "READING", "REPEAT", "REVERSE", "SAMEFOR", "SHOULD", "SORT", "STAY", "STOP", "TIMES", "TIMEWORD", "TOPIC",
+        "TRY", "UNIT", "UNLESS", "UNTIL", "UPTO", "WANTED", "WANTS", "WITHOUT",
     }
 )  # fmt: skip
 #: Categories of words that name trees or a part of the site.
 _PLACES = frozenset(
     {
-        "AISLE", "ATTRVAL", "BLOCKNAME", "CHARGER", "CORNER", "DIR", "EDGE", "GATENAME", "HALF", "MIDDLE", "MOST", "OLDS",
-        "QUARTER", "ROW", "ROWNAME", "START", "SUPER", "TREE", "TREEID", "ZONE",
+        "AISLE", "ATTRVAL", "BLOCKNAME", "CHARGER", "CORNER", "DIR", "EDGE", "GATENAME", "HALF", "MIDDLE", "MOST",
+        "OLDS", "QUARTER", "ROW", "ROWNAME", "START", "SUPER", "TREE", "TREEID", "ZONE",
     }
 )  # fmt: skip
 #: Categories of words that a place may have beside these.
@@ -34,11 +34,9 @@ _COMMANDS = frozenset({"GO", "MEASURE", "TAKE", "USE", "VISIT"})
 _DESCRIBING = frozenset({"DIR", "MOST", "SUPER"})
 #: Categories of the verbs of tellings.
 _VERBS = frozenset({"AUXILIARY", "IS", "STATES"})
-#: Categories of words that refer to what was said before, and words that do so.
-_BACK = frozenset({"IT", "ITS", "ONE", "OTHERS", "SAME", "THERE"})
-_DEMONSTRATIVE = frozenset({"her", "his", "their", "these", "those"})
-#: Words of reasons, and categories of others that may stand before a subject.
-_BECAUSE = frozenset({"because", "since"})
+#: Categories of words that refer to what was said before.
+_BACK = frozenset({"IT", "ITS", "ONE", "OTHERS", "REFERRING", "SAME", "THERE"})
+#: Categories of words that may stand before a subject.
 _OPENING = frozenset({"AND", "ASIDE", "CONTRAST", "FILLER", "OPENER"})
 
 
@@ -62,7 +60,7 @@ class WordKinds:
     Attributes:
         words: The words.
         kinds: Categories of the phrases that each word is part of; none for unknown words.
-        likely: Categories of the words that unknown words are misspellings of, so that no misspelt command is a telling.
+        likely: Categories of the words that misspelt ones are likely to mean; no misspelt command is a telling.
         captures: What each word can capture.
     """
 
@@ -74,6 +72,10 @@ class WordKinds:
     def may_be(self, k: int, categories: AbstractSet[str]) -> bool:
         """Return True if a word, or the one that it is a misspelling of, is of one of some categories."""
         return bool((self.kinds[k] | self.likely.get(k, frozenset())) & categories)
+
+    def is_past(self, k: int) -> bool:
+        """Return True for a word with the ending of a verb in the past."""
+        return self.words[k].norm.endswith("ed")
 
     def names_place(self, k: int) -> bool:
         """Return True for a word that names trees or a part of the site."""
@@ -93,7 +95,7 @@ def telling(said: Sequence[int], known: WordKinds, *, sentence: bool) -> Telling
         sentence: True for a whole sentence.
     """
     begun = _begun(said, known)
-    if len(begun) < 2:
+    if len(begun) < 2 or any(known.kinds[k] & {"DEMANDS", "ONLY"} for k in said if k < begun[0]):
         return None
     kinds = [known.kinds[k] for k in begun]
     hopes = any("HOPES" in one for one in kinds[:2])
@@ -107,7 +109,7 @@ def telling(said: Sequence[int], known: WordKinds, *, sentence: bool) -> Telling
     if not any(known.may_be(k, _PLACES) for k in begun):
         introduces = refers_back and begun[0] > _first_word(known)
         return None if introduces else Telling(left_out=frozenset(said))
-    adds = any(known.words[k].norm in ("also", "just", "too") for k in begun)
+    adds = any("ADDS" in one for one in kinds)
     if not sentence or asks or adds or not (states or "THEREIS" in kinds[0]):
         return None
     if not refers_back:
@@ -117,7 +119,7 @@ def telling(said: Sequence[int], known: WordKinds, *, sentence: bool) -> Telling
         return None
     topic = place[0] - 1
     single = any("CORNER" in known.kinds[k] for k in place)
-    if "OF" in known.kinds[topic] or (known.words[place[0]].norm in ("a", "an", "some") and not single):
+    if "OF" in known.kinds[topic] or ("INDEFINITE" in known.kinds[place[0]] and not single):
         return None  # "one of the Carmels"
     return Telling(left_out=frozenset(said) - {topic, *place}, topic=topic)
 
@@ -129,7 +131,7 @@ def _first_word(known: WordKinds) -> int:
 
 def _begun(said: Sequence[int], known: WordKinds) -> Sequence[int]:
     """Return a sentence from its subject on, without greetings, "and", and "in my day" before it."""
-    opening = (at for at, k in enumerate(said) if known.words[k].norm not in _BECAUSE)
+    opening = (at for at, k in enumerate(said) if "BECAUSE" not in known.kinds[k])
     at = next((at for at in opening if "TELLS" in known.kinds[said[at]] or not known.kinds[said[at]] & _OPENING), 0)
     begun = said[at:]
     if begun and "AT" in known.kinds[begun[0]]:  # "in my day we ..."
@@ -143,21 +145,23 @@ def _has_verb(begun: Sequence[int], known: WordKinds, *, sentence: bool) -> bool
 
     Behind "the" and "a" an unknown word may be a noun ("the plums"), and a clause may be an item of a list.
     """
-    first, norm = known.kinds[begun[0]], known.words[begun[0]].norm
+    first = known.kinds[begun[0]]
     if "TELLS" not in first:
         return False
     adverbs = {"FILLER", "HARMLESS", "INEACHCASE"}
-    verbs = [at for at, k in enumerate(begun) if known.kinds[k] & _VERBS or known.words[k].norm.endswith("ed")]
-    if begun[0] > 0 and known.words[begun[0] - 1].norm in _BECAUSE:
+    verbs = [at for at, k in enumerate(begun) if known.kinds[k] & _VERBS or known.is_past(k)]
+    if begun[0] > 0 and "BECAUSE" in known.kinds[begun[0] - 1]:
         return bool(verbs) or not all(known.kinds[k] for k in begun)
-    if "DET" not in first:
+    if not first & {"DET", "LATELY"}:
         verb = next((k for k in begun[1:] if not known.kinds[k] & adverbs), begun[0])
         return bool(verbs) or not known.kinds[verb]
-    if norm in _DEMONSTRATIVE or norm in ("this", "that"):
+    if "LATELY" in first:
+        return bool(verbs)
+    if "POINTING" in first:
         return 1 in verbs
     if sentence:
         return any(at > 0 for at in verbs) or (len(begun) > 3 and sum(not known.kinds[k] for k in begun) > 1)
-    return norm in ("my", "our", *_DEMONSTRATIVE) and any(at > 1 for at in verbs)
+    return "OWNER" in first and any(at > 1 for at in verbs)
 
 
 def _is_question(begun: Sequence[int], known: WordKinds) -> bool:
@@ -177,9 +181,9 @@ def _may_ask(at: int, said: Sequence[int], known: WordKinds, *, hopes: bool, ask
         return True
     if kinds & {"ENOUGH", "REMAINS"} and not hopes:
         return True
-    if kinds & {"STATES", "AUXILIARY", "HARMLESS", "HOPES"} or word.norm in ("one", "ones"):
+    if kinds & {"STATES", "AUXILIARY", "HARMLESS", "HOPES"}:
         return False
-    if hopes and not kinds and "DOES" in before and not word.norm.endswith("ed"):
+    if hopes and not kinds and "DOES" in before and not known.is_past(k):
         return True  # "I hope you flambé them"
     if not kinds and follows & {"DET", "IT"} and not word.norm.endswith(("ed", "ing", "ly")):
         joined = at > 0 and known.words[k - 1].kind == "comma"
@@ -190,7 +194,7 @@ def _may_ask(at: int, said: Sequence[int], known: WordKinds, *, hopes: bool, ask
     if known.may_be(k, {"DOES"}):
         return not (hopes or asks or follows & {"DET", "STATES"})
     if known.may_be(k, _COMMANDS):
-        return not (word.norm.endswith("ed") or before & {"TELLS", "AUXILIARY", "HARMLESS", "IS"})
+        return not (known.is_past(k) or before & {"TELLS", "AUXILIARY", "HARMLESS", "IS"})
     if "LAST" in kinds and not follows:
         return False  # "last week"
     if hopes and kinds & {"BATTERY", "TIMEWORD"}:
@@ -206,8 +210,7 @@ def _is_age(k: int, said: Sequence[int], known: WordKinds) -> bool:
 def _refers_back(start: int, known: WordKinds) -> bool:
     """Return True if the words from one on refer to something before them ("it", "there") before they name a place."""
     for k in range(start, len(known.words)):
-        refers = known.kinds[k] & _BACK or known.words[k].norm in _DEMONSTRATIVE
-        if refers and known.words[k].norm not in ("here", "one") and not known.kinds[k] & {"FILLER", "ASIDE"}:
+        if known.kinds[k] & _BACK and not known.kinds[k] & {"FILLER", "ASIDE", "INDEFINITE"}:
             return True
         if known.names_place(k):
             return False

@@ -29,7 +29,12 @@ LACKING = "LACKING"
 #: Ending of an English name that owns what follows.
 _POSSESSIVE = re.compile("(?<=.)['\N{RIGHT SINGLE QUOTATION MARK}]s$")
 #: Categories of the words of tellings.
-_TOLD = frozenset({"AUXILIARY", "DEMANDS", "HARMLESS", "HEADING", "HOPES", "PAPERWORK", "STATES"})
+_TOLD = frozenset(
+    {
+        "ADDS", "AUXILIARY", "BECAUSE", "DEMANDS", "HARMLESS", "HEADING", "HOPES", "INDEFINITE", "LATELY", "OWNER",
+        "PAPERWORK", "POINTING", "REFERRING", "STATES",
+    }
+)  # fmt: skip
 #: Maximum number of words of a filler.
 _LONGEST_FILLER = 7
 
