@@ -23,7 +23,7 @@ _NEVER = frozenset(
 _PLACES = frozenset(
     {
         "AISLE", "ATTRVAL", "BLOCKNAME", "CHARGER", "CORNER", "DIR", "EDGE", "GATENAME", "HALF", "MIDDLE", "MOST",
-        "OLDS", "QUARTER", "ROW", "ROWNAME", "START", "SUPER", "TREE", "TREEID", "ZONE",
+        "OLDS", "QUARTER", "ROW", "ROWNAME", "SOMEOFTHEM", "START", "SUPER", "TREE", "TREEID", "ZONE",
     }
 )  # fmt: skip
 #: Categories of words that a place may have beside these.
@@ -34,6 +34,8 @@ _COMMANDS = frozenset({"GO", "MEASURE", "TAKE", "USE", "VISIT"})
 _DESCRIBING = frozenset({"DIR", "MOST", "SUPER"})
 #: Categories of the verbs of tellings.
 _VERBS = frozenset({"AUXILIARY", "IS", "STATES"})
+#: Categories of words between a subject and its verb.
+_ADVERBS = frozenset({"FILLER", "HARMLESS", "INEACHCASE"})
 #: Categories of words that refer to what was said before.
 _BACK = frozenset({"IT", "ITS", "ONE", "OTHERS", "REFERRING", "SAME", "THERE"})
 #: Categories of words that may stand before a subject.
@@ -107,8 +109,10 @@ def telling(said: Sequence[int], known: WordKinds, *, sentence: bool) -> Telling
     states = any("STATES" in one for one in kinds)
     refers_back = _refers_back(said[-1] + 1, known)
     if not any(known.may_be(k, _PLACES) for k in begun):
-        introduces = refers_back and begun[0] > _first_word(known)
-        return None if introduces else Telling(left_out=frozenset(said))
+        first = begun[0] <= _first_word(known)
+        if not first and (refers_back or not (states or asks or hopes or _describes(begun, known))):
+            return None
+        return Telling(left_out=frozenset(said))
     adds = any("ADDS" in one for one in kinds)
     if not sentence or asks or adds or not (states or "THEREIS" in kinds[0]):
         return None
@@ -122,6 +126,17 @@ def telling(said: Sequence[int], known: WordKinds, *, sentence: bool) -> Telling
     if "OF" in known.kinds[topic] or ("INDEFINITE" in known.kinds[place[0]] and not single):
         return None  # "one of the Carmels"
     return Telling(left_out=frozenset(said) - {topic, *place}, topic=topic)
+
+
+def _describes(begun: Sequence[int], known: WordKinds) -> bool:
+    """Return True unless "it" or "that", which may be the work, is or does something ("it's optional").
+
+    It may be something ("that's the short one").
+    """
+    if "IMPERSONAL" not in known.kinds[begun[0]]:
+        return True
+    said = next((k for k in begun[1:] if not known.kinds[k] & (_VERBS | _ADVERBS)), begun[0])
+    return "DET" in known.kinds[said]
 
 
 def _first_word(known: WordKinds) -> int:
@@ -148,12 +163,11 @@ def _has_verb(begun: Sequence[int], known: WordKinds, *, sentence: bool) -> bool
     first = known.kinds[begun[0]]
     if "TELLS" not in first:
         return False
-    adverbs = {"FILLER", "HARMLESS", "INEACHCASE"}
     verbs = [at for at, k in enumerate(begun) if known.kinds[k] & _VERBS or known.is_past(k)]
     if begun[0] > 0 and "BECAUSE" in known.kinds[begun[0] - 1]:
         return bool(verbs) or not all(known.kinds[k] for k in begun)
     if not first & {"DET", "LATELY"}:
-        verb = next((k for k in begun[1:] if not known.kinds[k] & adverbs), begun[0])
+        verb = next((k for k in begun[1:] if not known.kinds[k] & _ADVERBS), begun[0])
         return bool(verbs) or not known.kinds[verb]
     if "LATELY" in first:
         return bool(verbs)

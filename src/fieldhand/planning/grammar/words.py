@@ -31,8 +31,8 @@ _POSSESSIVE = re.compile("(?<=.)['\N{RIGHT SINGLE QUOTATION MARK}]s$")
 #: Categories of the words of tellings.
 _TOLD = frozenset(
     {
-        "ADDS", "AUXILIARY", "BECAUSE", "DEMANDS", "HARMLESS", "HEADING", "HOPES", "INDEFINITE", "LATELY", "OWNER",
-        "PAPERWORK", "POINTING", "REFERRING", "STATES",
+        "ADDS", "AUXILIARY", "BECAUSE", "DEMANDS", "HARMLESS", "HEADING", "HOPES", "IMPERSONAL", "INDEFINITE", "LATELY",
+        "OWNER", "PAPERWORK", "POINTING", "REFERRING", "SOMEOFTHEM", "STATES",
     }
 )  # fmt: skip
 #: Maximum number of words of a filler.
