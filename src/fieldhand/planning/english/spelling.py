@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from fieldhand.language import message
 from fieldhand.planning.english.tokens import Word
+from fieldhand.planning.english.vocabulary import vocabulary
 
 #: Words shorter than this are too like each other; from ``_MEDIUM`` letters on a word may have one edit, from ``_LONG``
 #: letters on two. A shorter one lacks a letter or has two letters swapped, or is not a misspelling.
@@ -17,8 +18,8 @@ _SHORT, _MEDIUM, _LONG = 4, 6, 9
 def respelt(words: Sequence[Word], known: AbstractSet[str]) -> tuple[list[Word], list[str]]:
     """Return words with small misspellings mended, and what was mended as sentences.
 
-    A word is mended if exactly one known word is nearest to it by inserting, dropping, changing or swapping letters.
-    One that could be meant otherwise ("son" for "soon") is left as it is.
+    A word is mended if it is a common short form ("blk"), or exactly one known word is nearest to it by inserting,
+    dropping, changing or swapping letters. One that could be meant otherwise ("son" for "soon") is left as it is.
 
     Args:
         words: Words that are not known.
@@ -41,6 +42,8 @@ def _meant(word: Word, known: AbstractSet[str], spellings: Sequence[str]) -> str
     from rapidfuzz import process
     from rapidfuzz.distance import OSA
 
+    if short := vocabulary()["short_forms"].get(word.norm):
+        return str(short)
     length = len(word.norm)
     if word.kind != "word" or length < _SHORT or word.norm in known or not word.norm.isalpha():
         return None

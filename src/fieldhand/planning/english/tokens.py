@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 _TOKEN = re.compile(
@@ -57,3 +58,19 @@ def words_of(request: str) -> list[Word]:
 def _closes_sentence(word: Word, following: list[Word]) -> bool:
     """Return True for a closing bracket with a mark or nothing behind it: it parts nothing."""
     return word.text == ")" and all(one.kind in ("stop", "comma") for one in following)
+
+
+def ranges_of(pattern: re.Pattern[str], words: Sequence[Word]) -> Iterator[tuple[int, int]]:
+    """Yield the ranges of whole words that a pattern matches in them, written with one space between two words."""
+    starts: dict[int, int] = {}
+    ends: dict[int, int] = {}
+    text = ""
+    for k, word in enumerate(words):
+        starts[len(text)] = k
+        text += word.norm
+        ends[len(text)] = k + 1
+        text += " "
+    for match in pattern.finditer(text.rstrip()):
+        first, last = starts.get(match.start()), ends.get(match.end())
+        if first is not None and last is not None:
+            yield first, last

@@ -17,7 +17,7 @@ from typing import Literal
 from fieldhand.language import message
 from fieldhand.planning.english.lexicon import Lexicon
 from fieldhand.planning.english.naming import Phrase, split
-from fieldhand.planning.english.tokens import Word
+from fieldhand.planning.english.tokens import Word, ranges_of
 from fieldhand.task.plan import Span
 
 #: What a robot or a site has instead of that which is wished for.
@@ -106,20 +106,8 @@ def wishes(words: Sequence[Word], lexicon: Lexicon) -> list[Wish]:
 
 
 def _found(words: Sequence[Word], kinds: Sequence[WishKind]) -> Iterator[Wish]:
-    starts: dict[int, int] = {}
-    ends: dict[int, int] = {}
-    text = ""
-    for k, word in enumerate(words):
-        starts[len(text)] = k
-        text += word.norm
-        ends[len(text)] = k + 1
-        text += " "
-    text = text.rstrip()
     for kind in kinds:
-        for match in kind.pattern.finditer(text):
-            first, last = starts.get(match.start()), ends.get(match.end())
-            if first is None or last is None:
-                continue
+        for first, last in ranges_of(kind.pattern, words):
             while not kind.early and first < last - 1 and words[first].norm in _BEFORE:
                 first += 1
             yield Wish(kind=kind, first=first, last=last)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
@@ -15,7 +16,7 @@ from fieldhand.planning.english.inflection import forms_of, plural_of
 from fieldhand.planning.english.lexicon import Lexicon, lexicon_for
 from fieldhand.planning.english.naming import NameEntry, Naming, Phrase, split
 from fieldhand.planning.english.spelling import respelt
-from fieldhand.planning.english.tokens import Word, words_of
+from fieldhand.planning.english.tokens import Word, ranges_of, words_of
 from fieldhand.planning.english.vocabulary import vocabulary
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.language import GrammarLanguage
@@ -27,6 +28,8 @@ from fieldhand.site.model import Site
 _PICTURES = frozenset({"picture", "photo", "image", "thermal picture"})
 #: Number of words of the longest phrase of english.toml that is read as a word.
 _LONGEST = 6
+#: What stands before the first word of a clause.
+_CLAUSE_BEGINS = (". ", "; ", "! ", "? ", ", ", ": ", "and ", "then ", "please ", "hello ", "hi ")
 #: Short forms.
 _SPELT_OUT = {
     "temp": "temperature",
@@ -179,4 +182,27 @@ def _more_single_words() -> frozenset[str]:
     return frozenset(word for phrase in more_words() for word in phrase)
 
 
-ENGLISH = GrammarLanguage(code="en", words_of=words_of, phrases=phrases_for, grammar=_grammar, respelt=_respelt)
+@cache
+def _frame_pattern() -> re.Pattern[str]:
+    """Return a pattern of the polite frames of english.toml."""
+    table = _own()["frames"]
+    parts = {name: part for name, part in table.items() if isinstance(part, str)}
+
+    def spelt_out(pattern: str) -> str:
+        while (whole := re.sub(r"\{(\w+)\}", lambda match: parts[match[1]], pattern)) != pattern:
+            pattern = whole
+        return pattern
+
+    begin, anywhere = ("|".join(map(spelt_out, table[name])) for name in ("begin", "anywhere"))
+    clause = "|".join(f"(?<={re.escape(before)})" for before in _CLAUSE_BEGINS)
+    return re.compile(rf"(?:(?:^|{clause})(?:{begin})|(?<!\S)(?:{anywhere}))(?!\S)")
+
+
+def _frames(words: Sequence[Word]) -> Iterator[tuple[int, int]]:
+    """Yield the ranges of polite frames."""
+    return ranges_of(_frame_pattern(), words)
+
+
+ENGLISH = GrammarLanguage(
+    code="en", words_of=words_of, phrases=phrases_for, grammar=_grammar, respelt=_respelt, frames=_frames
+)

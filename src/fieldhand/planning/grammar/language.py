@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 from fieldhand.planning.english.lexicon import Lexicon
@@ -11,6 +11,9 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.words import Phrases
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
+
+#: Returns words with small misspellings mended, and what was mended as sentences.
+Respelling = Callable[[Sequence[Word], Lexicon], tuple[list[Word], list[str]]]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -23,10 +26,13 @@ class GrammarLanguage:
         phrases: Returns the words of the language for a robot on a site.
         grammar: Returns the constructions of the language; most are shared by all languages.
         respelt: Returns words with small misspellings mended, and what was mended as sentences; None for none.
+        frames: Returns the ranges of polite frames ("would you be able to"), for requests that are not read otherwise;
+            None for none.
     """
 
     code: str
     words_of: Callable[[str], list[Word]]
     phrases: Callable[[RobotProfile, Site], Phrases]
     grammar: Callable[[], Grammar]
-    respelt: Callable[[Sequence[Word], Lexicon], tuple[list[Word], list[str]]] | None = None
+    respelt: Respelling | None = None
+    frames: Callable[[Sequence[Word]], Iterator[tuple[int, int]]] | None = None

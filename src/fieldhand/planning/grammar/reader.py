@@ -23,11 +23,11 @@ from fieldhand.planning.grammar.dialogue import (
     whole_plan,
 )
 from fieldhand.planning.grammar.english import ENGLISH
-from fieldhand.planning.grammar.language import GrammarLanguage
+from fieldhand.planning.grammar.language import GrammarLanguage, Respelling
 from fieldhand.planning.grammar.planned import NAME, LimitPhrase, Meant, planned_as
 from fieldhand.planning.grammar.refusals import lost_reasons, unread_reasons
-from fieldhand.planning.grammar.remarks import without_remarks
-from fieldhand.planning.grammar.words import Phrases, edges_of, fillers_of
+from fieldhand.planning.grammar.remarks import Remarks, without_remarks
+from fieldhand.planning.grammar.words import Phrases, edges_of, fillers_of, topic_edge
 from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Reason, Refused
 from fieldhand.planning.selections import rows_of
 from fieldhand.request_check import mismatches
@@ -89,33 +89,66 @@ class ReadRequest:
 
 
 def read(request: str, site: Site, robot: RobotProfile, language: GrammarLanguage = ENGLISH) -> ReadRequest:
-    """Return the ways to read a request as a whole; misspelt words are mended if it is not read as it is."""
+    """Return the ways to read a request as a whole.
+
+    If it is not read as it is, misspelt words are mended; then what tells something is left out.
+    """
     words, phrases = language.words_of(request), language.phrases(robot, site)
-    found = _read_words(request, words, phrases, site, robot, language)
-    if found.readings or language.respelt is None:
+
+    def read_besides(remarks: Remarks) -> ReadRequest:
+        return _read_words(request, remarks, phrases, site, robot, language)
+
+    plain = without_remarks(words, edges_of(words, phrases))
+    found = read_besides(plain)
+    if found.readings or language.respelt is None or any(isinstance(one, OpenQuestion) for one in found.faults):
         return found
+    mended = _mended(words, phrases, language.respelt)
+    if mended.notes:
+        respelt = read_besides(without_remarks(mended.words, edges_of(mended.words, phrases)))
+        if respelt.readings:
+            return _with_notes(respelt, mended.notes)
+    edges = edges_of(words, phrases, tells=True)
+    likely = edges_of(mended.words, phrases)
+    frames = language.frames(words) if language.frames is not None else ()
+    told = without_remarks(words, edges, tells=True, respelt=likely, frames=frames)
+    if told == plain:
+        return found
+    bare = read_besides(told)
+    rest = _mended(told.words, phrases, language.respelt)
+    if bare.readings or not rest.notes:
+        return bare
+    respelt = read_besides(replace(told, words=tuple(rest.words)))
+    return _with_notes(respelt, rest.notes) if respelt.readings else bare
+
+
+@dataclass(frozen=True)
+class _Mended:
+    """Words with misspellings mended, and what was mended as sentences."""
+
+    words: Sequence[Word]
+    notes: tuple[str, ...]
+
+
+def _mended(words: Sequence[Word], phrases: Phrases, respelt: Respelling) -> _Mended:
+    """Return words with misspellings of unknown ones mended."""
     known = {token for edge in edges_of(words, phrases) for token in range(edge.start, edge.end)}
     strange = [token for token in range(len(words)) if token not in known]
-    if not strange:
-        return found
-    corrected, mended = language.respelt([words[token] for token in strange], phrases.lexicon)
-    if not mended:
-        return found
-    for token, word in zip(strange, corrected, strict=True):
-        words[token] = word
-    respelt = _read_words(request, words, phrases, site, robot, language)
-    if not respelt.readings:
-        return found
-    return replace(respelt, readings=[replace(reading, mended=tuple(mended)) for reading in respelt.readings])
+    corrected, notes = respelt([words[token] for token in strange], phrases.lexicon) if strange else ([], [])
+    meant = dict(zip(strange, corrected, strict=True))
+    return _Mended([meant.get(token, word) for token, word in enumerate(words)], tuple(notes))
+
+
+def _with_notes(found: ReadRequest, notes: tuple[str, ...]) -> ReadRequest:
+    """Return a reading that says what was mended."""
+    return replace(found, readings=[replace(reading, mended=notes) for reading in found.readings])
 
 
 def _read_words(
-    request: str, words: Sequence[Word], phrases: Phrases, site: Site, robot: RobotProfile, language: GrammarLanguage
+    request: str, remarks: Remarks, phrases: Phrases, site: Site, robot: RobotProfile, language: GrammarLanguage
 ) -> ReadRequest:
-    """Return the ways to read words."""
-    remarks = without_remarks(words, edges_of(words, phrases))
+    """Return the ways to read the words that remarks leave."""
     words = remarks.words
-    edges = list(edges_of(words, phrases))
+    edges = [*edges_of(words, phrases), *(topic_edge(words, k) for k in remarks.topics)]
     chart = _parsed(language.grammar(), words, edges, phrases, site, robot)
     setting = Setting(robot, site, lambda used: spans(words, used), request)
     found: list[RequestReading] = []

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.grammar.chart import PhraseEdge
 from fieldhand.planning.grammar.list_marks import list_marks
+from fieldhand.planning.grammar.tellings import WordKinds, telling
 from fieldhand.task.plan import Span
 
 #: Categories of words that may ask for something, or forbid it, in whatever sentence they stand.
@@ -27,6 +29,8 @@ _ASKING_IN_REASON = _ASKING - {"MEASURE", "TAKE", "GO", "USE", "IF", "WHETHER", 
 _IN_ASIDES = frozenset(
     {"DET", "FOR", "FILLER", "IT", "IS", "WHICH", "OF", "MORE", "QUESTION", "THATWORD", "AT", "AS", "TELLS", "MEASURE"}
 )
+#: Categories of the words with which a request begins.
+_WHO_ASKS = frozenset({"FILLER", "MEASURE", "TAKE", "TELLS"})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,48 +42,81 @@ class Remarks:
         spans: Character ranges of the remarks.
         labels: Character ranges of the labels of steps ("Step 2:", "2."), which ask for nothing but an order.
         corrected: Character ranges of numbers that others behind them correct, up to these.
+        topics: Numbers of the words that are left and stand for "this is about", before a place that is told of.
     """
 
     words: tuple[Word, ...]
     spans: tuple[Span, ...]
     labels: tuple[Span, ...] = ()
     corrected: tuple[Span, ...] = ()
+    topics: frozenset[int] = frozenset()
 
 
-def without_remarks(words: Sequence[Word], edges: Iterable[PhraseEdge]) -> Remarks:
+def without_remarks(
+    words: Sequence[Word],
+    edges: Iterable[PhraseEdge],
+    *,
+    tells: bool = False,
+    respelt: Iterable[PhraseEdge] = (),
+    frames: Iterable[tuple[int, int]] = (),
+) -> Remarks:
     """Return the words without remarks: what is told beside the command, and the reasons that are given.
 
     Args:
         words: Words of the request.
         edges: What its words and phrases can be.
+        tells: True to leave out sentences and clauses that tell something, too.
+        respelt: What the words can be with misspellings mended; what may ask for something then tells nothing.
+        frames: Ranges of polite frames ("would you be able to"), which are left out, too.
     """
     marks = list_marks(words)
     words = [replace(word, kind="stop") if k in marks.ends else word for k, word in enumerate(words)]
     kinds: list[set[str]] = [set() for _ in words]
+    captures: dict[int, set[object]] = defaultdict(set)
     reasons: set[int] = set()
+    purposes: dict[int, int] = {}
     asides: set[int] = set()
     for edge in edges:
+        if edge.category == "NOUN":
+            for k in range(edge.start, edge.end):
+                captures[k].add(edge.meaning.value)
         for k in range(edge.start, edge.end):
             kinds[k].add(edge.category)
         if edge.category == "REASON":
             reasons.add(edge.start)
+        if edge.category in ("PURPOSE", "REASON"):
+            purposes[edge.start] = max(edge.end, purposes.get(edge.start, 0))
         if edge.category == "ASIDE" and ("anywhere" in edge.meaning.features or _stands_apart(words, edge)):
             asides.update(range(edge.start, edge.end))
-    left_out, labels = asides, set(marks.marks)
+    likely: dict[int, set[str]] = defaultdict(set)
+    for edge in respelt:
+        for k in range(edge.start, edge.end):
+            likely[k].add(edge.category)
+    known = WordKinds(words=words, kinds=kinds, likely=likely, captures=captures)
+    framed = {k for start, end in frames for k in range(start, end)}
+    left_out, labels, topics = asides | framed, set(marks.marks), set[int]()
     sentences = list(_parts(words, {"stop"}))
     ranked = [one for one in sentences if len(one) > 2 and "ORD" in kinds[one[0]] and words[one[1]].kind == "comma"]
     if len(ranked) > 1:
         labels.update(k for one in ranked for k in one[:2])  # "First: ... Second: ..."
     for sentence in sentences:
-        said = [k for k in sentence if words[k].kind != "comma" and k not in labels]
+        said = [k for k in sentence if words[k].kind != "comma" and k not in labels | framed]
         label = _label(words, sentence, kinds)
         labels.update(label)
         left_out.update(_wish(sentence, kinds))
-        if said and _tells(said, kinds):
-            left_out.update(sentence)
+        if tells:
+            left_out.update(_heading(words, sentence, kinds))
+            left_out.update(_for_what(said, purposes, kinds))
+        told = telling(said, known, sentence=True) if tells and said else None
+        if told is not None:
+            kept = {*said} - told.left_out
+            left_out.update({*sentence} - kept)
+            topics |= set() if told.topic is None else {told.topic}
             continue
         for clause in _clauses(words, sentence):
             aside = _reason(clause, reasons, kinds) or _aside(clause, kinds)
+            if tells and not aside and telling(clause, known, sentence=False) is not None:
+                aside = clause
             if aside and len(aside) < len(said):
                 left_out.update(aside)
     corrected = [found for part in sentences if (found := _corrected_numbers(words, kinds, part))]
@@ -89,9 +126,15 @@ def without_remarks(words: Sequence[Word], edges: Iterable[PhraseEdge]) -> Remar
     left_out -= labels
     if len(left_out | labels) == len(words):
         left_out, labels = set(), set()
-    left = tuple(word for k, word in enumerate(words) if k not in left_out | labels)
+    kept_ones = [k for k in range(len(words)) if k not in left_out | labels]
     edited = tuple((words[one[0]].start, words[one[-1] + 1].start) for one in corrected)
-    return Remarks(words=left, spans=_spans(words, left_out), labels=_spans(words, labels), corrected=edited)
+    return Remarks(
+        words=tuple(words[k] for k in kept_ones),
+        spans=_spans(words, left_out | topics),
+        labels=_spans(words, labels),
+        corrected=edited,
+        topics=frozenset(at for at, k in enumerate(kept_ones) if k in topics),
+    )
 
 
 def _spans(words: Sequence[Word], chosen: set[int]) -> tuple[Span, ...]:
@@ -170,11 +213,27 @@ def _wish(sentence: Sequence[int], kinds: Sequence[set[str]]) -> Sequence[int]:
     return sentence[:end]
 
 
-def _tells(said: Sequence[int], kinds: Sequence[set[str]]) -> bool:
-    """Return True for a sentence with unknown words that asks for nothing ("We had a leak last week.")."""
-    if "TELLS" not in kinds[said[0]] or any("DOES" in kinds[k] for k in said):
-        return False
-    return any(not kinds[k] for k in said) and not any(kinds[k] & _ASKING for k in said)
+def _heading(words: Sequence[Word], sentence: Sequence[int], kinds: Sequence[set[str]]) -> Sequence[int]:
+    """Return the heading with which a sentence begins ("Systematic design: ..."); empty if there is none."""
+    end = next((at for at, k in enumerate(sentence[:6]) if words[k].text == ":"), 0)
+    said = sentence[:end]
+    if not any("HEADING" in kinds[k] for k in said) or any(
+        kinds[k] - _IN_ASIDES - {"ASIDE", "HEADING"} for k in said[:-1]
+    ):
+        return ()
+    return sentence[: end + 1]
+
+
+def _for_what(said: Sequence[int], purposes: Mapping[int, int], kinds: Sequence[set[str]]) -> Sequence[int]:
+    """Return the words of what something is for, before who asks for it ("For my thesis I need ..."); empty if none."""
+    if not said or "FOR" not in kinds[said[0]]:
+        return ()
+    end = purposes.get(said[0], said[0] + 1)
+    length = sum(k < end for k in said)
+    while length < len(said) and kinds[said[length]] & {"DET", "PAPERWORK"}:
+        length += 1
+    told = length > 1 and (said[0] in purposes or "PAPERWORK" in kinds[said[length - 1]])
+    return said[:length] if told and length < len(said) and kinds[said[length]] & _WHO_ASKS else ()
 
 
 def _reason(clause: Sequence[int], reasons: set[int], kinds: Sequence[set[str]]) -> Sequence[int]:

@@ -28,6 +28,13 @@ _INFINITIVE = "INORDERTO"
 LACKING = "LACKING"
 #: Ending of an English name that owns what follows.
 _POSSESSIVE = re.compile("(?<=.)['\N{RIGHT SINGLE QUOTATION MARK}]s$")
+#: Categories of the words of tellings.
+_TOLD = frozenset(
+    {
+        "ADDS", "AUXILIARY", "BECAUSE", "DEMANDS", "HARMLESS", "HEADING", "HOPES", "IMPERSONAL", "INDEFINITE", "LATELY",
+        "OWNER", "PAPERWORK", "POINTING", "REFERRING", "SOMEOFTHEM", "STATES",
+    }
+)  # fmt: skip
 #: Maximum number of words of a filler.
 _LONGEST_FILLER = 7
 
@@ -109,8 +116,14 @@ def _by_word(table: Mapping[str, Sequence[str]], key: Callable[[str], Key]) -> M
     return {word: frozenset(features) for word, features in found.items()}
 
 
-def edges_of(words: Sequence[Word], phrases: Phrases) -> Iterator[PhraseEdge]:
-    """Yield an edge for each phrase of the language and each name of the site that the words contain."""
+def edges_of(words: Sequence[Word], phrases: Phrases, *, tells: bool = False) -> Iterator[PhraseEdge]:
+    """Yield an edge for each phrase of the language and each name of the site that the words contain.
+
+    Args:
+        words: Words of a request.
+        phrases: Words of the language, the robot and the site.
+        tells: True to yield the words of tellings, too, of which no request can consist.
+    """
     for start, word in enumerate(words):
         yield from _single(word, start, phrases)
         yield from _names(words, start, phrases)
@@ -125,6 +138,8 @@ def edges_of(words: Sequence[Word], phrases: Phrases) -> Iterator[PhraseEdge]:
             text = " ".join(word.norm for word in words[start:end])
             yield from _possessive(phrase, start, end, phrases)
             for entry in phrases.entries(tuple(phrase)):
+                if entry.kind in _TOLD and not tells:
+                    continue
                 features = phrases.features(tuple(phrase))
                 kind = "CONTRAST" if entry.kind == "AND" and "contrast" in features else entry.kind
                 values = list(_values(entry, phrases.lexicon))
@@ -247,6 +262,11 @@ def hinted_attributes(hint: str, site: Site) -> list[str]:
 
 def _edge(category: str, start: int, end: int, meaning: Lex) -> PhraseEdge:
     return PhraseEdge(category, start, end, meaning, _WORD_COST, ((1 << end) - 1) ^ ((1 << start) - 1))
+
+
+def topic_edge(words: Sequence[Word], at: int) -> PhraseEdge:
+    """Return an edge that reads a word as "this is about"."""
+    return _edge("TOPIC", at, at + 1, Lex(None, False, words[at].norm))
 
 
 def _hashable(value: Any) -> Any:

@@ -1,0 +1,249 @@
+"""Sentences and clauses that tell something and ask for nothing: greetings, memories, opinions, idle questions."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from collections.abc import Set as AbstractSet
+from dataclasses import dataclass
+
+from fieldhand.planning.english.tokens import Word
+
+#: Categories of words that no telling contains: conditions, prohibitions, numbers, limits, orders, demands, captures.
+_NEVER = frozenset(
+    {
+        "ACTV", "ALLOW", "APART", "ASFIT", "ASMANY", "ATLEAST", "BATTERY", "BEFORE", "CAMERA", "CLIP", "CORRECTION",
+        "COUNT", "DEMANDS", "DISTINCT", "EVENLYALONG", "EVENLYSPACED", "EXCEPT", "FARAPART", "FITS", "GOHOME", "IF",
+        "IFSO", "INCASE", "INORDER", "INSTEAD", "INTERVAL", "ISNOT", "KEEP", "LAST", "LIMIT", "LIMITEDTO", "MAXIMISE",
+        "MUST", "NOORDER", "NOT", "NOTYET", "NOUN", "NUM", "ONLY", "ORD", "ORDERED", "OTHERWISE", "PART", "PASSON",
+        "READING", "REPEAT", "REVERSE", "SAMEFOR", "SHOULD", "SORT", "STAY", "STOP", "TIMES", "TIMEWORD", "TOPIC",
+        "TRY", "UNIT", "UNLESS", "UNTIL", "UPTO", "WANTED", "WANTS", "WITHOUT",
+    }
+)  # fmt: skip
+#: Categories of words that name trees or a part of the site.
+_PLACES = frozenset(
+    {
+        "AISLE", "ATTRVAL", "BLOCKNAME", "CHARGER", "CORNER", "DIR", "EDGE", "GATENAME", "HALF", "MIDDLE", "MOST",
+        "OLDS", "QUARTER", "ROW", "ROWNAME", "SOMEOFTHEM", "START", "SUPER", "TREE", "TREEID", "ZONE",
+    }
+)  # fmt: skip
+#: Categories of words that a place may have beside these.
+_IN_PLACES = frozenset({"AT", "DET", "OF", "OLD", "PLOT", "VAGUEADJ"})
+#: Categories of the verbs of commands.
+_COMMANDS = frozenset({"GO", "MEASURE", "TAKE", "USE", "VISIT"})
+#: Categories of these that describe other words as well ("most", "northern").
+_DESCRIBING = frozenset({"DIR", "MOST", "SUPER"})
+#: Categories of the verbs of tellings.
+_VERBS = frozenset({"AUXILIARY", "IS", "STATES"})
+#: Categories of words between a subject and its verb.
+_ADVERBS = frozenset({"FILLER", "HARMLESS", "INEACHCASE"})
+#: Categories of words that refer to what was said before.
+_BACK = frozenset({"IT", "ITS", "ONE", "OTHERS", "REFERRING", "SAME", "THERE"})
+#: Categories of words that may stand before a subject.
+_OPENING = frozenset({"AND", "ASIDE", "CONTRAST", "FILLER", "OPENER"})
+
+
+@dataclass(frozen=True, kw_only=True)
+class Telling:
+    """A sentence or clause that asks for nothing.
+
+    Attributes:
+        left_out: Numbers of its words, but for those of a place that the next sentence refers to.
+        topic: Number of the word before that place, which stands for "this is about"; None without such a place.
+    """
+
+    left_out: frozenset[int]
+    topic: int | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class WordKinds:
+    """What the words of a request can be.
+
+    Attributes:
+        words: The words.
+        kinds: Categories of the phrases that each word is part of; none for unknown words.
+        likely: Categories of the words that misspelt ones are likely to mean; no misspelt command is a telling.
+        captures: What each word can capture.
+    """
+
+    words: Sequence[Word]
+    kinds: Sequence[AbstractSet[str]]
+    likely: Mapping[int, AbstractSet[str]]
+    captures: Mapping[int, AbstractSet[object]]
+
+    def may_be(self, k: int, categories: AbstractSet[str]) -> bool:
+        """Return True if a word, or the one that it is a misspelling of, is of one of some categories."""
+        return bool((self.kinds[k] | self.likely.get(k, frozenset())) & categories)
+
+    def is_past(self, k: int) -> bool:
+        """Return True for a word with the ending of a verb in the past."""
+        return self.words[k].norm.endswith("ed")
+
+    def names_place(self, k: int) -> bool:
+        """Return True for a word that names trees or a part of the site."""
+        return bool(self.kinds[k] & (_PLACES - _DESCRIBING))
+
+
+def telling(said: Sequence[int], known: WordKinds, *, sentence: bool) -> Telling | None:
+    """Return what a sentence, or a clause between commas, tells; None if it may ask for something.
+
+    A telling has a subject, other than the robot, and a verb: an unknown one, one in the past, or one of thinking,
+    feeling and planting. One with a place needs a verb of the last kind. If the next sentence refers to that place, the
+    place is kept as what the request is about.
+
+    Args:
+        said: Numbers of its words.
+        known: What the words of the request can be.
+        sentence: True for a whole sentence.
+    """
+    begun = _begun(said, known)
+    if len(begun) < 2 or any(known.kinds[k] & {"DEMANDS", "ONLY"} for k in said if k < begun[0]):
+        return None
+    kinds = [known.kinds[k] for k in begun]
+    hopes = any("HOPES" in one for one in kinds[:2])
+    asks = _is_question(begun, known)
+    if not (hopes or asks or _has_verb(begun, known, sentence=sentence)):
+        return None
+    if any(_may_ask(at, begun, known, hopes=hopes, asks=asks) for at in range(len(begun))):
+        return None
+    states = any("STATES" in one for one in kinds)
+    refers_back = _refers_back(said[-1] + 1, known)
+    if not any(known.may_be(k, _PLACES) for k in begun):
+        first = begun[0] <= _first_word(known)
+        if not first and (refers_back or not (states or asks or hopes or _describes(begun, known))):
+            return None
+        return Telling(left_out=frozenset(said))
+    adds = any("ADDS" in one for one in kinds)
+    if not sentence or asks or adds or not (states or "THEREIS" in kinds[0]):
+        return None
+    if not refers_back:
+        return Telling(left_out=frozenset(said)) if states else None
+    place = _only_place(begun, known)
+    if not place or place[0] == begun[0]:
+        return None
+    topic = place[0] - 1
+    single = any("CORNER" in known.kinds[k] for k in place)
+    if "OF" in known.kinds[topic] or ("INDEFINITE" in known.kinds[place[0]] and not single):
+        return None  # "one of the Carmels"
+    return Telling(left_out=frozenset(said) - {topic, *place}, topic=topic)
+
+
+def _describes(begun: Sequence[int], known: WordKinds) -> bool:
+    """Return True unless "it" or "that", which may be the work, is or does something ("it's optional").
+
+    It may be something ("that's the short one").
+    """
+    if "IMPERSONAL" not in known.kinds[begun[0]]:
+        return True
+    said = next((k for k in begun[1:] if not known.kinds[k] & (_VERBS | _ADVERBS)), begun[0])
+    return "DET" in known.kinds[said]
+
+
+def _first_word(known: WordKinds) -> int:
+    """Return the number of the first word that is neither a greeting nor an aside."""
+    return next((k for k, kinds in enumerate(known.kinds) if "TELLS" in kinds or not kinds & _OPENING), 0)
+
+
+def _begun(said: Sequence[int], known: WordKinds) -> Sequence[int]:
+    """Return a sentence from its subject on, without greetings, "and", and "in my day" before it."""
+    opening = (at for at, k in enumerate(said) if "BECAUSE" not in known.kinds[k])
+    at = next((at for at in opening if "TELLS" in known.kinds[said[at]] or not known.kinds[said[at]] & _OPENING), 0)
+    begun = said[at:]
+    if begun and "AT" in known.kinds[begun[0]]:  # "in my day we ..."
+        begins = (at for at, k in enumerate(begun[:5]) if known.kinds[k] & {"TELLS"} and "DET" not in known.kinds[k])
+        return begun[next(begins, 0) :]
+    return begun
+
+
+def _has_verb(begun: Sequence[int], known: WordKinds, *, sentence: bool) -> bool:
+    """Return True for words that begin with a subject and contain a verb, which an unknown word may be.
+
+    Behind "the" and "a" an unknown word may be a noun ("the plums"), and a clause may be an item of a list.
+    """
+    first = known.kinds[begun[0]]
+    if "TELLS" not in first:
+        return False
+    verbs = [at for at, k in enumerate(begun) if known.kinds[k] & _VERBS or known.is_past(k)]
+    if begun[0] > 0 and "BECAUSE" in known.kinds[begun[0] - 1]:
+        return bool(verbs) or not all(known.kinds[k] for k in begun)
+    if not first & {"DET", "LATELY"}:
+        verb = next((k for k in begun[1:] if not known.kinds[k] & _ADVERBS), begun[0])
+        return bool(verbs) or not known.kinds[verb]
+    if "LATELY" in first:
+        return bool(verbs)
+    if "POINTING" in first:
+        return 1 in verbs
+    if sentence:
+        return any(at > 0 for at in verbs) or (len(begun) > 3 and sum(not known.kinds[k] for k in begun) > 1)
+    return "OWNER" in first and any(at > 1 for at in verbs)
+
+
+def _is_question(begun: Sequence[int], known: WordKinds) -> bool:
+    """Return True for a question that a mission does not answer ("How are you?")."""
+    end = begun[-1] + 1
+    asks = end < len(known.words) and "?" in known.words[end].text
+    return asks and bool(known.kinds[begun[0]] & {"HOW", "IS"})
+
+
+def _may_ask(at: int, said: Sequence[int], known: WordKinds, *, hopes: bool, asks: bool) -> bool:
+    """Return True for a word that may ask for something, restrict or forbid it, where it stands."""
+    k = said[at]
+    word, kinds = known.words[k], known.kinds[k]
+    before = known.kinds[said[at - 1]] if at > 0 else frozenset[str]()
+    follows = known.kinds[said[at + 1]] if at + 1 < len(said) else frozenset[str]()
+    if word.norm.endswith("n't") or word.kind in ("number", "rank", "unit"):
+        return True
+    if kinds & {"ENOUGH", "REMAINS"} and not hopes:
+        return True
+    if kinds & {"STATES", "AUXILIARY", "HARMLESS", "HOPES"}:
+        return False
+    if hopes and not kinds and "DOES" in before and not known.is_past(k):
+        return True  # "I hope you flambé them"
+    if not kinds and follows & {"DET", "IT"} and not word.norm.endswith(("ed", "ing", "ly")):
+        joined = at > 0 and known.words[k - 1].kind == "comma"
+        return joined or bool(before & {"AND", "INORDERTO", "THEN", "FILLER", "OPENER"})  # "and flambé the Carmels"
+    if asks and known.captures.get(k):
+        others = {one for n, found in known.captures.items() if n not in said for one in found}
+        return not known.captures[k] & others
+    if known.may_be(k, {"DOES"}):
+        return not (hopes or asks or follows & {"DET", "STATES"})
+    if known.may_be(k, _COMMANDS):
+        return not (known.is_past(k) or before & {"TELLS", "AUXILIARY", "HARMLESS", "IS"})
+    if "LAST" in kinds and not follows:
+        return False  # "last week"
+    if hopes and kinds & {"BATTERY", "TIMEWORD"}:
+        return False
+    return known.may_be(k, _NEVER) and not _is_age(k, said, known)
+
+
+def _is_age(k: int, said: Sequence[int], known: WordKinds) -> bool:
+    """Return True for a word of "two-year-olds"."""
+    return any("OLDS" in known.kinds[one] for one in said if k <= one <= k + 4)
+
+
+def _refers_back(start: int, known: WordKinds) -> bool:
+    """Return True if the words from one on refer to something before them ("it", "there") before they name a place."""
+    for k in range(start, len(known.words)):
+        if known.kinds[k] & _BACK and not known.kinds[k] & {"FILLER", "ASIDE", "INDEFINITE"}:
+            return True
+        if known.names_place(k):
+            return False
+    return False
+
+
+def _only_place(said: Sequence[int], known: WordKinds) -> Sequence[int]:
+    """Return the words of the only place that a sentence names; empty if it names several or none."""
+    found: list[list[int]] = [[]]
+    for k in said:
+        fits = known.kinds[k] & (_PLACES | _IN_PLACES) or _is_age(k, said, known)
+        if fits and not known.kinds[k] & {"STATES", "THEREIS"} and known.words[k - 1].kind != "comma":
+            found[-1].append(k)
+        else:
+            found.append([])
+    named = [run for run in found if any(known.names_place(k) for k in run)]
+    if len(named) != 1:
+        return ()
+    (run,) = named
+    begin = next(at for at, k in enumerate(run) if not known.kinds[k] & {"AT", "OF"} or known.kinds[k] & _PLACES)
+    end = max(at for at, k in enumerate(run) if known.kinds[k] & _PLACES)
+    return run[begin : end + 1]
