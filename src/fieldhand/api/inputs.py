@@ -83,7 +83,7 @@ def _known_language(code: str) -> str:
 Lang = Annotated[Name, AfterValidator(_known_language)]
 
 
-class OnGround(Body):
+class SiteAndRobotBody(Body):
     """A site, the name of a built-in robot, and the language of the read-back."""
 
     site: SiteChoice = "demo"
@@ -108,7 +108,7 @@ Answers = Annotated[list[AnswerBody], Field(max_length=20)]
 Warnings = Annotated[list[Words], Field(max_length=200)]
 
 
-class PlanBody(OnGround):
+class PlanBody(SiteAndRobotBody):
     """A request to plan, with the answers to earlier questions about it."""
 
     request: Words
@@ -116,13 +116,13 @@ class PlanBody(OnGround):
     planner: Literal["auto", "english", "llm"] = "auto"
 
 
-class CheckBody(OnGround):
+class CheckBody(SiteAndRobotBody):
     """A Task document to check."""
 
     xml: Xml
 
 
-class RunBody(OnGround):
+class RunBody(SiteAndRobotBody):
     """A mission to simulate: a Task document or a request, the name of the operator, and the confirmed warnings."""
 
     xml: Xml | None = None
@@ -146,7 +146,7 @@ def answers_of(body: PlanBody | RunBody) -> tuple[Answer, ...]:
     return tuple(Answer(question=given.question, answer=given.answer) for given in body.answers)
 
 
-def open_ground(body: OnGround) -> SiteAndRobot:
+def open_site_and_robot(body: SiteAndRobotBody) -> SiteAndRobot:
     """Open the site and the robot of a request body.
 
     Raises:

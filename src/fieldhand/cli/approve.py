@@ -62,7 +62,7 @@ def approve(
     from fieldhand.cli.approving import approve_plan, review_plan
     from fieldhand.cli.asking import Replies, plan_or_read
     from fieldhand.cli.bundles import require_ending, signed_record
-    from fieldhand.cli.inputs import read_ground, write_whole
+    from fieldhand.cli.inputs import read_site_and_robot, write_whole
     from fieldhand.cli.pictures import draw_plan
     from fieldhand.cli.secrets import passphrase
     from fieldhand.files import config_folder
@@ -72,12 +72,12 @@ def approve(
     language = display.language
     keys = SigningKeys(config_folder(os.environ))
     key = keys.choose(signing.key)
-    ground, files = read_ground(place.site, place.robot, lenient=place.lenient, language=language)
+    site_and_robot, files = read_site_and_robot(place.site, place.robot, lenient=place.lenient, language=language)
     replies = Replies.of(planning, display)
-    task, document, planner = plan_or_read(request, ground, planning.planner, planning.transcript, replies)
-    review = review_plan(ground, task, document, display)
+    task, document, planner = plan_or_read(request, site_and_robot, planning.planner, planning.transcript, replies)
+    review = review_plan(site_and_robot, task, document, display)
     if picture is not None:
-        draw_plan(picture, review, ground, language)
+        draw_plan(picture, review, site_and_robot, language)
         if not display.json:
             show.out.print(language.say(message("Map: {file}", file=str(picture))))
     approval = replace(signing, by=signing.by or key.public.name)
@@ -85,8 +85,8 @@ def approve(
     opened = keys.open(key, passphrase)
     data = pack(
         authorized,
-        ground.site,
-        ground.robot,
+        site_and_robot.site,
+        site_and_robot.robot,
         files=files.site,
         lenient=files.lenient,
         profile=files.profile,

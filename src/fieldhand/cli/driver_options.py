@@ -214,7 +214,7 @@ def refuse_simulation_options(connection: Connection | None, *, world: Path | No
 
 @contextmanager
 def connected(
-    ground: SiteAndRobot, task: Task, connection: Connection | None, display: DisplayOptions
+    site_and_robot: SiteAndRobot, task: Task, connection: Connection | None, display: DisplayOptions
 ) -> Iterator[Vehicle | None]:
     """Connect to the robot for the duration of the context; None for the simulation.
 
@@ -231,17 +231,17 @@ def connected(
 
     kind = driver_kind(connection.transport)
     if not display.json:
-        fills = {"robot": ground.robot.name, "way": str(connection)}
+        fills = {"robot": site_and_robot.robot.name, "way": str(connection)}
         if kind.ros2:
             note(message("looking for {robot} over ROS 2 ({way})", **fills), display.language)
         else:
             note(message("looking for {robot} ({way})", **fills), display.language)
-    with kind.connect(ground.site, ground.robot, task, connection, READY_WITHIN_S) as vehicle:
+    with kind.connect(site_and_robot.site, site_and_robot.robot, task, connection, READY_WITHIN_S) as vehicle:
         yield vehicle
 
 
 def check_start(
-    ground: SiteAndRobot, review: Review, vehicle: Vehicle, *, confirm: bool, display: DisplayOptions
+    site_and_robot: SiteAndRobot, review: Review, vehicle: Vehicle, *, confirm: bool, display: DisplayOptions
 ) -> None:
     """Check position and battery of the robot before it moves, and print them.
 
@@ -253,19 +253,19 @@ def check_start(
     from fieldhand import missions
     from fieldhand.cli.show import note
 
-    away_m = missions.require_in_place(ground.site, ground.robot, vehicle.driver)
+    away_m = missions.require_in_place(site_and_robot.site, site_and_robot.robot, vehicle.driver)
     charge = vehicle.driver.charge_percent()
     if not display.json:
         position = message(
             "{robot} is {metres} m from the start, battery at {charge} %",
-            robot=ground.robot.name,
+            robot=site_and_robot.robot.name,
             metres=Number(f"{away_m:.1f}"),
             charge=f"{charge:.0f}",
         )
         note(position, display.language)
         if vehicle.remark:
             note(vehicle.remark, display.language)
-    missions.require_charged(review, ground.site, ground.robot, charge, confirm=confirm)
+    missions.require_charged(review, site_and_robot.site, site_and_robot.robot, charge, confirm=confirm)
 
 
 def namespace_of(text: str) -> str:

@@ -23,7 +23,7 @@ def import_tree(
     """Read a tree as a Task; with --site exit status 1 if anything forbids its approval."""
     from fieldhand import mission
     from fieldhand.cli import show
-    from fieldhand.cli.inputs import open_ground, write_file
+    from fieldhand.cli.inputs import open_site_and_robot, write_file
     from fieldhand.errors import TaskError
     from fieldhand.exchange.btcpp import read_tree
     from fieldhand.robot.capabilities import capabilities_of
@@ -34,12 +34,12 @@ def import_tree(
     from fieldhand.task.references import references
     from fieldhand.task.schema import require_valid
 
-    ground = None if site is None else open_ground(site, robot, lenient=lenient)
-    profile = load_robot(robot) if ground is None else ground.robot
+    site_and_robot = None if site is None else open_site_and_robot(site, robot, lenient=lenient)
+    profile = load_robot(robot) if site_and_robot is None else site_and_robot.robot
     capabilities = capabilities_of(profile)
     resources = [Resource(kind="robot", name=profile.name, sha256=profile.sha256)]
-    if ground is not None:
-        resources.append(Resource(kind="site", name=ground.site.name, sha256=ground.site.sha256))
+    if site_and_robot is not None:
+        resources.append(Resource(kind="site", name=site_and_robot.site.name, sha256=site_and_robot.site.sha256))
     data = read_xml(tree)
     task = read_tree(data, capabilities, request=request, resources=tuple(resources), source=str(tree))
     document = encode(task)
@@ -48,7 +48,7 @@ def import_tree(
     if problems:
         raise TaskError("; ".join(problems), where=str(tree), advice="correct the tree")
     write_file(output, document)
-    review = None if ground is None else mission.review(task, ground.site, profile, document=document)
+    review = None if site_and_robot is None else mission.review(task, site_and_robot.site, profile, document=document)
     if json:
         record = {"task": task.id, "file": str(output)}
         show.print_json(record if review is None else record | show.review_record(review))

@@ -34,19 +34,19 @@ class InputFiles:
     lenient: bool
 
 
-def open_ground(site: str, robot: str, *, lenient: bool = False, language: Language = ENGLISH) -> SiteAndRobot:
+def open_site_and_robot(site: str, robot: str, *, lenient: bool = False, language: Language = ENGLISH) -> SiteAndRobot:
     """Open a site and a robot, and print what a lenient reading of the site left out.
 
     Raises:
         SiteError, ProfileError: Site or robot cannot be used.
     """
-    return read_ground(site, robot, lenient=lenient, language=language)[0]
+    return read_site_and_robot(site, robot, lenient=lenient, language=language)[0]
 
 
-def read_ground(
+def read_site_and_robot(
     site: str, robot: str, *, lenient: bool = False, language: Language = ENGLISH
 ) -> tuple[SiteAndRobot, InputFiles]:
-    """Open a site and a robot as :func:`open_ground` does, and return their files, too; each file is read once.
+    """Open a site and a robot as :func:`open_site_and_robot` does, and return their files, too; each file is read once.
 
     Raises:
         SiteError, ProfileError: Site or robot cannot be used.
@@ -58,8 +58,8 @@ def read_ground(
     opened = site_of(files, lenient=lenient)
     note_left_out(opened, lenient=lenient, language=language)
     profile, source = profile_bytes(robot)
-    ground = SiteAndRobot(site=opened, robot=parse_profile(profile, source=source))
-    return ground, InputFiles(site=files, profile=profile, lenient=lenient)
+    site_and_robot = SiteAndRobot(site=opened, robot=parse_profile(profile, source=source))
+    return site_and_robot, InputFiles(site=files, profile=profile, lenient=lenient)
 
 
 def note_left_out(site: Site, *, lenient: bool, language: Language = ENGLISH) -> None:

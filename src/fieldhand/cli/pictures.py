@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from fieldhand.planning.planner import Clarify
 
 
-def draw_plan(path: Path, review: Review, ground: SiteAndRobot, language: Language = ENGLISH) -> None:
+def draw_plan(path: Path, review: Review, site_and_robot: SiteAndRobot, language: Language = ENGLISH) -> None:
     """Draw the map of a planned mission.
 
     Raises:
@@ -27,10 +27,10 @@ def draw_plan(path: Path, review: Review, ground: SiteAndRobot, language: Langua
         raise NotApprovedError(f"there is no map of a mission that cannot be driven: {problems}", where=str(path))
     from fieldhand.approval.preview import save_map
 
-    save_map(review.task, ground.site, ground.robot, review.estimate, path, language)
+    save_map(review.task, site_and_robot.site, site_and_robot.robot, review.estimate, path, language)
 
 
-def draw_question(path: Path, asked: Clarify, ground: SiteAndRobot) -> None:
+def draw_question(path: Path, asked: Clarify, site_and_robot: SiteAndRobot) -> None:
     """Draw the map of a question, if its choices are places.
 
     Raises:
@@ -39,5 +39,5 @@ def draw_question(path: Path, asked: Clarify, ground: SiteAndRobot) -> None:
     if asked.places:
         from fieldhand.site.drawing import save_choices_picture
 
-        save_choices_picture(ground.site, asked.question, asked.choices, asked.places, path)
+        save_choices_picture(site_and_robot.site, asked.question, asked.choices, asked.places, path)
         note(f"the choices are drawn in {path}")

@@ -82,20 +82,22 @@ def run_mission(draft: MissionDraft, settings: RunSettings) -> int:
         ExecutionError: The robot cannot start from its position.
         OutputError: A file cannot be written.
     """
-    ground, display = draft.ground, settings.display
-    review = review_plan(ground, draft.task, draft.document, display)
+    site_and_robot, display = draft.site_and_robot, settings.display
+    review = review_plan(site_and_robot, draft.task, draft.document, display)
     if draft.bundle is None:
         approved = approve_plan(review, settings.approval, display, message("Approve and carry out?"))
     else:
         approved = mission.approved_earlier(draft.bundle.authorized, review)
-    write_plan(ground, review, draft.document, settings)
+    write_plan(site_and_robot, review, draft.document, settings)
     if settings.vehicle is not None:
-        check_start(ground, review, settings.vehicle, confirm=settings.approval.confirm, display=display)
+        check_start(site_and_robot, review, settings.vehicle, confirm=settings.approval.confirm, display=display)
     events, name = _carry_out(approved, draft, settings)
     return conclude(approved, events, settings, planner=draft.planner, name=name, bundle=draft.bundle)
 
 
-def write_plan(ground: SiteAndRobot, review: mission.Review, document: bytes | None, settings: RunSettings) -> None:
+def write_plan(
+    site_and_robot: SiteAndRobot, review: mission.Review, document: bytes | None, settings: RunSettings
+) -> None:
     """Write Task and map to the output folder before the robot moves, so that an unwritable folder costs no mission."""
     folder = settings.outputs.output
     if folder is None:
@@ -104,7 +106,7 @@ def write_plan(ground: SiteAndRobot, review: mission.Review, document: bytes | N
     from fieldhand.task.codec import encode
 
     write_file(folder / "task.xml", document or encode(review.task))
-    draw_plan(folder / "map.png", review, ground, settings.display.language)
+    draw_plan(folder / "map.png", review, site_and_robot, settings.display.language)
 
 
 def _carry_out(

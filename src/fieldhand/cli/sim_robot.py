@@ -62,7 +62,7 @@ def sim_robot(
     from dataclasses import replace
 
     from fieldhand import mission
-    from fieldhand.cli.inputs import open_ground
+    from fieldhand.cli.inputs import open_site_and_robot
     from fieldhand.clock import ScaledClock
     from fieldhand.execution.drivers.ros2.interfaces import Interfaces
     from fieldhand.execution.drivers.ros2.open_transport import open_transport
@@ -72,20 +72,20 @@ def sim_robot(
     from fieldhand.execution.interrupts import ctrl_c_as_request
 
     clock = ScaledClock(_checked_speed(speed))
-    ground = open_ground(place.site, place.robot, lenient=place.lenient)
-    simulated_world = mission.read_world(world, ground.site, ground.robot)
-    bindings = bindings_of(ground.robot)
+    site_and_robot = open_site_and_robot(place.site, place.robot, lenient=place.lenient)
+    simulated_world = mission.read_world(world, site_and_robot.site, site_and_robot.robot)
+    bindings = bindings_of(site_and_robot.robot)
     if transport.namespace is not None:
         bindings = replace(bindings, namespace=namespace_of(transport.namespace))
-    profile = replace(ground.robot, ros2=bindings)
-    identity = Identity(site=ground.site.content_sha256, robot=profile.sha256, world=_hash_of(simulated_world))
+    profile = replace(site_and_robot.robot, ros2=bindings)
+    identity = Identity(site=site_and_robot.site.content_sha256, robot=profile.sha256, world=_hash_of(simulated_world))
     refuse_standard_output(state, "--state")
     saved = None if state is None else read_state(state, identity)
     interfaces = Interfaces.of(bindings.distro, bindings.interfaces)
     with closing(open_transport(transport.on, interfaces, transport.domain)) as node:
         sim_time = bindings.use_sim_time or speed != 1.0
         simulated = SimulatedRobot(
-            ground.site,
+            site_and_robot.site,
             profile,
             simulated_world,
             node,
@@ -97,7 +97,9 @@ def sim_robot(
             report=_print_report_json if json else _print_report,
             state=saved,
         )
-        _print_ready(profile, bindings, ground.site.name, sim_time=sim_time, goes_on=saved is not None, json=json)
+        _print_ready(
+            profile, bindings, site_and_robot.site.name, sim_time=sim_time, goes_on=saved is not None, json=json
+        )
         with ctrl_c_as_request() as ended:
             why = run_robot(
                 simulated,

@@ -278,7 +278,7 @@ class Drives:
         """Return for each place why a robot can never be there, wherever it comes from; empty if it can. Cached."""
         new = list({_key(p): p for p in places if _key(p) not in self._closed}.values())
         if new:
-            at = np.array([self._ground_of(p) for p in new])
+            at = np.array([self._bounded_point(p) for p in new])
             outside = np.full(len(new), bool(boundaries := self.site.zones_of("boundary")))
             for zone in boundaries:
                 outside &= ~shapely.intersects_xy(zone.polygon, at[:, 0], at[:, 1])
@@ -290,7 +290,7 @@ class Drives:
                 self._closed[_key(place)] = reason or ("" if able else self._no_stand(place))
         return [self._closed[_key(p)] for p in places]
 
-    def _ground_of(self, place: Place) -> XY:
+    def _bounded_point(self, place: Place) -> XY:
         """Return the point that must be inside the boundary: the place, or the stand of a gate (on the fence)."""
         is_gate = any(gate.place == place for gate in self.site.gates)
         return self._stands.of(place)[0].xy if is_gate else place.xy

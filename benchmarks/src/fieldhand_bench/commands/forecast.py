@@ -30,7 +30,7 @@ def bench_forecast(
     from fieldhand.cli import show
     from fieldhand.cli.asking import Replies, plan_or_read
     from fieldhand.cli.bundles import require_site
-    from fieldhand.cli.inputs import open_ground
+    from fieldhand.cli.inputs import open_site_and_robot
     from fieldhand.errors import InputError
     from fieldhand.mission.documents import SiteAndRobot
     from fieldhand.robot.loader import load_robot
@@ -39,13 +39,13 @@ def bench_forecast(
     from fieldhand_bench.scenes import made_block
 
     if made is None:
-        ground = open_ground(require_site(site), robot)
+        site_and_robot = open_site_and_robot(require_site(site), robot)
     else:
         kind, _, trees = made.partition(":")
         if not (trees.isdecimal() and 20 <= int(trees) <= 20_000):
             raise InputError(f"'{made}' is no generated site", where="--made", advice="give straight:2000, for one")
-        ground = SiteAndRobot(site=made_block(kind, int(trees)), robot=load_robot(robot))
-    task, _, _ = plan_or_read(request, ground, "english", None, Replies(given=(), assume=True, ask=False))
+        site_and_robot = SiteAndRobot(site=made_block(kind, int(trees)), robot=load_robot(robot))
+    task, _, _ = plan_or_read(request, site_and_robot, "english", None, Replies(given=(), assume=True, ask=False))
     flown: list[Mission] = []
 
     def tell(one: Mission) -> None:
@@ -55,7 +55,7 @@ def bench_forecast(
             show.out.print(f"seed {one.seed}: {one.visits} visits, {one.metres:.1f} m, {one.seconds:.0f} s{over}")
 
     on = machine()
-    found = compare(task, ground.site, ground.robot, range(seed, seed + missions), jobs=jobs, tell=tell)
+    found = compare(task, site_and_robot.site, site_and_robot.robot, range(seed, seed + missions), jobs=jobs, tell=tell)
     if json:
         each = [asdict(one) for one in flown]
         show.print_json({"machine": on, "kept": found.is_kept, "agrees": found.agrees} | asdict(found) | {"each": each})

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from fieldhand_bench.missions.cases import Case
-    from fieldhand_bench.missions.trial import Trial
+    from fieldhand_bench.missions.trial import CaseTrial
 
 _ANSWERS = {
     "planned": "wrong",
@@ -100,7 +100,7 @@ def _writer(folder: Path) -> Callable[[Case, int, Sequence[str]], None]:
     return write
 
 
-def _record(trials: Sequence[Trial]) -> dict[str, Any]:
+def _record(trials: Sequence[CaseTrial]) -> dict[str, Any]:
     from dataclasses import asdict
 
     from fieldhand_bench.missions.published import row_of, sorted_by_row, tallies
@@ -122,14 +122,14 @@ def _record(trials: Sequence[Trial]) -> dict[str, Any]:
     return {"totals": totals, "cases": rows}
 
 
-def _result(trial: Trial) -> str:
+def _result(trial: CaseTrial) -> str:
     said = _ANSWERS[trial.answer]
     if not trial.as_asked:
         return said
     return "as asked" if trial.answer == "planned" else f"as asked: {said}"
 
 
-def _show(trials: Sequence[Trial], planner: str, seed: int) -> None:
+def _show(trials: Sequence[CaseTrial], planner: str, seed: int) -> None:
     from fieldhand.cli import show
     from fieldhand_bench.missions.published import row_of, tallies
 
@@ -162,7 +162,7 @@ def _show(trials: Sequence[Trial], planner: str, seed: int) -> None:
     )
 
 
-def _table(title: str, trials: Sequence[Trial], *, published: bool) -> Table:
+def _table(title: str, trials: Sequence[CaseTrial], *, published: bool) -> Table:
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
 

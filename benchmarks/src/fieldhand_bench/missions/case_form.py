@@ -17,9 +17,9 @@ from pydantic import (
 )
 
 from fieldhand_bench.missions import places
+from fieldhand_bench.missions.case_site import CornerName
 from fieldhand_bench.missions.cases import Expected, MarkerName, Step
-from fieldhand_bench.missions.ground import CornerName
-from fieldhand_bench.missions.places import ANYWHERE, Demand, Place, Side
+from fieldhand_bench.missions.places import ANYWHERE, CasePlace, Demand, Side
 
 
 def _number(value: object) -> object:
@@ -111,9 +111,9 @@ class PlaceForm(Form):
                 raise ValueError(f"'{more}' says more about '{' or '.join(about)}', which is not here")
         return self
 
-    def place(self) -> Place:
+    def place(self) -> CasePlace:
         """Return the place as used by the judge."""
-        return Place(demands=tuple(self._demands()), words=self.words())
+        return CasePlace(demands=tuple(self._demands()), words=self.words())
 
     def words(self) -> str:
         """Return the place as written in the file, on one line."""
@@ -148,9 +148,9 @@ class PlaceForm(Form):
         if self.ids is not None:
             yield places.Positions(frozenset(self.ids))
         if self.first:
-            yield places.Terminal("start")
+            yield places.EndTree("start")
         if self.last:
-            yield places.Terminal("end")
+            yield places.EndTree("end")
         if self.attribute is not None:
             yield places.Attributes(self.attribute)
 
