@@ -94,11 +94,11 @@ class Robot:
             return self.driver.seed
         if name in ("start_drive", "start_action"):
             self.note()
-        said = getattr(self.driver, name)(*words)
+        answer = getattr(self.driver, name)(*words)
         if name == "start_action":
             self.open = words[0]
         self.note()
-        return said
+        return answer
 
     def note(self) -> None:
         """Record the current capture if it has succeeded."""

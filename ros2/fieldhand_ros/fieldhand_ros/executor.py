@@ -72,8 +72,8 @@ class Executor(LifecycleNode):
         #: Lifecycle callbacks and the status timer run in different threads.
         self._guard = threading.RLock()
         orders = ReentrantCallbackGroup()
-        for said in AGENT_COMMANDS:
-            self.create_service(Trigger, f"~/{said}", self._answer(said), callback_group=orders)
+        for command in AGENT_COMMANDS:
+            self.create_service(Trigger, f"~/{command}", self._answer(command), callback_group=orders)
         kept = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self._status = self.create_publisher(String, "~/status", kept)
         self._diagnostics = self.create_publisher(DiagnosticArray, "/diagnostics", 10)
@@ -188,29 +188,29 @@ class Executor(LifecycleNode):
 
     # --- commands ------------------------------------------------------------------------------------------------
 
-    def _answer(self, said: AgentCommand) -> Callable[[Any, Any], Any]:
+    def _answer(self, command: AgentCommand) -> Callable[[Any, Any], Any]:
         def answer(_: Any, response: Any) -> Any:
             try:
-                response.success, response.message = self._tell_mission(said)
+                response.success, response.message = self._tell_mission(command)
             except FieldhandError as error:
                 response.success, response.message = False, str(error)
             if not response.success:
-                self.get_logger().warning(f"{said}: {response.message}")
+                self.get_logger().warning(f"{command}: {response.message}")
             return response
 
         return answer
 
-    def _tell_mission(self, said: AgentCommand) -> tuple[bool, str]:
+    def _tell_mission(self, command: AgentCommand) -> tuple[bool, str]:
         robot_agent, received = self._at_hand(), self._received
-        if received is None or (not self._active and said not in _WHEN_INACTIVE):
-            raise InputError(f"the node is not active: it cannot {said}", advice="activate it first")
+        if received is None or (not self._active and command not in _WHEN_INACTIVE):
+            raise InputError(f"the node is not active: it cannot {command}", advice="activate it first")
         until = time.monotonic() + HEARS_WITHIN_S
 
         def wait() -> bool:
             time.sleep(LOOK_S)
             return time.monotonic() < until
 
-        if not robot_agent.supervisor.give_command(received, said, f"{said} was called over ROS 2", wait=wait):
+        if not robot_agent.supervisor.give_command(received, command, f"{command} was called over ROS 2", wait=wait):
             return False, f"the mission has not heard it within {HEARS_WITHIN_S:g} s; it will"
         standing = robot_agent.supervisor.status_of(received)
         return True, standing.doing or standing.state
@@ -228,7 +228,7 @@ class Executor(LifecycleNode):
             robot_agent, received = self._robot_agent, self._received
             standing = None if robot_agent is None or received is None else robot_agent.supervisor.status_of(received)
             missing = () if robot_agent is None else robot_agent.missing()
-        said = {
+        words = {
             "robot": "" if robot_agent is None else robot_agent.robot.name,
             "on": "" if robot_agent is None else robot_agent.on,
             "active": self._active,
@@ -236,12 +236,12 @@ class Executor(LifecycleNode):
             "problem": self._problem,
             "mission": None if standing is None else mission_summary(standing).model_dump(mode="json"),
         }
-        text = json.dumps(said, ensure_ascii=False)
+        text = json.dumps(words, ensure_ascii=False)
         if text != self._told:
             self._told = text
             self._status.publish(String(data=text))
         status = diagnosed(self.get_name(), standing, missing, self._problem)
-        status.hardware_id = said["robot"]
+        status.hardware_id = words["robot"]
         array = DiagnosticArray(status=[status])
         array.header.stamp = self.get_clock().now().to_msg()
         self._diagnostics.publish(array)
@@ -285,11 +285,11 @@ def diagnosed(node: str, standing: ReceivedStatus | None, missing: tuple[str, ..
     )
 
 
-def _namespace(said: str) -> str:
+def _namespace(text: str) -> str:
     from fieldhand.robot.bindings_document import as_namespace
 
     try:
-        return as_namespace(said)
+        return as_namespace(text)
     except ValueError as error:
         what, _, advice = str(error).partition("; ")
         raise InputError(what, where="robot_namespace", advice=advice) from None

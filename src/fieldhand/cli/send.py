@@ -62,7 +62,7 @@ def record(entry: OutboxEntry) -> dict[str, Any]:
 
 def line(entry: OutboxEntry) -> str:
     """Return an entry of the outbox as one line."""
-    return f"{entry.name} for {entry.url}: {entry.state}; {entry.said or 'not tried yet'}"
+    return f"{entry.name} for {entry.url}: {entry.state}; {entry.response or 'not tried yet'}"
 
 
 def _make_sender(seed: int | None) -> OutboxSender:

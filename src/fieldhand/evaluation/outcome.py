@@ -118,9 +118,9 @@ def _why(goal: Goal, tally: CaptureCount, verdict: Verdict, ended: Ended | None,
     if ended is None:
         parts.append(message("the log ends before the mission does"))
     elif not tally.reached and not tally.given_up:
-        parts.append(message("never reached: the mission ended before ({why})", why=_said(ended)))
+        parts.append(message("never reached: the mission ended before ({why})", why=_say_end(ended)))
     elif tally.open and not tally.given_up and not tally.failed:
-        parts.append(message("interrupted ({why})", why=_said(ended)))
+        parts.append(message("interrupted ({why})", why=_say_end(ended)))
     if tally.undecided and verdict == "indeterminate":
         parts.append(message("it was never tested whether more was needed"))
     return joined("; ", parts)
@@ -175,6 +175,6 @@ def _shortened(reason: str) -> str:
     return textwrap.shorten(reason, _LONGEST_REASON, placeholder=" …")
 
 
-def _said(ended: Ended) -> str:
+def _say_end(ended: Ended) -> str:
     status = say_status(ended.status)
     return joined(": ", (status, kept_in_log(ended.reason))) if ended.reason else status

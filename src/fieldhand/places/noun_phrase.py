@@ -69,8 +69,8 @@ class NounPhrase:
 
     def say(self, count: int | None = None) -> str:
         """Return the phrase with its article, and with the number of places if known."""
-        said = self._unordered(count)
-        return message("{trees}, {order}", trees=said, order=self.order) if self.order else said
+        text = self._unordered(count)
+        return message("{trees}, {order}", trees=text, order=self.order) if self.order else text
 
     def _unordered(self, count: int | None = None) -> str:
         text = self._whole(count)

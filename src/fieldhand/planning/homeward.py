@@ -50,22 +50,22 @@ def with_assumed_exit(task: Task, site: Site, robot: RobotProfile) -> Task:
     """
     then = task.composition.nominal
     metres = excessive_way_home(task, site, robot, then)
-    said = _HOMEWARD[then]
+    text = _HOMEWARD[then]
     if metres is not None and then == "return_to_end":
-        said = message(
+        text = message(
             "The way to the end marker alone is {metres} m, a large part of what it may use: the robot stays at its"
             " last place. Ask for the return if you want it.",
             context="assumption",
             metres=say_rounded(metres),
         )
     elif metres is not None:
-        said = message(
+        text = message(
             "The way to the start alone is {metres} m, a large part of what it may use: the robot stays at its last"
             " place. Ask for the return if you want it.",
             context="assumption",
             metres=say_rounded(metres),
         )
-    assumptions = tuple(dict.fromkeys([*task.command.assumptions, said]))
+    assumptions = tuple(dict.fromkeys([*task.command.assumptions, text]))
     return replace(
         task,
         command=replace(task.command, assumptions=assumptions),

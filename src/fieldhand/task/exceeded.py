@@ -145,7 +145,7 @@ def _near(event: Event, before: Sequence[Event]) -> str:
 def _digits(value: float, limit: float) -> str:
     """Return a number with enough decimals to distinguish it from the limit."""
     for decimals in range(1, 7):
-        said = f"{value:.{decimals}f}"
-        if value == limit or said != f"{limit:.{decimals}f}":
+        text = f"{value:.{decimals}f}"
+        if value == limit or text != f"{limit:.{decimals}f}":
             break
-    return Number(said.rstrip("0").rstrip(".") if "." in said else said)
+    return Number(text.rstrip("0").rstrip(".") if "." in text else text)

@@ -189,12 +189,12 @@ def _waited(event: Waited) -> str:
 
 def _exited(event: Exited) -> str:
     then = named(event.then.replace("_", " "), "way")
-    said = (
+    text = (
         message("nominal exit: {then}", then=then)
         if event.exit == "nominal"
         else message("faulted exit: {then}", then=then)
     )
-    return message("{what} ({why})", what=said, why=kept_in_log(event.reason)) if event.reason else said
+    return message("{what} ({why})", what=text, why=kept_in_log(event.reason)) if event.reason else text
 
 
 def goal_names(task: Task, robot: RobotProfile) -> Callable[[str], str]:

@@ -51,10 +51,10 @@ def say_ids(selector: Selector, found: ResolvedPlaces | None) -> str:
     if found is None:
         return ""
     ids = tuple(p.id for p in found.places)
-    said = say_selector(selector)
+    text = say_selector(selector)
     if not found.known:
         return message("(decided on the way; most likely {ids})", ids=say_places(ids))
-    new = 0 < len(ids) <= 12 and not all(i in said.split() for i in ids)
+    new = 0 < len(ids) <= 12 and not all(i in text.split() for i in ids)
     return message("({ids})", ids=say_places(ids)) if new else ""
 
 

@@ -168,20 +168,20 @@ class _LineWriter:
 
     def _at(self, node: Node, selector: Selector) -> str:
         """Return a resolved place with its wording in the Task, or the reverse if it is decided during the mission."""
-        said = say_selector(selector, self._names)
+        text = say_selector(selector, self._names)
         found = self._found.get(node.id)
         one = found.one if found else None
         if one is not None:
             place = say_place(one)
-            aside = selector.aside(said)
+            aside = selector.aside(text)
             return message("{place} ({words})", place=place, words=aside) if aside else place
         if found is None:
-            return said
+            return text
         if found.known:
             ids = say_places(tuple(p.id for visit in found.visits for p in visit))
-            return message("{place} (in turn {ids})", place=said, ids=ids)
+            return message("{place} (in turn {ids})", place=text, ids=ids)
         likely = say_place(found.places[0])
-        return message("{place} (decided on the way; most likely {likely})", place=said, likely=likely)
+        return message("{place} (decided on the way; most likely {likely})", place=text, likely=likely)
 
     def _arrived(self, label: str, node: str, number: int) -> None:
         """Register a new current place, so that earlier readings count as taken elsewhere."""
@@ -237,23 +237,23 @@ class _LineWriter:
             return message("At {place}", place=self._at(node, node.select))
         whole = node.optional or node.at_most is None
         count = len(places) if found and found.known and places and whole else None
-        said = say_selector(node.select, self._names, count)
+        text = say_selector(node.select, self._names, count)
         if node.select == Trees():
-            said = counted("the {count} tree", "the {count} trees", count) if count else message("all trees")
+            text = counted("the {count} tree", "the {count} trees", count) if count else message("all trees")
         if node.optional:
-            return self._optional_visits(node, said, found)
+            return self._optional_visits(node, text, found)
         if node.at_most is not None:
-            at = message("At no more than {count} of {trees}", count=node.at_most, trees=said)
-        elif isinstance(node.select, UnionOf) and not said.startswith("trees "):
-            at = message("At {place}", place=said)
-        elif said.startswith("every "):
-            at = message("At {every_tree}", every_tree=said)
+            at = message("At no more than {count} of {trees}", count=node.at_most, trees=text)
+        elif isinstance(node.select, UnionOf) and not text.startswith("trees "):
+            at = message("At {place}", place=text)
+        elif text.startswith("every "):
+            at = message("At {every_tree}", every_tree=text)
         else:
-            at = message("At each of {trees}", trees=said)
+            at = message("At each of {trees}", trees=text)
         return in_order(node, message("{at_places} {ids}", at_places=at, ids=say_ids(node.select, found)), len(places))
 
-    def _optional_visits(self, node: ForEach, said: str, found: ResolvedPlaces | None) -> str:
-        at = message("At as many of {trees} as the budget allows", trees=said)
+    def _optional_visits(self, node: ForEach, text: str, found: ResolvedPlaces | None) -> str:
+        at = message("At as many of {trees} as the budget allows", trees=text)
         if node.at_most is not None:
             at = message("{at_places}, at most {count}", at_places=at, count=node.at_most)
         if node.reward:

@@ -103,9 +103,9 @@ def _show(found: Summary) -> None:
     show.out.print(f"{found.lost} missions ended by a fault")
     show.out.print(f"{len(found.wrong)} double visits, wrong ends and logs that do not fit{_some(found.wrong)}")
     show.heading("Processor time of the guard")
-    show.out.print(f"first decision: {_said(found.first)}")
-    show.out.print(f"later choices of an optional visit: {_said(found.choices)}")
-    show.out.print(f"later answers about mandatory work: {_said(found.admissions)}")
+    show.out.print(f"first decision: {_times_text(found.first)}")
+    show.out.print(f"later choices of an optional visit: {_times_text(found.choices)}")
+    show.out.print(f"later answers about mandatory work: {_times_text(found.admissions)}")
     show.out.print()
     show.out.print("The guard kept what it promises." if found.passed else "The guard did NOT keep what it promises.")
 
@@ -138,7 +138,7 @@ def _some(sentences: Sequence[str]) -> str:
     return f": {'; '.join(sentences[:_MOST_NAMED])}{more}"
 
 
-def _said(times: Times) -> str:
+def _times_text(times: Times) -> str:
     return (
         f"median {times.median_ms:.1f} ms, 99th percentile {times.p99_ms:.0f} ms, worst {times.worst_ms:.0f} ms"
         f" ({times.count:,})"

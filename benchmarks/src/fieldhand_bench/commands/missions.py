@@ -123,10 +123,10 @@ def _record(trials: Sequence[CaseTrial]) -> dict[str, Any]:
 
 
 def _result(trial: CaseTrial) -> str:
-    said = _ANSWERS[trial.answer]
+    text = _ANSWERS[trial.answer]
     if not trial.as_asked:
-        return said
-    return "as asked" if trial.answer == "planned" else f"as asked: {said}"
+        return text
+    return "as asked" if trial.answer == "planned" else f"as asked: {text}"
 
 
 def _show(trials: Sequence[CaseTrial], planner: str, seed: int) -> None:

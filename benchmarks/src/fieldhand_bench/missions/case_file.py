@@ -170,7 +170,7 @@ def _fits(expected: Expected, case_site: CaseSite, where: str) -> None:
                         advice=f"the site's {len(case_site.xy)} trees are counted from 0",
                     )
                 case Attributes(values=values):
-                    there = {key for said in case_site.properties for key in said}
+                    there = {key for properties in case_site.properties for key in properties}
                     for key in values:
                         if key not in there:
                             raise CaseError(
@@ -213,14 +213,14 @@ def _explained(error: ValidationError, path: Path, content: dict[Any, Any]) -> C
 
 def _where(path: Path, content: dict[Any, Any], loc: list[int | str]) -> str:
     """Return the location of a mistake: the file, the id of the case, and the path of keys and indices in it."""
-    said = str(path)
+    text = str(path)
     if len(loc) > 1 and loc[0] == "cases" and isinstance(loc[1], int):
         case = content["cases"][loc[1]]
         named = case.get("id") if isinstance(case, dict) else None
-        said += f", case '{named}'" if isinstance(named, str) else f", case {loc[1] + 1} of the list"
+        text += f", case '{named}'" if isinstance(named, str) else f", case {loc[1] + 1} of the list"
         loc = loc[2:]
     inner = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in loc).lstrip(".")
-    return f"{said}: {inner}" if inner else said
+    return f"{text}: {inner}" if inner else text
 
 
 def _keys(loc: list[int | str]) -> list[str]:

@@ -117,8 +117,8 @@ class PlaceForm(Form):
 
     def words(self) -> str:
         """Return the place as written in the file, on one line."""
-        said = self.model_dump(by_alias=True, exclude_none=True)
-        return "{" + ", ".join(f"{key}: {_flow(value)}" for key, value in said.items()) + "}"
+        fields = self.model_dump(by_alias=True, exclude_none=True)
+        return "{" + ", ".join(f"{key}: {_flow(value)}" for key, value in fields.items()) + "}"
 
     def _demands(self) -> Iterator[Demand]:
         if self.corner is not None:

@@ -128,13 +128,13 @@ def load_case_site(path: Path) -> CaseSite:
     trees: list[tuple[float, float]] = []
     properties: list[Mapping[str, Any]] = []
     markers: dict[str, tuple[float, float]] = {}
-    for said, at in _points(path):
-        kind = str(said.get("marker-symbol") or said.get("kind") or "tree")
+    for named, at in _points(path):
+        kind = str(named.get("marker-symbol") or named.get("kind") or "tree")
         if kind in ("start", "end"):
             markers[kind] = at
         elif "tree" in kind or "vine" in kind:
             trees.append(at)
-            properties.append(said)
+            properties.append(named)
     if len(trees) < 2:
         raise CaseError(
             f"the judge finds {len(trees)} trees in it", where=str(path), advice="give a site with two trees or more"

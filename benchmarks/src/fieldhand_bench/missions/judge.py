@@ -50,11 +50,11 @@ def _counts(expected: Expected, log: Log) -> Iterator[str]:
     for action, bounds in (expected.counts or {}).items():
         captures = sum(one.captures for one in log.done if one.action == action)
         if not _within(captures, bounds):
-            yield f"{action} was done {captures} times, wanted {_said(bounds)}"
+            yield f"{action} was done {captures} times, wanted {_bounds_text(bounds)}"
     for action, bounds in expected.trees.items():
         trees = len({one.tree for one in log.done if one.action == action})
         if not _within(trees, bounds):
-            yield f"{action} was done at {trees} different trees, wanted {_said(bounds)}"
+            yield f"{action} was done at {trees} different trees, wanted {_bounds_text(bounds)}"
     if expected.counts is not None:
         yield from _uncalled_for(expected.counts, expected, log.done)
 
@@ -77,7 +77,7 @@ def _distances(expected: Expected, log: Log) -> Iterator[str]:
         for here, there in itertools.pairwise(log.stops):
             away = math.dist(here, there)
             if not _within(away, expected.apart_m):
-                yield f"two stops are {away:.1f} m apart, wanted {_said(expected.apart_m)} m"
+                yield f"two stops are {away:.1f} m apart, wanted {_bounds_text(expected.apart_m)} m"
     if expected.most_travel_m is not None and log.travelled_m > expected.most_travel_m:
         yield f"{log.travelled_m:.1f} m were driven, {expected.most_travel_m:g} m at most wanted"
 
@@ -100,6 +100,6 @@ def _within(value: float, bounds: Bounds) -> bool:
     return bounds[0] <= value <= bounds[1]
 
 
-def _said(bounds: Bounds) -> str:
+def _bounds_text(bounds: Bounds) -> str:
     low, high = bounds
     return f"{low:g}" if low == high else f"{low:g} to {high:g}"

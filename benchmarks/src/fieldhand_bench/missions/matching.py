@@ -24,9 +24,9 @@ def mismatch(site: CaseSite, steps: Sequence[Step], done: Sequence[Done], *, any
 
 def _surplus(steps: Sequence[Step], done: Sequence[Done]) -> str:
     wanted, had = Counter(step.action for step in steps), Counter(d.action for d in done)
-    said = [f"{n} x {action} missing" for action, n in (wanted - had).items()]
-    said += [f"{n} x {action} too many" for action, n in (had - wanted).items()]
-    return f": {', '.join(said)}" if said else ""
+    text = [f"{n} x {action} missing" for action, n in (wanted - had).items()]
+    text += [f"{n} x {action} too many" for action, n in (had - wanted).items()]
+    return f": {', '.join(text)}" if text else ""
 
 
 def _fits(site: CaseSite, step: Step, done: Done, labels: Labels) -> bool:

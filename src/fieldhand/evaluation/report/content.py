@@ -161,13 +161,13 @@ def _verdict(
     met = sum(o.outcome == "success" for o in outcomes)
     goals = f"{met} of {say_count(len(outcomes), 'goal')} met" if outcomes else "no goals"
     if status is None:
-        said = "".join(f"; {one.why}" for one in found)
-        return "cut off", f"Cut off: the log ends before the mission does; {goals} so far{said}."
+        text = "".join(f"; {one.why}" for one in found)
+        return "cut off", f"Cut off: the log ends before the mission does; {goals} so far{text}."
     if status in ("faulted", "aborted"):
         reason = "; ".join(filter(None, [reason, *(one.why for one in found)]))
     short_of = status == "completed" and met < len(outcomes)
-    said = f" ({reason})" if reason else ""
-    return "short" if short_of else status, f"{capitalised(say_status(status))}{said}: {goals}."
+    text = f" ({reason})" if reason else ""
+    return "short" if short_of else status, f"{capitalised(say_status(status))}{text}: {goals}."
 
 
 def _tiles(events: Sequence[Event]) -> tuple[tuple[str, str], ...]:

@@ -44,8 +44,8 @@ class UnionOf(Selector):
             return wording.phrase(self.parts[0])
         if trees and len(trees) == len(self.parts):
             return many(message("trees {ids}", ids=listed(trees)))
-        said = listed([wording.phrase(part).say() for part in self.parts])
-        return many(said or message("no place at all"))
+        text = listed([wording.phrase(part).say() for part in self.parts])
+        return many(text or message("no place at all"))
 
     @property
     def keeps_order(self) -> bool:

@@ -35,7 +35,7 @@ LONGEST_LINE = 400
 MOST_TOKENS = 5_970
 SITE_TOKENS = (250, 800)
 #: Maximum number of synonyms shown for an action or quantity.
-SAID_WORDS = 5
+MOST_SYNONYMS = 5
 
 
 @cache
@@ -139,9 +139,9 @@ def _action(action: Action) -> str:
     parts = [f"- {action.name}: {action.description}".rstrip(": ")]
     if action.measures:
         parts.append(f"measures {', '.join(action.measures)}")
-    said = _plainest([*action.words, *action.verbs])
-    if said:
-        parts.append(f"people say: {', '.join(said)}")
+    words = _plainest([*action.words, *action.verbs])
+    if words:
+        parts.append(f"people say: {', '.join(words)}")
     parts += [_parameter(parameter) for parameter in action.parameters]
     return "; ".join(parts)
 
@@ -159,14 +159,14 @@ def _bound(value: float | None) -> str:
 
 def _plainest(words: Sequence[str]) -> list[str]:
     """Return the shortest words, usually the most common, in the order of the profile."""
-    kept = set(sorted(words, key=lambda word: (len(word.split()), len(word)))[:SAID_WORDS])
+    kept = set(sorted(words, key=lambda word: (len(word.split()), len(word)))[:MOST_SYNONYMS])
     return [word for word in words if word in kept]
 
 
 def _quantity(quantity: Quantity) -> str:
     levels = [f"{word} is {level.direction} {level.value:g}" for word, level in quantity.levels.items()]
-    said = f"people say: {', '.join(_plainest(quantity.words))}" if quantity.words else ""
-    return "; ".join(part for part in (f"- {quantity.name} in {quantity.unit}", *levels, said) if part)
+    synonyms = f"people say: {', '.join(_plainest(quantity.words))}" if quantity.words else ""
+    return "; ".join(part for part in (f"- {quantity.name} in {quantity.unit}", *levels, synonyms) if part)
 
 
 def _line(text: str) -> str:

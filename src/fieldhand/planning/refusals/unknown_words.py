@@ -92,7 +92,7 @@ def reasons_of_unknown(unknown: UnknownWords, correction: SpellingCorrection | N
     """Yield what is known of the unknown words: misspelt, lacking on the site, or not understood."""
     site, robot = unknown.parsed.site, unknown.parsed.robot
     if correction is not None:
-        near = [message("'{near}' for '{said}'", near=known, said=said) for said, known in correction.meant]
+        near = [message("'{near}' for '{said}'", near=known, said=typed) for typed, known in correction.meant]
         advice = message("did you mean {near}?", near=joined(", ", near))
         yield replace(not_understood(unknown.words, advice), final=True)
         return

@@ -324,9 +324,9 @@ class ActionClient:
         if goal.forgotten and goal.asked_cancel_s is not None:
             return ActionOutcome(how="cancelled", what=goal.why)
         if now - cancel_asked_s > CANCEL_S:
-            said = "refuses to be cancelled" if goal.refused else "does not confirm that it was cancelled"
+            fault = "refuses to be cancelled" if goal.refused else "does not confirm that it was cancelled"
             begun = f"{goal.why}; then " if goal.why else ""
-            return ActionOutcome(how="untold", what=f"{begun}{self.name} {said}", moving=True)
+            return ActionOutcome(how="untold", what=f"{begun}{self.name} {fault}", moving=True)
         if goal.asked_cancel_s is None or now - goal.asked_cancel_s >= CANCEL_AGAIN_S:
             goal.asked_cancel_s = now
             self._request_cancel(goal.id, settled=goal.accepted or now - sent_s > self._accept_s)

@@ -81,8 +81,8 @@ class CaptureCall:
 
     def failure(self, why: str) -> Message:
         """Return a reply that reports a failure, as far as its type has fields for it."""
-        said = ((self.call.success, False), (self.call.message, why))
-        return message_of({path: value for path, value in said if path})
+        fields = ((self.call.success, False), (self.call.message, why))
+        return message_of({path: value for path, value in fields if path})
 
     def _place(self, request: Message) -> Place:
         named = {value: path for path, value in self.call.request.items() if isinstance(value, str)}
