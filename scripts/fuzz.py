@@ -99,7 +99,7 @@ class Reading:
         except FieldhandError as error:
             self._require_printable(str(error), data)
         except Exception as error:  # noqa: BLE001  a user would see any other exception
-            self._found(_name(error), data, traceback.format_exc())
+            self._record(_name(error), data, traceback.format_exc())
         took = time.process_time() - began
         self.figures.inputs += 1
         if took > self.figures.slowest_s:
@@ -115,11 +115,11 @@ class Reading:
 
     def _require_printable(self, message: str, data: bytes) -> None:
         if len(message) > MAX_MESSAGE:
-            self._found(f"a message of {len(message) // 1000 or 1},000 characters", data, message)
+            self._record(f"a message of {len(message) // 1000 or 1},000 characters", data, message)
         elif any(0xD800 <= ord(c) <= 0xDFFF for c in message):
-            self._found("a message that cannot be printed", data, repr(message))
+            self._record("a message that cannot be printed", data, repr(message))
 
-    def _found(self, name: str, data: bytes, why: str) -> None:
+    def _record(self, name: str, data: bytes, why: str) -> None:
         times = self.figures.failures.get(name, 0)
         self.figures.failures[name] = times + 1
         if times == 0:

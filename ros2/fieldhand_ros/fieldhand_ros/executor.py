@@ -77,7 +77,7 @@ class Executor(LifecycleNode):
         kept = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self._status = self.create_publisher(String, "~/status", kept)
         self._diagnostics = self.create_publisher(DiagnosticArray, "/diagnostics", 10)
-        self._told = ""
+        self._published = ""
         self.create_timer(TELL_S, self._tell, callback_group=MutuallyExclusiveCallbackGroup())
 
     # --- lifecycle -----------------------------------------------------------------------------------------------
@@ -237,8 +237,8 @@ class Executor(LifecycleNode):
             "mission": None if standing is None else mission_summary(standing).model_dump(mode="json"),
         }
         text = json.dumps(words, ensure_ascii=False)
-        if text != self._told:
-            self._told = text
+        if text != self._published:
+            self._published = text
             self._status.publish(String(data=text))
         status = diagnosed(self.get_name(), standing, missing, self._problem)
         status.hardware_id = words["robot"]

@@ -102,7 +102,7 @@ def router(
     @routes.get("/agent/missions/{bundle}")
     def mission(bundle: Bundle) -> Receipt:
         """Return hashes and state of a mission that was received."""
-        received = found(bundle)
+        received = find_received(bundle)
         return Receipt(hashes=dict(received.hashes), new=False, mission=mission_summary(supervisor.status_of(received)))
 
     @routes.post("/agent/missions/{bundle}/orders")
@@ -122,12 +122,12 @@ def router(
         wait: Annotated[float, Query(ge=0, le=LONGEST_WAIT_S, allow_inf_nan=False)] = 0.0,
     ) -> Events:
         """Return the events after number ``after``; if there are none yet, wait some seconds for one."""
-        received = await run_in_threadpool(found, bundle)
+        received = await run_in_threadpool(find_received, bundle)
         lines, idle = await _awaited(supervisor, received, after, wait)
         standing = await run_in_threadpool(supervisor.status_of, received)
         return Events(events=event_lines(lines), idle=idle, mission=mission_summary(standing))
 
-    def found(bundle: str) -> ReceivedMission:
+    def find_received(bundle: str) -> ReceivedMission:
         received = mission_store.find(bundle)
         if received is None:
             raise RefusedRequest(404, "no such mission has arrived", "send it first")

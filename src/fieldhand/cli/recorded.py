@@ -160,14 +160,14 @@ def plan_of_bundle(file: Path) -> RecordedPlan:
     from fieldhand.approval.bundle.container import read_bundle_file
     from fieldhand.approval.bundle.opening import authorization_of
 
-    found = read_unverified(read_bundle_file(file), str(file))
+    unverified = read_unverified(read_bundle_file(file), str(file))
     return RecordedPlan(
-        task=found.content.task,
-        document=found.document,
-        site_and_robot=SiteAndRobot(site=found.content.site, robot=found.content.robot),
-        authorization=authorization_of(found.content.manifest),
-        signed=found.signed,
-        hashes=(("signed mission", found.sha256),),
+        task=unverified.content.task,
+        document=unverified.document,
+        site_and_robot=SiteAndRobot(site=unverified.content.site, robot=unverified.content.robot),
+        authorization=authorization_of(unverified.content.manifest),
+        signed=unverified.signed,
+        hashes=(("signed mission", unverified.sha256),),
     )
 
 

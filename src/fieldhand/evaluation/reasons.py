@@ -62,14 +62,14 @@ def left_out(
     average)".
     """
     binding = _binding(budget, chances)
-    told = message(
+    what = message(
         "{places}: {chance} % chance of running short ({why})",
         context="log",
         places=named(visits, indices),
         chance=f"{100 * chances[binding]:.0f}",
         why=_amounts(budget, state, trip, binding),
     )
-    return message("skipped {what}", context="log", what=told)
+    return message("skipped {what}", context="log", what=what)
 
 
 def _binding(budget: MissionBudget, chances: Floats) -> int:

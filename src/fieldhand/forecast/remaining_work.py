@@ -195,11 +195,11 @@ def every_answer(nodes: Sequence[Node]) -> list[Answer]:
     some = asked[:_MAX_CONDITIONS]
     beyond = (True, False) if len(asked) > len(some) else (False,)
     return [
-        _told(dict(zip(some, answers, strict=True)), default)
+        _answer_from(dict(zip(some, answers, strict=True)), default)
         for answers in itertools.product((True, False), repeat=len(some))
         for default in beyond
     ]
 
 
-def _told(answers: dict[str, bool], default: bool) -> Answer:
+def _answer_from(answers: dict[str, bool], default: bool) -> Answer:
     return lambda node_id: answers.get(node_id, default)

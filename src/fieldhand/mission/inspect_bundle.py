@@ -68,7 +68,7 @@ def inspect_bundle(
     except BundleError as error:
         return BundleInspection(state="broken", problems=(str(error),))
     signer = known.get(sealed.signature.public.fingerprint)
-    found = BundleInspection(
+    inspection = BundleInspection(
         state="unknown" if signer is None else signer.state,
         problems=(),
         signer="" if signer is None else signer.name,
@@ -81,14 +81,14 @@ def inspect_bundle(
         problems.append(str(error))
     try:
         manifest = manifest_of(sealed, now=now)
-        found = replace(found, manifest=manifest)
+        inspection = replace(inspection, manifest=manifest)
         try:
             require_unexpired(manifest, approval_memory(environ).time(now), now, source)
         except NotApprovedError as error:
             problems.append(str(error))
-        content = content_of(sealed, now=now, stranger=found.state != "trusted")
+        content = content_of(sealed, now=now, stranger=inspection.state != "trusted")
     except FieldhandError as error:
-        return replace(found, problems=(*problems, str(error)))
+        return replace(inspection, problems=(*problems, str(error)))
     reviewed = review(content.task, content.site, content.robot)
     problems.extend(language.say(problem.line()) for problem in reviewed.errors)
-    return replace(found, problems=tuple(problems), content=content, review=reviewed)
+    return replace(inspection, problems=tuple(problems), content=content, review=reviewed)

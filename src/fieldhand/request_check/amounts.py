@@ -280,9 +280,9 @@ def _listed(tokens: Sequence[Token], before: StatedAmount, number: _Number) -> b
     return 0 < len(between) <= _LONGEST_JOINT and all(text in _JOINS | w.TREES | w.ROWS for text in between)
 
 
-def _shared_units(found: Sequence[StatedAmount], tokens: Sequence[Token]) -> Iterator[StatedAmount]:
+def _shared_units(amounts_found: Sequence[StatedAmount], tokens: Sequence[Token]) -> Iterator[StatedAmount]:
     """Yield amounts with a unit taken from the second number of a range: "between 380 and 420 ppm"."""
-    for amount, following in zip_longest(found, found[1:]):
+    for amount, following in zip_longest(amounts_found, amounts_found[1:]):
         joined = following is not None and [t.text for t in tokens[amount.index + 1 : following.index]] in (
             ["and"], ["to"], ["-"], ["or"]
         )  # fmt: skip

@@ -56,12 +56,12 @@ def mismatches(task: Task, site: Site, robot: RobotProfile) -> tuple[PlanMismatc
 def _sensors(facts: RequestFacts, plan: PlanFacts, robot: RobotProfile) -> Iterator[PlanMismatch]:
     """Yield requested actions that the plan lacks, and planned actions that the request does not mention."""
     spoken: set[str] = set()
-    told: set[frozenset[str]] = set()
+    reported: set[frozenset[str]] = set()
     for k, noun in facts.nouns.items():
         spoken |= noun.actions
-        if noun.actions & plan.actions or facts.negated(k) or noun.actions in told:
+        if noun.actions & plan.actions or facts.negated(k) or noun.actions in reported:
             continue
-        told.add(noun.actions)
+        reported.add(noun.actions)
         words = w.quoted(facts.tokens[k : k + noun.length])
         able = listed([say_name(name) for name in sorted(noun.actions)], "or")
         yield PlanMismatch(

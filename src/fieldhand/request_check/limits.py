@@ -102,10 +102,10 @@ def _drives(plan: PlanFacts, metres_per_second: float) -> bool:
 
 def _parameters(plan: PlanFacts) -> list[float]:
     """Return numeric parameters of actions, also converted from centimetres to metres."""
-    told = [
+    stated = [
         value for node in plan.nodes for _, value in getattr(node, "parameters", ()) if isinstance(value, float | int)
     ]
-    return [x for value in told for x in (float(value), float(value) / 100.0)]
+    return [x for value in stated for x in (float(value), float(value) / 100.0)]
 
 
 def _invented(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:

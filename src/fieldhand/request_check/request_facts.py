@@ -210,15 +210,15 @@ def _phrases(tokens: Sequence[Token], phrases: set[str]) -> Iterator[tuple[str, 
 
 def _nouns(tokens: Sequence[Token], robot: RobotProfile, site: Site) -> dict[int, Noun]:
     """Return the robot's nouns by token, the longest phrase at each."""
-    told = {_singular(word): word for a in robot.actions for word in (*a.words, *a.verbs)}
+    actions = {_singular(word): word for a in robot.actions for word in (*a.words, *a.verbs)}
     of_attributes = {word for name in site.attributes for word in _norm(name).split()}
     found: dict[int, Noun] = {}
     k = 0
     while k < len(tokens):
         for length in range(min(5, len(tokens) - k), 0, -1):
             phrase = _stem(" ".join(t.text for t in tokens[k : k + length]))
-            if phrase in told and phrase not in of_attributes:
-                found[k] = Noun(length=length, actions=_meant(told[phrase], robot))
+            if phrase in actions and phrase not in of_attributes:
+                found[k] = Noun(length=length, actions=_meant(actions[phrase], robot))
                 k += length - 1
                 break
         k += 1

@@ -154,11 +154,11 @@ def _invented(facts: RequestFacts, robot: RobotProfile, test: PlannedTest) -> It
         if quantity is not None and any(_same(value, level.value) for level in quantity.levels.values()):
             continue
         what = say_name(test.attribute or test.quantity)
-        told = say_quantity(value, test.unit)
+        text = say_quantity(value, test.unit)
         yield PlanMismatch(
             kind="threshold",
             what=message(
-                "the plan compares the {what} with {value}, which the request does not mention", what=what, value=told
+                "the plan compares the {what} with {value}, which the request does not mention", what=what, value=text
             ),
             node=test.node,
         )

@@ -137,19 +137,19 @@ def carry_out_in_steps(program: Program, perform: Callable[[Instruction], Genera
         request = next(program, None)
         while request is not None:
             try:
-                found = yield from perform(request)
+                result = yield from perform(request)
             except (Failed, GivenUp, Cut) as thrown:
                 request = _thrown(program, thrown)
             else:
-                request = _sent(program, found)
+                request = _sent(program, result)
     finally:
         program.close()
 
 
-def _sent(program: Program, found: Any) -> Instruction | None:
+def _sent(program: Program, result: Any) -> Instruction | None:
     """Send a result and return the next instruction; None at the end."""
     try:
-        return program.send(found)
+        return program.send(result)
     except StopIteration:
         return None
 

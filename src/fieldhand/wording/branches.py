@@ -42,11 +42,15 @@ def say_decisions(decisions: Sequence[Decision], task: Task, robot: RobotProfile
         answers.setdefault((decision.node, decision.kind), []).append(decision)
     nodes = {node.id: node for node in plan.walk(task.composition.plan)}
     # Actions that never failed are not mentioned.
-    told = {key: some for key, some in answers.items() if key[1] in ("holds", "taken") or any(d.answer for d in some)}
+    decided = {
+        key: some for key, some in answers.items() if key[1] in ("holds", "taken") or any(d.answer for d in some)
+    }
     taken = {node.reading: message("of {node}", node=node.id) for node in reversed(nodes.values()) if node.reading}
-    parts = [_say_answers(kind, nodes[node], some, taken, robot) for (node, kind), some in list(told.items())[:_MOST]]
-    if len(told) > _MOST:
-        parts.append(message("and {count} more", count=len(told) - _MOST))
+    parts = [
+        _say_answers(kind, nodes[node], some, taken, robot) for (node, kind), some in list(decided.items())[:_MOST]
+    ]
+    if len(decided) > _MOST:
+        parts.append(message("and {count} more", count=len(decided) - _MOST))
     return joined("; ", parts) if parts else ""
 
 

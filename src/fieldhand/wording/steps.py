@@ -48,7 +48,7 @@ def say_place(place: Place) -> str:
 
 
 def write_lines(
-    task: Task, site: Site, robot: RobotProfile, found: Mapping[str, ResolvedPlaces]
+    task: Task, site: Site, robot: RobotProfile, resolved: Mapping[str, ResolvedPlaces]
 ) -> tuple[ReadBackLine, ...]:
     """Return the plan and its nominal exit as lines.
 
@@ -57,7 +57,7 @@ def write_lines(
         site, robot: Site and robot of the mission.
         found: Resolved places of each node, from :func:`fieldhand.wording.resolved_places.gather`.
     """
-    writer = _LineWriter(robot, found)
+    writer = _LineWriter(robot, resolved)
     writer.node(task.composition.plan, 0)
     writer.step(task.composition.plan.id, 0, say_exit(task.composition.nominal, site))
     return tuple(writer.lines)
@@ -100,9 +100,9 @@ class _Taken:
 class _LineWriter:
     """Writes the lines, and tracks the names by which later steps refer to earlier ones."""
 
-    def __init__(self, robot: RobotProfile, found: Mapping[str, ResolvedPlaces]) -> None:
+    def __init__(self, robot: RobotProfile, resolved: Mapping[str, ResolvedPlaces]) -> None:
         self.lines: list[ReadBackLine] = []
-        self._robot, self._found = robot, found
+        self._robot, self._resolved = robot, resolved
         self._number = 0
         #: Description of each label, and the place of each reading.
         self._names: Names = {}
@@ -169,18 +169,18 @@ class _LineWriter:
     def _at(self, node: Node, selector: Selector) -> str:
         """Return a resolved place with its wording in the Task, or the reverse if it is decided during the mission."""
         text = say_selector(selector, self._names)
-        found = self._found.get(node.id)
-        one = found.one if found else None
+        resolved = self._resolved.get(node.id)
+        one = resolved.one if resolved else None
         if one is not None:
             place = say_place(one)
             aside = selector.aside(text)
             return message("{place} ({words})", place=place, words=aside) if aside else place
-        if found is None:
+        if resolved is None:
             return text
-        if found.known:
-            ids = say_places(tuple(p.id for visit in found.visits for p in visit))
+        if resolved.known:
+            ids = say_places(tuple(p.id for visit in resolved.visits for p in visit))
             return message("{place} (in turn {ids})", place=text, ids=ids)
-        likely = say_place(found.places[0])
+        likely = say_place(resolved.places[0])
         return message("{place} (decided on the way; most likely {likely})", place=text, likely=likely)
 
     def _arrived(self, label: str, node: str, number: int) -> None:
@@ -191,8 +191,8 @@ class _LineWriter:
 
     def _name(self, label: str, node: str, number: int) -> None:
         if label:
-            found = self._found.get(node)
-            one = found.one if found else None
+            resolved = self._resolved.get(node)
+            one = resolved.one if resolved else None
             self._names[label] = (
                 say_place(one) if one is not None else message("the place of step {number}", number=number)
             )
@@ -231,17 +231,17 @@ class _LineWriter:
 
     def _visits(self, node: ForEach) -> str:
         """Return the places that a for-each visits, with their order."""
-        found = self._found.get(node.id)
-        places = (*found.places, *found.shed) if found else ()
+        resolved = self._resolved.get(node.id)
+        places = (*resolved.places, *resolved.shed) if resolved else ()
         if node.select.single and len(places) < 2:
             return message("At {place}", place=self._at(node, node.select))
         whole = node.optional or node.at_most is None
-        count = len(places) if found and found.known and places and whole else None
+        count = len(places) if resolved and resolved.known and places and whole else None
         text = say_selector(node.select, self._names, count)
         if node.select == Trees():
             text = counted("the {count} tree", "the {count} trees", count) if count else message("all trees")
         if node.optional:
-            return self._optional_visits(node, text, found)
+            return self._optional_visits(node, text, resolved)
         if node.at_most is not None:
             at = message("At no more than {count} of {trees}", count=node.at_most, trees=text)
         elif isinstance(node.select, UnionOf) and not text.startswith("trees "):
@@ -250,15 +250,17 @@ class _LineWriter:
             at = message("At {every_tree}", every_tree=text)
         else:
             at = message("At each of {trees}", trees=text)
-        return in_order(node, message("{at_places} {ids}", at_places=at, ids=say_ids(node.select, found)), len(places))
+        return in_order(
+            node, message("{at_places} {ids}", at_places=at, ids=say_ids(node.select, resolved)), len(places)
+        )
 
-    def _optional_visits(self, node: ForEach, text: str, found: ResolvedPlaces | None) -> str:
+    def _optional_visits(self, node: ForEach, text: str, resolved: ResolvedPlaces | None) -> str:
         at = message("At as many of {trees} as the budget allows", trees=text)
         if node.at_most is not None:
             at = message("{at_places}, at most {count}", at_places=at, count=node.at_most)
         if node.reward:
             at = message("{at_places}, preferring high {reward}", at_places=at, reward=say_name(node.reward))
-        return message("{at_places} {expected}", at_places=at, expected=say_expected_visits(found))
+        return message("{at_places} {expected}", at_places=at, expected=say_expected_visits(resolved))
 
     def _repeat(self, node: Repeat, indent: int) -> None:
         times = say_times(node.times)
@@ -273,7 +275,7 @@ class _LineWriter:
             )
 
     def _optional(self, node: OptionalStep, indent: int) -> None:
-        expected = say_expected(self._found.get(node.id))
+        expected = say_expected(self._resolved.get(node.id))
         if node.reward == 1.0:
             head = message("If the budget allows {expected}:", expected=expected)
         else:

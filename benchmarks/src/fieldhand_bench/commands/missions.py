@@ -168,11 +168,11 @@ def _table(title: str, trials: Sequence[CaseTrial], *, published: bool) -> Table
 
     from fieldhand_bench.missions.published import row_of
 
-    told = any(trial.tries for trial in trials)
+    with_model = any(trial.tries for trial in trials)
     table = Table(title=title, title_justify="left", box=SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0))
     for head in ("case", "result", *(("published",) if published else ())):
         table.add_column(head)
-    for head in ("worlds", "acts", "ifs", "plan ms", *(("tokens", "tries") if told else ())):
+    for head in ("worlds", "acts", "ifs", "plan ms", *(("tokens", "tries") if with_model else ())):
         table.add_column(head, justify="right", no_wrap=True)
     for trial in trials:
         row = row_of(trial.id)
@@ -180,6 +180,6 @@ def _table(title: str, trials: Sequence[CaseTrial], *, published: bool) -> Table
             trial.id, _result(trial), *((row.verdict,) if published and row else ()),
             f"{trial.worlds_right}/{trial.worlds}" if trial.worlds else "", str(trial.tasks or ""),
             str(trial.conditionals or ""), f"{1000 * trial.plan_s:.0f}",
-            *((str(trial.tokens or ""), str(trial.tries or "")) if told else ()),
+            *((str(trial.tokens or ""), str(trial.tries or "")) if with_model else ()),
         )  # fmt: skip
     return table

@@ -40,14 +40,14 @@ class Timing:
         first_s: Duration of the first time, before anything is cached, seconds.
         median_s: Median duration of the repeats, seconds.
         worst_s: Maximum duration of the repeats, seconds.
-        found: Number of places that a selector found; 0 for other steps.
+        places: Number of places that a selector gave; 0 for other steps.
     """
 
     name: str
     first_s: float
     median_s: float
     worst_s: float
-    found: int = 0
+    places: int = 0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -177,15 +177,15 @@ def _selectors(site: Site, repeats: int, clock: Clock) -> tuple[Timing, ...]:
     context = Context(here=middle, visited=visited, bound={EXAMPLE_LABEL: (middle,)})
     timings = []
     for name, selector in samples(site).items():
-        taken, found = [], 0
+        taken, places = [], 0
         for _ in range(repeats + 1):
             begun = clock()
             try:
-                found = len(resolve(selector, site, context))
+                places = len(resolve(selector, site, context))
             except PlaceError:
-                found = 0  # finding no place takes as long
+                places = 0  # finding no place takes as long
             taken.append(clock() - begun)
-        timings.append(_timing(name, taken[1:], first_s=taken[0], found=found))
+        timings.append(_timing(name, taken[1:], first_s=taken[0], places=places))
     return tuple(timings)
 
 
@@ -211,11 +211,11 @@ def _peak(data: bytes, clearance_m: float, standoff_m: float) -> int | None:
         return peak_bytes(file, clearance_m, standoff_m)
 
 
-def _timing(name: str, taken: Sequence[float], *, first_s: float | None = None, found: int = 0) -> Timing:
+def _timing(name: str, taken: Sequence[float], *, first_s: float | None = None, places: int = 0) -> Timing:
     return Timing(
         name=name,
         first_s=taken[0] if first_s is None else first_s,
         median_s=statistics.median(taken),
         worst_s=max(taken),
-        found=found,
+        places=places,
     )

@@ -132,11 +132,11 @@ def _no_such_range(site: Site, blocks: Sequence[Block], selector: Rows) -> Place
         if not has:
             return no_such_row(site, blocks, name)
         where[name] = [block_words(b) for b in has]
-    told = words.listed(
+    text = words.listed(
         [message("row {name} is in {blocks}", name=short(name), blocks=listed(names)) for name, names in where.items()]
     )
     return PlaceError(
-        message("{told}, so they do not form a range", told=told),
+        message("{told}, so they do not form a range", told=text),
         where=site.name,
         advice=message("ask for rows of one block at a time"),
     )

@@ -158,5 +158,5 @@ def _other_definition(theirs: list[str], ours: str, shown: str) -> EndpointProbl
     return None
 
 
-def _part(part: str, found: EndpointProblem) -> EndpointProblem:
-    return EndpointProblem(what=f"its {part}: {found.what}", advice=found.advice)
+def _part(part: str, problem: EndpointProblem) -> EndpointProblem:
+    return EndpointProblem(what=f"its {part}: {problem.what}", advice=problem.advice)

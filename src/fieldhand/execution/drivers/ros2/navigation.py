@@ -262,8 +262,8 @@ class RunningDrive:
         stamps.
         """
         navigation = self._navigation
-        fixed_s, told_s = navigation.stamp_s(), seconds_at(feedback, _STAMP)
-        return 0.0 if fixed_s is None or told_s is None else navigation.speed_m_s * abs(told_s - fixed_s)
+        fixed_s, feedback_s = navigation.stamp_s(), seconds_at(feedback, _STAMP)
+        return 0.0 if fixed_s is None or feedback_s is None else navigation.speed_m_s * abs(feedback_s - fixed_s)
 
     def _arrive(self, there: Point) -> Steps:
         """Wait until the robot's own position is within tolerance of the target."""

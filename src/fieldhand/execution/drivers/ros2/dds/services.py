@@ -131,12 +131,12 @@ class DdsServer:
         for _ in range(len(self._waiting)):
             reply = self._waiting.popleft()
             reply.tries += 1
-            if self._found(reply.request.writer):
+            if self._has_reader(reply.request.writer):
                 write(self._writer, reply.sample)
             elif reply.tries < _TRIES:
                 self._waiting.append(reply)
 
-    def _found(self, asker: int) -> bool:
+    def _has_reader(self, asker: int) -> bool:
         """Return True if the client's reader is matched, or cannot be identified."""
         client = _id_of(self._reader.get_matched_publication_data(asker), "clientid")
         return client is None or client in self._clients.ids()

@@ -66,7 +66,7 @@ class NavigationServer:
         self._through: tuple[Point, ...] = ()
         self._legs: tuple[tuple[Point, Point], ...] = ()
         self._leg = 0
-        self._begun_s = self._told_s = 0.0
+        self._begun_s = self._feedback_s = 0.0
 
     def rejection_reason(self, goal: Message) -> str | None:
         if self._platform.activity and not self._platform.driving:
@@ -85,7 +85,7 @@ class NavigationServer:
             before.aborted({})
         corners = self._corners(goal.goal_message)
         here = self._platform.position
-        self._goal, self._begun_s, self._told_s = goal, self._now(), -math.inf
+        self._goal, self._begun_s, self._feedback_s = goal, self._now(), -math.inf
         if any(math.dist(here.xy, corner) > _REACH_M for corner in corners):
             self._end(Progress(state="failed", what="the goal lies outside of the map"), _OUTSIDE)
             return
@@ -102,8 +102,8 @@ class NavigationServer:
     def step(self) -> None:
         """Publish feedback on the current goal."""
         now = self._now()
-        if self._goal is not None and now - self._told_s >= _FEEDBACK_S:
-            self._told_s = now
+        if self._goal is not None and now - self._feedback_s >= _FEEDBACK_S:
+            self._feedback_s = now
             self._goal.feedback(self._feedback(self._goal, now))
 
     def _corners(self, goal: Message) -> tuple[Point, ...]:
