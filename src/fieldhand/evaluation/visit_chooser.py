@@ -126,6 +126,7 @@ class VisitChooser:
                     reason=no_way(candidates, cut_off),
                     chance_short=1.0,
                     cause="unreachable",
+                    names_places=True,
                 )
             within = cheapest(state.context.here, [candidates[i] for i in open_], rest, self._budget.drives)
             open_ = [open_[k] for k in within]
@@ -164,6 +165,7 @@ class VisitChooser:
             reason=joined("; ", reasons),
             chance_short=chance,
             cause="unreachable" if cut_off and not gone else "budget",
+            names_places=bool(reasons),
         )
 
     # --- a run -------------------------------------------------------------------------------------------------------
