@@ -13,7 +13,7 @@ from fieldhand.errors import CaseError
 from fieldhand.testing.small_orchard import at as lon_lat
 from fieldhand_bench.missions.case_form import ExpectForm
 from fieldhand_bench.missions.case_site import CaseSite
-from fieldhand_bench.missions.cases import Expected, Step
+from fieldhand_bench.missions.cases import Expected, ExpectedStep
 from fieldhand_bench.missions.judge import judge
 from fieldhand_bench.missions.log import read_log
 from fieldhand_bench.missions.places import CasePlace, Positions
@@ -170,7 +170,7 @@ def test_in_any_order_is_the_same_in_every_order(seed: int) -> None:
     # Each step is content with the tree that is worked on for it, and with some that are worked on for others.
     content = [frozenset({tree, *rng.permutation(trees)[:3].tolist()}) for tree in trees]
     steps = tuple(
-        Step(action=action, at=CasePlace(demands=(Positions(well),)))
+        ExpectedStep(action=action, at=CasePlace(demands=(Positions(well),)))
         for action, well in zip(actions, content, strict=True)
     )
     acts = [(actions[k], trees[k]) for k in rng.permutation(len(trees)).tolist()]

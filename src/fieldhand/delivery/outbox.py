@@ -19,7 +19,7 @@ from fieldhand.files import named_folder, state_folder
 #: Format of the database; other versions refuse it.
 FORMAT = 1
 
-State = Literal["waiting", "delivered", "refused"]
+DeliveryState = Literal["waiting", "delivered", "refused"]
 
 _TABLES = (
     "CREATE TABLE IF NOT EXISTS about (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID",
@@ -61,7 +61,7 @@ class OutboxEntry:
     queued_at: float
     tries: int = 0
     next_at: float
-    state: State = "waiting"
+    state: DeliveryState = "waiting"
     response: str = ""
 
 

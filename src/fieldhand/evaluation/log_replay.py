@@ -37,7 +37,7 @@ from fieldhand.task.results import (
     Visiting,
     Waited,
 )
-from fieldhand.task.run import Outcome, PlanRun, StackFrame, carry_out
+from fieldhand.task.run import PlanRun, RunOutcome, StackFrame, carry_out
 
 
 def replay_log(plan: Node, events: Sequence[Event]) -> dict[str, CaptureCount]:
@@ -275,7 +275,7 @@ class _Replay:
             for count in self._counts.under(*left):
                 count.stopped = True
 
-    def _left(self, _: Node, outcome: Outcome) -> None:
+    def _left(self, _: Node, outcome: RunOutcome) -> None:
         if outcome == "done" and self._run.frames:
             self._went_well(self._run.frame)
 

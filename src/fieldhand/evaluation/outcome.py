@@ -23,7 +23,7 @@ from fieldhand.task.results import Ended, Event, GoalOutcome, MissionStatus
 
 _LONGEST_REASON = 160
 
-Verdict = Literal["success", "failure", "indeterminate"]
+OutcomeName = Literal["success", "failure", "indeterminate"]
 
 
 def judge(
@@ -71,7 +71,7 @@ def _outcome(goal: Goal, tally: CaptureCount, ended: Ended | None, *, under_way:
     return GoalOutcome(goal=goal.id, outcome=verdict, done=tally.done, wanted=wanted, why=why)
 
 
-def _mandatory(tally: CaptureCount, ended: Ended | None) -> Verdict:
+def _mandatory(tally: CaptureCount, ended: Ended | None) -> OutcomeName:
     if not tally.open and tally.done >= tally.wanted:
         return "success"
     if tally.failed or tally.given_up:
@@ -85,7 +85,7 @@ def _mandatory(tally: CaptureCount, ended: Ended | None) -> Verdict:
     return "failure"
 
 
-def _optional(goal: Goal, tally: CaptureCount, ended: Ended | None) -> Verdict:
+def _optional(goal: Goal, tally: CaptureCount, ended: Ended | None) -> OutcomeName:
     if tally.failed or tally.given_up:
         return "failure"
     cut = ended is None or ended.status == "aborted"
@@ -100,7 +100,7 @@ def _optional(goal: Goal, tally: CaptureCount, ended: Ended | None) -> Verdict:
 
 
 def _why(
-    goal: Goal, tally: CaptureCount, verdict: Verdict, ended: Ended | None, because: str, *, under_way: bool
+    goal: Goal, tally: CaptureCount, verdict: OutcomeName, ended: Ended | None, because: str, *, under_way: bool
 ) -> str:
     """Return the outcome in words: the captures, then what prevented more.
 

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from fieldhand.orienteering.problem import Problem
 
 Floats = NDArray[np.float64]
-Key = tuple[tuple[float, float], tuple[float, float] | None]
+VisitKey = tuple[tuple[float, float], tuple[float, float] | None]
 
 
 @dataclass(kw_only=True)
@@ -49,11 +49,11 @@ class _Run:
 
     problem: Problem
     policy: Policy
-    vertex: dict[Key, int]
-    start: Key
+    vertex: dict[VisitKey, int]
+    start: VisitKey
     rest: RemainingWork
     accepted: float
-    beyond: frozenset[Key]
+    beyond: frozenset[VisitKey]
     new: bool
     done: set[int] = field(default_factory=set)
     known: dict[int, tuple[Place, int | None]] = field(default_factory=dict)
@@ -177,7 +177,7 @@ class VisitChooser:
         rest: RemainingWork,
         run: _Run | None,
         at_most: int | None,
-        beyond: frozenset[Key],
+        beyond: frozenset[VisitKey],
     ) -> _Run:
         """Return the current run, or a new one if a place is unknown or the following work has changed."""
         here = state.context.here
@@ -322,5 +322,5 @@ def _fewer(run: _Run, visits: Sequence[Visit], at_most: int | None) -> bool:
     return at_most is not None and len(visits) + len(run.done) < run.problem.end - 1
 
 
-def _key(place: Place) -> Key:
+def _key(place: Place) -> VisitKey:
     return place.xy, place.stand

@@ -40,7 +40,7 @@ CLEAR_PERCENT = 3.0
 
 #: ``plan``: carrying out the plan. ``exit``: on the way home. ``over``: standing, or told to stop.
 Phase = Literal["plan", "exit", "over"]
-Alarm = Literal["none", "return", "stop", "shelter"]
+BatteryAlarm = Literal["none", "return", "stop", "shelter"]
 
 
 class LimitMonitor:
@@ -59,7 +59,7 @@ class LimitMonitor:
     def __init__(self, mission: ActiveMission) -> None:
         self._mission = mission
         self.phase: Phase = "plan"
-        self.alarm: Alarm = "none"
+        self.alarm: BatteryAlarm = "none"
         self.why = ""
         self.exit = mission.exit_for("low_budget")
         #: A mission that ends at its last visit does not include the way home in its limits: driving home would exceed

@@ -27,7 +27,7 @@ from fieldhand.site.driving.stands import Candidate, StandCandidates
 from fieldhand.site.model import Place, Site
 
 XY = tuple[float, float]
-Key = tuple[str, str, XY, XY | None]
+DriveKey = tuple[str, str, XY, XY | None]
 
 #: Number of drives that are kept; guards look again and again at the drives between the stops that remain.
 _MOST_DRIVES = 20_000
@@ -76,9 +76,9 @@ class Drives:
         self.clearance_m = clearance_m
         self.layout = Layout(site, clearance_m, standoff_m)
         self._stands = StandCandidates(site, self.layout, clearance_m, standoff_m)
-        self._ables: dict[Key, list[Candidate]] = {}
-        self._closed: dict[Key, str] = {}
-        self._problems: dict[Key, str] = {}
+        self._ables: dict[DriveKey, list[Candidate]] = {}
+        self._closed: dict[DriveKey, str] = {}
+        self._problems: dict[DriveKey, str] = {}
         self._ways: dict[tuple[XY, XY], tuple[tuple[XY, ...], float] | None] = {}
         self._drives: dict[tuple[Place, XY | None, Place, XY | None], Drive] = {}
 
@@ -361,7 +361,7 @@ class Drives:
         )
 
 
-def _key(place: Place) -> Key:
+def _key(place: Place) -> DriveKey:
     return place.kind, place.id, place.xy, place.stand
 
 

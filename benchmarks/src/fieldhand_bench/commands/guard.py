@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from fieldhand_bench.fly import Trial
-    from fieldhand_bench.summary import Group, Summary, Times
+    from fieldhand_bench.summary import Summary, Times, TrialGroup
 
 _MOST_NAMED = 10
 
@@ -110,7 +110,7 @@ def _show(summary: Summary) -> None:
     show.out.print("The guard kept what it promises." if summary.passed else "The guard did NOT keep what it promises.")
 
 
-def _table(title: str, groups: Sequence[Group]) -> Table:
+def _table(title: str, groups: Sequence[TrialGroup]) -> Table:
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
 

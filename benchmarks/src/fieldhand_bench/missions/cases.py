@@ -16,7 +16,7 @@ Bounds = tuple[float, float]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Step:
+class ExpectedStep:
     """An action that must be done.
 
     Attributes:
@@ -51,7 +51,7 @@ class Expected:
         end: Final position: a marker, or a place that the nearest tree must match. None for anywhere.
     """
 
-    steps: tuple[Step, ...] | None = None
+    steps: tuple[ExpectedStep, ...] | None = None
     any_order: bool = False
     counts: Mapping[str, Bounds] | None = None
     trees: Mapping[str, Bounds] = field(default_factory=dict)

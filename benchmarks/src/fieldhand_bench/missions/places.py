@@ -13,7 +13,7 @@ from fieldhand_bench.missions.case_site import CaseSite, CornerName, Points
 
 Side = Literal["north", "south", "east", "west"]
 #: Trees of the labelled steps, by label, as indices in the file.
-Labels = Mapping[str, int]
+StepLabels = Mapping[str, int]
 
 _WAYS: Mapping[Side, tuple[float, float]] = {
     "north": (0.0, 1.0),
@@ -38,7 +38,7 @@ class TestedTree:
 
     site: CaseSite
     tree: int
-    labels: Labels
+    labels: StepLabels
 
 
 class Demand(Protocol):
@@ -71,7 +71,7 @@ class CasePlace:
         """Labels of the steps whose trees the place depends on."""
         return frozenset(label for demand in self.demands for label in demand.labels)
 
-    def holds(self, site: CaseSite, tree: int, labels: Labels) -> bool:
+    def holds(self, site: CaseSite, tree: int, labels: StepLabels) -> bool:
         """Return True if a tree is such a place."""
         it = TestedTree(site=site, tree=tree, labels=labels)
         return all(demand.holds(it) for demand in self.demands)

@@ -28,7 +28,7 @@ from fieldhand_bench.missions.log import read_log
 
 #: Result of planning a request: ``planned`` a mission, ``asked`` a question, ``refused``; ``failed`` without a usable
 #: answer of the model; ``not approved`` because a check forbids the Task.
-Answer = Literal["planned", "asked", "refused", "failed", "not approved"]
+TrialAnswer = Literal["planned", "asked", "refused", "failed", "not approved"]
 
 _APPROVED_AT = datetime(2026, 1, 1, tzinfo=UTC)
 _FIRST = "go to the first tree"
@@ -74,7 +74,7 @@ class CaseTrial:
     id: str
     request: str
     source: str
-    answer: Answer
+    answer: TrialAnswer
     as_asked: bool
     why: str = ""
     wrong: tuple[tuple[str, ...], ...] = ()
@@ -185,7 +185,7 @@ def _plan(case: Case, site: Site, robot: RobotProfile, planner: Planner) -> Outc
         return error
 
 
-def _answer(outcome: Outcome | ModelError) -> tuple[Answer, str]:
+def _answer(outcome: Outcome | ModelError) -> tuple[TrialAnswer, str]:
     match outcome:
         case Planned():
             return "planned", ""

@@ -25,7 +25,7 @@ from fieldhand_bench.site.memory import own_peak_bytes, peak_bytes
 from fieldhand_bench.site.orchard import benchmark_orchard
 from fieldhand_bench.site.samples import samples
 
-Clock = Callable[[], float]
+Stopwatch = Callable[[], float]
 
 _DRIVES = 200
 _VISITED = 50
@@ -96,7 +96,7 @@ def measure_site(
     repeats: int,
     clearance_m: float,
     standoff_m: float,
-    clock: Clock = time.perf_counter,
+    clock: Stopwatch = time.perf_counter,
 ) -> SiteBenchmark:
     """Measure an orchard of so many trees.
 
@@ -149,7 +149,7 @@ def _graph(site: Site, clearance_m: float, standoff_m: float) -> Drives:
     return drives
 
 
-def _steps(data: bytes, repeats: int, clearance_m: float, standoff_m: float, clock: Clock) -> tuple[Timing, ...]:
+def _steps(data: bytes, repeats: int, clearance_m: float, standoff_m: float, clock: Stopwatch) -> tuple[Timing, ...]:
     """Time reading, rows and graph on a fresh site each time."""
     taken: list[tuple[float, float, float]] = []
     for _ in range(repeats):
@@ -171,7 +171,7 @@ def _steps(data: bytes, repeats: int, clearance_m: float, standoff_m: float, clo
     )
 
 
-def _selectors(site: Site, repeats: int, clock: Clock) -> tuple[Timing, ...]:
+def _selectors(site: Site, repeats: int, clock: Stopwatch) -> tuple[Timing, ...]:
     middle = site.trees[len(site.trees) // 3].place
     visited = tuple(t.place.id for t in site.trees[:_VISITED])
     context = Context(here=middle, visited=visited, bound={EXAMPLE_LABEL: (middle,)})
@@ -189,7 +189,7 @@ def _selectors(site: Site, repeats: int, clock: Clock) -> tuple[Timing, ...]:
     return tuple(timings)
 
 
-def _drives(site: Site, drives: Drives, rng: np.random.Generator, clock: Clock) -> tuple[Timing, int]:
+def _drives(site: Site, drives: Drives, rng: np.random.Generator, clock: Stopwatch) -> tuple[Timing, int]:
     """Time drives between random trees on a graph that is already built; return unreachable pairs, too."""
     places: list[Place] = [site.trees[k].place for k in rng.integers(len(site.trees), size=2 * _DRIVES).tolist()]
     taken: list[float] = []

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 #: Advice addressed to the author of the request, on which a model must not act.
 _TO_A_PERSON = re.compile(r"(?:ask|say|name|give|add|count from)\b")
 
-Kind = Literal["answer", "schema", "words", "reference", "site", "coordinate", "request"]
+ProblemKind = Literal["answer", "schema", "words", "reference", "site", "coordinate", "request"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,7 +52,7 @@ class AnswerProblem:
         truncated: True if the answer ended before its document did.
     """
 
-    kind: Kind
+    kind: ProblemKind
     message: str
     where: str = ""
     truncated: bool = False

@@ -12,7 +12,7 @@ from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.english.wishes import Wish, wishes
 from fieldhand.planning.grammar.refusals import PLAINLY
 from fieldhand.planning.planner import Reason, Refused
-from fieldhand.planning.refusals.examples import Plan, examples, first_planned, tidy
+from fieldhand.planning.refusals.examples import PlanRequest, examples, first_planned, tidy
 from fieldhand.planning.refusals.offers import say_offers
 from fieldhand.planning.refusals.understood import ParsedRequest, say_understood, understood_parts
 from fieldhand.planning.refusals.unknown_words import UnknownWords, corrected, reasons_of_unknown
@@ -32,7 +32,7 @@ _LOOSE = (
 _COMMANDS = frozenset({"TAKE", "MEASURE", "ACTV", "GO", "VISIT", "RETURN", "GOHOME"})
 
 
-def helpful(refused: Refused, parsed: ParsedRequest, plan: Plan) -> Refused:
+def helpful(refused: Refused, parsed: ParsedRequest, plan: PlanRequest) -> Refused:
     """Return a refusal that says what the request asks for in vain, what was understood, and what can be planned.
 
     Args:
@@ -94,7 +94,7 @@ def _not_together(reasons: Sequence[Reason]) -> Reason:
     return Reason(what=message("each word is known, but not what they say together"), said=said, advice=PLAINLY)
 
 
-def _reasons_besides(early: Sequence[Wish], parsed: ParsedRequest, plan: Plan) -> tuple[Reason, ...]:
+def _reasons_besides(early: Sequence[Wish], parsed: ParsedRequest, plan: PlanRequest) -> tuple[Reason, ...]:
     """Return the reasons for which a request would be refused without its early wishes."""
     outcome = plan(_besides(early, parsed))
     reasons = outcome.reasons if isinstance(outcome, Refused) else ()
@@ -112,7 +112,7 @@ def _besides(wished: Sequence[Wish], parsed: ParsedRequest) -> str:
     return text
 
 
-def _with_reserve(example: str, wished: Sequence[Wish], plan: Plan) -> str:
+def _with_reserve(example: str, wished: Sequence[Wish], plan: PlanRequest) -> str:
     """Return an example in the form that a wish suggests: "with at least 50 % battery left, ..."."""
     form = next((wish.kind.example for wish in wished if wish.kind.example), "")
     if not form or not example:

@@ -19,7 +19,7 @@ from fieldhand.site.point_index import PointIndex
 
 #: Lane of a stand: (group, line, line) of the aisle that it lies in; on the outer side of an outer row one line is -1
 #: or one past the last.
-Lane = tuple[int, int, int]
+LaneKey = tuple[int, int, int]
 
 #: The direction of a bent row at a tree is measured between the trees this many places before and after it.
 _ALONG = 3
@@ -46,7 +46,7 @@ class Candidate:
     """
 
     xy: XY
-    lane: Lane | None = None
+    lane: LaneKey | None = None
     why_not: str = ""
     aisle_m: float | None = None
 
@@ -150,13 +150,13 @@ class StandCandidates:
             for k in range(len(trees))
         ]
 
-    def _stand(self, beside: Points, clear: NDArray[np.bool_], lane: Lane) -> Candidate:
+    def _stand(self, beside: Points, clear: NDArray[np.bool_], lane: LaneKey) -> Candidate:
         """Return a candidate at the first clear point, else one with the reason why there is none."""
         if clear.any():
             return Candidate(_xy(beside[int(np.argmax(clear))]), lane)
         return Candidate(_xy(beside[0]), lane, self._in_the_way(beside[0]))
 
-    def _in_aisle(self, trees: Indices, aisle: Aisle, side: int, lane: Lane) -> list[Candidate]:
+    def _in_aisle(self, trees: Indices, aisle: Aisle, side: int, lane: LaneKey) -> list[Candidate]:
         frame, at = aisle.frame, self._site.xy[trees]
         u, v = frame.local(at).T
         across = self._across(trees, lane[0], bent=not aisle.is_straight)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from fieldhand.errors import SiteError
-from fieldhand.site.formats.records import Unit
+from fieldhand.site.formats.records import RecordUnit
 
 MOST_REASONS = 10
 _MOST_NUMBERS = 5
@@ -33,7 +33,7 @@ class Faults:
         lenient: Skip unusable features, except those that keep a robot out of an area.
     """
 
-    def __init__(self, source: str, unit: Unit = "feature", *, lenient: bool = False) -> None:
+    def __init__(self, source: str, unit: RecordUnit = "feature", *, lenient: bool = False) -> None:
         self.source = source
         self.unit = unit
         self.lenient = lenient
@@ -90,7 +90,7 @@ class Faults:
         return "correct or remove them, or leave them out with --lenient"
 
 
-def numbered(unit: Unit, numbers: Sequence[int]) -> str:
+def numbered(unit: RecordUnit, numbers: Sequence[int]) -> str:
     """Return feature numbers as text: ``features 3, 4, 9, 12, 14 and 8 more``."""
     if len(numbers) == 1:
         return f"{unit} {numbers[0]}"
