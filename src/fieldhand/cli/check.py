@@ -32,9 +32,7 @@ def check(
     read, document = mission.read_task(task, site_and_robot.robot)
     review = mission.review(read, site_and_robot.site, site_and_robot.robot, document=document, charge_percent=charge)
     if picture is not None:
-        from fieldhand.cli.pictures import draw_plan
-
-        draw_plan(picture, review, site_and_robot, language)
+        review.save_map(picture, language=language.code)
     if display.json:
         show.print_json(show.review_record(review, language, every=True))
     else:

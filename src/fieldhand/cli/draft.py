@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 from fieldhand.cli import show
 from fieldhand.cli.asking import Replies, plan_or_read, require_no_answer
 from fieldhand.cli.bundles import approval_line, is_bundle, open_mission, require_site
-from fieldhand.cli.inputs import InputFiles, read_site_and_robot
+from fieldhand.cli.inputs import read_site_and_robot
 from fieldhand.cli.options import DisplayOptions, MissionInputOptions, PlanningOptions
-from fieldhand.mission.documents import SiteAndRobot
+from fieldhand.mission.documents import InputFiles, SiteAndRobot
 from fieldhand.task.frames import Task
 
 if TYPE_CHECKING:

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from fieldhand.mission import Review
     from fieldhand.mission.documents import SiteAndRobot
     from fieldhand.missions import RobotAtStart
+    from fieldhand.robot.bindings import Ros2Bindings
     from fieldhand.task.frames import Task
 
 SIMULATION = "simulation"
@@ -58,6 +59,28 @@ class DriverOptions:
         list[str] | None,
         typer.Option("--driver-option", metavar="NAME=VALUE", help="Option of a plugin's driver; may be repeated."),
     ] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class TransportOptions:
+    """ROS 2 transport, and the domain and namespace in which the robot's names are."""
+
+    on: Annotated[
+        str,
+        typer.Option("--on", metavar="dds|rclpy", help="dds needs no ROS here, rclpy uses the one that is sourced."),
+    ] = "dds"
+    domain: Annotated[
+        int | None, typer.Option("--domain", min=0, max=MOST_DOMAIN, help="ROS domain; else ROS_DOMAIN_ID, else 0.")
+    ] = None
+    namespace: NamespaceOption = None
+
+    def in_namespace(self, bindings: Ros2Bindings) -> Ros2Bindings:
+        """Return the bindings of a profile in the namespace of the option, if it is given.
+
+        Raises:
+            InputError: The namespace is not a valid ROS name.
+        """
+        return bindings if self.namespace is None else replace(bindings, namespace=namespace_of(self.namespace))
 
 
 def connection_of(options: DriverOptions, environ: Mapping[str, str]) -> Connection | None:

@@ -4,34 +4,14 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from fieldhand import files
 from fieldhand.cli.outputs import unwritable
 from fieldhand.cli.show import note
 from fieldhand.language import ENGLISH, Language
-from fieldhand.mission.documents import SiteAndRobot
+from fieldhand.mission.documents import InputFiles, SiteAndRobot
 from fieldhand.site.model import Site
-
-if TYPE_CHECKING:
-    from fieldhand.site.formats.files import SiteFiles
-
-
-@dataclass(frozen=True, kw_only=True)
-class InputFiles:
-    """Files of a site and a robot, to be copied to a mission's folder or a signed mission.
-
-    Attributes:
-        site: Files of the site.
-        profile: Bytes of the robot profile.
-        lenient: True if the site was read leniently.
-    """
-
-    site: SiteFiles
-    profile: bytes
-    lenient: bool
 
 
 def open_site_and_robot(site: str, robot: str, *, lenient: bool = False, language: Language = ENGLISH) -> SiteAndRobot:

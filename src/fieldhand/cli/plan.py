@@ -30,7 +30,7 @@ def plan(
     from fieldhand.cli import show
     from fieldhand.cli.asking import Replies, given_words, plan_and_ask
     from fieldhand.cli.inputs import open_site_and_robot, write_file
-    from fieldhand.cli.pictures import draw_plan, draw_question
+    from fieldhand.cli.pictures import draw_question
     from fieldhand.language import message
     from fieldhand.planning.planner import Clarify, Planned
     from fieldhand.task.codec import encode
@@ -55,7 +55,7 @@ def plan(
     if output is not None:
         write_file(output, document)
     if picture is not None:
-        draw_plan(picture, review, site_and_robot, language)
+        review.save_map(picture, language=language.code)
     if display.json:
         record = show.outcome_record(outcome) | show.review_record(review, language) | {"xml": document.decode()}
         show.print_json(record)

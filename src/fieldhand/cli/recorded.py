@@ -5,10 +5,11 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from fieldhand.cli.bundles import is_bundle, read_unverified, require_site
+from fieldhand.cli.bundles import is_bundle, require_site
 from fieldhand.cli.inputs import open_site_and_robot
 from fieldhand.cli.options import RecordedOptions
 from fieldhand.errors import InputError
@@ -17,6 +18,7 @@ from fieldhand.mission.documents import SiteAndRobot
 
 if TYPE_CHECKING:
     from fieldhand.finished_missions import MissionLog
+    from fieldhand.mission import UnverifiedBundle
     from fieldhand.task.authorization import Authorization
     from fieldhand.task.frames import Task
 
@@ -105,7 +107,7 @@ def plan_of_folder(folder: Path) -> RecordedPlan:
 
     contents = missions.read_folder(folder)
     stored = contents.mission()
-    bundle = None if contents.signed is None else read_unverified(contents.signed, str(folder))
+    bundle = None if contents.signed is None else _unverified(contents.signed, str(folder))
     return RecordedPlan(
         task=stored.authorized.task,
         document=contents.files["task.xml"],
@@ -158,17 +160,22 @@ def plan_of_bundle(file: Path) -> RecordedPlan:
         BundleError: The file is damaged.
     """
     from fieldhand.approval.bundle.container import read_bundle_file
-    from fieldhand.approval.bundle.opening import authorization_of
 
-    unverified = read_unverified(read_bundle_file(file), str(file))
+    unverified = _unverified(read_bundle_file(file), str(file))
     return RecordedPlan(
         task=unverified.content.task,
         document=unverified.document,
         site_and_robot=SiteAndRobot(site=unverified.content.site, robot=unverified.content.robot),
-        authorization=authorization_of(unverified.content.manifest),
+        authorization=unverified.authorization,
         signed=unverified.signed,
         hashes=(("signed mission", unverified.sha256),),
     )
+
+
+def _unverified(data: bytes, source: str) -> UnverifiedBundle:
+    from fieldhand import mission
+
+    return mission.read_unverified(data, source=source, environ=os.environ, now=datetime.now(UTC))
 
 
 def site_and_robot_of(site: str, robot: str | None, *, lenient: bool, language: Language = ENGLISH) -> SiteAndRobot:

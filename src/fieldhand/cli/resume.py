@@ -65,7 +65,7 @@ def resume(
     with connected(site_and_robot, task, connection, display) as vehicle:
         if vehicle is not None:
             stored_missions.require_in_place(stored.site, stored.robot, vehicle.driver)
-        write_plan(site_and_robot, review, None, settings)
+        write_plan(review, None, settings)
         events = resume_mission(stored, replace(settings, vehicle=vehicle))
         raise SystemExit(
             conclude(approved, events, settings, planner=stored.planner, name=stored.id, bundle=stored.bundle)

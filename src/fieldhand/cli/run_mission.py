@@ -15,11 +15,11 @@ from fieldhand.cli.approving import approve_plan, review_plan
 from fieldhand.cli.bundles import signer_record
 from fieldhand.cli.draft import MissionDraft
 from fieldhand.cli.driver_options import check_start
-from fieldhand.cli.inputs import InputFiles, write_file
+from fieldhand.cli.inputs import write_file
 from fieldhand.cli.options import ApprovalOptions, DisplayOptions, OutputOptions
 from fieldhand.cli.outputs import mission_files
 from fieldhand.language import kept_in_log, message
-from fieldhand.mission.documents import SiteAndRobot
+from fieldhand.mission.documents import InputFiles
 from fieldhand.task.results import Ended, Event, MissionStatus
 
 if TYPE_CHECKING:
@@ -88,25 +88,22 @@ def run_mission(draft: MissionDraft, settings: RunSettings) -> int:
         approved = approve_plan(review, settings.approval, display, message("Approve and carry out?"))
     else:
         approved = mission.approved_earlier(draft.bundle.authorized, review)
-    write_plan(site_and_robot, review, draft.document, settings)
+    write_plan(review, draft.document, settings)
     if settings.vehicle is not None:
         check_start(site_and_robot, review, settings.vehicle, confirm=settings.approval.confirm, display=display)
     events, name = _carry_out(approved, draft, settings)
     return conclude(approved, events, settings, planner=draft.planner, name=name, bundle=draft.bundle)
 
 
-def write_plan(
-    site_and_robot: SiteAndRobot, review: mission.Review, document: bytes | None, settings: RunSettings
-) -> None:
+def write_plan(review: mission.Review, document: bytes | None, settings: RunSettings) -> None:
     """Write Task and map to the output folder before the robot moves, so that an unwritable folder costs no mission."""
     folder = settings.outputs.output
     if folder is None:
         return
-    from fieldhand.cli.pictures import draw_plan
     from fieldhand.task.codec import encode
 
     write_file(folder / "task.xml", document or encode(review.task))
-    draw_plan(folder / "map.png", review, site_and_robot, settings.display.language)
+    review.save_map(folder / "map.png", language=settings.display.language.code)
 
 
 def _carry_out(

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import hashlib
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from fieldhand.cli.driver_options import NamespaceOption, namespace_of
+from fieldhand.cli.driver_options import TransportOptions
 from fieldhand.cli.option_groups import grouped
 from fieldhand.cli.options import SiteAndRobotOptions
 from fieldhand.cli.outputs import refuse_standard_output, to_whole_file
-from fieldhand.execution.drivers.ros2.domain import MOST_DOMAIN
 
 if TYPE_CHECKING:
     from fieldhand.execution.drivers.ros2.simulated_robot.robot import GoalReport
@@ -23,17 +21,6 @@ if TYPE_CHECKING:
 
 #: Highest speed: above it, the robot would drive for minutes between two checks of its messages.
 _FASTEST = 1000.0
-
-
-@dataclass(frozen=True, kw_only=True)
-class TransportOptions:
-    """ROS 2 transport of the simulated robot."""
-
-    on: Annotated[str, typer.Option("--on", metavar="dds|rclpy", help="ROS 2 transport of its messages.")] = "dds"
-    domain: Annotated[
-        int | None, typer.Option("--domain", min=0, max=MOST_DOMAIN, help="ROS domain; else ROS_DOMAIN_ID, else 0.")
-    ] = None
-    namespace: NamespaceOption = None
 
 
 @grouped("site robot world seed speed on domain namespace state lenient json")
@@ -74,9 +61,7 @@ def sim_robot(
     clock = ScaledClock(_checked_speed(speed))
     site_and_robot = open_site_and_robot(place.site, place.robot, lenient=place.lenient)
     simulated_world = mission.read_world(world, site_and_robot.site, site_and_robot.robot)
-    bindings = bindings_of(site_and_robot.robot)
-    if transport.namespace is not None:
-        bindings = replace(bindings, namespace=namespace_of(transport.namespace))
+    bindings = transport.in_namespace(bindings_of(site_and_robot.robot))
     profile = replace(site_and_robot.robot, ros2=bindings)
     identity = Identity(site=site_and_robot.site.content_sha256, robot=profile.sha256, world=_hash_of(simulated_world))
     refuse_standard_output(state, "--state")

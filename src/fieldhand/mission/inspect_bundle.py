@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from fieldhand.approval.bundle.manifest import Manifest
     from fieldhand.approval.bundle.opening import Content, Sealed
     from fieldhand.language import Language
+    from fieldhand.task.authorization import Authorization
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,6 +42,61 @@ class BundleInspection:
     def may_run(self) -> bool:
         """True if the mission may run on this machine."""
         return not self.problems
+
+
+@dataclass(frozen=True, kw_only=True)
+class UnverifiedBundle:
+    """A signed mission whose key may be untrusted: to be inspected, never to be carried out.
+
+    Attributes:
+        content: Task, site and robot.
+        document: Bytes of its Task document.
+        authorization: The approval that its manifest states.
+        sha256: SHA-256 of the file.
+        signed: Name of the signer in words.
+    """
+
+    content: Content
+    document: bytes
+    authorization: Authorization
+    sha256: str
+    signed: str
+
+
+def read_unverified(data: bytes, *, source: str, environ: Mapping[str, str], now: datetime) -> UnverifiedBundle:
+    """Read a signed mission without requiring that its key is trusted.
+
+    Args:
+        data: Bytes of the file.
+        source: Name of the file, for messages.
+        environ: Environment variables, which name the folder of the trusted keys.
+        now: Current time, with time zone.
+
+    Raises:
+        BundleError: The file is damaged.
+    """
+    from fieldhand.approval.bundle.container import TASK
+    from fieldhand.approval.bundle.opening import authorization_of, content_of, unseal
+    from fieldhand.approval.memory import trust_store
+    from fieldhand.language import message
+
+    sealed = unseal(data, source=source)
+    fingerprint = sealed.signature.public.fingerprint
+    key = trust_store(environ).known().get(fingerprint)
+    if key is None:
+        signed: str = message("a key that is not trusted here ({fingerprint})", fingerprint=fingerprint)
+    elif key.revoked is None:
+        signed = key.in_words
+    else:
+        signed = message("{key}, revoked on {date}", key=key.in_words, date=str(key.revoked))
+    content = content_of(sealed, now=now, stranger=key is None or key.state != "trusted")
+    return UnverifiedBundle(
+        content=content,
+        document=sealed.members[TASK],
+        authorization=authorization_of(content.manifest),
+        sha256=sealed.hashes["bundle"],
+        signed=signed,
+    )
 
 
 def inspect_bundle(
