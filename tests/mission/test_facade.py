@@ -16,6 +16,7 @@ from fieldhand import mission
 from fieldhand.approval import checks
 from fieldhand.errors import InputError, NotApprovedError, NotConfirmedError, RequestError, TaskError
 from fieldhand.exchange.btcpp import write_tree
+from fieldhand.execution.drivers.simulation.vehicle import simulation
 from fieldhand.mission.records import Records
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.testing.generated.tasks import ROVER, Parts
@@ -205,3 +206,10 @@ def test_an_exported_tree_is_imported_as_the_task_that_it_came_from():
     assert mission.decode_task(document, ROBOT) == task
     with pytest.raises(TaskError, match=r"tree\.xml"):
         mission.import_tree(b"<root/>", ROBOT, source="tree.xml")
+
+
+def test_a_vehicle_of_another_robot_is_refused():
+    vehicle = simulation(SITE, fh.Robot.load("amiga"), fh.World(), seed=1)
+    with pytest.raises(NotApprovedError, match="the vehicle is amiga"):
+        fh.carry_out(MISSION, vehicle=vehicle)
+    assert fh.carry_out(MISSION, vehicle=simulation(SITE, ROBOT, fh.World(), seed=1)).status == "completed"

@@ -11,6 +11,7 @@ from itertools import accumulate, takewhile
 
 from fieldhand.language import Number, message
 from fieldhand.language.words import listed, say_name
+from fieldhand.places.selectors import AlongRow, InRow, Rows
 from fieldhand.request_check import words as w
 from fieldhand.request_check.amounts import StatedAmount, numbers_of
 from fieldhand.request_check.limits import limit_mismatches
@@ -100,9 +101,9 @@ def _counts(facts: RequestFacts, plan: PlanFacts, sizes: SelectorSizes) -> Itera
             ),
         )
     for number in plan.numbers:
-        if number.kind != "count" or int(number.value) in _allowed(facts, number) or _by_itself(facts, number.what):
+        if number.kind != "count" or int(number.value) in _allowed(facts, number) or _by_itself(facts, number):
             continue
-        if number.what.endswith(" count") and _amounts_to_stated_count(facts, plan, number.node, sizes):
+        if number.field == "count" and _amounts_to_stated_count(facts, plan, number.node, sizes):
             continue
         what_differs = message(
             "the plan holds the number {number} ({what}), which the request does not mention",
@@ -172,12 +173,12 @@ def _allowed(facts: RequestFacts, number: PlannedNumber) -> set[int]:
 
     Names of trees and rows, and numbers with a unit, are no numbers of captures.
     """
-    captures = number.what == "captures at a place"
-    others = _PLACES if captures else _NAMES if number.what.endswith(" count") else frozenset()
+    captures = number.field == "captures"
+    others = _PLACES if captures else _NAMES if number.field == "count" else frozenset()
     stated = {n for a in facts.amounts if a.kind not in others for n in numbers_of(a)}
     stated |= {n for word, n in w.MULTIPLES.items() if word in facts.words}
     found = set(stated)
-    if number.what.startswith("along row"):
+    if number.selector is AlongRow:
         found |= set(range(max(stated, default=0) + 1))  # "the next five trees"
     if not captures:
         found |= {n + 1 for n in stated} | {n - 1 for n in stated}
@@ -190,8 +191,8 @@ def _allowed(facts: RequestFacts, number: PlannedNumber) -> set[int]:
     return found
 
 
-def _by_itself(facts: RequestFacts, what: str) -> bool:
+def _by_itself(facts: RequestFacts, number: PlannedNumber) -> bool:
     """Return True if a number follows without being stated, such as one row of "each row"."""
-    if what.startswith(("in row ", "inrow ")) and facts.words & _PARTS:
+    if number.selector is InRow and facts.words & _PARTS:
         return True  # the trees of the first half of a row
-    return facts.vague or (what.startswith(("rows ", "inrow ")) and bool(facts.words & {"each", "every", "all", "per"}))
+    return facts.vague or (number.selector is Rows and bool(facts.words & {"each", "every", "all", "per"}))

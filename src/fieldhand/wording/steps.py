@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 from fieldhand.language import counted, message, shaped
 from fieldhand.language.words import say_marker, say_name, say_number, say_times, say_tree
 from fieldhand.places.selector import Selector
-from fieldhand.places.selectors import Trees, UnionOf
-from fieldhand.places.wording import say_places, say_selector
+from fieldhand.places.selectors import Trees
+from fieldhand.places.wording import SelectorWording, say_places, say_selector
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.conditions import Condition
@@ -237,16 +237,17 @@ class _LineWriter:
             return message("At {place}", place=self._at(node, node.select))
         whole = node.optional or node.at_most is None
         count = len(places) if resolved and resolved.known and places and whole else None
-        text = say_selector(node.select, self._names, count)
+        phrase = SelectorWording(self._names).phrase(node.select)
+        text = phrase.say(count)
         if node.select == Trees():
             text = counted("the {count} tree", "the {count} trees", count) if count else message("all trees")
         if node.optional:
             return self._optional_visits(node, text, resolved)
         if node.at_most is not None:
             at = message("At no more than {count} of {trees}", count=node.at_most, trees=text)
-        elif isinstance(node.select, UnionOf) and not text.startswith("trees "):
+        elif phrase.listed:
             at = message("At {place}", place=text)
-        elif text.startswith("every "):
+        elif phrase.every or (phrase.plain and count is None):
             at = message("At {every_tree}", every_tree=text)
         else:
             at = message("At each of {trees}", trees=text)

@@ -89,6 +89,6 @@ def _explained(connect: ConnectDriver, plugin: Plugin) -> ConnectDriver:
                 raise
             except Exception as error:  # a plugin's code may raise anything
                 raise plugin.error(f"failed to connect: {type(error).__name__}: {error}".rstrip(": ")) from error
-            yield vehicle
+            yield replace(vehicle, robot=vehicle.robot or robot)
 
     return explained

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from fieldhand.language import joined, message
@@ -48,7 +48,7 @@ class EveryNth(FromGroup):
         text = self._of_rows(group) if group.bare else self._of_trees(group.group())
         if self.start != 1:
             text = message("{trees}, from the {ordinal} on", trees=text, ordinal=say_ordinal(self.start, "one"))
-        return many_from(text, self.counted_from)
+        return replace(many_from(text, self.counted_from), every=True)
 
     def _of_rows(self, group: NounPhrase) -> str:
         each = "" if group.row else message("of each row")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from fieldhand.language import message
@@ -45,7 +45,7 @@ class UnionOf(Selector):
         if trees and len(trees) == len(self.parts):
             return many(message("trees {ids}", ids=listed(trees)))
         text = listed([wording.phrase(part).say() for part in self.parts])
-        return many(text or message("no place at all"))
+        return replace(many(text or message("no place at all")), listed=True)
 
     @property
     def keeps_order(self) -> bool:

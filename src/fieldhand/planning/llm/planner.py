@@ -116,13 +116,13 @@ class LlmPlanner:
             reply = self._chat.ask(talk)
             understood = self._understand(reply, request, site, robot, answers)
             outcome, problems = understood.outcome, understood.problems
-            lines = [str(problem) for problem in problems[:MOST_PROBLEMS]]
-            self._transcript.exchange(list(new), reply, lines)
+            reported = problems[:MOST_PROBLEMS]
+            self._transcript.exchange(list(new), reply, [str(problem) for problem in reported])
             if outcome is not None and (not problems or doubted is not None or not tries_left):
                 return outcome
             doubted = outcome or doubted
             if tries_left:
-                new = (repair(lines, tries_left),)
+                new = (repair(reported, tries_left),)
                 # Endpoints reject an assistant message without text.
                 talk += [ChatMessage(role="assistant", text=reply.text.strip() or "(nothing)"), *new]
         if doubted is not None:
