@@ -1,4 +1,4 @@
-"""What a request may mean by a selector, and what may be said of it next.
+"""Selections: places that a request may mean, and how further words narrow them.
 
 What is true of a selector whatever is said of it is a property of :class:`~fieldhand.places.selector.Selector`.
 """

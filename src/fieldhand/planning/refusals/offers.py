@@ -1,4 +1,4 @@
-"""What a robot can do, and what a site contains, as lists in words: what is possible in place of what was asked for."""
+"""Lists of what a robot can do and what a site contains, to offer in place of what was requested."""
 
 from __future__ import annotations
 
