@@ -159,7 +159,7 @@ class Executor(LifecycleNode):
         self.get_logger().info(f"{received.name}, signed by {received.signer}: {received.request}")
 
     def _activate(self) -> None:
-        robot_agent = self._at_hand()
+        robot_agent = self._configured_agent()
         until = time.monotonic() + ANSWERS_WITHIN_S
         while missing := robot_agent.missing():
             if time.monotonic() >= until:
@@ -175,10 +175,10 @@ class Executor(LifecycleNode):
             self.get_logger().info(f"going on with mission {cut[:16]}")
 
     def _rest(self) -> None:
-        self._at_hand().pause_for_exit(RESTS_WITHIN_S)
+        self._configured_agent().pause_for_exit(RESTS_WITHIN_S)
 
     def _clean_up(self) -> None:
-        if self._at_hand().supervisor.active is not None:
+        if self._configured_agent().supervisor.active is not None:
             raise InputError(
                 "the mission is under way: it is paused",
                 where=self.get_name(),
@@ -201,7 +201,7 @@ class Executor(LifecycleNode):
         return answer
 
     def _tell_mission(self, command: AgentCommand) -> tuple[bool, str]:
-        robot_agent, received = self._at_hand(), self._received
+        robot_agent, received = self._configured_agent(), self._received
         if received is None or (not self._active and command not in _WHEN_INACTIVE):
             raise InputError(f"the node is not active: it cannot {command}", advice="activate it first")
         until = time.monotonic() + HEARS_WITHIN_S
@@ -215,7 +215,7 @@ class Executor(LifecycleNode):
         standing = robot_agent.supervisor.status_of(received)
         return True, standing.doing or standing.state
 
-    def _at_hand(self) -> RobotAgent:
+    def _configured_agent(self) -> RobotAgent:
         robot_agent = self._robot_agent
         if robot_agent is None:
             raise InputError("there is no mission", where=self.get_name(), advice="configure the node first")

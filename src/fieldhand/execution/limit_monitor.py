@@ -39,7 +39,7 @@ _SURELY = 0.6
 #: Charge in percent above a level at which it counts as left again: the battery was changed or charged.
 CLEAR_PERCENT = 3.0
 
-#: ``plan``: carrying out the plan. ``exit``: on the way home. ``over``: standing, or told to stop.
+#: ``plan``: carrying out the plan. ``exit``: on the way home. ``over``: the robot stands, or was ordered to stop.
 Phase = Literal["plan", "exit", "over"]
 BatteryAlarm = Literal["none", "return", "stop", "shelter"]
 

@@ -71,7 +71,7 @@ class ConditionOutcomes:
         Args:
             node_id: Id of the condition's node.
             condition: The condition.
-            here: The place in hand.
+            here: The current place.
             tested: Reading and quantity of each tested reading that was taken.
             values: Possible values of each of them.
         """

@@ -53,7 +53,7 @@ class LeftOut:
 
 @dataclass(frozen=True, kw_only=True)
 class FoldedLines:
-    """Lines, and if they are many a sentence that stands for them."""
+    """Lines, and a sentence shown in their place if they are many."""
 
     summary: str
     lines: tuple[str, ...]

@@ -1,4 +1,4 @@
-"""Make a refusal helpful: say what its words ask for, what was understood, and what can be planned instead."""
+"""Make a refusal helpful: list what cannot be planned, what was understood, and what can be planned instead."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _COMMANDS = frozenset({"TAKE", "MEASURE", "ACTV", "GO", "VISIT", "RETURN", "GOHO
 
 
 def helpful(refused: Refused, parsed: ParsedRequest, plan: PlanRequest) -> Refused:
-    """Return a refusal that says what the request asks for in vain, what was understood, and what can be planned.
+    """Return a refusal that lists what cannot be planned, what was understood, and what can be planned instead.
 
     Args:
         refused: Refusal of the request.
@@ -164,7 +164,7 @@ def _owned(wish: Wish, words: Sequence[Word], commands: Collection[int]) -> set[
 
 
 def _blocked(wished: Sequence[Wish], words: Sequence[Word]) -> Iterator[int]:
-    """Yield the numbers of the words of which nothing can be understood by itself."""
+    """Yield the numbers of the words that have no reading by themselves."""
     for wish in wished:
         yield from range(wish.first, _end_of_clause(wish.last, words) if wish.kind.rest else wish.last)
 
@@ -183,7 +183,7 @@ def _words_in(reason: Reason, words: Sequence[Word]) -> Iterator[int]:
 
 
 def _stands(reason: Reason, wished: bool, owned: Collection[int], words: Sequence[Word]) -> bool:
-    """Return True if a reason is not another view of a wish: its words are others, and no wording would help."""
+    """Return True if a reason is independent of the wishes: it concerns other words, and no wording would help."""
     return not wished or (reason.final and not any(k in owned for k in _words_in(reason, words)))
 
 
