@@ -73,9 +73,9 @@ def _of_file(tree: ast.Module) -> Iterator[Entry]:
         contexts = _ORDINALS if isinstance(given, ast.Name) else (context,)
         if called == "message" and texts:
             for one in contexts:
-                yield Entry(template=texts[0], context=str(one), said=())
+                yield Entry(template=texts[0], context=str(one), translations=())
         elif called == "counted" and len(texts) > 1:
-            yield Entry(template=texts[0], many=texts[1], context=str(context), said=())
+            yield Entry(template=texts[0], many=texts[1], context=str(context), translations=())
 
 
 #: Functions whose calls give messages.
@@ -91,62 +91,62 @@ def _of_data() -> Iterator[Entry]:
             yield _entry(say_action(action.name, 2))
             yield _entry(say_captures(action.name, 2))
             if action.words:
-                yield Entry(template=action.words[0], context="capture", said=())
+                yield Entry(template=action.words[0], context="capture", translations=())
             for parameter in action.parameters:
                 yield _entry(say_name(parameter.name))
         for quantity in robot.quantities:
             yield _entry(say_with_article(quantity.name))
             yield _entry(say_name(quantity.name))
             for level in quantity.levels:
-                yield Entry(template=level, context="level", said=())
+                yield Entry(template=level, context="level", translations=())
     for attribute in ATTRIBUTES:
         words = say_attribute(attribute)[0]
         yield _entry(words)
-        yield Entry(template=str(words), context="of the tree", said=())
+        yield Entry(template=str(words), context="of the tree", translations=())
         yield _entry(say_name(attribute))
     for colour in COLOURS:
-        yield Entry(template=colour, context="tree", said=())
-        yield Entry(template=colour, context="trees", said=())
-        yield Entry(template=colour, context="value", said=())
+        yield Entry(template=colour, context="tree", translations=())
+        yield Entry(template=colour, context="trees", translations=())
+        yield Entry(template=colour, context="value", translations=())
     for fault in ("action_failed", "drive_failed", "low_budget", "aborted"):
-        yield Entry(template=fault, context="fault", said=())
-    yield Entry(template="power cut", context="log", said=())
+        yield Entry(template=fault, context="fault", translations=())
+    yield Entry(template="power cut", context="log", translations=())
     for role in ("start", "end"):
-        yield Entry(template=role, context="role", said=())
+        yield Entry(template=role, context="role", translations=())
     for way in ("return to end", "return to start", "stay"):
-        yield Entry(template=way, context="way", said=())
+        yield Entry(template=way, context="way", translations=())
     for state in ("running", "paused", "interrupted", "ended"):
-        yield Entry(template=state, context="state", said=())
+        yield Entry(template=state, context="state", translations=())
     for ending in ("completed", "returned", "exceeded", "faulted", "aborted"):
-        yield Entry(template=ending, context="ending", said=())
+        yield Entry(template=ending, context="ending", translations=())
     for outcome in ("success", "failure", "indeterminate"):
-        yield Entry(template=outcome, context="outcome", said=())
+        yield Entry(template=outcome, context="outcome", translations=())
     for order in ("pause", "continue", "return", "abort"):
-        yield Entry(template=order, context="order", said=())
+        yield Entry(template=order, context="order", translations=())
     for fault in FILE_FAULTS:
-        yield Entry(template=fault, context="file", said=())
+        yield Entry(template=fault, context="file", translations=())
     for reason in SYSTEM_REASONS:
-        yield Entry(template=reason, context="reason", said=())
+        yield Entry(template=reason, context="reason", translations=())
     for unit in ("metres", "seconds", "percent"):
-        yield Entry(template=unit, context="unit", said=())
+        yield Entry(template=unit, context="unit", translations=())
     for language in known_languages():
-        yield Entry(template=language, context="language", said=())
+        yield Entry(template=language, context="language", translations=())
     for hint in sorted(
         {known["attribute"] for part in ("superlatives", "compare_attribute") for known in vocabulary()[part]}
     ):
         if hint:
-            yield Entry(template=hint, context="attribute hint", said=())
+            yield Entry(template=hint, context="attribute hint", translations=())
     for known in vocabulary()["not_yet"]:
-        yield Entry(template=known["advice"], context="advice", said=())
+        yield Entry(template=known["advice"], context="advice", translations=())
     for kind in wish_kinds():
-        yield Entry(template=kind.what, context="wish", said=())
-        yield Entry(template=kind.advice, context="wish", said=())
+        yield Entry(template=kind.what, context="wish", translations=())
+        yield Entry(template=kind.advice, context="wish", translations=())
 
 
-def _entry(said: str) -> Entry:
-    if not isinstance(said, Message):
-        raise TypeError(f"'{said}' is no message")
-    return Entry(template=said.template, many=said.many, context=said.context, said=())
+def _entry(text: str) -> Entry:
+    if not isinstance(text, Message):
+        raise TypeError(f"'{text}' is no message")
+    return Entry(template=text.template, many=text.many, context=text.context, translations=())
 
 
 def catalogues() -> Iterator[Path]:
@@ -161,9 +161,11 @@ def updated(text: str) -> tuple[str, list[Entry]]:
     parts, missing = [header], []
     for key, entry in sorted(source_entries().items(), key=lambda one: (one[0][1], one[0][0])):
         old = known.get(key)
-        said = old.said if old is not None and old.many == entry.many else ("", "") if entry.many else ("",)
-        whole = Entry(template=entry.template, many=entry.many, context=entry.context, said=said)
-        if not all(whole.said):
+        translations = (
+            old.translations if old is not None and old.many == entry.many else ("", "") if entry.many else ("",)
+        )
+        whole = Entry(template=entry.template, many=entry.many, context=entry.context, translations=translations)
+        if not all(whole.translations):
             missing.append(whole)
         parts.append(_written(whole))
     return "\n\n".join(parts) + "\n", missing
@@ -174,9 +176,9 @@ def _written(entry: Entry) -> str:
     lines.append(f"msgid {_quoted(entry.template)}")
     if entry.many:
         lines.append(f"msgid_plural {_quoted(entry.many)}")
-        lines += [f"msgstr[{k}] {_quoted(text)}" for k, text in enumerate(entry.said)]
+        lines += [f"msgstr[{k}] {_quoted(text)}" for k, text in enumerate(entry.translations)]
     else:
-        lines.append(f"msgstr {_quoted(entry.said[0])}")
+        lines.append(f"msgstr {_quoted(entry.translations[0])}")
     return "\n".join(lines)
 
 

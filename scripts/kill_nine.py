@@ -94,11 +94,11 @@ class Robot:
             return self.driver.seed
         if name in ("start_drive", "start_action"):
             self.note()
-        said = getattr(self.driver, name)(*words)
+        answer = getattr(self.driver, name)(*words)
         if name == "start_action":
             self.open = words[0]
         self.note()
-        return said
+        return answer
 
     def note(self) -> None:
         """Record the current capture if it has succeeded."""
@@ -165,7 +165,7 @@ def world_of(draft: Draft, rng: random.Random) -> World:
     return World(faults=tuple(faults), charge_percent=draft.charge_percent)
 
 
-def ignore_event(told: object) -> None:
+def ignore_event(_event: object) -> None:
     """Ignore an event."""
 
 
@@ -251,13 +251,13 @@ def judge(folder: Path, draft: Draft, robot: Robot, totals: KillTotals) -> None:
     with Journal(folder / "journal.sqlite", "kill -9", folder / "events.jsonl", ignore_event) as journal:
         kept = list(journal.before)
     events = [event for event in map(from_json, lines) if event is not None]
-    told = Counter((e.action, e.place) for e in events if isinstance(e, Acted) and e.status == "success")
+    logged = Counter((e.action, e.place) for e in events if isinstance(e, Acted) and e.status == "success")
     failed = Counter((e.action, e.place) for e in events if isinstance(e, Acted) and e.status == "failed")
     doubt = Counter((e.action, e.place) for e in events if isinstance(e, InDoubt))
     made = Counter(robot.made)
     # A capture whose reading was rejected was made as well.
-    totals.lost += (made - told - failed - doubt).total()
-    totals.repeated += (told - made).total()
+    totals.lost += (made - logged - failed - doubt).total()
+    totals.repeated += (logged - made).total()
     ends = [e for e in events if isinstance(e, Ended)]
     whole = lines == kept and len(ends) == 1 and events[-1] is ends[0] and isinstance(events[0], Started)
     whole = whole and all(a.t <= b.t + 1e-9 for a, b in itertools.pairwise(events))

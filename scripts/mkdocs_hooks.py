@@ -40,8 +40,8 @@ def on_page_markdown(markdown: str, page: Any, **_: Any) -> str:
     pages = {(ROOT / source).resolve(): name for name, source in SOURCES.items()}
     folder = (ROOT / SOURCES.get(page.file.src_uri, f"docs/{page.file.src_uri}")).parent
 
-    def relinked(found: re.Match[str]) -> str:
-        text, target, anchor = found[1], found[2], found[3] or ""
+    def relinked(match: re.Match[str]) -> str:
+        text, target, anchor = match[1], match[2], match[3] or ""
         path = (folder / target).resolve()
         if path in pages:
             return f"[{text}]({pages[path]}{anchor})"

@@ -28,7 +28,7 @@ from fieldhand.execution.drivers.ros2.dds import open_dds
 from fieldhand.execution.drivers.ros2.dds.transport import DdsTransport
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.message_fields import value_at
-from fieldhand.execution.drivers.ros2.transport import STATUS_QOS, Message
+from fieldhand.execution.drivers.ros2.transport import STATUS_QOS, RosMessage
 
 FROM_LL, NAVIGATE = "robot_localization/srv/FromLL", "nav2_msgs/action/NavigateToPose"
 DISTRO, LIMIT_S, LOOK_S = "humble", 10.0, 0.0005
@@ -125,7 +125,7 @@ def _goal_sender(node: DdsTransport) -> Callable[[int], bool]:
     return send
 
 
-def _status(goal_id: object, code: int) -> Message:
+def _status(goal_id: object, code: int) -> RosMessage:
     return {"status_list": [{"goal_info": {"goal_id": {"uuid": goal_id}}, "status": code}]}
 
 

@@ -10,7 +10,7 @@ import pytest
 from fieldhand.errors import InputError, PluginError
 from fieldhand.execution.drivers.registry import driver_kind
 from fieldhand.execution.vehicle import Connection
-from fieldhand.plugins import GROUPS, active, found
+from fieldhand.plugins import GROUPS, active, list_plugins
 from fieldhand.task.plan import StopMission
 from fieldhand.testing.small_orchard import husky, orchard, task_for
 
@@ -34,7 +34,7 @@ def install(folder: Path, distribution: str, entries: str, **modules: str) -> No
 
 def test_a_plugin_is_imported_when_it_is_loaded_and_not_before(installed: Path) -> None:
     install(installed, "acme-plan", "acme = acme_lazy:make", acme_lazy="def make():\n    return 7\n")
-    (plugin,) = [p for p in found("fieldhand.planners") if p.name == "acme"]
+    (plugin,) = [p for p in list_plugins("fieldhand.planners") if p.name == "acme"]
     assert (plugin.distribution, plugin.version, plugin.value) == ("acme-plan", "2.5", "acme_lazy:make")
     assert "acme_lazy" not in sys.modules
     made = plugin.load()
@@ -73,7 +73,7 @@ def test_whatever_fails_the_error_names_plugin_and_distribution(
 def test_of_one_name_the_first_distribution_is_used_and_the_others_are_listed(installed: Path) -> None:
     install(installed, "zebra", "acme = zebra:make")
     install(installed, "acme-plan", "acme = acme:make\nother = acme:other")
-    listed = [p for p in found("fieldhand.planners") if p.distribution in {"zebra", "acme-plan"}]
+    listed = [p for p in list_plugins("fieldhand.planners") if p.distribution in {"zebra", "acme-plan"}]
     assert [(p.name, p.distribution, p.overridden_by) for p in listed] == [
         ("acme", "acme-plan", ""),
         ("acme", "zebra", "acme-plan"),
@@ -85,7 +85,7 @@ def test_of_one_name_the_first_distribution_is_used_and_the_others_are_listed(in
 def test_no_plugin_overrides_what_is_built_in(installed: Path) -> None:
     """Neither this package's own plugins nor the names that a caller keeps for itself."""
     install(installed, "acme-plan", "english = acme:make\nkept = acme:make")
-    ours = {p.name: p for p in found("fieldhand.planners", built_in=["kept"]) if p.distribution == "acme-plan"}
+    ours = {p.name: p for p in list_plugins("fieldhand.planners", built_in=["kept"]) if p.distribution == "acme-plan"}
     assert {name: p.overridden_by for name, p in ours.items()} == {"english": "fieldhand", "kept": "fieldhand"}
     used = active("fieldhand.planners", built_in=["kept"])
     assert used["english"].distribution == "fieldhand"

@@ -36,7 +36,7 @@ from fieldhand.task.codec import decode, decode_draft, encode
 from fieldhand.task.event_lines import from_json
 from fieldhand.task.references import references
 from fieldhand.task.schema import require_valid, schema_xsd
-from fuzzing import ground as g
+from fuzzing import documents as g
 from fuzzing.mutate import Mutator, mutate_json, mutate_lines, mutate_text, mutate_xml, mutate_yaml
 
 WORLD = b"""\
@@ -100,13 +100,13 @@ def _profile(data: bytes, _: Path) -> None:
 
 def _world(data: bytes, folder: Path) -> None:
     world = load_world(g.scratch(folder, "world.yaml", data))
-    here = g.ground()
+    here = g.small_orchard()
     mission.check_world(world, here.site, here.robot)
     g.flown(world)
 
 
 def _task(data: bytes, _: Path) -> None:
-    capabilities = capabilities_of(g.ground().robot)
+    capabilities = capabilities_of(g.small_orchard().robot)
     with suppress(FieldhandError):
         decode_draft(data)
     with suppress(FieldhandError):
@@ -121,7 +121,7 @@ def _task(data: bytes, _: Path) -> None:
 
 
 def _tree(data: bytes, _: Path) -> None:
-    capabilities = capabilities_of(g.ground().robot)
+    capabilities = capabilities_of(g.small_orchard().robot)
     task = read_tree(data, capabilities, request="Measure CO2.")
     references(task, capabilities)
     require_valid(encode(task), capabilities)
@@ -211,7 +211,7 @@ def _mutate_mcap(data: bytes, rng: random.Random) -> bytes:
 
 def _mcap_seeds(folder: Path) -> list[bytes]:
     path = folder / "seed.mcap"
-    with McapLog(path, site=g.ground().site) as log:
+    with McapLog(path, site=g.small_orchard().site) as log:
         for line in g.log().splitlines():
             event = from_json(line.decode())
             if event is not None:
@@ -220,7 +220,7 @@ def _mcap_seeds(folder: Path) -> list[bytes]:
 
 
 def _trees(_: Path) -> list[bytes]:
-    return [write_tree(task, capabilities_of(g.ground().robot)) for task in g.tasks()]
+    return [write_tree(task, capabilities_of(g.small_orchard().robot)) for task in g.tasks()]
 
 
 def _key_seeds(folder: Path) -> list[bytes]:

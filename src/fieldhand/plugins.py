@@ -21,7 +21,7 @@ from typing import Any, Final, Literal, get_args
 
 from fieldhand.errors import PluginError
 
-__all__ = ["DISTRIBUTION", "GROUPS", "Group", "Plugin", "active", "found"]
+__all__ = ["DISTRIBUTION", "GROUPS", "Group", "Plugin", "active", "list_plugins"]
 
 #: Entry-point groups: planners, drivers of robots, solvers, robot profiles, formats of sites, commands.
 Group = Literal[
@@ -100,7 +100,7 @@ class Plugin:
         )
 
 
-def found(group: Group, *, built_in: Collection[str] = ()) -> tuple[Plugin, ...]:
+def list_plugins(group: Group, *, built_in: Collection[str] = ()) -> tuple[Plugin, ...]:
     """Return every plugin of a group, without importing any.
 
     Of several plugins with one name, the first is active, ordered by: this package, name of the distribution, value.
@@ -143,4 +143,4 @@ def _entry_points(path: tuple[str, ...]) -> Any:  # noqa: ARG001  another path h
 
 def active(group: Group, *, built_in: Collection[str] = ()) -> dict[str, Plugin]:
     """Return the plugins of a group that are used, by name; see :func:`found`."""
-    return {plugin.name: plugin for plugin in found(group, built_in=built_in) if plugin.is_active}
+    return {plugin.name: plugin for plugin in list_plugins(group, built_in=built_in) if plugin.is_active}

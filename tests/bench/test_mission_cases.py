@@ -14,8 +14,8 @@ import yaml
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand_bench.missions.case_file import BUILTIN, load_cases
 from fieldhand_bench.missions.case_form import PlaceForm
+from fieldhand_bench.missions.case_site import load_case_site
 from fieldhand_bench.missions.cases import Case
-from fieldhand_bench.missions.ground import load_ground
 from fieldhand_bench.missions.judge import judge
 from fieldhand_bench.missions.log import read_log
 from fieldhand_bench.missions.trial import TrialSetup, try_all
@@ -69,7 +69,7 @@ def test_every_case_is_as_asked_and_both_judges_agree_on_every_log(file: str) ->
 
 def agree_on_every_mistake(logs: list[tuple[Case, int, Sequence[str]]], book: dict) -> None:
     expects = {case["id"]: [world["expect"] for world in case.get("worlds", ())] for case in book["cases"]}
-    known = cache(load_ground)
+    known = cache(load_case_site)
     for number, (case, world, lines) in enumerate(logs):
         ours = known(case.site)
         expect = expects[case.id][world]
@@ -113,7 +113,7 @@ PLACES = [
 @pytest.mark.parametrize("farm", ["reza_medium", "ucm_graph20", "ucm_graph40"])
 def test_both_judges_see_the_same_trees_in_every_place(farm: str) -> None:
     path = SHARED / "data" / "farms" / f"{farm}.geojson"
-    ours, theirs = load_ground(path), ground(path)
+    ours, theirs = load_case_site(path), ground(path)
     trees = range(len(theirs.trees))
     for place in PLACES:
         form = PlaceForm.model_validate(place).place()

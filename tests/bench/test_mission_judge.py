@@ -12,11 +12,11 @@ import pytest
 from fieldhand.errors import CaseError
 from fieldhand.testing.small_orchard import at as lon_lat
 from fieldhand_bench.missions.case_form import ExpectForm
-from fieldhand_bench.missions.cases import Expected, Step
-from fieldhand_bench.missions.ground import Ground
+from fieldhand_bench.missions.case_site import CaseSite
+from fieldhand_bench.missions.cases import Expected, ExpectedStep
 from fieldhand_bench.missions.judge import judge
 from fieldhand_bench.missions.log import read_log
-from fieldhand_bench.missions.places import Place, Positions
+from fieldhand_bench.missions.places import CasePlace, Positions
 from support.missions.tampered import tampered
 
 ROWS, COLUMNS = 4, 5
@@ -27,10 +27,10 @@ def degrees(tree: int) -> tuple[float, float]:
     return lat, lon
 
 
-def field() -> Ground:
+def field() -> CaseSite:
     """Trees about 5 m apart, row by row from the south-west; the start is south of the first, the end of the last."""
     start, end = lon_lat(-1, 0), lon_lat(-1, COLUMNS - 1)
-    return Ground(
+    return CaseSite(
         np.array([degrees(tree) for tree in range(ROWS * COLUMNS)]),
         tuple({"leaf_color": "green" if tree % 3 else "yellow"} for tree in range(ROWS * COLUMNS)),
         {"start": (start[1], start[0]), "end": (end[1], end[0])},
@@ -170,7 +170,8 @@ def test_in_any_order_is_the_same_in_every_order(seed: int) -> None:
     # Each step is content with the tree that is worked on for it, and with some that are worked on for others.
     content = [frozenset({tree, *rng.permutation(trees)[:3].tolist()}) for tree in trees]
     steps = tuple(
-        Step(action=action, at=Place(demands=(Positions(well),))) for action, well in zip(actions, content, strict=True)
+        ExpectedStep(action=action, at=CasePlace(demands=(Positions(well),)))
+        for action, well in zip(actions, content, strict=True)
     )
     acts = [(actions[k], trees[k]) for k in rng.permutation(len(trees)).tolist()]
     done = read_log(log(*acts), GROUND)

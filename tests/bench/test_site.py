@@ -74,5 +74,5 @@ def test_each_figure_is_what_the_clock_says():
     assert (whole.median_s, whole.worst_s) == (3.0, 3.0)
     assert all(t.median_s == 1.0 for t in (*measured.selectors, measured.drives))
     assert measured.load is whole
-    found = {t.name: t.found for t in measured.selectors}
+    found = {t.name: t.places for t in measured.selectors}
     assert (found["Trees"], found["First"], found["Take"]) == (60, 1, 10)

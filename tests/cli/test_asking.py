@@ -22,7 +22,7 @@ from fieldhand.task.build import make_task
 from fieldhand.task.plan import StopMission
 from support.processes.command import fieldhand
 
-GROUND = SiteAndRobot(site=open_site("demo"), robot=load_robot("husky"))
+SITE_AND_ROBOT = SiteAndRobot(site=open_site("demo"), robot=load_robot("husky"))
 PLANNED = Planned(task=make_task(request="go", plan=StopMission(id=""), measures={}), planner="asks")
 
 
@@ -59,7 +59,7 @@ def test_one_question_after_the_other_is_answered_by_number_or_words(
 ) -> None:
     typed("2\n4\n")
     planner = Asks(TWO)
-    words, outcome = plan_and_ask("go", GROUND, planner, Replies())
+    words, outcome = plan_and_ask("go", SITE_AND_ROBOT, planner, Replies())
     assert isinstance(outcome, Planned)
     assert (words, outcome.task) == ("go", PLANNED.task)
     assert planner.answers == (
@@ -72,22 +72,22 @@ def test_one_question_after_the_other_is_answered_by_number_or_words(
 def test_no_answer_ends_it_with_a_message(typed: Callable[[str], None], text: str) -> None:
     typed(text)
     with pytest.raises(RequestError, match="no answer was given, nothing was planned"):
-        plan_and_ask("go", GROUND, Asks(TWO), Replies())
+        plan_and_ask("go", SITE_AND_ROBOT, Asks(TWO), Replies())
 
 
 def test_other_words_are_another_request_or_an_answer_as_the_planner_says(typed: Callable[[str], None]) -> None:
     typed("go there\nsouth\n4\n")
     planner = Asks(TWO)
-    assert plan_and_ask("go", GROUND, planner, Replies())[0] == "go there"
+    assert plan_and_ask("go", SITE_AND_ROBOT, planner, Replies())[0] == "go there"
     typed("the one by the pond\n")
     free = Asks((Clarify(question="Which end?", choices=("north",), free=True),))
-    assert plan_and_ask("go", GROUND, free, Replies())[0] == "go"
+    assert plan_and_ask("go", SITE_AND_ROBOT, free, Replies())[0] == "go"
     assert free.answers == (Answer(question="Which end?", answer="the one by the pond"),)
 
 
 def test_given_answers_come_first_and_the_rest_is_assumed_and_said() -> None:
     planner = Asks(TWO)
-    plan_and_ask("go", GROUND, planner, Replies(given=("SOUTH",), assume=True))
+    plan_and_ask("go", SITE_AND_ROBOT, planner, Replies(given=("SOUTH",), assume=True))
     assert planner.answers == (
         Answer(question="Which end?", answer="south"),
         Answer(question="How many?", answer="4", assumed=True),
@@ -96,7 +96,7 @@ def test_given_answers_come_first_and_the_rest_is_assumed_and_said() -> None:
 
 def test_a_planner_that_never_stops_asking_is_stopped() -> None:
     with pytest.raises(RequestError, match=f"no plan after {MOST_QUESTIONS} questions"):
-        plan_and_ask("go", GROUND, Asks(TWO[:1] * 100), Replies(assume=True))
+        plan_and_ask("go", SITE_AND_ROBOT, Asks(TWO[:1] * 100), Replies(assume=True))
 
 
 def test_the_commands_take_answers_and_without_them_end_with_the_question() -> None:
@@ -116,7 +116,7 @@ def test_the_words_of_a_request_are_shown_with_and_without_colour(monkeypatch: p
     from fieldhand.cli.console import Terminal
     from fieldhand.planning.english.planner import EnglishPlanner
 
-    planned = EnglishPlanner().plan("Please take a picture of tree 4.", GROUND.site, GROUND.robot)
+    planned = EnglishPlanner().plan("Please take a picture of tree 4.", SITE_AND_ROBOT.site, SITE_AND_ROBOT.robot)
     assert isinstance(planned, Planned)
     shown = {}
     for system in ("standard", None):
@@ -132,14 +132,14 @@ def test_the_words_of_a_request_are_shown_with_and_without_colour(monkeypatch: p
 
 
 def test_a_question_is_drawn_before_it_is_answered_or_left(typed: Callable[[str], None], tmp_path: Path) -> None:
-    places = tuple((tree.place,) for tree in GROUND.site.trees[:2])
+    places = tuple((tree.place,) for tree in SITE_AND_ROBOT.site.trees[:2])
     which = Clarify(question="Which end?", choices=("north", "south"), places=places)
     drawn: list[Clarify] = []
     typed("2\n")
-    plan_and_ask("go", GROUND, Asks((which,)), Replies(draw=drawn.append))
-    plan_and_ask("go", GROUND, Asks((which,)), Replies(ask=False, draw=drawn.append))
+    plan_and_ask("go", SITE_AND_ROBOT, Asks((which,)), Replies(draw=drawn.append))
+    plan_and_ask("go", SITE_AND_ROBOT, Asks((which,)), Replies(ask=False, draw=drawn.append))
     assert drawn == [which, which]
-    plan_and_ask("go", GROUND, Asks((which,)), Replies(given=("north",), draw=drawn.append))
+    plan_and_ask("go", SITE_AND_ROBOT, Asks((which,)), Replies(given=("north",), draw=drawn.append))
     assert len(drawn) == 2
 
 

@@ -11,7 +11,7 @@ import pytest
 from fieldhand import mission
 from fieldhand.cli import approving
 from fieldhand.cli.draft import MissionDraft
-from fieldhand.cli.inputs import open_ground
+from fieldhand.cli.inputs import open_site_and_robot
 from fieldhand.cli.options import ApprovalOptions, DisplayOptions
 from fieldhand.cli.run_mission import RunSettings, run_mission
 from fieldhand.errors import NotApprovedError
@@ -21,7 +21,7 @@ from fieldhand.planning.planner import Planned
 from fieldhand.task.codec import encode
 from support.processes.command import fieldhand
 
-GROUND = open_ground("demo", "husky")
+SITE_AND_ROBOT = open_site_and_robot("demo", "husky")
 REQUEST = "Take 2 pictures of tree 4."
 LOST = "this may not be what was asked: the request says '3 pictures'"
 
@@ -29,7 +29,7 @@ LOST = "this may not be what was asked: the request says '3 pictures'"
 @pytest.fixture
 def task(tmp_path: Path) -> str:
     """A Task for 2 pictures in a file, in which somebody made the request one for 3."""
-    outcome = EnglishPlanner().plan(REQUEST, GROUND.site, GROUND.robot)
+    outcome = EnglishPlanner().plan(REQUEST, SITE_AND_ROBOT.site, SITE_AND_ROBOT.robot)
     assert isinstance(outcome, Planned)
     path = tmp_path / "task.xml"
     path.write_bytes(encode(outcome.task).replace(REQUEST.encode(), REQUEST.replace("2", "3").encode()))
@@ -65,8 +65,8 @@ def test_a_person_is_asked_about_the_warnings_and_then_to_approve(
 ) -> None:
     monkeypatch.setattr(approving, "may_ask", lambda: True)
     monkeypatch.setattr("sys.stdin", io.StringIO(typed))
-    read, document = mission.read_task(Path(task), GROUND.robot)
-    draft = MissionDraft(ground=GROUND, task=read, document=document, planner="file")
+    read, document = mission.read_task(Path(task), SITE_AND_ROBOT.robot)
+    draft = MissionDraft(site_and_robot=SITE_AND_ROBOT, task=read, document=document, planner="file")
     settings = RunSettings(approval=ApprovalOptions(by="Ada"), display=DisplayOptions(lang="en"), world=World(), seed=0)
     with nullcontext() if flown else pytest.raises(NotApprovedError, match="not approved, nothing was done"):
         assert run_mission(draft, settings) == 0

@@ -201,12 +201,12 @@ def test_a_person_confirms_the_warnings_and_then_signs(
 
 def _doubtful() -> bytes:
     """A Task for two readings of which the request says three."""
-    from fieldhand.cli.inputs import open_ground
+    from fieldhand.cli.inputs import open_site_and_robot
     from fieldhand.planning.english.planner import EnglishPlanner
     from fieldhand.planning.planner import Planned
 
-    ground = open_ground("demo", "husky")
-    outcome = EnglishPlanner().plan("Take 2 pictures of tree 4.", ground.site, ground.robot)
+    site_and_robot = open_site_and_robot("demo", "husky")
+    outcome = EnglishPlanner().plan("Take 2 pictures of tree 4.", site_and_robot.site, site_and_robot.robot)
     assert isinstance(outcome, Planned)
     return encode(outcome.task).replace(b"Take 2", b"Take 3")
 

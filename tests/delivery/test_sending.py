@@ -75,7 +75,7 @@ def test_what_could_not_be_sent_is_sent_when_the_robot_is_back(
     for tries in range(1, 12):
         (entry,) = sender.outbox.waiting()
         assert entry.tries == tries
-        assert "does not answer" in entry.said
+        assert "does not answer" in entry.response
         waits.append(entry.next_at - sender.seconds)
         assert sender.outbox_sender.next_s() == waits[-1]
         sender.seconds = entry.next_at - 0.001
@@ -131,7 +131,7 @@ def test_what_the_robot_refuses_is_not_sent_again(tmp_path: Path, robot_agent: R
     sender = Sender(tmp_path, robot_agent)
     done = sender.outbox_sender.post(sender.put(good()))
     assert done.state == "refused"
-    assert "revoked" in done.said
+    assert "revoked" in done.response
     assert sender.outbox.waiting() == ()
 
 
@@ -207,7 +207,7 @@ def test_nobody_is_surprised_by_a_mission_that_waited_too_long(
     sender.seconds += late
     done = sender.outbox_sender.post(entry)
     assert done.state == "delivered"
-    assert "was not started" in done.said
+    assert "was not started" in done.response
     assert not any(robot_agent.mission_store.missions.iterdir())
 
 
@@ -225,7 +225,7 @@ def test_an_outbox_that_was_meddled_with(tmp_path: Path, robot_agent: RobotAgent
     entry = sender.put(good())
     path = tmp_path / "outbox" / f"{entry.sha256}.mission"
     path.write_bytes(other_mission())
-    assert "differs from what was queued" in sender.outbox_sender.post(entry).said
+    assert "differs from what was queued" in sender.outbox_sender.post(entry).response
     assert robot_agent.is_empty()
     (tmp_path / "outbox" / "outbox.sqlite").write_bytes(b"garbage" * 999)
     with pytest.raises(StoreError, match="outbox cannot be used"):

@@ -248,7 +248,8 @@ def test_what_the_budget_left_out_is_folded_into_a_line(tmp_path):
             node="n1",
             places=(str(k),),
             optional=True,
-            reason=f"skipped tree {k}: 9{k} % chance",
+            reason=f"tree {k}: 9{k} % chance",
+            names_places=True,
             chance_short=0.9 + k / 100,
         )
         for k in (1, 2, 3, 7)

@@ -41,8 +41,8 @@ def _entries() -> Iterator[Entry]:
         if e.context == "yes or no" or not e.template:
             yield e  # the one is typed, the other is the header
         else:
-            said = tuple(" ".join(re.findall(r"«?\{\w+\}»?", text)) or "·" for text in e.said)
-            yield Entry(template=e.template, many=e.many, context=e.context, said=said)
+            said = tuple(" ".join(re.findall(r"«?\{\w+\}»?", text)) or "·" for text in e.translations)
+            yield Entry(template=e.template, many=e.many, context=e.context, translations=said)
 
 
 def _written(entry: Entry) -> str:
@@ -50,7 +50,7 @@ def _written(entry: Entry) -> str:
     lines.append(f"msgid {json.dumps(entry.template)}")
     if entry.many:
         lines.append(f"msgid_plural {json.dumps(entry.many)}")
-        lines += [f"msgstr[{k}] {json.dumps(text)}" for k, text in enumerate(entry.said)]
+        lines += [f"msgstr[{k}] {json.dumps(text)}" for k, text in enumerate(entry.translations)]
     else:
-        lines.append(f"msgstr {json.dumps(entry.said[0])}")
+        lines.append(f"msgstr {json.dumps(entry.translations[0])}")
     return "\n".join(lines) + "\n"

@@ -66,7 +66,7 @@ def test_every_message_has_a_translation_with_its_placeholders(
     found = {entry.key: entry for entry in read_entries(file.read_text(encoding="utf-8"))}
     for key, entry in source.items():
         assert key in found, f"{file.name} lacks {key}: run scripts/catalogue.py"
-        said = found[key].said
+        said = found[key].translations
         assert all(said), f"not translated: {key}"
         assert found[key].many == entry.many
         # One of a thing may be said without the figure: "el único árbol".
@@ -96,9 +96,9 @@ def test_entries_are_read_with_contexts_plurals_and_long_lines() -> None:
         'msgid "one"\nmsgid_plural "many"\nmsgstr[0] "x"\nmsgstr[1] "y"\n'
     )
     assert read_entries(text) == (
-        Entry(template="", said=("Language: xx\n",)),
-        Entry(template="a b", context="row", said=('c"d',)),
-        Entry(template="one", many="many", said=("x", "y")),
+        Entry(template="", translations=("Language: xx\n",)),
+        Entry(template="a b", context="row", translations=('c"d',)),
+        Entry(template="one", many="many", translations=("x", "y")),
     )
     assert compiled(read_entries(text)).startswith(b"\xde\x12\x04\x95")
 

@@ -25,7 +25,7 @@ class Counted(Effort):
 
 
 def one(template: str, context: str = "question") -> Sentence:
-    return sentences([Entry(template=template, said=("x",), context=context)])[context][0]
+    return sentences([Entry(template=template, translations=("x",), context=context)])[context][0]
 
 
 @pytest.mark.parametrize(

@@ -12,9 +12,13 @@ import pytest
 from hypothesis import given
 
 import fieldhand as fh
+from fieldhand import mission
 from fieldhand.approval import checks
-from fieldhand.errors import InputError, NotConfirmedError, RequestError, TaskError
+from fieldhand.errors import InputError, NotApprovedError, NotConfirmedError, RequestError, TaskError
+from fieldhand.exchange.btcpp import write_tree
+from fieldhand.execution.drivers.simulation.vehicle import simulation
 from fieldhand.mission.records import Records
+from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.testing.generated.tasks import ROVER, Parts
 
 SITE, ROBOT = fh.Site.demo(), fh.Robot.load("husky")
@@ -182,3 +186,30 @@ def test_tables_are_shown_by_their_size():
     assert re.fullmatch(r"<Records: (\d+ [A-Z]\w+, ){1,4}(\.\.\.|\d+ [A-Z]\w+)>", repr(run.events))
     assert len(repr(run.events)) < 120
     assert repr(Records(())) == "<Records: empty>"
+
+
+def test_the_map_of_a_review_is_written_and_refused_where_nothing_can_be_driven(tmp_path):
+    review = fh.review(MISSION.task, SITE, ROBOT)
+    review.save_map(tmp_path / "plan.png")
+    assert (tmp_path / "plan.png").read_bytes().startswith(b"\x89PNG")
+    away = fh.steps.Act(action="read_co2", at=fh.selectors.TreeIs(tree="no such tree"))
+    impossible = fh.review(fh.build_task(away, SITE, ROBOT, request="Hello"), SITE, ROBOT)
+    with pytest.raises(NotApprovedError, match="no such tree"):
+        impossible.save_map(tmp_path / "none.png")
+    assert not (tmp_path / "none.png").exists()
+
+
+def test_an_exported_tree_is_imported_as_the_task_that_it_came_from():
+    tree = write_tree(MISSION.task, capabilities_of(ROBOT))
+    task, document = mission.import_tree(tree, ROBOT, site=SITE, source="tree.xml")
+    assert task.composition == MISSION.task.composition
+    assert mission.decode_task(document, ROBOT) == task
+    with pytest.raises(TaskError, match=r"tree\.xml"):
+        mission.import_tree(b"<root/>", ROBOT, source="tree.xml")
+
+
+def test_a_vehicle_of_another_robot_is_refused():
+    vehicle = simulation(SITE, fh.Robot.load("amiga"), fh.World(), seed=1)
+    with pytest.raises(NotApprovedError, match="the vehicle is amiga"):
+        fh.carry_out(MISSION, vehicle=vehicle)
+    assert fh.carry_out(MISSION, vehicle=simulation(SITE, ROBOT, fh.World(), seed=1)).status == "completed"

@@ -23,8 +23,8 @@ from fieldhand.robot.loader import load_robot
 from fieldhand.site.loader import open_site
 from fieldhand.task.frames import Task
 from fieldhand_bench.missions.case_file import load_cases
+from fieldhand_bench.missions.case_site import load_case_site
 from fieldhand_bench.missions.cases import Expected
-from fieldhand_bench.missions.ground import load_ground
 from fieldhand_bench.missions.judge import judge
 from fieldhand_bench.missions.log import read_log
 from support.missions.flights import fly_request, fly_task
@@ -61,7 +61,7 @@ def problem_of(lines: list[str], site: Path, meant: dict[str, Any]) -> str | Non
 
 def agree(lines: list[str], site: Path, meant: dict[str, Any], expected: Expected) -> None:
     """The bench's judge and the referee find a log right or wrong alike, whatever mistake is planted in it."""
-    ours = load_ground(site)
+    ours = load_case_site(site)
     points = [f for f in json.loads(site.read_text())["features"] if f["geometry"]["type"] == "Point"]
     lon, lat = points[len(points) // 2]["geometry"]["coordinates"]
     for mistake, log in [("none", lines), *tampered(lines, (lat, lon))]:
@@ -98,7 +98,7 @@ def model_flown(case: dict[str, Any], world: int, default_site: str, expected: E
     task, readings = model_planned(case["id"], site, robot), meant.get("readings")
     world_of = parse_world({"readings": readings}) if readings else World()
     lines = fly_task(task, open_site(str(site)), robot, world=world_of).lines
-    ours, said = load_ground(site), problem_of(lines, site, meant)
+    ours, said = load_case_site(site), problem_of(lines, site, meant)
     assert bool(judge(ours, expected, read_log(lines, ours))) is (said is not None), said
     return task, said
 

@@ -21,7 +21,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from fieldhand.execution.drivers.ros2.transport import SENSOR_QOS, Message, Peer, QosProfile, Rmw
+from fieldhand.execution.drivers.ros2.transport import SENSOR_QOS, Peer, QosProfile, Rmw, RosMessage
 
 RELIABLE = QosProfile()
 
@@ -60,7 +60,7 @@ class Graph:
         seed: int = 0,
         found_s: float = 0.0,
         noticed_s: float = 10.0,
-        complete: Callable[[str, Message], Message] | None = None,
+        complete: Callable[[str, RosMessage], RosMessage] | None = None,
     ) -> None:
         self.now, self.found_s, self.noticed_s, self.complete = now, found_s, noticed_s, complete
         self.ends: list[_End] = []
@@ -92,7 +92,7 @@ class Graph:
         while self._on_the_way and self._on_the_way[0][0] <= self.now():
             heapq.heappop(self._on_the_way)[2]()
 
-    def filled(self, type_name: str, message: Message) -> Message:
+    def filled(self, type_name: str, message: RosMessage) -> RosMessage:
         """A message as it is sent: no later change of the original is in it."""
         whole = message if self.complete is None else self.complete(type_name, message)
         return _frozen(whole)
@@ -192,13 +192,13 @@ class _End:
 class _Subscription(_End):
     def __post_init__(self) -> None:
         super().__post_init__()
-        self._arrived: deque[Message] = deque(maxlen=self.qos.depth)
+        self._arrived: deque[RosMessage] = deque(maxlen=self.qos.depth)
         for writer in self.graph.ends:
             if isinstance(writer, _Publisher) and writer.alive and self.qos.transient and _fit(writer, self):
                 for message in writer.kept:
                     self.deliver(message)
 
-    def take(self) -> tuple[Message, ...]:
+    def take(self) -> tuple[RosMessage, ...]:
         if not self.alive:
             return ()
         self.graph.arrive()
@@ -209,7 +209,7 @@ class _Subscription(_End):
     def publishers(self) -> int:
         return sum(_fit(writer, self) for writer in self.matches(_Publisher))
 
-    def deliver(self, message: Message) -> None:
+    def deliver(self, message: RosMessage) -> None:
         if self.alive:
             self.graph.carry(self.name, lambda: self._arrived.append(message))
 
@@ -218,9 +218,9 @@ class _Subscription(_End):
 class _Publisher(_End):
     def __post_init__(self) -> None:
         super().__post_init__()
-        self.kept: deque[Message] = deque(maxlen=self.qos.depth if self.qos.transient else 0)
+        self.kept: deque[RosMessage] = deque(maxlen=self.qos.depth if self.qos.transient else 0)
 
-    def send(self, message: Message) -> None:
+    def send(self, message: RosMessage) -> None:
         whole = self.graph.filled(self.type, message)
         if not self.alive:
             return
@@ -238,12 +238,12 @@ class _Client(_End):
     def __post_init__(self) -> None:
         super().__post_init__()
         self._asked = itertools.count(1)
-        self._arrived: list[tuple[int, Message]] = []
+        self._arrived: list[tuple[int, RosMessage]] = []
 
     def servers(self) -> int:
         return len(self.matches(_Server))
 
-    def ask(self, request: Message) -> int:
+    def ask(self, request: RosMessage) -> int:
         number, whole = next(self._asked), self.graph.filled(f"{self.type}_Request", request)
         for server in self.matches(_Server) if self.alive else ():
             # As over DDS: services of the one do not understand those of the other, though they find each other.
@@ -251,7 +251,7 @@ class _Client(_End):
                 self.graph.carry(f"{self.name} request", _putting(server.arrived, ((self, number), whole)))
         return number
 
-    def replies(self) -> tuple[tuple[int, Message], ...]:
+    def replies(self) -> tuple[tuple[int, RosMessage], ...]:
         if not self.alive:
             return ()
         self.graph.arrive()
@@ -259,7 +259,7 @@ class _Client(_End):
         self._arrived.clear()
         return taken
 
-    def deliver(self, number: int, response: Message) -> None:
+    def deliver(self, number: int, response: RosMessage) -> None:
         if self.alive:
             self.graph.carry(f"{self.name} reply", _putting(self._arrived, (number, response)))
 
@@ -268,9 +268,9 @@ class _Client(_End):
 class _Server(_End):
     def __post_init__(self) -> None:
         super().__post_init__()
-        self.arrived: list[tuple[tuple[_Client, int], Message]] = []
+        self.arrived: list[tuple[tuple[_Client, int], RosMessage]] = []
 
-    def requests(self) -> tuple[tuple[object, Message], ...]:
+    def requests(self) -> tuple[tuple[object, RosMessage], ...]:
         if not self.alive:
             return ()
         self.graph.arrive()
@@ -278,7 +278,7 @@ class _Server(_End):
         self.arrived.clear()
         return taken
 
-    def reply(self, to: object, response: Message) -> None:
+    def reply(self, to: object, response: RosMessage) -> None:
         assert isinstance(to, tuple)
         client, number = to
         whole = self.graph.filled(f"{self.type}_Response", response)
@@ -300,7 +300,7 @@ def _putting(into: list[Any], what: object) -> Callable[[], None]:
     return lambda: into.append(what)
 
 
-def _frozen(message: Message) -> Message:
+def _frozen(message: RosMessage) -> RosMessage:
     """A copy in the form in which messages arrive: arrays as tuples or bytes."""
     return {name: _frozen_value(value) for name, value in message.items()}
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
-from fieldhand.execution.drivers.ros2.transport import STATUS_QOS, Message, QosProfile, Transport
+from fieldhand.execution.drivers.ros2.transport import STATUS_QOS, QosProfile, RosMessage, Transport
 
 STATUS_OF = {"executing": 2, "succeeded": 4, "cancelled": 5, "aborted": 6}
 
@@ -18,12 +18,12 @@ class Script:
     accepts: bool = True
     lasts_s: float = 5.0
     ends: Literal["succeeded", "aborted", "cancelled"] = "succeeded"
-    result: Message = field(default_factory=dict)
+    result: RosMessage = field(default_factory=dict)
     feedback_every_s: float | None = 0.5
     cancels: bool = True
     cancel_takes_s: float = 0.5
-    feedback: Callable[[], Message] = dict
-    on_step: Callable[[Message, float], None] = lambda goal, part: None
+    feedback: Callable[[], RosMessage] = dict
+    on_step: Callable[[RosMessage, float], None] = lambda goal, part: None
 
 
 @dataclass
@@ -31,7 +31,7 @@ class Served:
     """A goal that the server has taken."""
 
     id: bytes
-    goal: Message
+    goal: RosMessage
     script: Script
     begun_s: float
     state: str = "executing"
@@ -44,11 +44,16 @@ class ScriptedAction:
     """Serves one action."""
 
     def __init__(
-        self, node: Transport, name: str, type_name: str, now: Callable[[], float], script: Callable[[Message], Script]
+        self,
+        node: Transport,
+        name: str,
+        type_name: str,
+        now: Callable[[], float],
+        script: Callable[[RosMessage], Script],
     ) -> None:
         self.now, self.script = now, script
         self.goals: dict[bytes, Served] = {}
-        self.received: list[Message] = []
+        self.received: list[RosMessage] = []
         self._send = node.serve(f"{name}/_action/send_goal", f"{type_name}_SendGoal")
         self._result = node.serve(f"{name}/_action/get_result", f"{type_name}_GetResult")
         self._cancel = node.serve(f"{name}/_action/cancel_goal", "action_msgs/srv/CancelGoal")
@@ -80,7 +85,7 @@ class ScriptedAction:
                 served.askers.append(to)
                 self._answer(served)
 
-    def _take(self, to: object, request: Message, now: float) -> None:
+    def _take(self, to: object, request: RosMessage, now: float) -> None:
         whole = _plain(request)
         self.received.append(whole["goal"])
         script, goal_id = self.script(whole["goal"]), whole["goal_id"]["uuid"]
@@ -101,7 +106,7 @@ class ScriptedAction:
             served.fed_s = now
             self._feedback.send({"goal_id": {"uuid": served.id}, "feedback": script.feedback()})
 
-    def _cancelling(self, goal_info: Mapping[str, Any], now: float) -> Message:
+    def _cancelling(self, goal_info: Mapping[str, Any], now: float) -> RosMessage:
         goal_id = goal_info.get("goal_id", {}).get("uuid", bytes(16))
         wanted = self.executing if goal_id == bytes(16) else [g for g in self.goals.values() if g.id == goal_id]
         if goal_id != bytes(16) and not wanted:
@@ -133,5 +138,5 @@ class ScriptedAction:
         self._status.send({"status_list": listed})
 
 
-def _plain(message: Message) -> Any:
+def _plain(message: RosMessage) -> Any:
     return message

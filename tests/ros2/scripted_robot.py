@@ -13,7 +13,7 @@ from fieldhand.clock import SimulatedClock
 from fieldhand.execution.drivers.ros2.driver import Ros2Driver
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.navigation import FROM_LL, SPEED_LIMIT
-from fieldhand.execution.drivers.ros2.transport import Message, QosProfile, Transport
+from fieldhand.execution.drivers.ros2.transport import QosProfile, RosMessage, Transport
 from fieldhand.robot.bindings import (
     ActionBinding,
     BatteryBinding,
@@ -138,7 +138,7 @@ class Robot:
     result: dict[str, object] = field(default_factory=dict)
     refuses_cancel: bool = False
     sample: Script = SAMPLED
-    reading: Callable[[Message], Message | None] = lambda request: {"ok": True, "kelvin": 298.15}
+    reading: Callable[[RosMessage], RosMessage | None] = lambda request: {"ok": True, "kelvin": 298.15}
     canopy: float | None = 31.5
     shift_m: float = 0.0
     fix_every: int = 1
@@ -196,7 +196,7 @@ class Robot:
         if number % 10 == 0 and self.canopy is not None:
             self._say("canopy", {"temperature": self.canopy})
 
-    def _say(self, short: str, message: Message) -> None:
+    def _say(self, short: str, message: RosMessage) -> None:
         if short not in self.silent:
             self.topics[short].send(message)
 
@@ -223,7 +223,7 @@ class Robot:
             feedback=self._feedback,
         )
 
-    def _feedback(self) -> Message:
+    def _feedback(self) -> RosMessage:
         if "GPS" in self.bound.navigation.type:
             return {}
         x, y = into_map(SITE.projection.degrees([self.xy])[0])
@@ -303,7 +303,7 @@ def world(bound: Ros2Bindings | None = None, *, seed: int = 0, **switches: Any) 
     types = interfaces(bound.distro)
     checked: dict[str, set[str]] = {}
 
-    def complete(type_name: str, message: Message) -> Message:
+    def complete(type_name: str, message: RosMessage) -> RosMessage:
         """What a robot says of itself ten times a second is held against its type the first time only."""
         if not type_name.startswith(("sensor_msgs/", "nav_msgs/", "std_msgs/")):
             return types.complete(type_name, message)

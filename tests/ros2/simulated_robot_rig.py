@@ -13,7 +13,7 @@ from fieldhand.execution.drivers.ros2.action_client import ActionClient
 from fieldhand.execution.drivers.ros2.action_outcome import ActionOutcome
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.simulated_robot.robot import GoalReport, SimulatedRobot
-from fieldhand.execution.drivers.ros2.transport import SENSOR_QOS, Message
+from fieldhand.execution.drivers.ros2.transport import SENSOR_QOS, RosMessage
 from fieldhand.execution.drivers.simulation.state import SimulationState
 from fieldhand.execution.drivers.simulation.world import World
 from fieldhand.robot.bindings import Distro, NavigationBinding, Ros2Bindings
@@ -114,7 +114,7 @@ class SimulatedRobotRig:
         self.navigation.start(self.goal(*corners))
         return self.finish(self.navigation)
 
-    def goal(self, *corners: tuple[float, float]) -> Message:
+    def goal(self, *corners: tuple[float, float]) -> RosMessage:
         degrees = [tuple(map(float, point)) for point in SITE.projection.degrees(corners)]
         kind = bindings(self.robot).navigation.type
         if kind.endswith("FollowGPSWaypoints"):
@@ -135,7 +135,7 @@ class SimulatedRobotRig:
         assert isinstance(at, Mapping)
         return at["x"], at["y"]
 
-    def ask(self, name: str, type_name: str, /, within_s: float = LONG_S, **request: object) -> Message:
+    def ask(self, name: str, type_name: str, /, within_s: float = LONG_S, **request: object) -> RosMessage:
         """The answer of a service."""
         client = self.client.client(bindings(self.robot).whole_name(name), type_name)
         client.ask(request)
@@ -146,10 +146,10 @@ class SimulatedRobotRig:
         client.close()
         return replies[0][1]
 
-    def heard(self, topic: str, type_name: str, seconds: float = 2.0) -> tuple[Message, ...]:
+    def heard(self, topic: str, type_name: str, seconds: float = 2.0) -> tuple[RosMessage, ...]:
         """What comes on a topic from now on."""
         subscription = self.client.subscribe(bindings(self.robot).whole_name(topic), type_name, SENSOR_QOS)
-        messages: list[Message] = []
+        messages: list[RosMessage] = []
         until = self.clock.now() + seconds
         while self.clock.now() < until:
             self.step()
@@ -170,7 +170,7 @@ class SimulatedRobotRig:
         return 100.0 * said
 
 
-def pose(x: float, y: float, /, *, frame: str = "map", **orientation: float) -> Message:
+def pose(x: float, y: float, /, *, frame: str = "map", **orientation: float) -> RosMessage:
     """A ``PoseStamped``."""
     return {
         "header": {"frame_id": frame},

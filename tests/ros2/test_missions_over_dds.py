@@ -38,7 +38,7 @@ from fieldhand.site.loader import open_site, site_files
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.results import Acted, Arrived, Ended, Event, InDoubt, Paused, Resumed, Shed
 from fieldhand_bench.missions.case_file import load_cases
-from fieldhand_bench.missions.ground import load_ground
+from fieldhand_bench.missions.case_site import load_case_site
 from fieldhand_bench.missions.judge import judge
 from fieldhand_bench.missions.log import read_log
 from ros2.robot_in_process import connected_simulated_robot
@@ -231,7 +231,7 @@ def test_a_case_ends_as_it_was_meant(name: str, number: int, tmp_path: Path) -> 
         events = plan.carried_out(tmp_path, robot)
     assert captures(events) == captures(plan.simulated(parse_world(yaml.safe_load(world.read_text()))))
     lines = [to_json(event) for event in events]
-    view = load_ground(case.site)
+    view = load_case_site(case.site)
     assert judge(view, case.worlds[number].expected, read_log(lines, view)) == ()
     if HERE:
         assert referee().judge(ground(case.site), meant["expect"], [json.loads(line) for line in lines]) is None

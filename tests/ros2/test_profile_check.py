@@ -13,7 +13,7 @@ from fieldhand.errors import ProfileError
 from fieldhand.execution.drivers.ros2.dds import open_dds
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.profile_check import ProfileReport, bindings_of, check_live, check_types
-from fieldhand.execution.drivers.ros2.transport import SENSOR_QOS, STATUS_QOS, Message, Transport
+from fieldhand.execution.drivers.ros2.transport import SENSOR_QOS, STATUS_QOS, RosMessage, Transport
 from fieldhand.robot.bindings import FieldBinding
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
@@ -23,7 +23,7 @@ from support.processes.patience import LONG_S
 
 HUSKY = load_robot("husky")
 INTERFACES = Interfaces.of("humble", bindings_of(HUSKY).interfaces)
-SAYS: dict[str, tuple[str, Message]] = {
+SAYS: dict[str, tuple[str, RosMessage]] = {
     "/gps/fix": ("sensor_msgs/msg/NavSatFix", {"latitude": 52.1, "longitude": 5.6}),
     "/battery_state": ("sensor_msgs/msg/BatteryState", {"percentage": 0.83}),
     "/odometry/filtered": ("nav_msgs/msg/Odometry", {}),
@@ -36,7 +36,7 @@ ACTIONS = {
 }
 
 
-def robot(node: Transport, says: dict[str, tuple[str, Message]] = SAYS, without: str = "") -> Callable[[], None]:
+def robot(node: Transport, says: dict[str, tuple[str, RosMessage]] = SAYS, without: str = "") -> Callable[[], None]:
     """A Husky; what is returned lets it speak once."""
     for action, of in ACTIONS.items():
         if action != without:
@@ -85,7 +85,7 @@ def clock() -> Clock:
 
 @pytest.fixture
 def graph(clock: Clock) -> Graph:
-    def whole(message: str, given: Message) -> Message:
+    def whole(message: str, given: RosMessage) -> RosMessage:
         return INTERFACES.complete(message, given)
 
     return Graph(clock.now, complete=whole)
@@ -138,7 +138,7 @@ def test_what_is_missing_is_named_and_nothing_else(graph: Graph, clock: Clock, n
     ],
 )
 def test_what_cannot_be_meant_is_said(
-    graph: Graph, clock: Clock, name: str, message: Message, what: str, advice: str
+    graph: Graph, clock: Clock, name: str, message: RosMessage, what: str, advice: str
 ) -> None:
     report = checked(graph, clock, robot(graph.node(), {**SAYS, name: (SAYS[name][0], message)}))
     found = {f.binding.name: f for f in report.missing}[name]

@@ -113,11 +113,11 @@ class Disk:
             self._removed[path] = held
 
     def synced(self, path: str) -> None:
-        """What a file holds now outlasts a power cut."""
+        """Make the present content of a file survive a power cut."""
         self._synced[path] = _content(path)
 
     def folder_synced(self, folder: str) -> None:
-        """What was removed from a folder stays removed."""
+        """Make the removal of files from a folder survive a power cut."""
         self._removed = {path: data for path, data in self._removed.items() if str(Path(path).parent) != folder}
 
     def moved(self, path: str, to: str) -> None:

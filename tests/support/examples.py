@@ -1,4 +1,4 @@
-"""How many examples a property is held against: a few at each change, many with ``--hypothesis-profile=thorough``."""
+"""Numbers of examples of a property: a few in each run, many with ``--hypothesis-profile=thorough``."""
 
 from __future__ import annotations
 

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 
 from fieldhand.errors import TaskError
 from fieldhand.task.event_lines import from_json, to_json
-from fieldhand.task.results import Event
+from fieldhand.task.results import Event, Shed
 from fieldhand.testing.generated.events import events
 
 
@@ -17,6 +17,24 @@ from fieldhand.testing.generated.events import events
 @settings(deadline=None, max_examples=30)
 def test_events_come_back(log: tuple[Event, ...]) -> None:
     assert tuple(from_json(to_json(event)) for event in log) == log
+
+
+@pytest.mark.parametrize(
+    ("logged", "reason"),
+    [
+        ("skipped tree 5: 31 % chance", "tree 5: 31 % chance"),
+        ("left out tree 5: 9 others cost less to reach", "tree 5: 9 others cost less to reach"),
+        ("there is no way to tree 5", "there is no way to tree 5"),
+    ],
+)
+def test_places_named_by_a_reason_of_an_earlier_version_are_not_named_again(logged: str, reason: str) -> None:
+    line = {"event": "shed", "t": 1, "node": "n1", "places": ["5"], "optional": True, "reason": logged}
+    read = from_json(json.dumps(line))
+    assert isinstance(read, Shed)
+    assert (read.names_places, read.reason) == (True, reason)
+    now = from_json(json.dumps(line | {"names_places": False}))
+    assert isinstance(now, Shed)
+    assert (now.names_places, now.reason) == (False, logged)
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from fieldhand.errors import DriveFault, PlaceError
 from fieldhand.forecast.mission_state import Spent
 from fieldhand.forecast.resource_limits import reserve_percent, speed_of
 from fieldhand.forecast.walk_branch import walk_branch
-from fieldhand.forecast.walk_steps import Answer
+from fieldhand.forecast.walk_steps import NodeAnswer
 from fieldhand.robot.capabilities import measures_of
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -165,7 +165,7 @@ def _all_of(node: Node) -> Node:
     return replace(whole, optional=False) if isinstance(whole, ForEach) else whole
 
 
-def _longest(root: Node) -> Answer:
+def _longest(root: Node) -> NodeAnswer:
     """Return answers for the longest branch: every condition adds its work, and no loop ends early."""
     branching = {n.id for n in plan.walk(root) if n.is_choice}
     return lambda node_id: node_id in branching

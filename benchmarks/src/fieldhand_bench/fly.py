@@ -19,7 +19,7 @@ from fieldhand.forecast.estimate import estimate, mandatory_part
 from fieldhand.forecast.mission_state import MissionState, Verdict, Visit, VisitChoice
 from fieldhand.forecast.service import reward_of
 from fieldhand.forecast.walk_branch import walk_branch
-from fieldhand.forecast.walk_steps import Answer, WalkStep
+from fieldhand.forecast.walk_steps import NodeAnswer, WalkStep
 from fieldhand.robot.model import LegCost, RobotProfile
 from fieldhand.task import plan
 from fieldhand.task.frames import Task, Then
@@ -254,7 +254,7 @@ def _until(steps: Sequence[WalkStep], node: Node) -> int:
     return next((number for number, found in enumerate(tests, start=1) if found), len(steps))
 
 
-def _as_it_went(events: Sequence[Event]) -> Answer:
+def _as_it_went(events: Sequence[Event]) -> NodeAnswer:
     """Return the answers that conditions had in the mission; beyond the tested ones, the last answer again."""
     answers: dict[str, deque[bool]] = defaultdict(deque)
     for event in events:

@@ -107,14 +107,14 @@ def judge(task: Task, site: Site, robot: RobotProfile, events: Sequence[Event]) 
     ended = events[-1]
     account = follow(task.composition.plan, site, events)
     fault = next((e.what for e in events if isinstance(e, Faulted) and not e.handled), "")
-    said = {
+    words = {
         (e.node, place): e.reason
         for e in account.rest
         if isinstance(e, Shed) and not e.optional and _WORD.search(e.reason)
         for place in (*e.places, "")
     }
     missed = [(u.node, place) for u in account.undone for place in u.places or ("",)]
-    silent = [] if fault else [_named(*m) for m in missed if m not in said]
+    silent = [] if fault else [_named(*m) for m in missed if m not in words]
     if account.undone and not fault and not _WORD.search(ended.reason):
         silent.append("the mission's end gives no reason")
     again = Counter((m.node, m.run, m.place) for m in account.made)
@@ -122,7 +122,7 @@ def judge(task: Task, site: Site, robot: RobotProfile, events: Sequence[Event]) 
         status=ended.status,
         uses=_uses(task, robot, events[0], ended),
         done=account.done,
-        given_up=tuple(f"{_named(*m)} ({said[m]})" for m in missed if m in said),
+        given_up=tuple(f"{_named(*m)} ({words[m]})" for m in missed if m in words),
         silent=tuple(silent),
         faulted=fault,
         visits=len(account.made),

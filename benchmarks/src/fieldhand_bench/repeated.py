@@ -111,14 +111,14 @@ def compare(
         NotApprovedError: A check fails.
     """
     began = time.process_time()
-    found = mission.review(task, site, robot)
+    review = mission.review(task, site, robot)
     review_s = time.process_time() - began
     flown = []
     for one in fly_again(task, site, robot, seeds, jobs=jobs):
         tell(one)
         flown.append(one)
-    assert found.estimate is not None  # noqa: S101  an approved mission has one
-    return summarized(found.estimate.worst, flown, review_s=review_s, warnings=found.warnings)
+    assert review.estimate is not None  # noqa: S101  an approved mission has one
+    return summarized(review.estimate.worst, flown, review_s=review_s, warnings=review.warnings)
 
 
 def fly_again(task: Task, site: Site, robot: RobotProfile, seeds: Sequence[int], *, jobs: int = 1) -> Iterator[Mission]:

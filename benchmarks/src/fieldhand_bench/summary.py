@@ -25,7 +25,7 @@ _SLOW_S = 1.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class Group:
+class TrialGroup:
     """Statistics of missions that have something in common.
 
     Attributes:
@@ -87,10 +87,10 @@ class Summary:
             optional visit, and of later decisions on mandatory work.
     """
 
-    promises: tuple[Group, ...]
-    families: tuple[Group, ...]
-    limits: tuple[Group, ...]
-    probabilities: tuple[Group, ...]
+    promises: tuple[TrialGroup, ...]
+    families: tuple[TrialGroup, ...]
+    limits: tuple[TrialGroup, ...]
+    probabilities: tuple[TrialGroup, ...]
     refused: int
     gave_up: int
     given_up: int
@@ -135,14 +135,14 @@ def summarize(trials: Sequence[Trial]) -> Summary:
     )
 
 
-def group(name: str, trials: Sequence[Trial]) -> Group:
+def group(name: str, trials: Sequence[Trial]) -> TrialGroup:
     """Compute the statistics of a group of missions, which may be empty."""
     failures = sum(t.failed for t in trials)
     rate = failures / len(trials) if trials else 0.0
     accepted = [t.failure_probability for t in trials]
     choosing = [t for t in trials if t.forecast.visits or t.ruling.visits]
     shares = [t.ruling.reward / t.certain.reward for t in trials if t.certain.reward > 0]
-    return Group(
+    return TrialGroup(
         name=name,
         missions=len(trials),
         failures=failures,
@@ -232,7 +232,7 @@ def _with(trials: Sequence[Trial], promise: str) -> list[Trial]:
     return [t for t in trials if t.promise == promise]
 
 
-def _by(trials: Sequence[Trial], names: Iterable[str], of: Callable[[Trial], str]) -> tuple[Group, ...]:
+def _by(trials: Sequence[Trial], names: Iterable[str], of: Callable[[Trial], str]) -> tuple[TrialGroup, ...]:
     there = Counter(of(t) for t in trials)
     return tuple(group(name, [t for t in trials if of(t) == name]) for name in names if there[name])
 

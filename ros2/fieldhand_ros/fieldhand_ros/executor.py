@@ -72,12 +72,12 @@ class Executor(LifecycleNode):
         #: Lifecycle callbacks and the status timer run in different threads.
         self._guard = threading.RLock()
         orders = ReentrantCallbackGroup()
-        for said in AGENT_COMMANDS:
-            self.create_service(Trigger, f"~/{said}", self._answer(said), callback_group=orders)
+        for command in AGENT_COMMANDS:
+            self.create_service(Trigger, f"~/{command}", self._answer(command), callback_group=orders)
         kept = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self._status = self.create_publisher(String, "~/status", kept)
         self._diagnostics = self.create_publisher(DiagnosticArray, "/diagnostics", 10)
-        self._told = ""
+        self._published = ""
         self.create_timer(TELL_S, self._tell, callback_group=MutuallyExclusiveCallbackGroup())
 
     # --- lifecycle -----------------------------------------------------------------------------------------------
@@ -159,7 +159,7 @@ class Executor(LifecycleNode):
         self.get_logger().info(f"{received.name}, signed by {received.signer}: {received.request}")
 
     def _activate(self) -> None:
-        robot_agent = self._at_hand()
+        robot_agent = self._configured_agent()
         until = time.monotonic() + ANSWERS_WITHIN_S
         while missing := robot_agent.missing():
             if time.monotonic() >= until:
@@ -175,10 +175,10 @@ class Executor(LifecycleNode):
             self.get_logger().info(f"going on with mission {cut[:16]}")
 
     def _rest(self) -> None:
-        self._at_hand().pause_for_exit(RESTS_WITHIN_S)
+        self._configured_agent().pause_for_exit(RESTS_WITHIN_S)
 
     def _clean_up(self) -> None:
-        if self._at_hand().supervisor.active is not None:
+        if self._configured_agent().supervisor.active is not None:
             raise InputError(
                 "the mission is under way: it is paused",
                 where=self.get_name(),
@@ -188,34 +188,34 @@ class Executor(LifecycleNode):
 
     # --- commands ------------------------------------------------------------------------------------------------
 
-    def _answer(self, said: AgentCommand) -> Callable[[Any, Any], Any]:
+    def _answer(self, command: AgentCommand) -> Callable[[Any, Any], Any]:
         def answer(_: Any, response: Any) -> Any:
             try:
-                response.success, response.message = self._tell_mission(said)
+                response.success, response.message = self._tell_mission(command)
             except FieldhandError as error:
                 response.success, response.message = False, str(error)
             if not response.success:
-                self.get_logger().warning(f"{said}: {response.message}")
+                self.get_logger().warning(f"{command}: {response.message}")
             return response
 
         return answer
 
-    def _tell_mission(self, said: AgentCommand) -> tuple[bool, str]:
-        robot_agent, received = self._at_hand(), self._received
-        if received is None or (not self._active and said not in _WHEN_INACTIVE):
-            raise InputError(f"the node is not active: it cannot {said}", advice="activate it first")
+    def _tell_mission(self, command: AgentCommand) -> tuple[bool, str]:
+        robot_agent, received = self._configured_agent(), self._received
+        if received is None or (not self._active and command not in _WHEN_INACTIVE):
+            raise InputError(f"the node is not active: it cannot {command}", advice="activate it first")
         until = time.monotonic() + HEARS_WITHIN_S
 
         def wait() -> bool:
             time.sleep(LOOK_S)
             return time.monotonic() < until
 
-        if not robot_agent.supervisor.give_command(received, said, f"{said} was called over ROS 2", wait=wait):
+        if not robot_agent.supervisor.give_command(received, command, f"{command} was called over ROS 2", wait=wait):
             return False, f"the mission has not heard it within {HEARS_WITHIN_S:g} s; it will"
         standing = robot_agent.supervisor.status_of(received)
         return True, standing.doing or standing.state
 
-    def _at_hand(self) -> RobotAgent:
+    def _configured_agent(self) -> RobotAgent:
         robot_agent = self._robot_agent
         if robot_agent is None:
             raise InputError("there is no mission", where=self.get_name(), advice="configure the node first")
@@ -228,7 +228,7 @@ class Executor(LifecycleNode):
             robot_agent, received = self._robot_agent, self._received
             standing = None if robot_agent is None or received is None else robot_agent.supervisor.status_of(received)
             missing = () if robot_agent is None else robot_agent.missing()
-        said = {
+        words = {
             "robot": "" if robot_agent is None else robot_agent.robot.name,
             "on": "" if robot_agent is None else robot_agent.on,
             "active": self._active,
@@ -236,12 +236,12 @@ class Executor(LifecycleNode):
             "problem": self._problem,
             "mission": None if standing is None else mission_summary(standing).model_dump(mode="json"),
         }
-        text = json.dumps(said, ensure_ascii=False)
-        if text != self._told:
-            self._told = text
+        text = json.dumps(words, ensure_ascii=False)
+        if text != self._published:
+            self._published = text
             self._status.publish(String(data=text))
         status = diagnosed(self.get_name(), standing, missing, self._problem)
-        status.hardware_id = said["robot"]
+        status.hardware_id = words["robot"]
         array = DiagnosticArray(status=[status])
         array.header.stamp = self.get_clock().now().to_msg()
         self._diagnostics.publish(array)
@@ -285,11 +285,11 @@ def diagnosed(node: str, standing: ReceivedStatus | None, missing: tuple[str, ..
     )
 
 
-def _namespace(said: str) -> str:
+def _namespace(text: str) -> str:
     from fieldhand.robot.bindings_document import as_namespace
 
     try:
-        return as_namespace(said)
+        return as_namespace(text)
     except ValueError as error:
         what, _, advice = str(error).partition("; ")
         raise InputError(what, where="robot_namespace", advice=advice) from None

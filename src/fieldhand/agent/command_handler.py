@@ -91,11 +91,11 @@ class CommandHandler:
             received = active
             heard = self._supervisor.follow(received, direct, wait=wait)
         else:
-            received = self._found(bundle)
+            received = self._received(bundle)
             heard = self._supervisor.give_command(received, order.order, reason, wait=wait)
         return CommandResponse(heard=heard, mission=mission_summary(self._supervisor.status_of(received)))
 
-    def _found(self, bundle: str | None) -> ReceivedMission:
+    def _received(self, bundle: str | None) -> ReceivedMission:
         received = self._supervisor.latest if bundle is None else self._mission_store.find(bundle)
         if received is None:
             raise RefusedRequest(

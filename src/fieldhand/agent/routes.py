@@ -35,7 +35,7 @@ LISTED = 50
 #: Seconds between two reads of a journal.
 LOOK_S = 0.2
 
-Bundle = Annotated[str, Path(pattern=r"^[0-9a-f]{64}$")]
+BundleHash = Annotated[str, Path(pattern=r"^[0-9a-f]{64}$")]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -79,7 +79,7 @@ def router(
         )
 
     @routes.put("/agent/missions/{bundle}")
-    async def upload(bundle: Bundle, request: Request, response: Response) -> Receipt:
+    async def upload(bundle: BundleHash, request: Request, response: Response) -> Receipt:
         """Receive a mission, whose SHA-256 is in the address; it does not start by that."""
         size = size_of(request, uploads)
         with entrance.entered():
@@ -100,13 +100,13 @@ def router(
         )
 
     @routes.get("/agent/missions/{bundle}")
-    def mission(bundle: Bundle) -> Receipt:
+    def mission(bundle: BundleHash) -> Receipt:
         """Return hashes and state of a mission that was received."""
-        received = found(bundle)
+        received = find_received(bundle)
         return Receipt(hashes=dict(received.hashes), new=False, mission=mission_summary(supervisor.status_of(received)))
 
     @routes.post("/agent/missions/{bundle}/orders")
-    async def order(bundle: Bundle, body: CommandRequest) -> CommandResponse:
+    async def order(bundle: BundleHash, body: CommandRequest) -> CommandResponse:
         """Command a mission to start, pause, resume, return or abort."""
         return await orders.take(body, bundle)
 
@@ -117,17 +117,17 @@ def router(
 
     @routes.get("/agent/missions/{bundle}/events")
     async def events(
-        bundle: Bundle,
+        bundle: BundleHash,
         after: Annotated[int, Query(ge=0, le=10**12)] = 0,
         wait: Annotated[float, Query(ge=0, le=LONGEST_WAIT_S, allow_inf_nan=False)] = 0.0,
     ) -> Events:
         """Return the events after number ``after``; if there are none yet, wait some seconds for one."""
-        received = await run_in_threadpool(found, bundle)
+        received = await run_in_threadpool(find_received, bundle)
         lines, idle = await _awaited(supervisor, received, after, wait)
         standing = await run_in_threadpool(supervisor.status_of, received)
         return Events(events=event_lines(lines), idle=idle, mission=mission_summary(standing))
 
-    def found(bundle: str) -> ReceivedMission:
+    def find_received(bundle: str) -> ReceivedMission:
         received = mission_store.find(bundle)
         if received is None:
             raise RefusedRequest(404, "no such mission has arrived", "send it first")

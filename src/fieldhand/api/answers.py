@@ -14,7 +14,7 @@ from fieldhand.task.frames import Task
 from fieldhand.task.request_coverage import ROLE_NAMES, has_ranges, request_pieces
 
 
-def unplanned_answer(outcome: Clarify | Refused, ground: SiteAndRobot) -> dict[str, Any]:
+def unplanned_answer(outcome: Clarify | Refused, site_and_robot: SiteAndRobot) -> dict[str, Any]:
     """Return the response of a question, with the places of its choices, or of a refusal."""
     match outcome:
         case Clarify():
@@ -25,7 +25,7 @@ def unplanned_answer(outcome: Clarify | Refused, ground: SiteAndRobot) -> dict[s
                 "choices": list(outcome.choices),
                 "free": outcome.free,
                 "places": [[place.id for place in one] for one in outcome.places],
-                "map": choices_map(ground.site, outcome.places),
+                "map": choices_map(site_and_robot.site, outcome.places),
             }
         case Refused():
             reasons = [{"what": r.what, "said": [list(s) for s in r.said], "advice": r.advice} for r in outcome.reasons]
@@ -47,7 +47,7 @@ def words_answer(task: Task, language: Language = ENGLISH) -> list[dict[str, str
     ]
 
 
-def review_answer(review: Review, ground: SiteAndRobot, language: Language = ENGLISH) -> dict[str, Any]:
+def review_answer(review: Review, site_and_robot: SiteAndRobot, language: Language = ENGLISH) -> dict[str, Any]:
     """Return the response of a review: problems, warnings to confirm, plan in words, forecast and map."""
     estimate = review.estimate
     return {
@@ -71,7 +71,7 @@ def review_answer(review: Review, ground: SiteAndRobot, language: Language = ENG
         "language": language.code,
         "headings": language.read(_headings(review)),
         "estimate": None if estimate is None else estimate.as_record(),
-        "map": site_map(ground.site) if estimate is None else plan_map(ground.site, estimate),
+        "map": site_map(site_and_robot.site) if estimate is None else plan_map(site_and_robot.site, estimate),
     }
 
 

@@ -8,7 +8,7 @@ from fastapi import APIRouter
 
 from fieldhand import mission
 from fieldhand.api.answers import review_answer
-from fieldhand.api.inputs import CheckBody, open_ground, open_task
+from fieldhand.api.inputs import CheckBody, open_site_and_robot, open_task
 from fieldhand.api.work import Workers
 from fieldhand.language import open_language
 
@@ -26,11 +26,11 @@ def router(workers: Workers) -> APIRouter:
 
 
 def _check(body: CheckBody) -> dict[str, Any]:
-    ground = open_ground(body)
-    task, document = open_task(body.xml, ground.robot)
-    review = mission.review(task, ground.site, ground.robot, document=document)
+    site_and_robot = open_site_and_robot(body)
+    task, document = open_task(body.xml, site_and_robot.robot)
+    review = mission.review(task, site_and_robot.site, site_and_robot.robot, document=document)
     return {
         "outcome": "checked",
         "request": task.command.request,
-        **review_answer(review, ground, open_language(body.lang)),
+        **review_answer(review, site_and_robot, open_language(body.lang)),
     }

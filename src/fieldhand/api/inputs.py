@@ -44,7 +44,7 @@ def _on_one_line(text: str) -> str:
 
 
 Text = Annotated[str, AfterValidator(_whole)]
-Words = Annotated[Text, StringConstraints(max_length=MAX_REQUEST)]
+RequestText = Annotated[Text, StringConstraints(max_length=MAX_REQUEST)]
 Xml = Annotated[Text, StringConstraints(max_length=MAX_XML)]
 Name = Annotated[
     Text, StringConstraints(strip_whitespace=True, min_length=1, max_length=100), AfterValidator(_on_one_line)
@@ -83,7 +83,7 @@ def _known_language(code: str) -> str:
 Lang = Annotated[Name, AfterValidator(_known_language)]
 
 
-class OnGround(Body):
+class SiteAndRobotBody(Body):
     """A site, the name of a built-in robot, and the language of the read-back."""
 
     site: SiteChoice = "demo"
@@ -100,34 +100,34 @@ class SiteBody(Body):
 class AnswerBody(Body):
     """An answer to a question about the request."""
 
-    question: Words
-    answer: Words
+    question: RequestText
+    answer: RequestText
 
 
-Answers = Annotated[list[AnswerBody], Field(max_length=20)]
-Warnings = Annotated[list[Words], Field(max_length=200)]
+AnswerList = Annotated[list[AnswerBody], Field(max_length=20)]
+Warnings = Annotated[list[RequestText], Field(max_length=200)]
 
 
-class PlanBody(OnGround):
+class PlanBody(SiteAndRobotBody):
     """A request to plan, with the answers to earlier questions about it."""
 
-    request: Words
-    answers: Answers = []
+    request: RequestText
+    answers: AnswerList = []
     planner: Literal["auto", "english", "llm"] = "auto"
 
 
-class CheckBody(OnGround):
+class CheckBody(SiteAndRobotBody):
     """A Task document to check."""
 
     xml: Xml
 
 
-class RunBody(OnGround):
+class RunBody(SiteAndRobotBody):
     """A mission to simulate: a Task document or a request, the name of the operator, and the confirmed warnings."""
 
     xml: Xml | None = None
-    request: Words | None = None
-    answers: Answers = []
+    request: RequestText | None = None
+    answers: AnswerList = []
     planner: Literal["auto", "english", "llm"] = "auto"
     approved_by: Name
     confirmed: Warnings = []
@@ -146,7 +146,7 @@ def answers_of(body: PlanBody | RunBody) -> tuple[Answer, ...]:
     return tuple(Answer(question=given.question, answer=given.answer) for given in body.answers)
 
 
-def open_ground(body: OnGround) -> SiteAndRobot:
+def open_site_and_robot(body: SiteAndRobotBody) -> SiteAndRobot:
     """Open the site and the robot of a request body.
 
     Raises:

@@ -42,7 +42,7 @@ def site_map(site: Site) -> Feature:
     rows = [
         _feature(
             "LineString",
-            _degrees(site.xy[row.trees].tolist(), site.projection),
+            site.projection.positions(site.xy[row.trees], _DECIMALS),
             role="row",
             name=row.name,
             block=planting.blocks[row.block].name,
@@ -129,7 +129,7 @@ def _add_legs(legs: dict[tuple[Any, ...], Feature], walk: Walk, projection: Proj
             (step.node.id, step.drive.points),
             _feature(
                 "LineString",
-                _degrees(step.drive.points, projection),
+                projection.positions(step.drive.points, _DECIMALS),
                 role="path",
                 node=step.node.id,
                 home=step.kind == "exit",
@@ -186,10 +186,5 @@ def _position(lat: float, lon: float) -> list[float]:
     return [round(lon, _DECIMALS), round(lat, _DECIMALS)]
 
 
-def _degrees(points: Iterable[tuple[float, float]], projection: Projection) -> list[list[float]]:
-    degrees = projection.degrees(np.asarray(list(points), dtype=np.float64))
-    return [_position(lat, lon) for lat, lon in degrees.tolist()]
-
-
 def _rings(polygon: Any, projection: Projection) -> list[list[list[float]]]:
-    return [_degrees(ring.coords, projection) for ring in (polygon.exterior, *polygon.interiors)]
+    return [projection.positions(ring.coords, _DECIMALS) for ring in (polygon.exterior, *polygon.interiors)]

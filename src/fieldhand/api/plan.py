@@ -9,7 +9,7 @@ from fastapi import APIRouter
 
 from fieldhand import mission
 from fieldhand.api.answers import review_answer, unplanned_answer
-from fieldhand.api.inputs import PlanBody, answers_of, open_ground
+from fieldhand.api.inputs import PlanBody, answers_of, open_site_and_robot
 from fieldhand.api.work import Workers
 from fieldhand.language import open_language
 from fieldhand.planning.planner import Planned, Planner
@@ -33,15 +33,17 @@ def router(workers: Workers, planners: Planners) -> APIRouter:
 def _plan(body: PlanBody, planners: Planners) -> dict[str, Any]:
     from fieldhand.task.codec import encode
 
-    ground = open_ground(body)
-    outcome = mission.plan(body.request, ground.site, ground.robot, planners(body.planner), answers_of(body))
+    site_and_robot = open_site_and_robot(body)
+    outcome = mission.plan(
+        body.request, site_and_robot.site, site_and_robot.robot, planners(body.planner), answers_of(body)
+    )
     if not isinstance(outcome, Planned):
-        return unplanned_answer(outcome, ground)
+        return unplanned_answer(outcome, site_and_robot)
     document = encode(outcome.task)
-    review = mission.review(outcome.task, ground.site, ground.robot, document=document)
+    review = mission.review(outcome.task, site_and_robot.site, site_and_robot.robot, document=document)
     return {
         "outcome": "planned",
         "planner": outcome.planner,
         "xml": document.decode(),
-        **review_answer(review, ground, open_language(body.lang)),
+        **review_answer(review, site_and_robot, open_language(body.lang)),
     }

@@ -14,7 +14,7 @@ from fastapi import APIRouter
 
 from fieldhand import mission
 from fieldhand.api.answers import unplanned_answer
-from fieldhand.api.inputs import RunBody, answers_of, open_ground, open_task
+from fieldhand.api.inputs import RunBody, answers_of, open_site_and_robot, open_task
 from fieldhand.api.maps import driven_map
 from fieldhand.api.plan import Planners
 from fieldhand.api.work import Limits, Workers
@@ -44,17 +44,19 @@ def _run(body: RunBody, planners: Planners, limits: Limits) -> dict[str, Any]:
     from fieldhand.execution.drivers.simulation.world_file import parse_world
 
     require_unsigned_allowed(os.environ)
-    ground = open_ground(body)
+    site_and_robot = open_site_and_robot(body)
     world = World() if body.world is None else parse_world(body.world, source="world")
     if body.request is not None:
-        outcome = mission.plan(body.request, ground.site, ground.robot, planners(body.planner), answers_of(body))
+        outcome = mission.plan(
+            body.request, site_and_robot.site, site_and_robot.robot, planners(body.planner), answers_of(body)
+        )
         if not isinstance(outcome, Planned):
-            return unplanned_answer(outcome, ground)
+            return unplanned_answer(outcome, site_and_robot)
         task = outcome.task
     else:
-        task, _ = open_task(body.xml or "", ground.robot)
+        task, _ = open_task(body.xml or "", site_and_robot.robot)
     approved = mission.authorize(
-        mission.review(task, ground.site, ground.robot),
+        mission.review(task, site_and_robot.site, site_and_robot.robot),
         by=body.approved_by,
         at=datetime.now(UTC),
         confirmed=body.confirmed,
@@ -66,7 +68,7 @@ def _run(body: RunBody, planners: Planners, limits: Limits) -> dict[str, Any]:
         seed=world.seed if body.seed is None else body.seed,
         interrupted=_deadline(limits.run_s),
     )
-    return _answer(run, ground)
+    return _answer(run, site_and_robot)
 
 
 def _deadline(seconds: float) -> Callable[[], str | None]:
@@ -75,10 +77,10 @@ def _deadline(seconds: float) -> Callable[[], str | None]:
     return lambda: f"the simulation took longer than {seconds:g} s" if time.monotonic() > until else None
 
 
-def _answer(run: mission.Run, ground: SiteAndRobot) -> dict[str, Any]:
+def _answer(run: mission.Run, site_and_robot: SiteAndRobot) -> dict[str, Any]:
     authorized, events, assessment = run.mission.authorized, run.events, run.assessment
     ended = next(event for event in reversed(events) if isinstance(event, Ended))
-    tell = EventText(ground.robot).line
+    tell = EventText(site_and_robot.robot).line
     return {
         "outcome": "ran",
         "authorization": asdict(authorized.authorization),
@@ -89,16 +91,16 @@ def _answer(run: mission.Run, ground: SiteAndRobot) -> dict[str, Any]:
         "charge_percent": ended.charge_percent,
         "success": assessment.success,
         "exceeded": [asdict(one) for one in assessment.exceeded],
-        "goals": _goals(authorized.task, ground, assessment),
+        "goals": _goals(authorized.task, site_and_robot, assessment),
         "events": [json.loads(to_json(event)) for event in events],
         "told": [tell(event) or "" for event in events],
         "map": driven_map(events),
     }
 
 
-def _goals(task: Task, ground: SiteAndRobot, assessment: mission.Assessment) -> list[dict[str, Any]]:
+def _goals(task: Task, site_and_robot: SiteAndRobot, assessment: mission.Assessment) -> list[dict[str, Any]]:
     nodes = {goal.id: goal.node for goal in task.command.goals}
-    name = goal_names(task, ground.robot)
+    name = goal_names(task, site_and_robot.robot)
     return [
         {**asdict(outcome), "node": nodes.get(outcome.goal, ""), "name": name(outcome.goal)}
         for outcome in assessment.outcomes

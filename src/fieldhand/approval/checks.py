@@ -198,18 +198,18 @@ def _left_out(node: Node, closed: list[tuple[Place, str]], site: Site) -> Iterat
     """Warn about optional visits and steps that will be skipped because their place is unreachable."""
     if closed:
         place, reason = closed[0]
-        said = message("{place} is {reason}", place=say_place(place), reason=reason)
+        text = message("{place} is {reason}", place=say_place(place), reason=reason)
         if node.is_optional_step:
-            what = message("an optional step will be left out: {why}", why=said)
+            what = message("an optional step will be left out: {why}", why=text)
         elif len(closed) > 1:
             what = message(
                 "{place} and {count} more will be left out: {why}",
                 place=say_place(place),
                 count=len(closed) - 1,
-                why=said,
+                why=text,
             )
         else:
-            what = message("{place} will be left out: {why}", place=say_place(place), why=said)
+            what = message("{place} will be left out: {why}", place=say_place(place), why=text)
         yield PlanProblem(
             node=node.id,
             where=site.name,

@@ -208,16 +208,16 @@ def require_unexpired(manifest: Manifest, now: datetime, clock: datetime, source
         NotApprovedError: The approval has expired.
     """
     if now > manifest.until:
-        until, said = manifest.until.isoformat(timespec="seconds"), now.isoformat(timespec="seconds")
+        until, clock_time = manifest.until.isoformat(timespec="seconds"), now.isoformat(timespec="seconds")
         behind = clock < now
         raise NotApprovedError(
             message(
                 "could be started until {until}, but this machine has already seen the time {now}",
                 until=until,
-                now=said,
+                now=clock_time,
             )
             if behind
-            else message("could be started until {until}, but it is {now}", until=until, now=said),
+            else message("could be started until {until}, but it is {now}", until=until, now=clock_time),
             where=source,
             advice=message(
                 "have it approved again; if that time was wrong, set the clock and run fieldhand keys confirm"

@@ -81,5 +81,5 @@ def _quoted(node: plan.Node, task: Task) -> str:
     own = (*node.said, *node.at_said)
     spans = sorted({(start, end) for start, end in own if 0 <= start < end <= len(text)})
     pieces = [text[start:end] for start, end in spans]
-    said = " … ".join(" ".join(piece.split()) for piece in pieces)
-    return said if len(said) <= _MOST_QUOTED else said[: _MOST_QUOTED - 1] + "…"
+    quote = " … ".join(" ".join(piece.split()) for piece in pieces)
+    return quote if len(quote) <= _MOST_QUOTED else quote[: _MOST_QUOTED - 1] + "…"

@@ -18,13 +18,13 @@ def in_production(environ: Mapping[str, str]) -> bool:
     Raises:
         InputError: The variable is neither a yes nor a no; an unclear value must not be guessed.
     """
-    said = environ.get(VARIABLE, "").strip().lower()
-    if said in _YES:
+    setting = environ.get(VARIABLE, "").strip().lower()
+    if setting in _YES:
         return True
-    if said in _NO:
+    if setting in _NO:
         return False
     raise InputError(
-        message("'{said}' is neither yes nor no", said=said[:40]),
+        message("'{said}' is neither yes nor no", said=setting[:40]),
         where=VARIABLE,
         advice=message("set it to 1, or unset it"),
     )

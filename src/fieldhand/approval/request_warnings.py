@@ -14,9 +14,9 @@ from fieldhand.task.frames import Task
 
 def request_warnings(task: Task, site: Site, robot: RobotProfile) -> Iterator[PlanProblem]:
     """Yield the warnings that the planner attached to the Task and every detected contradiction with the request."""
-    for said in task.command.warnings:
+    for warning in task.command.warnings:
         yield PlanProblem(
-            where=message("request"), what=said, advice=message("read every line of the plan"), severity="warning"
+            where=message("request"), what=warning, advice=message("read every line of the plan"), severity="warning"
         )
     if not task.command.request.strip():
         return  # without a request there is nothing to contradict

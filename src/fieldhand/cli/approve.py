@@ -56,14 +56,13 @@ def approve(
     from dataclasses import replace
     from datetime import datetime
 
-    from fieldhand.approval.bundle.packing import pack
+    from fieldhand import mission
     from fieldhand.approval.keys.signing import SigningKeys
     from fieldhand.cli import show
     from fieldhand.cli.approving import approve_plan, review_plan
     from fieldhand.cli.asking import Replies, plan_or_read
     from fieldhand.cli.bundles import require_ending, signed_record
-    from fieldhand.cli.inputs import read_ground, write_whole
-    from fieldhand.cli.pictures import draw_plan
+    from fieldhand.cli.inputs import read_site_and_robot, write_whole
     from fieldhand.cli.secrets import passphrase
     from fieldhand.files import config_folder
 
@@ -72,34 +71,25 @@ def approve(
     language = display.language
     keys = SigningKeys(config_folder(os.environ))
     key = keys.choose(signing.key)
-    ground, files = read_ground(place.site, place.robot, lenient=place.lenient, language=language)
+    site_and_robot, files = read_site_and_robot(place.site, place.robot, lenient=place.lenient, language=language)
     replies = Replies.of(planning, display)
-    task, document, planner = plan_or_read(request, ground, planning.planner, planning.transcript, replies)
-    review = review_plan(ground, task, document, display)
+    task, document, planner = plan_or_read(request, site_and_robot, planning.planner, planning.transcript, replies)
+    review = review_plan(site_and_robot, task, document, display)
     if picture is not None:
-        draw_plan(picture, review, ground, language)
+        review.save_map(picture, language=language.code)
         if not display.json:
             show.out.print(language.say(message("Map: {file}", file=str(picture))))
     approval = replace(signing, by=signing.by or key.public.name)
-    authorized = approve_plan(review, approval, display, message("Approve and sign?")).authorized
+    approved = approve_plan(review, approval, display, message("Approve and sign?"))
+    authorization = approved.authorized.authorization
     opened = keys.open(key, passphrase)
-    data = pack(
-        authorized,
-        ground.site,
-        ground.robot,
-        files=files.site,
-        lenient=files.lenient,
-        profile=files.profile,
-        key=opened,
-        planner=planner,
-        valid_for=valid_for,
-        number=keys.next_number(key, datetime.fromisoformat(authorized.authorization.at)),
-    )
+    number = keys.next_number(key, datetime.fromisoformat(authorization.at))
+    data = mission.sign(approved, files, key=opened, planner=planner, valid_for=valid_for, number=number)
     write_whole(output, data)
     if display.json:
-        show.print_json(signed_record(output, data, authorized.authorization, opened.public))
+        show.print_json(signed_record(output, data, authorization, opened.public))
         return
-    signed = message("Signed by {who} with the key {key}.", who=authorized.authorization.by, key=key.public.fingerprint)
+    signed = message("Signed by {who} with the key {key}.", who=authorization.by, key=key.public.fingerprint)
     show.out.print_lines("", language.say(signed), language.say(message("Mission: {file}", file=str(output))))
 
 

@@ -17,14 +17,16 @@ from fieldhand.mission.documents import SiteAndRobot
 from fieldhand.task.frames import Task
 
 
-def review_plan(ground: SiteAndRobot, task: Task, document: bytes | None, display: DisplayOptions) -> mission.Review:
+def review_plan(
+    site_and_robot: SiteAndRobot, task: Task, document: bytes | None, display: DisplayOptions
+) -> mission.Review:
     """Check a Task and print its review.
 
     Raises:
         NotApprovedError: A check failed.
     """
     with working(message("Checking ..."), display.progress):
-        review = mission.review(task, ground.site, ground.robot, document=document)
+        review = mission.review(task, site_and_robot.site, site_and_robot.robot, document=document)
     if not display.json:
         show.show_review(review, display.language)
         if review.errors:

@@ -66,7 +66,7 @@ class Replies:
         )
 
 
-def plan_and_ask(request: str, ground: SiteAndRobot, planner: Planner, replies: Replies) -> tuple[str, Outcome]:
+def plan_and_ask(request: str, site_and_robot: SiteAndRobot, planner: Planner, replies: Replies) -> tuple[str, Outcome]:
     """Plan a request, and answer the questions of the planner.
 
     Returns:
@@ -81,7 +81,7 @@ def plan_and_ask(request: str, ground: SiteAndRobot, planner: Planner, replies: 
     answers: tuple[Answer, ...] = ()
     for _ in range(MOST_QUESTIONS + 1):
         with working(message("Planning ..."), replies.progress):
-            outcome = mission.plan(request, ground.site, ground.robot, planner, answers)
+            outcome = mission.plan(request, site_and_robot.site, site_and_robot.robot, planner, answers)
         if not isinstance(outcome, Clarify):
             if given and isinstance(outcome, Planned):
                 what = message("no question was asked to which '{given}' is an answer", given=given[0])
@@ -118,7 +118,7 @@ def plan_and_ask(request: str, ground: SiteAndRobot, planner: Planner, replies: 
 
 
 def plan_or_read(
-    words: str, ground: SiteAndRobot, planner: str, transcript: Path | None, replies: Replies
+    words: str, site_and_robot: SiteAndRobot, planner: str, transcript: Path | None, replies: Replies
 ) -> tuple[Task, bytes | None, str]:
     """Plan a request, or read a Task document if ``words`` is the name of an ``.xml`` file.
 
@@ -132,7 +132,7 @@ def plan_or_read(
         if typed.lstrip("\ufeff").lstrip().startswith("<"):
             require_no_answer(replies.given, "standard input")
             document = typed.encode()
-            return mission.decode_task(document, ground.robot, source="standard input"), document, "file"
+            return mission.decode_task(document, site_and_robot.robot, source="standard input"), document, "file"
         words = typed
     if is_bundle(words):
         what = message("is a signed mission, neither a request nor a Task")
@@ -141,9 +141,9 @@ def plan_or_read(
         )
     if words.lower().endswith(".xml") and "\n" not in words:
         require_no_answer(replies.given, words)
-        task, document = mission.read_task(Path(words), ground.robot)
+        task, document = mission.read_task(Path(words), site_and_robot.robot)
         return task, document, "file"
-    words, outcome = plan_and_ask(words, ground, mission.make_planner(planner, os.environ, transcript), replies)
+    words, outcome = plan_and_ask(words, site_and_robot, mission.make_planner(planner, os.environ, transcript), replies)
     if not isinstance(outcome, Planned):
         fail_outcome(words, outcome, replies.language)
     return outcome.task, None, outcome.planner

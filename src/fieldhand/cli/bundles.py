@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,7 +14,7 @@ from fieldhand.files import STANDARD
 from fieldhand.language import message
 
 if TYPE_CHECKING:
-    from fieldhand.approval.bundle.opening import Bundle, Content
+    from fieldhand.approval.bundle.opening import Bundle
     from fieldhand.approval.keys.public import PublicKey
     from fieldhand.task.authorization import Authorization
 
@@ -41,7 +41,6 @@ def open_mission(file: str, site: str | None, robot: str | None, *, lenient: boo
         NotApprovedError: Its approval has expired, or a later approval of the mission was used here.
     """
     from fieldhand.approval.bundle.container import read_bundle_file
-    from fieldhand.approval.memory import approval_memory
     from fieldhand.robot.loader import load_robot
     from fieldhand.site.loader import open_site
 
@@ -52,8 +51,7 @@ def open_mission(file: str, site: str | None, robot: str | None, *, lenient: boo
         given = open_site(site, lenient=lenient)
         if (given.sha256, given.content_sha256) != (bundle.site.sha256, bundle.site.content_sha256):
             raise _mismatch("--site", site, bundle.site.name)
-    memory, clock = approval_memory(os.environ), datetime.now(UTC)
-    memory.admit(bundle.manifest, bundle.signer.fingerprint, clock=clock, source=file)
+    mission.admit_bundle(bundle, source=file, environ=os.environ, now=datetime.now(UTC))
     return bundle
 
 
@@ -68,46 +66,6 @@ def verify(data: bytes, source: str) -> Bundle:
 
     trusted = trust_store(os.environ)
     return mission.open_bundle(data, source=source, trusted=trusted, now=datetime.now(UTC))
-
-
-@dataclass(frozen=True, kw_only=True)
-class Unverified:
-    """A signed mission whose key may be untrusted: to be inspected, never to be carried out.
-
-    Attributes:
-        content: Its contents.
-        document: Bytes of its Task document.
-        sha256: SHA-256 of the file.
-        signed: Name of the signer in words.
-    """
-
-    content: Content
-    document: bytes
-    sha256: str
-    signed: str
-
-
-def read_unverified(data: bytes, source: str) -> Unverified:
-    """Read a signed mission without requiring that its key is trusted.
-
-    Raises:
-        BundleError: The file is damaged.
-    """
-    from fieldhand.approval.bundle.container import TASK
-    from fieldhand.approval.bundle.opening import content_of, unseal
-    from fieldhand.approval.memory import trust_store
-
-    sealed = unseal(data, source=source)
-    fingerprint = sealed.signature.public.fingerprint
-    key = trust_store(os.environ).known().get(fingerprint)
-    if key is None:
-        signed: str = message("a key that is not trusted here ({fingerprint})", fingerprint=fingerprint)
-    elif key.revoked is None:
-        signed = key.in_words
-    else:
-        signed = message("{key}, revoked on {date}", key=key.in_words, date=str(key.revoked))
-    content = content_of(sealed, now=datetime.now(UTC), stranger=key is None or key.state != "trusted")
-    return Unverified(content=content, document=sealed.members[TASK], sha256=sealed.hashes["bundle"], signed=signed)
 
 
 def require_ending(path: Path) -> None:

@@ -43,13 +43,13 @@ def calibrate(
     missions = finished_missions.measured_missions(
         robot, events or (), finished_missions.history_folder(os.environ), simulated=simulated
     )
-    found = finished_missions.calibrate(robot, missions)
+    calibration = finished_missions.calibrate(robot, missions)
     if output is not None:
-        write_file(output, finished_missions.calibrated_profile(robot, found, at=datetime.now(UTC)))
+        write_file(output, finished_missions.calibrated_profile(robot, calibration, at=datetime.now(UTC)))
     if json:
-        show.print_json(_record(robot, found, output))
+        show.print_json(_record(robot, calibration, output))
         return
-    for line in _lines(robot, found):
+    for line in _lines(robot, calibration):
         show.out.print(line, highlight=False)
     if output is not None:
         show.out.print_lines("", f"Profile: {output}")
@@ -58,9 +58,9 @@ def calibrate(
         show.out.print_lines("", "Give -o profile.yaml to write the new profile.")
 
 
-def _rows(robot: RobotProfile, found: Calibration) -> Iterator[tuple[str, float, FittedValue | None, str]]:
+def _rows(robot: RobotProfile, calibration: Calibration) -> Iterator[tuple[str, float, FittedValue | None, str]]:
     """Yield name, value in the profile, fitted value and unit of each figure."""
-    fit, energy = found.fit, robot.energy
+    fit, energy = calibration.fit, robot.energy
     yield "leg cost, alpha", robot.leg_cost.alpha, fit.legs.alpha, ""
     yield "metres driven for one planned", 1.0, fit.legs.scale, ""
     yield "speed", robot.speed_m_s, fit.speed, "m/s"
@@ -71,17 +71,17 @@ def _rows(robot: RobotProfile, found: Calibration) -> Iterator[tuple[str, float,
         yield f"{action.name}, energy", action.energy_j, fit.energies.get(action.name), "J"
 
 
-def _lines(robot: RobotProfile, found: Calibration) -> Iterator[str]:
+def _lines(robot: RobotProfile, calibration: Calibration) -> Iterator[str]:
     from fieldhand.language.words import say_count
 
     yield (
-        f"{robot.name}: {say_count(found.missions, 'mission')}, {say_count(found.legs, 'leg')},"
-        f" {say_count(found.captures, 'capture')}"
+        f"{robot.name}: {say_count(calibration.missions, 'mission')}, {say_count(calibration.legs, 'leg')},"
+        f" {say_count(calibration.captures, 'capture')}"
     )
-    for why, count in found.left_out.items():
+    for why, count in calibration.left_out.items():
         yield f"  left out: {count} ({why})"
     yield "Fitted (with 95 % confidence)"
-    for what, before, fitted, unit in _rows(robot, found):
+    for what, before, fitted, unit in _rows(robot, calibration):
         if fitted is None:
             yield f"  {what:<38} {before:>10.4g} {unit:<4} kept"
             continue
@@ -89,18 +89,19 @@ def _lines(robot: RobotProfile, found: Calibration) -> Iterator[str]:
             f"  {what:<38} {fitted.value:>10.4g} {unit:<4} {fitted.low:.4g} to {fitted.high:.4g}"
             f" from {fitted.count}; was {before:.4g}"
         )
-    for why in found.fit.kept:
+    for why in calibration.fit.kept:
         yield f"  kept {why}"
-    if found.fit.stretch != 1.0:
+    if calibration.fit.stretch != 1.0:
+        longer = 100 * (calibration.fit.stretch - 1)
         yield (
-            f"  A leg is {100 * (found.fit.stretch - 1):+.1f} % longer than planned: speed and energy in the profile"
-            " are those of a metre planned. A distance budget is still held against the odometer."
+            f"  Legs are {longer:+.1f} % longer than planned: speed and energy in the profile are per planned metre."
+            " A distance budget is still compared with the odometer."
         )
-    if found.fit.legs.likely < 0.01:
+    if calibration.fit.legs.likely < 0.01:
         yield "  The legs do not spread as the model says (Kolmogorov-Smirnov, p < 0.01): take its chances with care."
-    seconds, percent = found.actual
+    seconds, percent = calibration.actual
     yield "Predicted against actual (after: by fits that had not seen what they predict)"
-    for when, quality in (("before", found.before), ("after", found.after)):
+    for when, quality in (("before", calibration.before), ("after", calibration.after)):
         yield (
             f"  {when:<7} time {_off(quality.seconds, seconds)}, {quality.errors[0]:.2f} s a step;"
             f" battery {_off(quality.percent, percent)}, {quality.errors[1]:.4f} % a step;"
@@ -112,18 +113,18 @@ def _off(predicted: float, actual: float) -> str:
     return f"{100 * (predicted / actual - 1):+.1f} %" if actual else "unknown"
 
 
-def _record(robot: RobotProfile, found: Calibration, output: Path | None) -> dict[str, Any]:
+def _record(robot: RobotProfile, calibration: Calibration, output: Path | None) -> dict[str, Any]:
     from dataclasses import asdict
 
     return {
         "robot": robot.name,
         "robot_sha256": robot.sha256,
-        **{key: value for key, value in asdict(found).items() if key != "fit"},
+        **{key: value for key, value in asdict(calibration).items() if key != "fit"},
         "figures": {
             what: {"before": before, "unit": unit, **({} if fitted is None else asdict(fitted))}
-            for what, before, fitted, unit in _rows(robot, found)
+            for what, before, fitted, unit in _rows(robot, calibration)
         },
-        "likely": found.fit.legs.likely,
-        "kept": list(found.fit.kept),
+        "likely": calibration.fit.legs.likely,
+        "kept": list(calibration.fit.kept),
         "profile": None if output is None else str(output),
     }

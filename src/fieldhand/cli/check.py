@@ -25,21 +25,19 @@ def check(
     from fieldhand import mission
     from fieldhand.cli import show
     from fieldhand.cli.forecast_table import show_forecast
-    from fieldhand.cli.inputs import open_ground
+    from fieldhand.cli.inputs import open_site_and_robot
 
     language = display.language
-    ground = open_ground(place.site, place.robot, lenient=place.lenient, language=language)
-    read, document = mission.read_task(task, ground.robot)
-    review = mission.review(read, ground.site, ground.robot, document=document, charge_percent=charge)
+    site_and_robot = open_site_and_robot(place.site, place.robot, lenient=place.lenient, language=language)
+    read, document = mission.read_task(task, site_and_robot.robot)
+    review = mission.review(read, site_and_robot.site, site_and_robot.robot, document=document, charge_percent=charge)
     if picture is not None:
-        from fieldhand.cli.pictures import draw_plan
-
-        draw_plan(picture, review, ground, language)
+        review.save_map(picture, language=language.code)
     if display.json:
         show.print_json(show.review_record(review, language, every=True))
     else:
         show.show_review(review, language)
-        show_forecast(review, ground.robot, language)
+        show_forecast(review, site_and_robot.robot, language)
         show.out.print()
         show.out.print(language.say(_verdict(len(review.errors), len(review.warnings))))
     if review.errors:

@@ -43,7 +43,7 @@ def demo(
     from fieldhand.cli import show
     from fieldhand.cli.draft import OpenedInputs, draft_mission
     from fieldhand.cli.driver_options import connected, connection_of
-    from fieldhand.cli.inputs import read_ground
+    from fieldhand.cli.inputs import read_site_and_robot
     from fieldhand.cli.run_mission import RunSettings, run_mission
     from fieldhand.execution.drivers.simulation.world import World
     from fieldhand.language import message
@@ -52,13 +52,13 @@ def demo(
     language = display.language
     require_unsigned_allowed(os.environ)
     connection = connection_of(driver, os.environ)
-    ground, files = read_ground("demo", "husky", language=language)
+    site_and_robot, files = read_site_and_robot("demo", "husky", language=language)
     draft = draft_mission(
-        REQUEST, OpenedInputs(ground=ground, files=files), PlanningOptions(planner="english"), display
+        REQUEST, OpenedInputs(site_and_robot=site_and_robot, files=files), PlanningOptions(planner="english"), display
     )
     # Nobody reads the warning that the budget is tight; it is printed, and the report names it as confirmed.
     approval = ApprovalOptions(yes=True, confirm=True, by="demo")
-    with connected(ground, draft.task, connection, display) as vehicle:
+    with connected(site_and_robot, draft.task, connection, display) as vehicle:
         settings = RunSettings(
             approval=approval,
             display=display,

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 from fieldhand.cli import show
 from fieldhand.cli.asking import Replies, plan_or_read, require_no_answer
 from fieldhand.cli.bundles import approval_line, is_bundle, open_mission, require_site
-from fieldhand.cli.inputs import InputFiles, read_ground
+from fieldhand.cli.inputs import read_site_and_robot
 from fieldhand.cli.options import DisplayOptions, MissionInputOptions, PlanningOptions
-from fieldhand.mission.documents import SiteAndRobot
+from fieldhand.mission.documents import InputFiles, SiteAndRobot
 from fieldhand.task.frames import Task
 
 if TYPE_CHECKING:
@@ -23,12 +23,12 @@ class OpenedInputs:
     """Site and robot of a mission, and the files that they were read from.
 
     Attributes:
-        ground: Site and robot.
+        site_and_robot: Site and robot.
         files: Their files.
         bundle: Signed mission that contains them; None if they were given as options.
     """
 
-    ground: SiteAndRobot
+    site_and_robot: SiteAndRobot
     files: InputFiles
     bundle: Bundle | None = None
 
@@ -38,14 +38,14 @@ class MissionDraft:
     """A mission before its review.
 
     Attributes:
-        ground: Site and robot.
+        site_and_robot: Site and robot.
         task: Task that was planned, read or signed.
         document: Bytes of the Task document, if the Task was read from one.
         planner: Name of the planner of the Task.
         bundle: Signed mission that contains the Task; None if the Task has yet to be approved.
     """
 
-    ground: SiteAndRobot
+    site_and_robot: SiteAndRobot
     task: Task
     document: bytes | None = None
     planner: str
@@ -73,13 +73,13 @@ def open_inputs(
     if not is_bundle(request):
         require_unsigned_allowed(os.environ, asked=production)
         site, robot = require_site(inputs.site), inputs.robot or "husky"
-        ground, files = read_ground(site, robot, lenient=inputs.lenient, language=display.language)
-        return OpenedInputs(ground=ground, files=files)
+        site_and_robot, files = read_site_and_robot(site, robot, lenient=inputs.lenient, language=display.language)
+        return OpenedInputs(site_and_robot=site_and_robot, files=files)
     bundle = open_mission(request, inputs.site, inputs.robot, lenient=inputs.lenient)
     if not display.json:
         show.out.print(display.language.say(approval_line(bundle)))
     return OpenedInputs(
-        ground=SiteAndRobot(site=bundle.site, robot=bundle.robot),
+        site_and_robot=SiteAndRobot(site=bundle.site, robot=bundle.robot),
         files=InputFiles(site=bundle.files, profile=bundle.profile, lenient=bundle.manifest.site.lenient),
         bundle=bundle,
     )
@@ -94,11 +94,11 @@ def draft_mission(
         InputError: An answer is given for a mission that is planned already.
         RequestError, TaskError, ModelError: The request cannot be planned, or the document cannot be read.
     """
-    ground, bundle = opened.ground, opened.bundle
+    site_and_robot, bundle = opened.site_and_robot, opened.bundle
     if bundle is not None:
         require_no_answer(planning.answer or (), request)
         planner = bundle.manifest.task.planner
-        return MissionDraft(ground=ground, task=bundle.authorized.task, planner=planner, bundle=bundle)
+        return MissionDraft(site_and_robot=site_and_robot, task=bundle.authorized.task, planner=planner, bundle=bundle)
     replies = Replies.of(planning, display)
-    task, document, planner = plan_or_read(request, ground, planning.planner, planning.transcript, replies)
-    return MissionDraft(ground=ground, task=task, document=document, planner=planner)
+    task, document, planner = plan_or_read(request, site_and_robot, planning.planner, planning.transcript, replies)
+    return MissionDraft(site_and_robot=site_and_robot, task=task, document=document, planner=planner)

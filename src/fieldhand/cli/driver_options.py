@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from fieldhand.mission import Review
     from fieldhand.mission.documents import SiteAndRobot
     from fieldhand.missions import RobotAtStart
+    from fieldhand.robot.bindings import Ros2Bindings
     from fieldhand.task.frames import Task
 
 SIMULATION = "simulation"
@@ -58,6 +59,28 @@ class DriverOptions:
         list[str] | None,
         typer.Option("--driver-option", metavar="NAME=VALUE", help="Option of a plugin's driver; may be repeated."),
     ] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class TransportOptions:
+    """ROS 2 transport, and the domain and namespace in which the robot's names are."""
+
+    on: Annotated[
+        str,
+        typer.Option("--on", metavar="dds|rclpy", help="dds needs no ROS here, rclpy uses the one that is sourced."),
+    ] = "dds"
+    domain: Annotated[
+        int | None, typer.Option("--domain", min=0, max=MOST_DOMAIN, help="ROS domain; else ROS_DOMAIN_ID, else 0.")
+    ] = None
+    namespace: NamespaceOption = None
+
+    def in_namespace(self, bindings: Ros2Bindings) -> Ros2Bindings:
+        """Return the bindings of a profile in the namespace of the option, if it is given.
+
+        Raises:
+            InputError: The namespace is not a valid ROS name.
+        """
+        return bindings if self.namespace is None else replace(bindings, namespace=namespace_of(self.namespace))
 
 
 def connection_of(options: DriverOptions, environ: Mapping[str, str]) -> Connection | None:
@@ -214,7 +237,7 @@ def refuse_simulation_options(connection: Connection | None, *, world: Path | No
 
 @contextmanager
 def connected(
-    ground: SiteAndRobot, task: Task, connection: Connection | None, display: DisplayOptions
+    site_and_robot: SiteAndRobot, task: Task, connection: Connection | None, display: DisplayOptions
 ) -> Iterator[Vehicle | None]:
     """Connect to the robot for the duration of the context; None for the simulation.
 
@@ -231,17 +254,17 @@ def connected(
 
     kind = driver_kind(connection.transport)
     if not display.json:
-        fills = {"robot": ground.robot.name, "way": str(connection)}
+        fills = {"robot": site_and_robot.robot.name, "way": str(connection)}
         if kind.ros2:
             note(message("looking for {robot} over ROS 2 ({way})", **fills), display.language)
         else:
             note(message("looking for {robot} ({way})", **fills), display.language)
-    with kind.connect(ground.site, ground.robot, task, connection, READY_WITHIN_S) as vehicle:
+    with kind.connect(site_and_robot.site, site_and_robot.robot, task, connection, READY_WITHIN_S) as vehicle:
         yield vehicle
 
 
 def check_start(
-    ground: SiteAndRobot, review: Review, vehicle: Vehicle, *, confirm: bool, display: DisplayOptions
+    site_and_robot: SiteAndRobot, review: Review, vehicle: Vehicle, *, confirm: bool, display: DisplayOptions
 ) -> None:
     """Check position and battery of the robot before it moves, and print them.
 
@@ -253,19 +276,19 @@ def check_start(
     from fieldhand import missions
     from fieldhand.cli.show import note
 
-    away_m = missions.require_in_place(ground.site, ground.robot, vehicle.driver)
+    away_m = missions.require_in_place(site_and_robot.site, site_and_robot.robot, vehicle.driver)
     charge = vehicle.driver.charge_percent()
     if not display.json:
         position = message(
             "{robot} is {metres} m from the start, battery at {charge} %",
-            robot=ground.robot.name,
+            robot=site_and_robot.robot.name,
             metres=Number(f"{away_m:.1f}"),
             charge=f"{charge:.0f}",
         )
         note(position, display.language)
         if vehicle.remark:
             note(vehicle.remark, display.language)
-    missions.require_charged(review, ground.site, ground.robot, charge, confirm=confirm)
+    missions.require_charged(review, site_and_robot.site, site_and_robot.robot, charge, confirm=confirm)
 
 
 def namespace_of(text: str) -> str:

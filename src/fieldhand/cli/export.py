@@ -110,14 +110,14 @@ def _export_task(source: str, folder: Path | None, recorded: RecordedOptions, to
         raise InputError("the route of a Task needs its site", where="--site", advice="give the site's file, or demo")
     else:
         plan = plan_of_files(path, recorded.site, recorded.robot, lenient=recorded.lenient)
-    task, ground = plan.task, plan.ground
+    task, site_and_robot = plan.task, plan.site_and_robot
     if to == "btcpp":
-        return _Exported(data=write_tree(task, capabilities_of(ground.robot)), facts={"task": task.id})
-    route = planned(task, ground.site, ground.robot)
+        return _Exported(data=write_tree(task, capabilities_of(site_and_robot.robot)), facts={"task": task.id})
+    route = planned(task, site_and_robot.site, site_and_robot.robot)
     facts = _facts(route) | {"task": task.id}
     open_ = [stop for stop in route.stops if not stop.certain]
     if to == "qgc":
-        plan_file = write_plan(route, ground.site)
+        plan_file = write_plan(route, site_and_robot.site)
         if not plan_file.stops:
             raise InputError(
                 "this mission has no fixed route: its first stop depends on a reading or on the budget",
@@ -139,7 +139,7 @@ def _export_task(source: str, folder: Path | None, recorded: RecordedOptions, to
 
 def _export_log(source: str, folder: Path | None, recorded: RecordedOptions, to: str, output: Path) -> _Exported:
     """Return an event log in a format of other programs; ``folder`` is that of a stored mission, if one is exported."""
-    from fieldhand.cli.recorded import ground_of, log_of_folder, plan_of_folder
+    from fieldhand.cli.recorded import log_of_folder, plan_of_folder, site_and_robot_of
     from fieldhand.exchange.routes.route import driven
     from fieldhand.finished_missions import read_log
     from fieldhand.robot.loader import load_robot
@@ -151,26 +151,26 @@ def _export_log(source: str, folder: Path | None, recorded: RecordedOptions, to:
     if to == "events":
         return _Exported(data="".join(to_json(event) + "\n" for event in events).encode(), facts=facts)
     if to == "mcap":
-        ground: SiteAndRobot | None = None
+        site_and_robot: SiteAndRobot | None = None
         if folder is not None:
-            ground = plan_of_folder(folder).ground
+            site_and_robot = plan_of_folder(folder).site_and_robot
         elif recorded.site is not None:
-            ground = ground_of(recorded.site, recorded.robot, lenient=recorded.lenient)
-        _write_mcap(events, output, ground, recorded.robot or "husky")
-        notes = () if ground else ("without --site the map shows no trees",)
+            site_and_robot = site_and_robot_of(recorded.site, recorded.robot, lenient=recorded.lenient)
+        _write_mcap(events, output, site_and_robot, recorded.robot or "husky")
+        notes = () if site_and_robot else ("without --site the map shows no trees",)
         return _Exported(data=None, facts=facts, notes=notes)
-    named = plan_of_folder(folder).ground.robot if folder is not None else load_robot(recorded.robot or "husky")
+    named = plan_of_folder(folder).site_and_robot.robot if folder is not None else load_robot(recorded.robot or "husky")
     route = driven(events, tell=EventText(named).line)
     return _Exported(data=_WRITERS[to](route), facts=facts | _facts(route))
 
 
-def _write_mcap(events: tuple[Event, ...], output: Path, ground: SiteAndRobot | None, robot: str) -> None:
+def _write_mcap(events: tuple[Event, ...], output: Path, site_and_robot: SiteAndRobot | None, robot: str) -> None:
     from fieldhand.exchange.mcap import McapLog
     from fieldhand.robot.loader import load_robot
     from fieldhand.wording.events import EventText
 
-    event_text = EventText(load_robot(robot) if ground is None else ground.robot)
-    with McapLog(output, tell=event_text.line, site=None if ground is None else ground.site) as log:
+    event_text = EventText(load_robot(robot) if site_and_robot is None else site_and_robot.robot)
+    with McapLog(output, tell=event_text.line, site=None if site_and_robot is None else site_and_robot.site) as log:
         for event in events:
             log(event)
 

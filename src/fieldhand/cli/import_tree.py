@@ -2,53 +2,47 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from fieldhand.cli.options import JsonOption, LenientOption, RobotOption
+from fieldhand.cli.option_groups import grouped
+from fieldhand.cli.options import JsonOption, MissionInputOptions
 from fieldhand.cli.outputs import to_file
 
 
+@dataclass(frozen=True, kw_only=True)
+class ImportOptions(MissionInputOptions):
+    """Site to check an imported Task on, and its robot."""
+
+    site: Annotated[str | None, typer.Option("--site", help="Check the Task on this site, too.")] = None
+
+
+@grouped("tree output robot site request lenient json")
 def import_tree(
+    inputs: ImportOptions,
     tree: Annotated[Path, typer.Argument(help="A tree of BehaviorTree.CPP 4 (XML), made of this robot's actions.")],
     output: Annotated[Path, typer.Option("-o", "--output", callback=to_file, help="Where to write the Task (XML).")],
-    robot: RobotOption = "husky",
-    site: Annotated[str | None, typer.Option("--site", help="Check the Task on this site, too.")] = None,
     request: Annotated[str, typer.Option("--request", help="The request, if the tree does not contain it.")] = "",
-    lenient: LenientOption = False,
     json: JsonOption = False,
 ) -> None:
     """Read a tree as a Task; with --site exit status 1 if anything forbids its approval."""
     from fieldhand import mission
     from fieldhand.cli import show
-    from fieldhand.cli.inputs import open_ground, write_file
-    from fieldhand.errors import TaskError
-    from fieldhand.exchange.btcpp import read_tree
-    from fieldhand.robot.capabilities import capabilities_of
+    from fieldhand.cli.inputs import note_left_out, write_file
     from fieldhand.robot.loader import load_robot
-    from fieldhand.task.codec import encode
+    from fieldhand.site.loader import open_site
     from fieldhand.task.codec_xml import read_xml
-    from fieldhand.task.frames import Resource
-    from fieldhand.task.references import references
-    from fieldhand.task.schema import require_valid
 
-    ground = None if site is None else open_ground(site, robot, lenient=lenient)
-    profile = load_robot(robot) if ground is None else ground.robot
-    capabilities = capabilities_of(profile)
-    resources = [Resource(kind="robot", name=profile.name, sha256=profile.sha256)]
-    if ground is not None:
-        resources.append(Resource(kind="site", name=ground.site.name, sha256=ground.site.sha256))
-    data = read_xml(tree)
-    task = read_tree(data, capabilities, request=request, resources=tuple(resources), source=str(tree))
-    document = encode(task)
-    require_valid(document, capabilities, source=str(tree))
-    problems = references(task, capabilities)
-    if problems:
-        raise TaskError("; ".join(problems), where=str(tree), advice="correct the tree")
+    robot = load_robot(inputs.robot or "husky")
+    site = None if inputs.site is None else open_site(inputs.site, lenient=inputs.lenient)
+    if site is not None:
+        note_left_out(site, lenient=inputs.lenient)
+    task, document = mission.import_tree(read_xml(tree), robot, site=site, request=request, source=str(tree))
     write_file(output, document)
-    review = None if ground is None else mission.review(task, ground.site, profile, document=document)
+    review = None if site is None else mission.review(task, site, robot, document=document)
     if json:
         record = {"task": task.id, "file": str(output)}
         show.print_json(record if review is None else record | show.review_record(review))

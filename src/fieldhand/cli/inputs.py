@@ -4,49 +4,29 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from fieldhand import files
 from fieldhand.cli.outputs import unwritable
 from fieldhand.cli.show import note
 from fieldhand.language import ENGLISH, Language
-from fieldhand.mission.documents import SiteAndRobot
+from fieldhand.mission.documents import InputFiles, SiteAndRobot
 from fieldhand.site.model import Site
 
-if TYPE_CHECKING:
-    from fieldhand.site.formats.files import SiteFiles
 
-
-@dataclass(frozen=True, kw_only=True)
-class InputFiles:
-    """Files of a site and a robot, to be copied to a mission's folder or a signed mission.
-
-    Attributes:
-        site: Files of the site.
-        profile: Bytes of the robot profile.
-        lenient: True if the site was read leniently.
-    """
-
-    site: SiteFiles
-    profile: bytes
-    lenient: bool
-
-
-def open_ground(site: str, robot: str, *, lenient: bool = False, language: Language = ENGLISH) -> SiteAndRobot:
+def open_site_and_robot(site: str, robot: str, *, lenient: bool = False, language: Language = ENGLISH) -> SiteAndRobot:
     """Open a site and a robot, and print what a lenient reading of the site left out.
 
     Raises:
         SiteError, ProfileError: Site or robot cannot be used.
     """
-    return read_ground(site, robot, lenient=lenient, language=language)[0]
+    return read_site_and_robot(site, robot, lenient=lenient, language=language)[0]
 
 
-def read_ground(
+def read_site_and_robot(
     site: str, robot: str, *, lenient: bool = False, language: Language = ENGLISH
 ) -> tuple[SiteAndRobot, InputFiles]:
-    """Open a site and a robot as :func:`open_ground` does, and return their files, too; each file is read once.
+    """Open a site and a robot as :func:`open_site_and_robot` does, and return their files, too; each file is read once.
 
     Raises:
         SiteError, ProfileError: Site or robot cannot be used.
@@ -58,8 +38,8 @@ def read_ground(
     opened = site_of(files, lenient=lenient)
     note_left_out(opened, lenient=lenient, language=language)
     profile, source = profile_bytes(robot)
-    ground = SiteAndRobot(site=opened, robot=parse_profile(profile, source=source))
-    return ground, InputFiles(site=files, profile=profile, lenient=lenient)
+    site_and_robot = SiteAndRobot(site=opened, robot=parse_profile(profile, source=source))
+    return site_and_robot, InputFiles(site=files, profile=profile, lenient=lenient)
 
 
 def note_left_out(site: Site, *, lenient: bool, language: Language = ENGLISH) -> None:

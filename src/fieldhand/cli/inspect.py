@@ -36,36 +36,38 @@ def inspect(
 
     language = spoken(lang, os.environ)
     data = read_bundle_file(file)
-    found = mission.inspect_bundle(data, source=str(file), environ=os.environ, now=datetime.now(UTC), language=language)
+    inspection = mission.inspect_bundle(
+        data, source=str(file), environ=os.environ, now=datetime.now(UTC), language=language
+    )
     if json:
-        show.print_json(_record(file, found, language))
+        show.print_json(_record(file, inspection, language))
     else:
         with show.out.behind(), show.err.behind():
-            _show(file, found, language)
-    if not found.may_run:
+            _show(file, inspection, language)
+    if not inspection.may_run:
         raise SystemExit(1)
 
 
-def _show(file: Path, found: BundleInspection, language: Language) -> None:
+def _show(file: Path, inspection: BundleInspection, language: Language) -> None:
     from fieldhand.cli import show
 
-    if found.sealed is not None:
-        whose = f" of {found.signer}" if found.signer else ""
-        show.out.print(f"Signature {found.state}: key{whose} {found.sealed.signature.public.fingerprint}")
+    if inspection.sealed is not None:
+        whose = f" of {inspection.signer}" if inspection.signer else ""
+        show.out.print(f"Signature {inspection.state}: key{whose} {inspection.sealed.signature.public.fingerprint}")
         show.out.print("SHA-256")
-        for name, sha256 in found.sealed.hashes.items():
+        for name, sha256 in inspection.sealed.hashes.items():
             show.out.print(f"  {sha256}  {name}")
         show.out.print()
-    if found.manifest is not None:
+    if inspection.manifest is not None:
         show.out.print(f'What {file} holds stands behind "{_MARK.strip()}":')
         with show.out.behind(_MARK):
-            _show_manifest(found.manifest, found.content)
-            if found.review is not None:
-                show.show_review(found.review, language)
+            _show_manifest(inspection.manifest, inspection.content)
+            if inspection.review is not None:
+                show.show_review(inspection.review, language)
         show.out.print()
-    for problem in found.problems:
+    for problem in inspection.problems:
         show.err.print(f"fieldhand: {problem}")
-    show.out.print(f"{file} would run here." if found.may_run else f"{file} would not run here.")
+    show.out.print(f"{file} would run here." if inspection.may_run else f"{file} would not run here.")
 
 
 def _show_manifest(manifest: Manifest, content: Content | None) -> None:
@@ -83,20 +85,20 @@ def _show_manifest(manifest: Manifest, content: Content | None) -> None:
         show.out.print(f"  confirmed: {warning}")
 
 
-def _record(file: Path, found: BundleInspection, language: Language) -> dict[str, Any]:
+def _record(file: Path, inspection: BundleInspection, language: Language) -> dict[str, Any]:
     from fieldhand.cli import show
 
-    sealed, manifest = found.sealed, found.manifest
+    sealed, manifest = inspection.sealed, inspection.manifest
     return {
         "file": str(file),
-        "runs": found.may_run,
-        "problems": list(found.problems),
+        "runs": inspection.may_run,
+        "problems": list(inspection.problems),
         "signature": {
-            "state": found.state,
-            "name": found.signer,
+            "state": inspection.state,
+            "name": inspection.signer,
             "fingerprint": "" if sealed is None else sealed.signature.public.fingerprint,
         },
         "hashes": {} if sealed is None else dict(sealed.hashes),
         "manifest": None if manifest is None else manifest.model_dump(),
-        "review": None if found.review is None else show.review_record(found.review, language),
+        "review": None if inspection.review is None else show.review_record(inspection.review, language),
     }

@@ -22,10 +22,10 @@ from functools import wraps
 from inspect import Parameter, Signature, signature
 from typing import Any, get_type_hints
 
-Command = Callable[..., None]
+CommandFunction = Callable[..., None]
 
 
-def grouped(order: str = "") -> Callable[[Command], Command]:
+def grouped(order: str = "") -> Callable[[CommandFunction], CommandFunction]:
     """Return a decorator that expands the groups of a command into single options.
 
     Args:
@@ -36,7 +36,7 @@ def grouped(order: str = "") -> Callable[[Command], Command]:
         TypeError: ``order`` does not name every option exactly once.
     """
 
-    def expand(command: Command) -> Command:
+    def expand(command: CommandFunction) -> CommandFunction:
         groups: dict[str, type[Any]] = {}
         options: dict[str, Parameter] = {}
         for name, parameter in signature(command, eval_str=True).parameters.items():

@@ -29,33 +29,33 @@ def plan(
     from fieldhand import mission
     from fieldhand.cli import show
     from fieldhand.cli.asking import Replies, given_words, plan_and_ask
-    from fieldhand.cli.inputs import open_ground, write_file
-    from fieldhand.cli.pictures import draw_plan, draw_question
+    from fieldhand.cli.inputs import open_site_and_robot, write_file
+    from fieldhand.cli.pictures import draw_question
     from fieldhand.language import message
     from fieldhand.planning.planner import Clarify, Planned
     from fieldhand.task.codec import encode
 
     language = display.language
-    ground = open_ground(place.site, place.robot, lenient=place.lenient, language=language)
+    site_and_robot = open_site_and_robot(place.site, place.robot, lenient=place.lenient, language=language)
     planner = mission.make_planner(planning.planner, os.environ, planning.transcript)
 
     def draw(question: Clarify) -> None:
         if picture is not None:
-            draw_question(picture, question, ground)
+            draw_question(picture, question, site_and_robot)
 
     replies = Replies.of(planning, display, draw)
-    request, outcome = plan_and_ask(given_words(request), ground, planner, replies)
+    request, outcome = plan_and_ask(given_words(request), site_and_robot, planner, replies)
     if not isinstance(outcome, Planned):
         if display.json:
             show.print_json(show.outcome_record(outcome))
             raise SystemExit(2)
         show.fail_outcome(request, outcome, language)
-    review = mission.review(outcome.task, ground.site, ground.robot)
+    review = mission.review(outcome.task, site_and_robot.site, site_and_robot.robot)
     document = encode(outcome.task)
     if output is not None:
         write_file(output, document)
     if picture is not None:
-        draw_plan(picture, review, ground, language)
+        review.save_map(picture, language=language.code)
     if display.json:
         record = show.outcome_record(outcome) | show.review_record(review, language) | {"xml": document.decode()}
         show.print_json(record)

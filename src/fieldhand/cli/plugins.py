@@ -16,9 +16,9 @@ def plugins(json: JsonOption = False) -> None:
     The exit status is 1 if one of them cannot be loaded; the others work nevertheless.
     """
     from fieldhand.cli import show
-    from fieldhand.plugins import GROUPS, found
+    from fieldhand.plugins import GROUPS, list_plugins
 
-    records = [_record(plugin) for group in GROUPS for plugin in found(group)]
+    records = [_record(plugin) for group in GROUPS for plugin in list_plugins(group)]
     if json:
         show.print_json({"plugins": records})
     else:

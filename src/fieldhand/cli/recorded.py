@@ -5,11 +5,12 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from fieldhand.cli.bundles import is_bundle, read_unverified, require_site
-from fieldhand.cli.inputs import open_ground
+from fieldhand.cli.bundles import is_bundle, require_site
+from fieldhand.cli.inputs import open_site_and_robot
 from fieldhand.cli.options import RecordedOptions
 from fieldhand.errors import InputError
 from fieldhand.language import ENGLISH, Language, message
@@ -17,6 +18,7 @@ from fieldhand.mission.documents import SiteAndRobot
 
 if TYPE_CHECKING:
     from fieldhand.finished_missions import MissionLog
+    from fieldhand.mission import UnverifiedBundle
     from fieldhand.task.authorization import Authorization
     from fieldhand.task.frames import Task
 
@@ -27,7 +29,7 @@ class RecordedPlan:
 
     Attributes:
         task, document: The Task, and the bytes of its document.
-        ground: Site and robot.
+        site_and_robot: Site and robot.
         authorization: Approval of the Task; None if it is unknown.
         signed: Name of the signer in words; empty for an unsigned mission.
         hashes: Name and SHA-256 of further files that the mission depends on.
@@ -35,7 +37,7 @@ class RecordedPlan:
 
     task: Task
     document: bytes
-    ground: SiteAndRobot
+    site_and_robot: SiteAndRobot
     authorization: Authorization | None = None
     signed: str = ""
     hashes: Sequence[tuple[str, str]] = ()
@@ -105,11 +107,11 @@ def plan_of_folder(folder: Path) -> RecordedPlan:
 
     contents = missions.read_folder(folder)
     stored = contents.mission()
-    bundle = None if contents.signed is None else read_unverified(contents.signed, str(folder))
+    bundle = None if contents.signed is None else _unverified(contents.signed, str(folder))
     return RecordedPlan(
         task=stored.authorized.task,
         document=contents.files["task.xml"],
-        ground=SiteAndRobot(site=stored.site, robot=stored.robot),
+        site_and_robot=SiteAndRobot(site=stored.site, robot=stored.robot),
         authorization=stored.authorized.authorization,
         signed="" if bundle is None else bundle.signed,
         hashes=() if bundle is None else (("signed mission", bundle.sha256),),
@@ -146,9 +148,9 @@ def plan_of_files(
     if is_bundle(str(task)):
         require_nothing_beside(task, site=site, robot=robot)
         return plan_of_bundle(task)
-    ground = ground_of(require_site(site), robot, lenient=lenient, language=language)
-    read, document = mission.read_task(task, ground.robot)
-    return RecordedPlan(task=read, document=document, ground=ground)
+    site_and_robot = site_and_robot_of(require_site(site), robot, lenient=lenient, language=language)
+    read, document = mission.read_task(task, site_and_robot.robot)
+    return RecordedPlan(task=read, document=document, site_and_robot=site_and_robot)
 
 
 def plan_of_bundle(file: Path) -> RecordedPlan:
@@ -158,20 +160,25 @@ def plan_of_bundle(file: Path) -> RecordedPlan:
         BundleError: The file is damaged.
     """
     from fieldhand.approval.bundle.container import read_bundle_file
-    from fieldhand.approval.bundle.opening import authorization_of
 
-    found = read_unverified(read_bundle_file(file), str(file))
+    unverified = _unverified(read_bundle_file(file), str(file))
     return RecordedPlan(
-        task=found.content.task,
-        document=found.document,
-        ground=SiteAndRobot(site=found.content.site, robot=found.content.robot),
-        authorization=authorization_of(found.content.manifest),
-        signed=found.signed,
-        hashes=(("signed mission", found.sha256),),
+        task=unverified.content.task,
+        document=unverified.document,
+        site_and_robot=SiteAndRobot(site=unverified.content.site, robot=unverified.content.robot),
+        authorization=unverified.authorization,
+        signed=unverified.signed,
+        hashes=(("signed mission", unverified.sha256),),
     )
 
 
-def ground_of(site: str, robot: str | None, *, lenient: bool, language: Language = ENGLISH) -> SiteAndRobot:
+def _unverified(data: bytes, source: str) -> UnverifiedBundle:
+    from fieldhand import mission
+
+    return mission.read_unverified(data, source=source, environ=os.environ, now=datetime.now(UTC))
+
+
+def site_and_robot_of(site: str, robot: str | None, *, lenient: bool, language: Language = ENGLISH) -> SiteAndRobot:
     """Return site and robot; if ``site`` is a signed mission, those that it contains.
 
     Raises:
@@ -179,8 +186,8 @@ def ground_of(site: str, robot: str | None, *, lenient: bool, language: Language
     """
     if is_bundle(site):
         require_nothing_beside(Path(site), robot=robot)
-        return plan_of_bundle(Path(site)).ground
-    return open_ground(site, robot or "husky", lenient=lenient, language=language)
+        return plan_of_bundle(Path(site)).site_and_robot
+    return open_site_and_robot(site, robot or "husky", lenient=lenient, language=language)
 
 
 def require_nothing_beside(brings: Path, **given: object) -> None:

@@ -31,7 +31,13 @@ def replay(
     from fieldhand.cli import show
     from fieldhand.cli.bundles import require_site
     from fieldhand.cli.inputs import write_file
-    from fieldhand.cli.recorded import folder_of, ground_of, log_of_folder, plan_of_folder, require_nothing_beside
+    from fieldhand.cli.recorded import (
+        folder_of,
+        log_of_folder,
+        plan_of_folder,
+        require_nothing_beside,
+        site_and_robot_of,
+    )
     from fieldhand.errors import OutputError
     from fieldhand.exchange.replay import film_of, page_of, save_animation
     from fieldhand.finished_missions import read_log
@@ -43,15 +49,15 @@ def replay(
     folder = folder_of(source, recorded.missions)
     if folder is not None:
         require_nothing_beside(folder, site=recorded.site, robot=recorded.robot)
-        log, ground = log_of_folder(folder).events, plan_of_folder(folder).ground
+        log, site_and_robot = log_of_folder(folder).events, plan_of_folder(folder).site_and_robot
     else:
         log = read_log(Path(source or "")).events
-        ground = ground_of(require_site(recorded.site), recorded.robot, lenient=recorded.lenient)
-    film = film_of(log, ground.site, tell=EventText(ground.robot).line)
+        site_and_robot = site_and_robot_of(require_site(recorded.site), recorded.robot, lenient=recorded.lenient)
+    film = film_of(log, site_and_robot.site, tell=EventText(site_and_robot.robot).line)
     if output.suffix.lower() == ".html":
-        write_file(output, page_of(film, ground.site))
+        write_file(output, page_of(film, site_and_robot.site))
     else:
-        save_animation(film, ground.site, output, seconds=seconds)
+        save_animation(film, site_and_robot.site, output, seconds=seconds)
     if json:
         facts = {"events": len(log), "captures": len(film.captures), "mission_s": film.seconds}
         show.print_json({"file": str(output), **facts})

@@ -41,8 +41,8 @@ def report(
         log,
         plan.task,
         plan.document,
-        plan.ground.site,
-        plan.ground.robot,
+        plan.site_and_robot.site,
+        plan.site_and_robot.robot,
         authorization=plan.authorization,
         signed=plan.signed,
         hashes=plan.hashes,
@@ -54,7 +54,7 @@ def report(
         approved = None if plan.authorization is None else asdict(plan.authorization)
         show.print_json(record | {"authorization": approved, "signed": plan.signed})
         raise SystemExit(status)
-    show.show_outcomes(assessment, goal_names(plan.task, plan.ground.robot), language)
+    show.show_outcomes(assessment, goal_names(plan.task, plan.site_and_robot.robot), language)
     how = None if assessment.status is None else say_status(assessment.status)
     end = message("Mission {how}.", how=how) if how else message("The log ends before the mission does.")
     show.out.print_lines("", language.say(end))

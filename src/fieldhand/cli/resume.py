@@ -59,13 +59,13 @@ def resume(
         speed=simulation_speed,
         history=finished_missions.history_folder(os.environ),
     )
-    ground, task = SiteAndRobot(site=stored.site, robot=stored.robot), stored.authorized.task
+    site_and_robot, task = SiteAndRobot(site=stored.site, robot=stored.robot), stored.authorized.task
     review = steps.review(task, stored.site, stored.robot)
     approved = steps.approved_earlier(stored.authorized, review)
-    with connected(ground, task, connection, display) as vehicle:
+    with connected(site_and_robot, task, connection, display) as vehicle:
         if vehicle is not None:
             stored_missions.require_in_place(stored.site, stored.robot, vehicle.driver)
-        write_plan(ground, review, None, settings)
+        write_plan(review, None, settings)
         events = resume_mission(stored, replace(settings, vehicle=vehicle))
         raise SystemExit(
             conclude(approved, events, settings, planner=stored.planner, name=stored.id, bundle=stored.bundle)

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from fieldhand.cli.driver_options import NamespaceOption, namespace_of
+from fieldhand.cli.driver_options import TransportOptions
+from fieldhand.cli.option_groups import grouped
 from fieldhand.cli.options import JsonOption
 
 if TYPE_CHECKING:
@@ -15,16 +16,11 @@ if TYPE_CHECKING:
     from fieldhand.robot.model import RobotProfile
 
 
+@grouped("name live on domain namespace within json")
 def check(
+    transport: TransportOptions,
     name: Annotated[str, typer.Argument(metavar="ROBOT", help="Built-in robot or a profile file (YAML).")],
     live: Annotated[bool, typer.Option("--live", help="Try every binding on the robot, without moving it.")] = False,
-    on: Annotated[
-        str, typer.Option("--on", metavar="dds|rclpy", help="dds needs no ROS here, rclpy one that is sourced.")
-    ] = "dds",
-    domain: Annotated[
-        int | None, typer.Option("--domain", help="ROS domain of the robot; else ROS_DOMAIN_ID, else 0.")
-    ] = None,
-    namespace: NamespaceOption = None,
     within: Annotated[
         float, typer.Option("--within", min=1.0, max=600.0, help="Seconds to wait for endpoints that are missing.")
     ] = 10.0,
@@ -39,12 +35,10 @@ def check(
     from fieldhand.robot.loader import load_robot
 
     profile = load_robot(name)
-    bindings = bindings_of(profile)
-    if namespace is not None:
-        bindings = replace(bindings, namespace=namespace_of(namespace))
-        profile = replace(profile, ros2=bindings)
+    bindings = transport.in_namespace(bindings_of(profile))
+    profile = replace(profile, ros2=bindings)
     interfaces = Interfaces.of(bindings.distro, bindings.interfaces)
-    report = _check_live(profile, interfaces, on, domain, within) if live else check_types(profile, interfaces)
+    report = _check_live(profile, interfaces, transport, within) if live else check_types(profile, interfaces)
     if json:
         show.print_json(_record(profile, report, live=live))
     else:
@@ -54,16 +48,14 @@ def check(
         raise typer.Exit(1)
 
 
-def _check_live(
-    profile: RobotProfile, interfaces: Any, transport: str, domain: int | None, within_s: float
-) -> ProfileReport:
+def _check_live(profile: RobotProfile, interfaces: Any, transport: TransportOptions, within_s: float) -> ProfileReport:
     import time
     from contextlib import closing
 
     from fieldhand.execution.drivers.ros2.open_transport import open_transport
     from fieldhand.execution.drivers.ros2.profile_check import check_live
 
-    with closing(open_transport(transport, interfaces, domain)) as node:
+    with closing(open_transport(transport.on, interfaces, transport.domain)) as node:
         return check_live(profile, node, interfaces, within_s=within_s, steady=time.monotonic, sleep=time.sleep)
 
 

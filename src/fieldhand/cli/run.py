@@ -71,7 +71,7 @@ def run(
     parent = store.missions or missions.missions_folder(os.environ)
     require_folder(parent, f"--missions {parent}")
     opened = open_inputs(request, inputs, display, production=store.production)
-    world = mission.read_world(simulation.world, opened.ground.site, opened.ground.robot)
+    world = mission.read_world(simulation.world, opened.site_and_robot.site, opened.site_and_robot.robot)
     draft = draft_mission(request, opened, planning, display)
     settings = RunSettings(
         approval=approval,
@@ -83,5 +83,5 @@ def run(
         history=None if no_history else finished_missions.history_folder(os.environ),
         folder=MissionFolder(parent=parent, files=opened.files),
     )
-    with connected(draft.ground, draft.task, connection, display) as vehicle:
+    with connected(draft.site_and_robot, draft.task, connection, display) as vehicle:
         raise SystemExit(run_mission(draft, replace(settings, vehicle=vehicle)))

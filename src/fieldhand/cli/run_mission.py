@@ -15,11 +15,11 @@ from fieldhand.cli.approving import approve_plan, review_plan
 from fieldhand.cli.bundles import signer_record
 from fieldhand.cli.draft import MissionDraft
 from fieldhand.cli.driver_options import check_start
-from fieldhand.cli.inputs import InputFiles, write_file
+from fieldhand.cli.inputs import write_file
 from fieldhand.cli.options import ApprovalOptions, DisplayOptions, OutputOptions
 from fieldhand.cli.outputs import mission_files
 from fieldhand.language import kept_in_log, message
-from fieldhand.mission.documents import SiteAndRobot
+from fieldhand.mission.documents import InputFiles
 from fieldhand.task.results import Ended, Event, MissionStatus
 
 if TYPE_CHECKING:
@@ -82,29 +82,28 @@ def run_mission(draft: MissionDraft, settings: RunSettings) -> int:
         ExecutionError: The robot cannot start from its position.
         OutputError: A file cannot be written.
     """
-    ground, display = draft.ground, settings.display
-    review = review_plan(ground, draft.task, draft.document, display)
+    site_and_robot, display = draft.site_and_robot, settings.display
+    review = review_plan(site_and_robot, draft.task, draft.document, display)
     if draft.bundle is None:
         approved = approve_plan(review, settings.approval, display, message("Approve and carry out?"))
     else:
         approved = mission.approved_earlier(draft.bundle.authorized, review)
-    write_plan(ground, review, draft.document, settings)
+    write_plan(review, draft.document, settings)
     if settings.vehicle is not None:
-        check_start(ground, review, settings.vehicle, confirm=settings.approval.confirm, display=display)
+        check_start(site_and_robot, review, settings.vehicle, confirm=settings.approval.confirm, display=display)
     events, name = _carry_out(approved, draft, settings)
     return conclude(approved, events, settings, planner=draft.planner, name=name, bundle=draft.bundle)
 
 
-def write_plan(ground: SiteAndRobot, review: mission.Review, document: bytes | None, settings: RunSettings) -> None:
+def write_plan(review: mission.Review, document: bytes | None, settings: RunSettings) -> None:
     """Write Task and map to the output folder before the robot moves, so that an unwritable folder costs no mission."""
     folder = settings.outputs.output
     if folder is None:
         return
-    from fieldhand.cli.pictures import draw_plan
     from fieldhand.task.codec import encode
 
     write_file(folder / "task.xml", document or encode(review.task))
-    draw_plan(folder / "map.png", review, ground, settings.display.language)
+    review.save_map(folder / "map.png", language=settings.display.language.code)
 
 
 def _carry_out(

@@ -62,7 +62,7 @@ def record(entry: OutboxEntry) -> dict[str, Any]:
 
 def line(entry: OutboxEntry) -> str:
     """Return an entry of the outbox as one line."""
-    return f"{entry.name} for {entry.url}: {entry.state}; {entry.said or 'not tried yet'}"
+    return f"{entry.name} for {entry.url}: {entry.state}; {entry.response or 'not tried yet'}"
 
 
 def _make_sender(seed: int | None) -> OutboxSender:
@@ -89,13 +89,13 @@ def _send(outbox_sender: OutboxSender, file: Path, to: str, link: LinkOptions, *
 
     require_httpx()
     data = read_bundle_file(file)
-    found = sendable(data, str(file))
+    mission = sendable(data, str(file))
     trust = link.trust()
     url = require_address(to, trust)
     read_token(os.environ, link.token_file)
     now = outbox_sender.clock()
     entry = OutboxEntry(
-        sha256=found.sha256,
+        sha256=mission.sha256,
         url=url,
         name=file.name,
         start=start,

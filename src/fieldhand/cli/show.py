@@ -150,20 +150,20 @@ def review_record(review: Review, language: Language = ENGLISH, *, every: bool =
 
 
 def mission_record(
-    task: Task, planner: str, ended: Ended | None, found: Assessment, files: Sequence[Path]
+    task: Task, planner: str, ended: Ended | None, assessment: Assessment, files: Sequence[Path]
 ) -> dict[str, Any]:
     """Return the result of a mission as JSON."""
     return {
         "task": task.id,
         "planner": planner,
-        "status": found.status,
-        "reason": found.reason,
-        "success": found.success,
+        "status": assessment.status,
+        "reason": assessment.reason,
+        "success": assessment.success,
         "travelled_m": None if ended is None else ended.travelled_m,
         "seconds": None if ended is None else ended.t,
         "charge_percent": None if ended is None else ended.charge_percent,
-        "exceeded": [asdict(one) for one in found.exceeded],
-        "goals": [asdict(outcome) for outcome in found.outcomes],
+        "exceeded": [asdict(one) for one in assessment.exceeded],
+        "goals": [asdict(outcome) for outcome in assessment.outcomes],
         "files": [str(path) for path in files],
     }
 
@@ -221,13 +221,13 @@ def show_problems(review: Review, language: Language = ENGLISH) -> None:
             out.print(Words(language.say(kind), style=style) + Words(language.say(problem.line())))
 
 
-def show_outcomes(found: Assessment, name: Callable[[str], str], language: Language = ENGLISH) -> None:
+def show_outcomes(assessment: Assessment, name: Callable[[str], str], language: Language = ENGLISH) -> None:
     """Print the outcome of each goal, and each exceeded limit; ``name`` returns the words for a goal's id."""
     say = language.say
     heading(say(message("Result")))
-    for outcome in found.outcomes:
+    for outcome in assessment.outcomes:
         mark, style = MARK[outcome.outcome]
         out.print(Words(f"  {mark} ", style=style) + Words(f"{say(name(outcome.goal))}: {say(outcome.why)}"))
-    for one in found.exceeded:
+    for one in assessment.exceeded:
         mark, style = MARK["failure"]
         out.print(Words(f"  {mark} ", style=style) + Words(say(one.why)))

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import hashlib
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from fieldhand.cli.driver_options import NamespaceOption, namespace_of
+from fieldhand.cli.driver_options import TransportOptions
 from fieldhand.cli.option_groups import grouped
 from fieldhand.cli.options import SiteAndRobotOptions
 from fieldhand.cli.outputs import refuse_standard_output, to_whole_file
-from fieldhand.execution.drivers.ros2.domain import MOST_DOMAIN
 
 if TYPE_CHECKING:
     from fieldhand.execution.drivers.ros2.simulated_robot.robot import GoalReport
@@ -23,17 +21,6 @@ if TYPE_CHECKING:
 
 #: Highest speed: above it, the robot would drive for minutes between two checks of its messages.
 _FASTEST = 1000.0
-
-
-@dataclass(frozen=True, kw_only=True)
-class TransportOptions:
-    """ROS 2 transport of the simulated robot."""
-
-    on: Annotated[str, typer.Option("--on", metavar="dds|rclpy", help="ROS 2 transport of its messages.")] = "dds"
-    domain: Annotated[
-        int | None, typer.Option("--domain", min=0, max=MOST_DOMAIN, help="ROS domain; else ROS_DOMAIN_ID, else 0.")
-    ] = None
-    namespace: NamespaceOption = None
 
 
 @grouped("site robot world seed speed on domain namespace state lenient json")
@@ -62,7 +49,7 @@ def sim_robot(
     from dataclasses import replace
 
     from fieldhand import mission
-    from fieldhand.cli.inputs import open_ground
+    from fieldhand.cli.inputs import open_site_and_robot
     from fieldhand.clock import ScaledClock
     from fieldhand.execution.drivers.ros2.interfaces import Interfaces
     from fieldhand.execution.drivers.ros2.open_transport import open_transport
@@ -72,20 +59,18 @@ def sim_robot(
     from fieldhand.execution.interrupts import ctrl_c_as_request
 
     clock = ScaledClock(_checked_speed(speed))
-    ground = open_ground(place.site, place.robot, lenient=place.lenient)
-    simulated_world = mission.read_world(world, ground.site, ground.robot)
-    bindings = bindings_of(ground.robot)
-    if transport.namespace is not None:
-        bindings = replace(bindings, namespace=namespace_of(transport.namespace))
-    profile = replace(ground.robot, ros2=bindings)
-    identity = Identity(site=ground.site.content_sha256, robot=profile.sha256, world=_hash_of(simulated_world))
+    site_and_robot = open_site_and_robot(place.site, place.robot, lenient=place.lenient)
+    simulated_world = mission.read_world(world, site_and_robot.site, site_and_robot.robot)
+    bindings = transport.in_namespace(bindings_of(site_and_robot.robot))
+    profile = replace(site_and_robot.robot, ros2=bindings)
+    identity = Identity(site=site_and_robot.site.content_sha256, robot=profile.sha256, world=_hash_of(simulated_world))
     refuse_standard_output(state, "--state")
     saved = None if state is None else read_state(state, identity)
     interfaces = Interfaces.of(bindings.distro, bindings.interfaces)
     with closing(open_transport(transport.on, interfaces, transport.domain)) as node:
         sim_time = bindings.use_sim_time or speed != 1.0
         simulated = SimulatedRobot(
-            ground.site,
+            site_and_robot.site,
             profile,
             simulated_world,
             node,
@@ -97,7 +82,9 @@ def sim_robot(
             report=_print_report_json if json else _print_report,
             state=saved,
         )
-        _print_ready(profile, bindings, ground.site.name, sim_time=sim_time, goes_on=saved is not None, json=json)
+        _print_ready(
+            profile, bindings, site_and_robot.site.name, sim_time=sim_time, goes_on=saved is not None, json=json
+        )
         with ctrl_c_as_request() as ended:
             why = run_robot(
                 simulated,

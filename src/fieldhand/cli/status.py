@@ -41,38 +41,38 @@ def status(
     language = spoken(lang, os.environ)
     under = kept or missions.missions_folder(os.environ)
     folder = missions.find(under, mission)
-    found = missions.status(folder)
+    status = missions.status(folder)
     if json:
         show.print_json(
-            {"folder": str(folder), **{k: v for k, v in asdict(found).items() if k != "now"}, **asdict(found.now)}
+            {"folder": str(folder), **{k: v for k, v in asdict(status).items() if k != "now"}, **asdict(status.now)}
         )
     else:
-        _show(found, language)
+        _show(status, language)
 
 
-def _show(found: Status, language: Language) -> None:
+def _show(status: Status, language: Language) -> None:
     from fieldhand.cli import show
 
-    now = found.now
+    now = status.now
     state = named(now.state, "state")
-    title = message("Mission {id}: {state}", id=found.mission, state=state)
+    title = message("Mission {id}: {state}", id=status.mission, state=state)
     if now.status:
         how = named(now.status, "ending")
-        title = message("Mission {id}: {state} ({how})", id=found.mission, state=state, how=how)
+        title = message("Mission {id}: {state} ({how})", id=status.mission, state=state, how=how)
     show.heading(language.say(title))
-    lines = tuple(_lines(found))
+    lines = tuple(_lines(status))
     wide = max(_LEAST_WIDE, *(len(language.say(name)) for name, _ in lines))
     for name, what in lines:
         show.out.print(f"  {language.say(name):<{wide}} {language.say(what)}")
 
 
-def _lines(found: Status) -> Iterator[tuple[str, str]]:
+def _lines(status: Status) -> Iterator[tuple[str, str]]:
     """Yield name and text of each line of the status."""
     from fieldhand.clock import clock_time
     from fieldhand.language import kept_in_log
 
-    now = found.now
-    yield message("asked", context="status"), found.request
+    now = status.now
+    yield message("asked", context="status"), status.request
     if now.status:
         yield (
             message("reason", context="status"),
@@ -98,13 +98,13 @@ def _lines(found: Status) -> Iterator[tuple[str, str]]:
         yield message("exceeded", context="status"), kept_in_log(one.why)
     if now.in_doubt:
         yield message("in doubt", context="status"), str(now.in_doubt)
-    if found.last_event_at:
-        last = message("event {count} at {moment}", count=now.events, moment=found.last_event_at)
+    if status.last_event_at:
+        last = message("event {count} at {moment}", count=now.events, moment=status.last_event_at)
         yield message("last", context="status"), last
-    if found.report:
-        yield message("report", context="status"), found.report
-    if found.order:
-        heard = message("{order}, not received yet", order=named(found.order, "order"))
+    if status.report:
+        yield message("report", context="status"), status.report
+    if status.order:
+        heard = message("{order}, not received yet", order=named(status.order, "order"))
         yield message("order", context="status"), heard
     if now.state == "interrupted":
-        yield message("next", context="status"), f"fieldhand resume {found.mission}"
+        yield message("next", context="status"), f"fieldhand resume {status.mission}"

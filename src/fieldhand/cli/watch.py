@@ -49,7 +49,7 @@ def watch(
 
     with ExitStack() as stack:
         client = stack.enter_context(closing(link.open(url)))
-        found = find_mission(client, mission)
+        summary = find_mission(client, mission)
         log = None if events is None else stack.enter_context(EventLog(events))
 
         def take(event: EventLine) -> None:
@@ -59,9 +59,9 @@ def watch(
                 _show(event)
 
         if not json:
-            show.out.print(state_line(found))
+            show.out.print(state_line(summary))
         rng = random.Random(seed)  # noqa: S311
-        last = follow(client, found.bundle, take=take, once=once, wait_s=LONGEST_WAIT_S, lost=lost, rng=rng)
+        last = follow(client, summary.bundle, take=take, once=once, wait_s=LONGEST_WAIT_S, lost=lost, rng=rng)
     if json:
         show.print_json(last.model_dump())
     else:

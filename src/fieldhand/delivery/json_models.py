@@ -9,7 +9,7 @@ from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from fieldhand.delivery.received_status import LoggedEvent, ReceivedStatus, State
+from fieldhand.delivery.received_status import LoggedEvent, ReceivedState, ReceivedStatus
 from fieldhand.execution.operator_commands import AgentCommand
 
 #: Largest number of events in a response.
@@ -34,7 +34,7 @@ class MissionSummary(_Answer):
     signer: str
     received_at: str
     begun_at: str | None
-    state: State
+    state: ReceivedState
     status: str
     reason: str
     doing: str

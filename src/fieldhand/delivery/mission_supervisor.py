@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from fieldhand import missions
 from fieldhand.delivery.mission_store import MissionStore
 from fieldhand.delivery.received_missions import ReceivedMission
-from fieldhand.delivery.received_status import LoggedEvent, ReceivedStatus, State
+from fieldhand.delivery.received_status import LoggedEvent, ReceivedState, ReceivedStatus
 from fieldhand.errors import ExecutionError, FieldhandError, JournalError, NotTrustedError
 
 if TYPE_CHECKING:
@@ -145,7 +145,9 @@ class MissionSupervisor:
         except FieldhandError as error:
             return ReceivedStatus(received=received, state="lost", fault=fault or str(error))
         found = status.now
-        state: State = "running" if found.state == "interrupted" and self.active == received.sha256 else found.state
+        state: ReceivedState = (
+            "running" if found.state == "interrupted" and self.active == received.sha256 else found.state
+        )
         standing = ReceivedStatus(
             received=received,
             state=state,

@@ -19,7 +19,7 @@ from fieldhand.files import named_folder, state_folder
 #: Format of the database; other versions refuse it.
 FORMAT = 1
 
-State = Literal["waiting", "delivered", "refused"]
+DeliveryState = Literal["waiting", "delivered", "refused"]
 
 _TABLES = (
     "CREATE TABLE IF NOT EXISTS about (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID",
@@ -46,7 +46,7 @@ class OutboxEntry:
         tries: Number of attempts.
         next_at: Time of the next attempt, in seconds since 1970.
         state: ``waiting``, ``delivered`` or ``refused``.
-        said: Response of the robot, or the reason why it could not be reached.
+        response: Response of the robot, or the reason why it could not be reached.
     """
 
     n: int = 0
@@ -61,11 +61,13 @@ class OutboxEntry:
     queued_at: float
     tries: int = 0
     next_at: float
-    state: State = "waiting"
-    said: str = ""
+    state: DeliveryState = "waiting"
+    response: str = ""
 
 
-_COLUMNS = ", ".join(field.name for field in fields(OutboxEntry))
+#: Fields of an entry, and their columns; that of ``response`` is called ``said`` since the first version.
+_FIELDS = tuple(field.name for field in fields(OutboxEntry))
+_COLUMNS = ", ".join("said" if name == "response" else name for name in _FIELDS)
 _NEW = _COLUMNS.removeprefix("n, ")
 
 
@@ -99,7 +101,7 @@ class Outbox:
         from fieldhand.approval.keys.rights import make_folder, replace
 
         make_folder(self._folder)
-        values = [getattr(entry, name) for name in _NEW.split(", ")]
+        values = [getattr(entry, name) for name in _FIELDS[1:]]
         with self._db() as db:
             replace(self._bundle(entry.sha256), data)
             if entry.start:
@@ -118,7 +120,7 @@ class Outbox:
         with self._db() as db:
             db.execute(
                 "UPDATE entries SET tries = ?, next_at = ?, state = ?, said = ? WHERE n = ?",
-                [entry.tries, entry.next_at, entry.state, entry.said, entry.n],
+                [entry.tries, entry.next_at, entry.state, entry.response, entry.n],
             )
         # Files are removed once that is on disk, so that each waiting entry has its file; and under the lock, as a
         # mission may be stored again meanwhile.
@@ -189,5 +191,5 @@ class Outbox:
 
 
 def _entry(row: tuple[object, ...]) -> OutboxEntry:
-    values = dict(zip(_COLUMNS.split(", "), row, strict=True))
+    values = dict(zip(_FIELDS, row, strict=True))
     return OutboxEntry(**{**values, "start": bool(values["start"]), "plain": bool(values["plain"])})  # type: ignore[arg-type]

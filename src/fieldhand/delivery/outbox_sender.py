@@ -51,12 +51,12 @@ class OutboxSender:
         """
         tries = entry.tries + 1
         try:
-            said = self._deliver(entry)
-            done = replace(entry, tries=tries, state="delivered", said=said)
+            response = self._deliver(entry)
+            done = replace(entry, tries=tries, state="delivered", response=response)
         except UnreachableError as error:
-            done = replace(entry, tries=tries, said=str(error), next_at=self.clock() + self._pause_s(tries))
+            done = replace(entry, tries=tries, response=str(error), next_at=self.clock() + self._pause_s(tries))
         except FieldhandError as error:
-            done = replace(entry, tries=tries, state="refused", said=str(error))
+            done = replace(entry, tries=tries, state="refused", response=str(error))
         self.outbox.note(done)
         return done
 

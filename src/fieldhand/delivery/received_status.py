@@ -8,7 +8,7 @@ from typing import Literal
 from fieldhand.delivery.received_missions import ReceivedMission
 
 #: ``waiting``: received, and never begun. ``lost``: begun, and its folder is missing or unreadable.
-State = Literal["waiting", "running", "paused", "interrupted", "ended", "lost"]
+ReceivedState = Literal["waiting", "running", "paused", "interrupted", "ended", "lost"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,7 +31,7 @@ class ReceivedStatus:
     """
 
     received: ReceivedMission
-    state: State
+    state: ReceivedState
     status: str = ""
     reason: str = ""
     doing: str = ""

@@ -136,8 +136,8 @@ class BudgetGuard:
         return Verdict(go=False, reason=self._and_the_battery(reason), chance_short=float(there.max()))
 
     def _and_the_battery(self, reason: str) -> str:
-        said = self._budget.drain.words
-        return joined("; ", (reason, said)) if reason and said else reason
+        battery = self._budget.drain.words
+        return joined("; ", (reason, battery)) if reason and battery else reason
 
     def _may(self, state: MissionState, way: RouteCost, chances: Floats, safe: Floats, home_now: RouteCost) -> bool:
         """Return True if a route is safe enough or no riskier than going home now."""

@@ -1,8 +1,8 @@
-"""Follow a plan along an event log: how many captures each action was to give on the branch that was taken.
+"""Replay a plan along an event log: the number of captures of each action on the branch that was taken.
 
 The plan is carried out as it is on the robot (:mod:`fieldhand.task.run`), and the log answers what its nodes ask: which
 branch, how many places, what was given up. A robot does one thing after another, so the events of a node stand
-together. Where the log has no answer (it was cut off, or another program wrote it), what is left of the nodes in hand
+together. Where the log has no answer (it was cut off, or another program wrote it), what is left of the open nodes
 counts as not reached, up to the node behind which the log goes on.
 """
 
@@ -37,7 +37,7 @@ from fieldhand.task.results import (
     Visiting,
     Waited,
 )
-from fieldhand.task.run import Outcome, PlanRun, StackFrame, carry_out
+from fieldhand.task.run import PlanRun, RunOutcome, StackFrame, carry_out
 
 
 def replay_log(plan: Node, events: Sequence[Event]) -> dict[str, CaptureCount]:
@@ -54,7 +54,7 @@ class _ReplayedVisits:
         most: Number of them that may be visited.
         begun: Visits begun, without those given up half-way.
         shed: Number of places given up.
-        before: The counts when the visit in hand began.
+        before: The counts when the current visit began.
     """
 
     listed: frozenset[str] = frozenset()
@@ -110,7 +110,7 @@ class _Replay:
         return event if event is not None and event.node == node.id else None
 
     def _shed(self, node: Node) -> bool:
-        """Read that places of the node itself were given up, if that comes next."""
+        """Consume the next event if it reports places of the node itself as given up."""
         event = self._skim(node)
         if not isinstance(event, Shed):
             return False
@@ -138,7 +138,7 @@ class _Replay:
         return self._orderly or self._peek() is not None
 
     def _is_unseen(self, node: Node) -> bool:
-        """Return True if a node may be done although the log has nothing of it."""
+        """Return True if a node may have been done without an event."""
         return _is_silent(node) and (self._is_whole() or not any(acts(node)))
 
     def _when(self, node: Node) -> int:
@@ -207,7 +207,7 @@ class _Replay:
             raise self._lost()
 
     def _drive(self, node: Node) -> None:
-        """Read a drive of its own; one to where the robot is leaves no trace."""
+        """Consume the drive of the node; a drive to the current place has no event."""
         step, failed = self._run.optional, False
         while (event := self._peek_own(node)) is not None and not isinstance(event, Arrived):
             failed = failed or isinstance(event, Shed | Faulted)
@@ -275,7 +275,7 @@ class _Replay:
             for count in self._counts.under(*left):
                 count.stopped = True
 
-    def _left(self, _: Node, outcome: Outcome) -> None:
+    def _left(self, _: Node, outcome: RunOutcome) -> None:
         if outcome == "done" and self._run.frames:
             self._went_well(self._run.frame)
 
@@ -284,13 +284,13 @@ class _Replay:
             count.skipped.append(message("the step it replaces succeeded", context="log"))
 
     def _absent(self, node: Node) -> Exception:
-        """Count a node to which the log never came, and give what to throw to go on behind it."""
+        """Count a node that the log never reached; return the exception that continues the replay after it."""
         self._shed(node)
         self._counts.miss(node, 1)
         return self._lost()
 
     def _lost(self) -> Exception:
-        """Count what is left of the nodes in hand up to where the log goes on, and give what to throw to do so."""
+        """Count the rest of the open nodes up to the next event; return the exception that continues there."""
         for inner, around in itertools.pairwise(self._run.outwards()):
             self._miss(inner)
             thrown = self._onward(around, inner.node)
@@ -301,7 +301,7 @@ class _Replay:
         return Cut(root.node.id)
 
     def _onward(self, around: StackFrame, child: Node) -> Exception | None:
-        """Return what to throw where the log goes on behind a child of a node in hand; None where it does not."""
+        """Return the exception that continues after a child of an open node; None if no event follows there."""
         node, visits = around.node, around.tour
         if isinstance(visits, _ReplayedVisits) and self._given_up(around):
             # What the visit or the step lacks is left out, not failed.
@@ -316,7 +316,7 @@ class _Replay:
         return Cut(child.id) if self._comes(later) else None
 
     def _given_up(self, frame: StackFrame) -> bool:
-        """Return True if the log goes on with optional work of the node that was given up; of a step, read that."""
+        """Return True if the next event reports optional work of the node as given up; consume it for a step."""
         node, event = frame.node, self._peek_own(frame.node)
         if not isinstance(event, Shed) or not event.optional or not node.is_optional:
             return False
@@ -326,7 +326,7 @@ class _Replay:
         return True
 
     def _miss(self, frame: StackFrame) -> None:
-        """Count what a node in hand still had before it."""
+        """Count the remaining work of an open node as missed."""
         if isinstance(frame.tour, _ReplayedVisits):
             self._miss_visits(frame.node, frame.tour)
         for count in self._counts.under(*frame.instead):

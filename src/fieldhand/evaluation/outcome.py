@@ -23,21 +23,24 @@ from fieldhand.task.results import Ended, Event, GoalOutcome, MissionStatus
 
 _LONGEST_REASON = 160
 
-Verdict = Literal["success", "failure", "indeterminate"]
+OutcomeName = Literal["success", "failure", "indeterminate"]
 
 
-def judge(task: Task, events: Sequence[Event], *, under_way: bool = False) -> tuple[GoalOutcome, ...]:
+def judge(
+    task: Task, events: Sequence[Event], *, under_way: bool = False, reasons: bool = True
+) -> tuple[GoalOutcome, ...]:
     """Return the outcome of each goal of a Task, in the order of its goals.
 
     Args:
         task: The Task that was carried out.
         events: The event log, from its beginning; it may stop anywhere.
-        under_way: More is to come: nothing is said of what the log does not tell yet.
+        under_way: True if the mission goes on: goals not reached yet are not explained.
+        reasons: False to explain outcomes without the recorded reasons of work that was given up or left out.
     """
     counts = replay_log(task.composition.plan, events)
     ended = next((e for e in reversed(events) if isinstance(e, Ended)), None)
     return tuple(
-        _outcome(goal, counts.get(goal.node, CaptureCount(open=True)), ended, under_way=under_way)
+        _outcome(goal, counts.get(goal.node, CaptureCount(open=True)), ended, under_way=under_way, reasons=reasons)
         for goal in task.command.goals
     )
 
@@ -60,14 +63,15 @@ def judge_end(
     return status, ended.reason if status == ended.status else reason_with(found, ended.reason), found
 
 
-def _outcome(goal: Goal, tally: CaptureCount, ended: Ended | None, *, under_way: bool) -> GoalOutcome:
+def _outcome(goal: Goal, tally: CaptureCount, ended: Ended | None, *, under_way: bool, reasons: bool) -> GoalOutcome:
     verdict = _optional(goal, tally, ended) if goal.optional else _mandatory(tally, ended)
     wanted = None if tally.open else tally.wanted
-    why = _why(goal, tally, verdict, ended, under_way=under_way)
+    because = _because(tally) if reasons else ""
+    why = _why(goal, tally, verdict, ended, because, under_way=under_way)
     return GoalOutcome(goal=goal.id, outcome=verdict, done=tally.done, wanted=wanted, why=why)
 
 
-def _mandatory(tally: CaptureCount, ended: Ended | None) -> Verdict:
+def _mandatory(tally: CaptureCount, ended: Ended | None) -> OutcomeName:
     if not tally.open and tally.done >= tally.wanted:
         return "success"
     if tally.failed or tally.given_up:
@@ -81,7 +85,7 @@ def _mandatory(tally: CaptureCount, ended: Ended | None) -> Verdict:
     return "failure"
 
 
-def _optional(goal: Goal, tally: CaptureCount, ended: Ended | None) -> Verdict:
+def _optional(goal: Goal, tally: CaptureCount, ended: Ended | None) -> OutcomeName:
     if tally.failed or tally.given_up:
         return "failure"
     cut = ended is None or ended.status == "aborted"
@@ -95,32 +99,37 @@ def _optional(goal: Goal, tally: CaptureCount, ended: Ended | None) -> Verdict:
     return "indeterminate" if goal.conditional or cut else "failure"
 
 
-def _why(goal: Goal, tally: CaptureCount, verdict: Verdict, ended: Ended | None, *, under_way: bool) -> str:
-    """Return the outcome in words: the captures, then what prevented more."""
+def _why(
+    goal: Goal, tally: CaptureCount, verdict: OutcomeName, ended: Ended | None, because: str, *, under_way: bool
+) -> str:
+    """Return the outcome in words: the captures, then what prevented more.
+
+    ``because`` is the reason in brackets of what was given up or left out, or empty.
+    """
     parts = [_counted(goal, tally)]
     if tally.done == 0 and tally.wanted == 0 and verdict == "success":
-        return _not_called_for(tally)
+        return _not_called_for(tally, because)
     if tally.in_doubt:
         parts.append(message("{count} in doubt (the power was cut during the capture)", count=tally.in_doubt))
     if tally.failed:
         parts.append(counted("failed for good {count} time", "failed for good {count} times", tally.failed))
     if tally.given_up:
         given_up = counted("{count} place given up", "{count} places given up", tally.given_up)
-        parts.append(joined("", (given_up, _because(tally))))
+        parts.append(joined("", (given_up, because)))
     if tally.left_out:
         left_out = counted("{count} place left out", "{count} places left out", tally.left_out)
-        parts.append(joined("", (left_out, _because(tally))))
+        parts.append(joined("", (left_out, because)))
     if tally.spared:
         spared = counted("left out {count} time", "left out {count} times", tally.spared)
-        parts.append(joined("", (spared, _because(tally))))
+        parts.append(joined("", (spared, because)))
     if verdict == "success" or under_way:
         return joined("; ", parts)
     if ended is None:
         parts.append(message("the log ends before the mission does"))
     elif not tally.reached and not tally.given_up:
-        parts.append(message("never reached: the mission ended before ({why})", why=_said(ended)))
+        parts.append(message("never reached: the mission ended before ({why})", why=_say_end(ended)))
     elif tally.open and not tally.given_up and not tally.failed:
-        parts.append(message("interrupted ({why})", why=_said(ended)))
+        parts.append(message("interrupted ({why})", why=_say_end(ended)))
     if tally.undecided and verdict == "indeterminate":
         parts.append(message("it was never tested whether more was needed"))
     return joined("; ", parts)
@@ -136,12 +145,12 @@ def _counted(goal: Goal, tally: CaptureCount) -> str:
     return message("{count} of {captures}", count=tally.done, captures=say_captures(goal.action, tally.wanted))
 
 
-def _not_called_for(tally: CaptureCount) -> str:
+def _not_called_for(tally: CaptureCount, because: str) -> str:
     if tally.spared:
         return joined(
             ": ",
             (
-                joined("", (message("left out", context="goal"), _because(tally))),
+                joined("", (message("left out", context="goal"), because)),
                 message("it was optional, to be done only if the budget allowed"),
             ),
         )
@@ -161,20 +170,17 @@ def _not_called_for(tally: CaptureCount) -> str:
 
 
 def _because(tally: CaptureCount) -> str:
-    """Return the last recorded reason in brackets."""
+    """Return the last recorded reason in brackets; empty if there is none."""
     reasons = [reason for reason in tally.reasons if reason]
-    return because(reasons[-1]) if reasons else ""
-
-
-def because(reason: str) -> str:
-    """Return a reason in brackets as it follows what was left out; reports find it by this form."""
-    return joined("", (" (", shaped(kept_in_log(" ".join(reason.split())), _shortened), ")"))
+    if not reasons:
+        return ""
+    return joined("", (" (", shaped(kept_in_log(" ".join(reasons[-1].split())), _shortened), ")"))
 
 
 def _shortened(reason: str) -> str:
     return textwrap.shorten(reason, _LONGEST_REASON, placeholder=" …")
 
 
-def _said(ended: Ended) -> str:
+def _say_end(ended: Ended) -> str:
     status = say_status(ended.status)
     return joined(": ", (status, kept_in_log(ended.reason))) if ended.reason else status

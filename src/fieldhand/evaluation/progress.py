@@ -31,7 +31,7 @@ from fieldhand.wording.events import EventText, noun
 
 _CHARGED = Started | Arrived | Acted | InDoubt | Resumed | LimitCrossed | Ended
 
-State = Literal["running", "paused", "interrupted", "ended"]
+ProgressState = Literal["running", "paused", "interrupted", "ended"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,7 +51,7 @@ class MissionProgress:
         exceeded: Limits that it exceeded so far.
     """
 
-    state: State
+    state: ProgressState
     doing: str
     node: str
     place: str
@@ -108,7 +108,7 @@ def mission_progress(task: Task, robot: RobotProfile, events: Sequence[Event], *
     )
 
 
-def state_of(events: Sequence[Event], *, running: bool) -> tuple[State, Ended | None]:
+def state_of(events: Sequence[Event], *, running: bool) -> tuple[ProgressState, Ended | None]:
     """Return the state of a mission, and its end if it has ended.
 
     Args:

@@ -58,18 +58,16 @@ def left_out(
 ) -> str:
     """Return which optional visits are given up and why, with the figures of the one least likely to run short.
 
-    "skipped trees 14, 15 and 22: 31 % chance of running short (12 m left; going to tree 14 and home takes 14 m on
-    average)".
+    "trees 14, 15 and 22: 31 % chance of running short (12 m left; going to tree 14 and home takes 14 m on average)".
     """
     binding = _binding(budget, chances)
-    told = message(
+    return message(
         "{places}: {chance} % chance of running short ({why})",
         context="log",
         places=named(visits, indices),
         chance=f"{100 * chances[binding]:.0f}",
         why=_amounts(budget, state, trip, binding),
     )
-    return message("skipped {what}", context="log", what=told)
 
 
 def _binding(budget: MissionBudget, chances: Floats) -> int:
@@ -101,10 +99,10 @@ def no_way(visits: Sequence[Visit], indices: Sequence[int]) -> str:
 
 
 def too_many(visits: Sequence[Visit], indices: Sequence[int], chosen_from: int) -> str:
-    """Return why visits were excluded from the choice: "left out trees 3 and 4: 19,998 others cost less to reach"."""
+    """Return why visits were excluded from the choice: "trees 3 and 4: 19,998 others cost less to reach"."""
     others = Number(f"{chosen_from:,}")
     return message(
-        "left out {places}: {count} others cost less to reach",
+        "{places}: {count} others cost less to reach",
         context="log",
         places=named(visits, indices),
         count=others,

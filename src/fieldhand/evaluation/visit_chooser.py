@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from fieldhand.orienteering.problem import Problem
 
 Floats = NDArray[np.float64]
-Key = tuple[tuple[float, float], tuple[float, float] | None]
+VisitKey = tuple[tuple[float, float], tuple[float, float] | None]
 
 
 @dataclass(kw_only=True)
@@ -49,11 +49,11 @@ class _Run:
 
     problem: Problem
     policy: Policy
-    vertex: dict[Key, int]
-    start: Key
+    vertex: dict[VisitKey, int]
+    start: VisitKey
     rest: RemainingWork
     accepted: float
-    beyond: frozenset[Key]
+    beyond: frozenset[VisitKey]
     new: bool
     done: set[int] = field(default_factory=set)
     known: dict[int, tuple[Place, int | None]] = field(default_factory=dict)
@@ -126,6 +126,7 @@ class VisitChooser:
                     reason=no_way(candidates, cut_off),
                     chance_short=1.0,
                     cause="unreachable",
+                    names_places=True,
                 )
             within = cheapest(state.context.here, [candidates[i] for i in open_], rest, self._budget.drives)
             open_ = [open_[k] for k in within]
@@ -164,6 +165,7 @@ class VisitChooser:
             reason=joined("; ", reasons),
             chance_short=chance,
             cause="unreachable" if cut_off and not gone else "budget",
+            names_places=bool(reasons),
         )
 
     # --- a run -------------------------------------------------------------------------------------------------------
@@ -175,7 +177,7 @@ class VisitChooser:
         rest: RemainingWork,
         run: _Run | None,
         at_most: int | None,
-        beyond: frozenset[Key],
+        beyond: frozenset[VisitKey],
     ) -> _Run:
         """Return the current run, or a new one if a place is unknown or the following work has changed."""
         here = state.context.here
@@ -320,5 +322,5 @@ def _fewer(run: _Run, visits: Sequence[Visit], at_most: int | None) -> bool:
     return at_most is not None and len(visits) + len(run.done) < run.problem.end - 1
 
 
-def _key(place: Place) -> Key:
+def _key(place: Place) -> VisitKey:
     return place.xy, place.stand

@@ -141,7 +141,7 @@ class ForEachVisits:
         reached.
         """
         place = self.place
-        assert place is not None  # noqa: S101  a visit is in hand
+        assert place is not None  # noqa: S101  a visit is current
         if self.node.optional:
             self._give_up([place], fault.what)
         elif not self.is_last_resort and cut_off_places(self.mission, [place])[0]:

@@ -9,6 +9,7 @@ resources suffice for the way home.
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Literal
 
 from shapely.geometry import LineString, Point
@@ -38,9 +39,9 @@ _SURELY = 0.6
 #: Charge in percent above a level at which it counts as left again: the battery was changed or charged.
 CLEAR_PERCENT = 3.0
 
-#: ``plan``: carrying out the plan. ``exit``: on the way home. ``over``: standing, or told to stop.
+#: ``plan``: carrying out the plan. ``exit``: on the way home. ``over``: the robot stands, or was ordered to stop.
 Phase = Literal["plan", "exit", "over"]
-Alarm = Literal["none", "return", "stop", "shelter"]
+BatteryAlarm = Literal["none", "return", "stop", "shelter"]
 
 
 class LimitMonitor:
@@ -59,7 +60,7 @@ class LimitMonitor:
     def __init__(self, mission: ActiveMission) -> None:
         self._mission = mission
         self.phase: Phase = "plan"
-        self.alarm: Alarm = "none"
+        self.alarm: BatteryAlarm = "none"
         self.why = ""
         self.exit = mission.exit_for("low_budget")
         #: A mission that ends at its last visit does not include the way home in its limits: driving home would exceed
@@ -144,7 +145,7 @@ class LimitMonitor:
             return None
         for reach_m in (_SURELY * self._reach_m, self._reach_m):
             if (metres := safe_stop(mission.drives, way, reach_m)) is not None:
-                return _point(mission.site, way.at(metres), "safe place")
+                return replace(_point(mission.site, way.at(metres)), id="safe place")
         markers = [m for m in mission.site.markers.values() if mission.drives.reachable((m,), way.start)[0]]
         ways = [(mission.drives.between(way.start, marker).length_m, k) for k, marker in enumerate(markers)]
         nearest_m, k = min(ways, default=(math.inf, -1))
@@ -281,7 +282,7 @@ class LimitMonitor:
         return Work(seconds=left * action.duration_s, joules=left * action.energy_j)
 
 
-def _point(site: Site, xy: tuple[float, float], name: str = "on the way") -> Place:
+def _point(site: Site, xy: tuple[float, float]) -> Place:
     """Return a point of a path as a place at which the robot stands."""
     ((lat, lon),) = site.projection.lat_lon([xy])
-    return Place.of_robot(xy, lat=lat, lon=lon, name=name)
+    return Place.of_robot(xy, lat=lat, lon=lon)

@@ -32,7 +32,7 @@ from fieldhand.task.plan import Act, AnyOrder, Node, OptionalStep
 from fieldhand.task.results import Decided, MissionStatus
 from fieldhand.task.run import Steps, carry_out_in_steps
 
-Answer = Generator[None, None, Any]
+Instructions = Generator[None, None, Any]
 
 
 class PlanExecutor:
@@ -69,7 +69,7 @@ class PlanExecutor:
         except Stopped as stopped:
             self._stop(stopped)
 
-    def _perform(self, request: instructions.Instruction) -> Answer:
+    def _perform(self, request: instructions.Instruction) -> Instructions:
         """Carry out a request; record a failure and raise it in the plan."""
         try:
             return (yield from self._answer(request))
@@ -90,7 +90,7 @@ class PlanExecutor:
         self.mission.fail(request.node.id, error, handled=self.mission.run.is_caught)
         return Failed(request.node.id)
 
-    def _answer(self, request: instructions.Instruction) -> Answer:
+    def _answer(self, request: instructions.Instruction) -> Instructions:
         match request:
             case instructions.Locate(selector=selector):
                 return (yield from self._locate(request.node, selector))

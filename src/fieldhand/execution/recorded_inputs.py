@@ -53,7 +53,7 @@ if TYPE_CHECKING:
 #: Seconds of the wall clock after which observations are committed even if nothing began or ended.
 COMMIT_EVERY_S = 1.0
 
-Answer = TypeVar("Answer", Verdict, VisitChoice)
+GuardAnswer = TypeVar("GuardAnswer", Verdict, VisitChoice)
 
 
 class RecordedInputs:
@@ -225,14 +225,18 @@ class RecordedInputs:
         return answer
 
     def _decide(
-        self, kind: RecordKind, node: str, ask: Callable[[], Answer], answer_of: Callable[[Record, str], Answer]
-    ) -> Answer:
+        self,
+        kind: RecordKind,
+        node: str,
+        ask: Callable[[], GuardAnswer],
+        answer_of: Callable[[Record, str], GuardAnswer],
+    ) -> GuardAnswer:
         """Return the guard's answer about a node.
 
         In a replay the guard is asked again, so that its own state is restored; the recorded answer counts.
         """
         record = self._recorded(kind)
-        answer: Answer | FieldhandError
+        answer: GuardAnswer | FieldhandError
         try:
             answer = ask()
         except FieldhandError as error:

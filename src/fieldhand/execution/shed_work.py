@@ -161,5 +161,6 @@ def report_shed(
             reason=verdict.reason,
             chance_short=verdict.chance_short,
             cause=verdict.cause,
+            names_places=isinstance(verdict, VisitChoice) and verdict.names_places,
         )
     )

@@ -18,9 +18,9 @@ from fieldhand.execution.shed_work import shed_rest
 from fieldhand.forecast.mission_state import Verdict
 from fieldhand.places.selector import Selector
 from fieldhand.task.plan import Node
-from fieldhand.task.run import Outcome
+from fieldhand.task.run import RunOutcome
 
-_STATUS: dict[Outcome, Status] = {"done": Status.SUCCESS, "failed": Status.FAILURE, "cut": Status.INVALID}
+_STATUS: dict[RunOutcome, Status] = {"done": Status.SUCCESS, "failed": Status.FAILURE, "cut": Status.INVALID}
 
 
 def compile_tree(mission: ActiveMission) -> MissionTree:
@@ -97,7 +97,7 @@ class MissionTree(NodeBehavior):
         if isinstance(behavior.parent, NodeBehavior):
             behavior.parent.current_child = behavior
 
-    def _left(self, node: Node, outcome: Outcome) -> None:
+    def _left(self, node: Node, outcome: RunOutcome) -> None:
         self._behavior[node.id].status = _STATUS[outcome]
 
 

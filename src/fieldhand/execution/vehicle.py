@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from fieldhand.clock import Clock, WallClock
 from fieldhand.execution.drivers.protocol import Driver
+from fieldhand.robot.model import RobotProfile
 from fieldhand.task.results import Event
 
 #: Receives the events of a mission.
@@ -54,6 +55,7 @@ class Vehicle:
         by: How the robot is reached; None for the simulation.
         remark: Remark for the operator; empty if there is none.
         disk: Wraps the event writer; a simulated disk may be full.
+        robot: Profile with which it was connected; None if unknown. Missions for another robot are refused.
     """
 
     driver: Driver
@@ -63,6 +65,7 @@ class Vehicle:
     by: Connection | None = None
     remark: str = ""
     disk: Callable[[Writer], Writer] = _no_limit
+    robot: RobotProfile | None = None
 
     @property
     def simulated(self) -> bool:

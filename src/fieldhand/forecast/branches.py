@@ -131,7 +131,7 @@ def branches(
             readings=readings,
         )
 
-    def told(answers: Answers) -> ForecastHandler:
+    def optional_walker(answers: Answers) -> ForecastHandler:
         readings = BranchReadings(outcomes)
         return ForecastHandler(
             task, site, robot, ways, answers, charge_percent, optional=ScriptedOptionalWork(kept), readings=readings
@@ -140,12 +140,12 @@ def branches(
     root = task.composition.plan
     looked = _Exploration(likely, root, limit, seed, by_themselves=_BY_THEMSELVES)
     coverage = looked.explore()
-    further = _Exploration(told, root, MAX_OPTIONAL_WALKS, seed, by_themselves=0)
+    further = _Exploration(optional_walker, root, MAX_OPTIONAL_WALKS, seed, by_themselves=0)
     if any(node.is_optional for node in plan.walk(root)):
         coverage = "sampled" if further.explore() == "sampled" else coverage
     return Branches(
-        walks=tuple(looked.found.values()),
-        optional_walks=tuple(further.found.values()),
+        walks=tuple(looked.walks.values()),
+        optional_walks=tuple(further.walks.values()),
         broken=(*looked.broken.values(), *further.broken.values()),
         coverage=coverage,
     )
@@ -159,14 +159,14 @@ class _Script:
 
     Attributes:
         prefix: The first answers: those of an earlier walk, with the last one inverted.
-        told: Preset answers by kind of decision and node.
+        preset: Preset answers by kind of decision and node.
         fixed: Keys of decisions that always have their preset answer and do not consume the prefix.
         rng: Random generator for answers beyond the prefix; ``chance`` is the probability of yes.
     """
 
     prefix: Sequence[bool] = ()
     turned: int | None = None
-    told: dict[str, bool] = field(default_factory=dict)
+    preset: dict[str, bool] = field(default_factory=dict)
     fixed: frozenset[str] = frozenset()
     rng: np.random.Generator | None = None
     chance: float = 0.5
@@ -182,13 +182,13 @@ class _Script:
 
     def _answer(self, key: str, default: bool) -> bool:
         if key in self.fixed:
-            return self.told.get(key, default)
+            return self.preset.get(key, default)
         position, self._asked = self._asked, self._asked + 1
         if self.turned is not None and position <= self.turned:
             return self.prefix[position] is not (position == self.turned)
         if self.rng is not None:
             return bool(self.rng.random() < self.chance) if default else bool(self.rng.random() < 0.2)
-        return self.told.get(key, default)
+        return self.preset.get(key, default)
 
 
 class _Exploration:
@@ -205,7 +205,7 @@ class _Exploration:
     ) -> None:
         self._walker, self._root, self._limit, self._by_themselves = walker, root, limit, by_themselves
         self._rng = np.random.default_rng([seed, len(list(plan.walk(root)))])
-        self.found: dict[tuple[Decision, ...], Walk] = {}
+        self.walks: dict[tuple[Decision, ...], Walk] = {}
         self.broken: dict[str, BrokenBranch] = {}
         self._walked = self._steps = 0
         #: Decisions of the walks with preset answers only.
@@ -217,9 +217,9 @@ class _Exploration:
         # Initial walks: first every condition holds and nothing fails, then no condition holds, then the other
         # combinations.
         most = 0
-        for told in _alike(self._root):
-            if len(self.found) < self._limit and (len(self.found) < 2 or self._steps < MAX_STEPS_ALIKE):
-                decisions = self._look(_Script(told=told))
+        for preset in _alike(self._root):
+            if len(self.walks) < self._limit and (len(self.walks) < 2 or self._steps < MAX_STEPS_ALIKE):
+                decisions = self._look(_Script(preset=preset))
                 if all(d.sure for d in decisions):
                     return "enumerated"
                 most = max(most, sum(_key(d) in local for d in decisions if not d.sure))
@@ -231,12 +231,12 @@ class _Exploration:
         else:
             whole = "bounded" if len(local) <= _ALIKE else "sampled"
             each, fixed = _combinations(local), frozenset(local)
-        if all(self._turn(told, fixed) for told in each):
+        if all(self._turn(preset, fixed) for preset in each):
             return whole
         self._draw()
         return "sampled"
 
-    def _turn(self, told: dict[str, bool], fixed: frozenset[str]) -> bool:
+    def _turn(self, preset: dict[str, bool], fixed: frozenset[str]) -> bool:
         """Invert each answer that is not fixed, of every walk found; return True if all branches were walked."""
         # Each prefix is tried once: a walk proposes to invert each answer that its own prefix did not determine.
         pending: deque[tuple[tuple[bool, ...], int | None]] = deque([((), None)])
@@ -246,7 +246,7 @@ class _Exploration:
             if not self._room(self._limit if near else self._limit * 3 // 4):
                 return False
             prefix, turned = pending.popleft()
-            decisions = self._look(_Script(prefix=prefix, turned=turned, told=told, fixed=fixed))
+            decisions = self._look(_Script(prefix=prefix, turned=turned, preset=preset, fixed=fixed))
             given = tuple(d.answer for d in decisions if not d.sure and _key(d) not in fixed)
             first = 0 if turned is None else turned + 1
             room = self._limit + 1 - len(pending)
@@ -261,11 +261,11 @@ class _Exploration:
             self._look(_Script(rng=self._rng, chance=(0.5, 0.1, 0.9)[number % 3]))
 
     def _room(self, limit: int) -> bool:
-        return len(self.found) < limit and self._walked < 4 * self._limit and self._steps < MAX_STEPS
+        return len(self.walks) < limit and self._walked < 4 * self._limit and self._steps < MAX_STEPS
 
     def _look(self, script: _Script) -> tuple[Decision, ...]:
         """Walk a branch and return its decisions."""
-        alike = None if script.turned is not None or script.rng is not None else frozenset(script.told.items())
+        alike = None if script.turned is not None or script.rng is not None else frozenset(script.preset.items())
         if alike in self._alike:
             return self._alike[alike]
         walker = self._walker(script.answers())
@@ -274,11 +274,11 @@ class _Exploration:
         except (PlaceError, DriveFault) as error:
             decisions = tuple(walker.decisions)
             steps = tuple(walker.steps)
-            found = BrokenBranch(decisions=decisions, error=error, node=walker.bound_for, steps=steps)
-            self.broken.setdefault(str(error), found)
+            branch = BrokenBranch(decisions=decisions, error=error, node=walker.bound_for, steps=steps)
+            self.broken.setdefault(str(error), branch)
         else:
             decisions = walked.decisions
-            self.found.setdefault(decisions, walked)
+            self.walks.setdefault(decisions, walked)
         if alike is not None:
             self._alike[alike] = decisions
         self._walked, self._steps = self._walked + 1, self._steps + len(walker.steps)

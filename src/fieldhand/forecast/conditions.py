@@ -191,18 +191,18 @@ def _is_number(value: Value) -> bool:
         return False
 
 
-def _joined(found: Sequence[ConditionResult], *, decisive: bool) -> ConditionResult:
+def _joined(results: Sequence[ConditionResult], *, decisive: bool) -> ConditionResult:
     """Combine results: one equal to ``decisive`` determines the result; otherwise an unknown one makes it unknown."""
-    settling = [f for f in found if f.truth is decisive]
+    settling = [f for f in results if f.truth is decisive]
     if settling:
         return ConditionResult(truth=decisive, why=_all(settling))
-    unknown = [f for f in found if f.truth is None]
-    return ConditionResult(truth=None if unknown else not decisive, why=_all(unknown or found))
+    unknown = [f for f in results if f.truth is None]
+    return ConditionResult(truth=None if unknown else not decisive, why=_all(unknown or results))
 
 
-def _all(found: Sequence[ConditionResult]) -> str:
+def _all(results: Sequence[ConditionResult]) -> str:
     """Return the reasons of several results as a list, in a form stored in event logs."""
-    whys = [finding.why for finding in found]
+    whys = [finding.why for finding in results]
     if len(whys) < 2:
         return listed(whys)
     return message("{known} and {also}", context="log", known=joined(", ", whys[:-1]), also=whys[-1])

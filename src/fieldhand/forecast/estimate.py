@@ -91,7 +91,7 @@ class _CachedBranches:
     asked: tuple[Task, int, float, int]
     explored: Branches
     leg_costs: LegCostSamples
-    found: Estimate | None = None
+    estimate: Estimate | None = None
 
 
 def explore(
@@ -140,12 +140,12 @@ def estimate(
         TaskError: A branch exceeds the maximum number of nodes.
     """
     kept = _explored(task, site, robot, seed, charge_percent, draws)
-    if kept.found is not None:
-        return kept.found
+    if kept.estimate is not None:
+        return kept.estimate
     if kept.explored.broken:
         raise kept.explored.broken[0].error
     made = _estimated(kept, task, site, robot, charge_percent)
-    site.cache["estimate"] = replace(kept, found=made)
+    site.cache["estimate"] = replace(kept, estimate=made)
     return made
 
 

@@ -10,7 +10,7 @@ from fieldhand.forecast.resource_limits import ResourceKind
 
 #: ``turn_home``: going on would more likely than not exceed a limit, and turning round is safer. ``out_of_reach``: the
 #: charge above the stop level does not suffice for the way home.
-Alarm = Literal["none", "turn_home", "out_of_reach"]
+FailsafeAlarm = Literal["none", "turn_home", "out_of_reach"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,7 +50,7 @@ class FailsafeForecast:
         drain: Battery drain as a multiple of its model.
     """
 
-    alarm: Alarm = "none"
+    alarm: FailsafeAlarm = "none"
     limit: ResourceKind = "reserve"
     left: float = 0.0
     needed: float = 0.0

@@ -56,15 +56,15 @@ def fault_exits(
     robot: RobotProfile,
     drives: Drives,
     walks: Sequence[Walk],
-    told: Sequence[Walk],
+    optional_walks: Sequence[Walk],
     leg_costs: LegCostSamples,
 ) -> FaultExits:
     """Compute the drives home from the places of walks, for each fault after which the Task returns the robot home."""
     then = {fault: exit_of(task, fault) for fault in _FAULTS}
     homes = {f: site.home(t, site.start) for f, t in then.items() if t != "stay"}
-    stops = _stops((*walks, *told))
+    stops = _stops((*walks, *optional_walks))
     distinct = {s.places[0].stand or s.places[0].xy: s for s in stops.values()}
-    found: dict[tuple[object, object], WalkStep] = {}
+    ways_home: dict[tuple[object, object], WalkStep] = {}
     broken: dict[tuple[object, object], tuple[Place, Place, DriveFault]] = {}
     looked: set[object] = set()
     for home in {h.xy: h for h in homes.values()}.values():
@@ -72,18 +72,20 @@ def fault_exits(
             looked.add(stand)
             place = step.places[0]
             if place.xy == home.xy:
-                found[stand, home.xy] = replace(step, kind="exit", places=(home,), drive=None, seconds=0.0, joules=0.0)
+                ways_home[stand, home.xy] = replace(
+                    step, kind="exit", places=(home,), drive=None, seconds=0.0, joules=0.0
+                )
                 continue
             try:
                 drive = drives.between(place, home)
             except DriveFault as error:
                 broken[stand, home.xy] = (place, home, error)
             else:
-                found[stand, home.xy] = replace(step, kind="exit", places=(drive.end,), drive=drive)
+                ways_home[stand, home.xy] = replace(step, kind="exit", places=(drive.end,), drive=drive)
     faults = [f for f in homes if f != "low_budget"]
-    worst = [(f, _longest(f, homes[f], walks, stops, found, task, robot, leg_costs)) for f in faults]
+    worst = [(f, _longest(f, homes[f], walks, stops, ways_home, task, robot, leg_costs)) for f in faults]
     return FaultExits(
-        steps=tuple(found.values()),
+        steps=tuple(ways_home.values()),
         broken=tuple(broken.values()),
         worst=tuple((f, walked) for f, walked in worst if walked is not None),
         looked_at=len(looked),
@@ -117,7 +119,7 @@ def _longest(
     home: Place,
     walks: Sequence[Walk],
     stops: dict[tuple[int, int], WalkStep],
-    found: dict[tuple[object, object], WalkStep],
+    ways_home: dict[tuple[object, object], WalkStep],
     task: Task,
     robot: RobotProfile,
     leg_costs: LegCostSamples,
@@ -130,7 +132,7 @@ def _longest(
         if w >= len(walks):
             break
         place = step.places[0]
-        way = found.get((place.stand or place.xy, home.xy))
+        way = ways_home.get((place.stand or place.xy, home.xy))
         if way is None or (fault == "action_failed" and step.kind != "act"):
             continue
         again = _again(step, robot).seconds if fault == "action_failed" else 0.0

@@ -19,23 +19,23 @@ def local_decisions(root: Node) -> tuple[str, ...]:
     if any(inner.selector is not None for n in walk(root) for body in n.caught for inner in walk(body)):
         # After an abandoned drive the robot first has to return to its place of work.
         return ()
-    found: list[str] = []
-    _collect(root, root, found)
-    return tuple(found)
+    keys: list[str] = []
+    _collect(root, root, keys)
+    return tuple(keys)
 
 
-def _collect(root: Node, node: Node, found: list[str]) -> None:
+def _collect(root: Node, node: Node, keys: list[str]) -> None:
     decides = bool(node.caught) or node.tested is not None
     if decides and _on_the_spot(node) and not _used_outside(root, node):
         tried = {act.id for inner in walk(node) for body in inner.caught for act in acts(body)}
         for inner in walk(node):
             if inner.tested is not None:
-                found.append(inner.id)
+                keys.append(inner.id)
             elif inner.id in tried:
-                found.append(f"{inner.id} fails")
+                keys.append(f"{inner.id} fails")
         return
     for child in node.children:
-        _collect(root, child, found)
+        _collect(root, child, keys)
 
 
 def _on_the_spot(node: Node) -> bool:

@@ -120,7 +120,8 @@ class VisitChoice:
 
     Attributes:
         chance_short: Probability of running short by the visits given up, if there are any; otherwise by the next one.
-        cause: Why they are given up.
+        cause: Cause of giving them up.
+        names_places: True if the reason names their places.
     """
 
     index: int | None
@@ -128,3 +129,4 @@ class VisitChoice:
     reason: str = ""
     chance_short: float = 0.0
     cause: ShedCause = "budget"
+    names_places: bool = False

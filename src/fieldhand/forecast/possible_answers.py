@@ -51,7 +51,7 @@ class ConditionOutcomes:
     def __init__(self, root: plan.Node, site: Site, robot: RobotProfile) -> None:
         self._site, self._robot = site, robot
         self._values = dict(_standing_for(root, robot))
-        self._found: dict[object, _Outcome] = {}
+        self._outcomes: dict[object, _Outcome] = {}
 
     def measured(self, action: str) -> dict[str, _Values]:
         """Return representative values of each quantity that an action measures."""
@@ -71,15 +71,15 @@ class ConditionOutcomes:
         Args:
             node_id: Id of the condition's node.
             condition: The condition.
-            here: The place in hand.
+            here: The current place.
             tested: Reading and quantity of each tested reading that was taken.
             values: Possible values of each of them.
         """
         at = here.id if any(isinstance(part, TreeHas) for part in c.walk(condition)) else ""
         key = (node_id, at, tested, values)
-        known = self._found.get(key)
+        known = self._outcomes.get(key)
         if known is None and math.prod(len(v) for v in values) <= _MOST:
-            known = self._found[key] = self._try(condition, here, tested, values)
+            known = self._outcomes[key] = self._try(condition, here, tested, values)
         return known
 
     def _try(self, condition: Condition, here: Place, tested: _Tested, values: tuple[_Values, ...]) -> _Outcome:

@@ -19,7 +19,7 @@ from fieldhand.forecast.request_handler import ForecastHandler
 from fieldhand.forecast.resource_limits import speed_of
 from fieldhand.forecast.route_cost import RouteCost, route_cost
 from fieldhand.forecast.walk_state import Answers
-from fieldhand.forecast.walk_steps import Answer, never
+from fieldhand.forecast.walk_steps import NodeAnswer, never
 from fieldhand.places.context import Context
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
@@ -187,7 +187,7 @@ def _is_relative(following: Node) -> bool:
     return any(s is not None and s.relative for s in selectors)
 
 
-def every_answer(nodes: Sequence[Node]) -> list[Answer]:
+def every_answer(nodes: Sequence[Node]) -> list[NodeAnswer]:
     """Return every combination of answers to the first few conditions; all others share one answer."""
     asked = [n.id for node in nodes for n in plan.walk(node) if n.tested is not None]
     if not asked:
@@ -195,11 +195,11 @@ def every_answer(nodes: Sequence[Node]) -> list[Answer]:
     some = asked[:_MAX_CONDITIONS]
     beyond = (True, False) if len(asked) > len(some) else (False,)
     return [
-        _told(dict(zip(some, answers, strict=True)), default)
+        _answer_from(dict(zip(some, answers, strict=True)), default)
         for answers in itertools.product((True, False), repeat=len(some))
         for default in beyond
     ]
 
 
-def _told(answers: dict[str, bool], default: bool) -> Answer:
+def _answer_from(answers: dict[str, bool], default: bool) -> NodeAnswer:
     return lambda node_id: answers.get(node_id, default)

@@ -8,7 +8,7 @@ from fieldhand.forecast import visit_order
 from fieldhand.forecast.optional_work import LikelyOptionalWork
 from fieldhand.forecast.request_handler import ForecastHandler, OptionalWorkPolicy
 from fieldhand.forecast.walk_state import Answers
-from fieldhand.forecast.walk_steps import Answer, Walk, never
+from fieldhand.forecast.walk_steps import NodeAnswer, Walk, never
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
@@ -22,8 +22,8 @@ def walk_branch(
     site: Site,
     robot: RobotProfile,
     *,
-    holds: Answer,
-    fails: Answer = never,
+    holds: NodeAnswer,
+    fails: NodeAnswer = never,
     drives: Drives | None = None,
     charge_percent: float = 100.0,
     optional: OptionalWorkPolicy | None = None,

@@ -11,7 +11,7 @@ from fieldhand.forecast.mission_state import Spent, Work
 from fieldhand.forecast.possible_answers import BranchReadings
 from fieldhand.forecast.resource_limits import speed_of
 from fieldhand.forecast.sampled_costs import MissionSamples
-from fieldhand.forecast.walk_steps import Answer, Decision, DecisionKind, StepKind, WalkStep, never
+from fieldhand.forecast.walk_steps import Decision, DecisionKind, NodeAnswer, StepKind, WalkStep, never
 from fieldhand.places.context import Context, VisitedIds
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
@@ -40,12 +40,12 @@ class Answers:
         taken: Called with the id of each optional step, if the walk does not make the most probable choice.
     """
 
-    holds: Answer = _always
-    fails: Answer = never
-    blocked: Answer = never
-    taken: Answer = never
+    holds: NodeAnswer = _always
+    fails: NodeAnswer = never
+    blocked: NodeAnswer = never
+    taken: NodeAnswer = never
 
-    def of(self, kind: DecisionKind) -> Answer:
+    def of(self, kind: DecisionKind) -> NodeAnswer:
         """Return the source of answers to a kind of decision."""
         by_kind: dict[DecisionKind, Callable[[str], bool]] = {
             "holds": self.holds,

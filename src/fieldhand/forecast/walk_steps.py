@@ -19,7 +19,7 @@ StepKind = Literal["drive", "act", "visit-list", "decide", "exit"]
 DecisionKind = Literal["holds", "fails", "blocked", "taken"]
 
 #: Answers a question about a node, given its id: whether its condition holds, or its action fails.
-Answer = Callable[[str], bool]
+NodeAnswer = Callable[[str], bool]
 
 
 def never(node_id: str) -> bool:  # noqa: ARG001

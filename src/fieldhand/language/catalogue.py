@@ -33,7 +33,7 @@ from fieldhand.language.message import (
 from fieldhand.language.po import Entry, compiled, read_entries
 from fieldhand.language.recalling import QUANTITY, SHAPES, Effort, Sentence, sentences
 
-_Said = TypeVar("_Said")
+_Text = TypeVar("_Text")
 
 SOURCE = "en"
 _DOMAIN = "fieldhand"
@@ -86,17 +86,17 @@ class Language:
             case _:
                 return str(text)
 
-    def read(self, value: _Said) -> _Said:
+    def read(self, value: _Text) -> _Text:
         """Return a copy of a dataclass, tuple or mapping with every message in it translated."""
         if isinstance(value, str):
-            return cast(_Said, self.say(value))
+            return cast(_Text, self.say(value))
         if isinstance(value, tuple | list):
-            return cast(_Said, type(value)(self.read(part) for part in value))
+            return cast(_Text, type(value)(self.read(part) for part in value))
         if isinstance(value, dict):
-            return cast(_Said, {key: self.read(part) for key, part in value.items()})
+            return cast(_Text, {key: self.read(part) for key, part in value.items()})
         if is_dataclass(value) and not isinstance(value, type):
             changed = {f.name: self.read(getattr(value, f.name)) for f in fields(value) if f.init}
-            return cast(_Said, replace(cast(Any, value), **changed))
+            return cast(_Text, replace(cast(Any, value), **changed))
         return value
 
     def _message(self, text: Message) -> str:
@@ -145,8 +145,8 @@ class Language:
         clauses = _clauses(text)
         if len(clauses) > 1:
             retold = [self._retold(clause, effort) for clause in clauses]
-            said = [clause if known is None else known for known, clause in zip(retold, clauses, strict=True)]
-            return joined("; ", said) if any(known is not None for known in retold) else None
+            translated = [clause if known is None else known for known, clause in zip(retold, clauses, strict=True)]
+            return joined("; ", translated) if any(known is not None for known in retold) else None
         for sentence in self.patterns.get(LOG, ()):
             parts = sentence.fills_of(text, effort)
             if parts is None:
@@ -179,10 +179,10 @@ class Language:
         return text if known is None else known
 
     def _filled(self, template: str, fills: Mapping[str, Fill]) -> str:
-        said: dict[str, Fill] = {
+        translated: dict[str, Fill] = {
             name: self.say(value) if isinstance(value, str) else value for name, value in fills.items()
         }
-        return fill(template, said, self._melted if self.melts else None)
+        return fill(template, translated, self._melted if self.melts else None)
 
     def _melted(self, before: str, after: str) -> str:
         """Return two parts joined, with a contraction where they meet: "de" and "el árbol" become "del árbol"."""
@@ -267,8 +267,8 @@ def spoken(wanted: str | None, environ: Mapping[str, str]) -> Language:
     """
     if wanted is not None:
         return open_language(wanted.strip().lower())
-    said = next((environ[name] for name in ("LC_ALL", "LC_MESSAGES", "LANG") if environ.get(name)), "")
-    code = re.split(r"[_.@-]", said.lower())[0]
+    setting = next((environ[name] for name in ("LC_ALL", "LC_MESSAGES", "LANG") if environ.get(name)), "")
+    code = re.split(r"[_.@-]", setting.lower())[0]
     return open_language(code if code == SOURCE or _file(code).is_file() else SOURCE)
 
 
@@ -282,7 +282,7 @@ def _locale() -> Any:
 
 
 def _header(entries: Iterable[Entry]) -> dict[str, str]:
-    text = next((e.said[0] for e in entries if not e.template), "")
+    text = next((e.translations[0] for e in entries if not e.template), "")
     pairs = (line.partition(":") for line in text.splitlines())
     return {name.strip(): value.strip() for name, _, value in pairs}
 

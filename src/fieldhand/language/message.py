@@ -111,11 +111,11 @@ def kept_in_log(text: str) -> Message:
     return recalled(str(text), LOG)
 
 
-def labelled(said: str, labels: Mapping[str, str]) -> str:
+def labelled(text: str, labels: Mapping[str, str]) -> str:
     """Return a message with translations from a file, by language code."""
-    if not labels or not isinstance(said, Message):
-        return said
-    made = copy(said)
+    if not labels or not isinstance(text, Message):
+        return text
+    made = copy(text)
     made.labels = labels
     return made
 

@@ -22,11 +22,11 @@ class Entry:
     Attributes:
         template, many: English singular and plural; ``many`` is empty if the message has no plural.
         context: Distinguishes messages that are identical in English only.
-        said: Translation, one for each plural form.
+        translations: Translation, one for each plural form.
     """
 
     template: str
-    said: tuple[str, ...]
+    translations: tuple[str, ...]
     many: str = ""
     context: str = ""
 
@@ -69,10 +69,10 @@ def compiled(entries: Iterable[Entry]) -> bytes:
     """Return the non-empty entries as the bytes of a ``.mo`` file, as read by :class:`gettext.GNUTranslations`."""
     pairs: dict[bytes, bytes] = {}
     for entry in entries:
-        if any(entry.said):
+        if any(entry.translations):
             key = f"{entry.context}\x04{entry.template}" if entry.context else entry.template
             full = f"{key}\x00{entry.many}" if entry.many else key
-            pairs[full.encode()] = "\x00".join(entry.said).encode()
+            pairs[full.encode()] = "\x00".join(entry.translations).encode()
     keys = sorted(pairs)
     start = 28 + 16 * len(keys)
     ids = b"".join(key + b"\x00" for key in keys)
@@ -86,12 +86,12 @@ def compiled(entries: Iterable[Entry]) -> bytes:
 
 
 def _entry(held: dict[str, str]) -> Entry:
-    said = tuple(text for key, text in sorted(held.items()) if key.startswith("msgstr"))
+    translations = tuple(text for key, text in sorted(held.items()) if key.startswith("msgstr"))
     return Entry(
         template=held.get("msgid", ""),
         many=held.get("msgid_plural", ""),
         context=held.get("msgctxt", ""),
-        said=said or ("",),
+        translations=translations or ("",),
     )
 
 

@@ -73,7 +73,7 @@ class Sentence:
             return None
         return self._filled(text[: len(text) - len(last)], len(first), 0, {}, effort)
 
-    def _filled(self, text: str, at: int, k: int, found: dict[str, str], effort: Effort) -> dict[str, str] | None:
+    def _filled(self, text: str, at: int, k: int, values: dict[str, str], effort: Effort) -> dict[str, str] | None:
         name, literal = self.names[k], self.literals[k + 1]
         shape, is_last = self.shapes.get(name), k == len(self.names) - 1
         end = at
@@ -82,8 +82,8 @@ class Sentence:
             if end < 0:
                 return None
             part = text[at:end]
-            if found.get(name, part) == part and (shape is None or shape.fullmatch(part)):
-                more = found | {name: part}
+            if values.get(name, part) == part and (shape is None or shape.fullmatch(part)):
+                more = values | {name: part}
                 rest = more if is_last else self._filled(text, end + len(literal), k + 1, more, effort)
                 if rest is not None:
                     return rest

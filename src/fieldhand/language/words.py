@@ -231,17 +231,17 @@ def say_captures(name: str, count: int) -> str:
     verb, _, rest = name.strip("_").partition("_")
     thing = _words(rest) or _words(verb)
     one, many = (f"{thing} reading", f"{thing} readings") if verb in _READING_VERBS else (thing, plural(thing))
-    said = counted(f"{{count}} {one}", f"{{count}} {many}", count, context="captures")
-    said.instead = counted("{count} capture of “{name}”", "{count} captures of “{name}”", count, name=thing)
-    return said
+    text = counted(f"{{count}} {one}", f"{{count}} {many}", count, context="captures")
+    text.instead = counted("{count} capture of “{name}”", "{count} captures of “{name}”", count, name=thing)
+    return text
 
 
 def _of_action(once: str, often: str, count: int) -> Message:
     """Return a verb phrase, to be translated if a catalogue contains it and quoted otherwise."""
-    said = counted(once, often, count, context="action", times=say_times(count))
+    text = counted(once, often, count, context="action", times=say_times(count))
     quoted = message("do “{action}”", action=once)
-    said.instead = quoted if count == 1 else message("do “{action}” {times}", action=once, times=say_times(count))
-    return said
+    text.instead = quoted if count == 1 else message("do “{action}” {times}", action=once, times=say_times(count))
+    return text
 
 
 def capitalised(text: str) -> str:

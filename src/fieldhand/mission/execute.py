@@ -6,6 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from fieldhand.errors import NotApprovedError
 from fieldhand.mission.approve import ApprovedMission
 from fieldhand.mission.run import Run
 from fieldhand.mission.seeds import checked_seed
@@ -81,7 +82,7 @@ def carry_out(
         log: Records every external input, so that the mission can be resumed.
 
     Raises:
-        NotApprovedError: The Task was approved for another site or robot.
+        NotApprovedError: The Task was approved for another site or robot than that of the vehicle.
         InputError: The seed is negative, or not a whole number.
     """
     from fieldhand.evaluation.budget_guard import BudgetGuard
@@ -91,6 +92,11 @@ def carry_out(
 
     seed = checked_seed(seed)
     site, robot, task = mission.site, mission.robot, mission.task
+    if vehicle.robot is not None and vehicle.robot.sha256 != robot.sha256:
+        raise NotApprovedError(
+            f"the mission was approved for {robot.name}, the vehicle is {vehicle.robot.name} or has another profile",
+            advice="connect with the profile that the mission was approved for",
+        )
     guard = BudgetGuard(task, site, robot, drives_for(site, robot), seed, charge_percent=vehicle.charge_percent)
     result = run(
         mission.authorized,

@@ -10,7 +10,7 @@ from fieldhand.site.drawing.notebook import figure_html
 if TYPE_CHECKING:
     from fieldhand.mission.review_task import Review
     from fieldhand.mission.run import Run
-    from fieldhand.mission.simulations import Quantity, Simulations
+    from fieldhand.mission.simulations import SimulatedQuantity, Simulations
 
 
 def html_of_review(review: Review) -> str:
@@ -48,7 +48,7 @@ def html_of_run(run: Run) -> str:
 
 def html_of_simulations(runs: Simulations) -> str:
     """Return how many simulations succeeded, and quantiles of their figures."""
-    quantities: dict[str, Quantity] = {
+    quantities: dict[str, SimulatedQuantity] = {
         "distance, m": "travelled_m",
         "time, s": "seconds",
         "charge left, %": "charge_percent",

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING
 
+from fieldhand.errors import NotApprovedError
 from fieldhand.mission.seeds import checked_seed
 from fieldhand.robot.model import RobotProfile
 from fieldhand.short_repr import short_repr
@@ -84,6 +86,27 @@ class Review:
 
         say = open_language(language).say
         return "" if self.read_back is None else "\n".join(say(line) for line in self.read_back.text_lines())
+
+    def save_map(self, path: str | Path, *, language: str = "en") -> None:
+        """Draw the map of the plan: the drives of the first branch, and what the others add.
+
+        Args:
+            path: PNG file.
+            language: Code of the language of its labels.
+
+        Raises:
+            NotApprovedError: The mission cannot be forecast; the error names its problems.
+            OutputError: The file cannot be written.
+            InputError: There is no catalogue for this language.
+        """
+        from fieldhand.approval.preview import save_map
+        from fieldhand.language import open_language
+
+        spoken = open_language(language)
+        if self.estimate is None:
+            problems = "; ".join(spoken.say(p.line()) for p in self.errors)
+            raise NotApprovedError(f"there is no map of a mission that cannot be driven: {problems}", where=str(path))
+        save_map(self.task, self.site, self.robot, self.estimate, Path(path), spoken)
 
     def _repr_html_(self) -> str:
         """Return map, words and problems for a notebook."""

@@ -34,7 +34,7 @@ class Assessment:
         exceeded: Limits that were exceeded.
         status: Final status; None if the log is incomplete. Logs of earlier versions call a mission that exceeded a
             limit ``completed``; here it is not.
-        reason: Why it did not complete, in words.
+        reason: Reason, in words, if it did not complete.
     """
 
     outcomes: tuple[GoalOutcome, ...]
@@ -96,7 +96,7 @@ class Run:
 
     @property
     def reason(self) -> str:
-        """Why the mission did not complete, in words; empty if it did."""
+        """Reason, in words, if the mission did not complete; empty if it did."""
         return self.result.reason
 
     @property
@@ -166,7 +166,7 @@ def report(
         events: Its event log.
         assessment: Outcome of its goals.
         forecast: The forecast that was approved.
-        signed: Whose signature the mission carries, in words; empty for an unsigned one.
+        signed: Name of the signer, in words; empty for an unsigned one.
         hashes: SHA-256 of further files that the mission rests on, each with a name.
 
     Raises:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 #: Figures of a simulation that have quantiles.
-Quantity = Literal["travelled_m", "seconds", "charge_percent", "captures"]
+SimulatedQuantity = Literal["travelled_m", "seconds", "charge_percent", "captures"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,7 +61,7 @@ class Simulations(Records[Simulation]):
 
     def quantiles(
         self,
-        quantity: Quantity,
+        quantity: SimulatedQuantity,
         levels: tuple[float, ...] = (0.1, 0.5, 0.9),
     ) -> tuple[float, ...]:
         """Return quantiles of a figure over all simulations; NaN if there is none.

@@ -8,13 +8,13 @@ from typing import Protocol
 from fieldhand.orienteering.policy import State
 
 #: Returns the next vertex of a mission.
-Decide = Callable[[State], int]
+NextVertex = Callable[[State], int]
 
 
 class PreparedSolver(Protocol):
     """A solver prepared for one problem. It must be picklable, because missions are simulated in other processes."""
 
-    def mission(self, seed: int) -> Decide:
+    def mission(self, seed: int) -> NextVertex:
         """Return the decision function of a new mission, independent of earlier missions.
 
         Args:

@@ -17,22 +17,29 @@ class NounPhrase:
     Attributes:
         closed: The whole phrase, once something was picked; the other parts except the order are then empty.
         single: True if it denotes one place.
-        before, after: Adjectives, and clauses after the noun, in the order of the phrase.
+        before: Adjectives.
+        whose: Clauses about attributes after the noun ("whose age is above 10 years").
+        after: Other clauses after the noun, in the order of the phrase.
         row, block: Rows ("rows 2 to 5") and block of the trees.
         one_row: True if ``row`` is a single row.
         among: The closed phrase from which the trees are filtered.
         order: Order of the places ("from west to east").
+        every: True for a phrase with "every", which is singular although it denotes several places.
+        listed: True for a list of several phrases.
     """
 
     closed: str = ""
     single: bool = False
     before: tuple[str, ...] = ()
+    whose: tuple[str, ...] = ()
     after: tuple[str, ...] = ()
     row: str = ""
     one_row: bool = False
     block: str = ""
     among: str = ""
     order: str = ""
+    every: bool = False
+    listed: bool = False
 
     @property
     def plain(self) -> bool:
@@ -42,14 +49,15 @@ class NounPhrase:
     @property
     def bare(self) -> bool:
         """True for every tree of some rows, or of the site."""
-        return not (self.closed or self.before or self.after or self.among)
+        return not (self.closed or self.before or self.whose or self.after or self.among)
 
-    def keeping(self, *, before: str = "", after: str = "") -> NounPhrase:
+    def keeping(self, *, before: str = "", whose: str = "", after: str = "") -> NounPhrase:
         """Return the phrase narrowed by one more adjective or clause."""
         base = NounPhrase(among=self.closed, order=self.order) if self.closed else self
         return replace(
             base,
             before=(*base.before, before) if before else base.before,
+            whose=(*base.whose, whose) if whose else base.whose,
             after=(*base.after, after) if after else base.after,
         )
 
@@ -69,8 +77,8 @@ class NounPhrase:
 
     def say(self, count: int | None = None) -> str:
         """Return the phrase with its article, and with the number of places if known."""
-        said = self._unordered(count)
-        return message("{trees}, {order}", trees=said, order=self.order) if self.order else said
+        text = self._unordered(count)
+        return message("{trees}, {order}", trees=text, order=self.order) if self.order else text
 
     def _unordered(self, count: int | None = None) -> str:
         text = self._whole(count)
@@ -106,7 +114,7 @@ class NounPhrase:
         return joined(" ", [message("of {part}", part=part) for part in (self.row, self.block) if part])
 
     @property
-    def whose(self) -> str:
+    def rows_and_block(self) -> str:
         """Return rows and block without the preposition: "row 3 of block B"; empty for the whole site."""
         if self.row and self.block:
             return message("{rows} of {block}", rows=self.row, block=self.block)
@@ -126,7 +134,7 @@ def many(text: str) -> NounPhrase:
 def clauses(phrase: NounPhrase, *more: str) -> str:
     """Return the clauses after the noun, separated by a comma so that each refers to the noun."""
     among = (message("among {trees}", trees=phrase.among),) if phrase.among else ()
-    clauses = (*sorted(phrase.after, key=lambda a: not a.startswith("whose ")), *among)
+    clauses = (*phrase.whose, *phrase.after, *among)
     parted = joined(", ", clauses)
     return joined(" ", [part for part in (phrase.of_what, parted, *more) if part])
 

@@ -46,7 +46,7 @@ def picked_phrase(group: NounPhrase, count: int, which: str, *, that_is: bool = 
     build = one if count == 1 else many
     if not that_is:
         clause = which
-    elif group.after or group.among:
+    elif group.whose or group.after or group.among:
         clause = counted("that is {nearest_to}", "that are {nearest_to}", count, nearest_to=which)
     else:
         clause = counted("{nearest_to}", "{nearest_to}", count, nearest_to=which)

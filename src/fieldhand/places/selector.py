@@ -201,10 +201,10 @@ class Selector(ABC):
         """Return the phrase for the n-th place of this selector; -1 is the last."""
         group = wording.phrase(self)
         if group.plain:
-            said = say_ranked_tree(number)
+            text = say_ranked_tree(number)
         else:
-            said = message("the {ordinal} of {trees}", ordinal=say_ordinal(number, "one"), trees=group.group())
-        return one(message("{trees}, {order}", trees=said, order=group.order) if group.order else said)
+            text = message("the {ordinal} of {trees}", ordinal=say_ordinal(number, "one"), trees=group.group())
+        return one(message("{trees}, {order}", trees=text, order=group.order) if group.order else text)
 
 
 class FromGroup(Selector):

@@ -91,7 +91,7 @@ def _advise(refused: Refused) -> Refused:
 
 
 def _summary(refused: Refused) -> str:
-    """Why the built-in planner refused, short enough for one line."""
+    """Return the reasons of the built-in planner's refusal, short enough for one line."""
     reasons = [reason.what for reason in refused.reasons]
     shown = joined("; ", reasons[:3])
     return message("{items}; and {count} more", items=shown, count=len(reasons) - 3) if len(reasons) > 3 else shown

@@ -1,4 +1,4 @@
-"""Decide where a mission ends if its request does not say it: at home, unless the way there takes most of the budget.
+"""Choose the end of a mission whose request names none: at home, unless the way there takes most of the budget.
 
 Both planners decide it here, so that the same words end in the same place whoever plans them.
 """
@@ -29,14 +29,14 @@ _HOMEWARD: dict[Then, str] = {
 
 
 def usual_exit(site: Site) -> Then:
-    """Return where a mission ends on a site that its request does not name an end for."""
+    """Return the usual end of a mission on a site."""
     if "end" in site.markers:
         return "return_to_end"
     return "return_to_start" if "start" in site.markers else "stay"
 
 
 def faulted_exits(nominal: Then) -> tuple[FaultedExit, ...]:
-    """Return what a mission does about faults; when little is left it goes where the plan ends, if only to stay."""
+    """Return the exits after faults; at a low budget the robot goes where the plan ends, or stays."""
     return tuple(replace(e, then=nominal) if e.fault == "low_budget" else e for e in FAULTED_EXITS)
 
 
@@ -50,22 +50,22 @@ def with_assumed_exit(task: Task, site: Site, robot: RobotProfile) -> Task:
     """
     then = task.composition.nominal
     metres = excessive_way_home(task, site, robot, then)
-    said = _HOMEWARD[then]
+    text = _HOMEWARD[then]
     if metres is not None and then == "return_to_end":
-        said = message(
+        text = message(
             "The way to the end marker alone is {metres} m, a large part of what it may use: the robot stays at its"
             " last place. Ask for the return if you want it.",
             context="assumption",
             metres=say_rounded(metres),
         )
     elif metres is not None:
-        said = message(
+        text = message(
             "The way to the start alone is {metres} m, a large part of what it may use: the robot stays at its last"
             " place. Ask for the return if you want it.",
             context="assumption",
             metres=say_rounded(metres),
         )
-    assumptions = tuple(dict.fromkeys([*task.command.assumptions, said]))
+    assumptions = tuple(dict.fromkeys([*task.command.assumptions, text]))
     return replace(
         task,
         command=replace(task.command, assumptions=assumptions),
@@ -76,5 +76,5 @@ def with_assumed_exit(task: Task, site: Site, robot: RobotProfile) -> Task:
 
 
 def _staying(faulted: Sequence[FaultedExit]) -> tuple[FaultedExit, ...]:
-    """Return the exits of a mission that keeps nothing for the way home, and so does not set out on it."""
+    """Return the exits of a mission that reserves no budget for the way home and stays at its last place."""
     return tuple(replace(e, then="stay") if e.fault == "low_budget" else e for e in faulted)

@@ -1,4 +1,4 @@
-"""What a request may mean by a selector, and what may be said of it next.
+"""Selections: places that a request may mean, and how further words narrow them.
 
 What is true of a selector whatever is said of it is a property of :class:`~fieldhand.places.selector.Selector`.
 """
@@ -170,7 +170,7 @@ def specifies_part(selector: s.Selector) -> bool:
 
 
 def landmark_of(one: s.Selector, other: s.Selector) -> s.Selector | None:
-    """Return what one tree is near to or far from, if another is said to be far from or near to "it"; None otherwise.
+    """Return the place that a tree is near or far from, if "it" then means that place ("far from it"); None otherwise.
 
     "The tree nearest to the charger and the one farthest from it" are both measured from the charger.
     """
@@ -183,7 +183,7 @@ def landmark_of(one: s.Selector, other: s.Selector) -> s.Selector | None:
 
 
 def says_how_many(selector: s.Selector) -> bool:
-    """Return True if the words of a selection say how many trees are meant ("the 4 oldest", "the corners")."""
+    """Return True if a selection states a number of trees ("the 4 oldest", "the corners")."""
     return isinstance(selector, s.Take | s.Top | s.Extreme | s.Nearest | s.Adjacent | s.Corners | s.UnionOf)
 
 
@@ -193,7 +193,7 @@ def may_be_listed(selector: s.Selector) -> bool:
 
 
 def are_meant_each(selector: s.Selector) -> bool:
-    """Return True if "the tree at" several such places means one at each of them ("the tree at the corners")."""
+    """Return True if "the tree at" several such places means one tree at each ("the tree at the corners")."""
     return isinstance(selector, s.Corners)
 
 
@@ -205,37 +205,37 @@ def named_places(selector: s.Selector) -> tuple[s.Selector, ...]:
 
 
 def names_here(selector: s.Selector) -> bool:
-    """Return True if the place in hand is named along with others ("it and the one beside it")."""
+    """Return True if the current place is named together with others ("it and the one beside it")."""
     return selector != s.Here() and s.Here() in selector.members
 
 
 def starts_here(selector: s.Selector) -> bool:
-    """Return True if it is a way along or across rows from the place in hand."""
+    """Return True if the selector leads along or across rows from the current place."""
     return isinstance(selector, s.RowOf | s.AlongRow | s.Across) and selector.origin == s.Here()
 
 
 def measures_from_here(selector: s.Selector) -> bool:
-    """Return True if the nearest or the farthest of some trees from the place in hand is part of it."""
+    """Return True if it contains the nearest or farthest trees, measured from the current place."""
     return any(isinstance(part, s.Nearest | s.Farthest) and s.Here() in part.inner for part in selector.walk())
 
 
 def may_be_near(selector: s.Selector) -> bool:
-    """Return True if the robot may be there, or close by, when it is named: it depends on where the robot is."""
+    """Return True if the place depends on the position of the robot, which may be there or close by."""
     return any(isinstance(part, s.Here | s.Take | s.NotVisited | s.RowOf | s.Nearest) for part in selector.walk())
 
 
 def so_many_nearby(selector: s.Selector | None, count: int) -> s.Selector | None:
-    """Return that many trees nearby where no number was said of them yet ("nearby trees"); None of other places."""
+    """Return a number of nearby trees if the request states none ("nearby trees"); None for other places."""
     return replace(selector, count=count) if isinstance(selector, s.Nearest) and selector.count == 1 else None
 
 
 def is_spot(place: s.Selector) -> bool:
-    """Return True if a place is a spot of the ground: the tree nearest to a corner or a middle is the one there."""
+    """Return True for a point such as a corner or a middle, whose nearest tree is the one meant."""
     return place.single and (place.central or isinstance(place, s.Corners))
 
 
 def zone_of_points(selector: s.Selector) -> str:
-    """Return the zone that free points may be spread over where all trees in it, or near it, are meant; else nothing.
+    """Return the zone over which free points can be spread, if the selector is all trees in or near it; else None.
 
     Points of the zone itself are near it, too.
     """
@@ -250,12 +250,12 @@ def all_but(place: s.Selector) -> s.Selector:
 
 
 def is_about_rows(selector: s.Selector) -> bool:
-    """Return True if a row that is named, or counted from a place, is part of it."""
+    """Return True if it contains a named row, or one counted from a place."""
     return any(part.row_of is not None or isinstance(part, s.Rows) for part in selector.walk())
 
 
 def skips_rows(selector: s.Selector) -> bool:
-    """Return True if it takes every so many rows ("every third row")."""
+    """Return True if it selects every n-th row ("every third row")."""
     return isinstance(selector, s.Rows) and selector.every > 1
 
 
@@ -290,12 +290,12 @@ def as_rows(selector: s.Selector) -> s.Rows | None:
 
 
 def as_every_nth(selector: s.Selector) -> s.EveryNth | None:
-    """Return the selector if it takes every so many trees, None otherwise."""
+    """Return the selector if it selects every n-th tree, None otherwise."""
     return selector if isinstance(selector, s.EveryNth) else None
 
 
 def as_some(selector: s.Selector) -> s.Take | None:
-    """Return the selector if it takes some trees, whichever, None otherwise."""
+    """Return the selector if it selects a number of any trees, None otherwise."""
     return selector if isinstance(selector, s.Take) else None
 
 
@@ -373,13 +373,13 @@ def is_row_of_place(selector: s.Selector) -> bool:
 
 
 def some_of(of: s.Selector, count: int) -> s.Selector:
-    """Return any few of a group: of a run of trees along a row evenly, else those that make a short drive."""
+    """Return a number of trees of a group: spread evenly along a row, else those with a short drive."""
     length = of.count if isinstance(of, s.Successive) else trees_ahead(of)
     return s.Evenly(count=count, of=of) if 1 < count < length else s.Take(count=count, of=of)
 
 
 def trees_ahead(selector: s.Selector) -> int:
-    """Return the number of trees of a run along the row from the place in hand ("the next 5 trees"); 0 for others."""
+    """Return the number of trees in a run along the row from the current place ("the next 5 trees"); 0 for others."""
     members = selector.members
     first = as_along_row(members[0])
     run = first is not None and all(
@@ -389,7 +389,7 @@ def trees_ahead(selector: s.Selector) -> int:
 
 
 def from_nearest_row(selector: s.Selector) -> s.Selector:
-    """Return some of the next trees along the row, where no tree is in hand, as those of the nearest row."""
+    """Return the next trees along the row as trees of the nearest row, for a position at no tree."""
     if not isinstance(selector, s.Evenly) or not (length := trees_ahead(selector.of)):
         return selector
     return replace(selector, of=s.Successive(count=length))

@@ -35,7 +35,7 @@ class StatedAmount:
     Attributes:
         kind: Kind of quantity.
         values: Possible values in the unit of plans (metres, seconds, degC, percent, or a plain number).
-        said: Words of the request, for messages.
+        words: Words of the request, for messages.
         index: Index of its first token.
         sentence: Number of its sentence.
         actions: Actions that the noun may mean, if captures are counted.
@@ -46,7 +46,7 @@ class StatedAmount:
 
     kind: AmountKind
     values: tuple[float, ...]
-    said: str
+    words: str
     index: int
     sentence: int
     actions: frozenset[str] = frozenset()
@@ -71,25 +71,28 @@ class _Number:
     ordinal: bool = False
 
 
-def amounts(said: Sequence[Token], nouns: dict[int, Noun], units: frozenset[str]) -> tuple[StatedAmount, ...]:
+def amounts(tokens: Sequence[Token], nouns: dict[int, Noun], units: frozenset[str]) -> tuple[StatedAmount, ...]:
     """Return every number of a request.
 
     Args:
-        said: Tokens of the request.
+        tokens: Tokens of the request.
         nouns: Nouns of the robot's vocabulary by the index of their first token.
         units: Units of the robot's quantities in lower case.
     """
     found: list[StatedAmount] = []
-    for number in _numbers(said):
-        amount = _amount(said, number, nouns, units)
+    for number in _numbers(tokens):
+        amount = _amount(tokens, number, nouns, units)
         before = found[-1] if found else None
-        bare = amount.kind == "plain" or (amount.kind == "captures" and not _is_counted(said, number.end, nouns))
-        if before is not None and (bare or amount.kind == before.kind) and _listed(said, before, number):
+        bare = amount.kind == "plain" or (amount.kind == "captures" and not _is_counted(tokens, number.end, nouns))
+        if before is not None and (bare or amount.kind == before.kind) and _listed(tokens, before, number):
             amount = replace(amount, kind=before.kind, actions=frozenset())
-            if any(said[k].text in _RANGES for k in range(before.index + 1, number.start)) and len(amount.values) == 1:
+            if (
+                any(tokens[k].text in _RANGES for k in range(before.index + 1, number.start))
+                and len(amount.values) == 1
+            ):
                 found[-1] = replace(before, through=int(amount.values[0]))
         found.append(amount)
-    return tuple(_shared_units(found, said))
+    return tuple(_shared_units(found, tokens))
 
 
 def numbers_of(amount: StatedAmount) -> set[int]:
@@ -98,36 +101,38 @@ def numbers_of(amount: StatedAmount) -> set[int]:
     return found | set(range(int(amount.values[0]), min(amount.through, int(amount.values[0]) + 10_000) + 1))
 
 
-def _numbers(said: Sequence[Token]) -> Iterator[_Number]:
+def _numbers(tokens: Sequence[Token]) -> Iterator[_Number]:
     """Yield numbers in digits and words; "one" alone is skipped, since it is mostly a pronoun."""
     k = 0
-    while k < len(said):
-        text = said[k].text
+    while k < len(tokens):
+        text = tokens[k].text
         if w.is_number(text) and len(text) <= _LONGEST:
-            rank = k + 1 < len(said) and said[k + 1].joined and said[k + 1].text in ("st", "nd", "rd", "th")
+            rank = k + 1 < len(tokens) and tokens[k + 1].joined and tokens[k + 1].text in ("st", "nd", "rd", "th")
             yield _Number(value=float(text.replace(",", "")), start=k, end=k + 1 + rank, ordinal=rank)
             k += 1 + rank
         elif text in w.ORDINALS:
             yield _Number(value=float(w.ORDINALS[text]), start=k, end=k + 1, ordinal=True)
             k += 1
         elif text in w.NUMBERS or text in ("hundred", "thousand"):
-            value, end = _spelt(said, k)
+            value, end = _spelt(tokens, k)
             yield _Number(value=value, start=k, end=end)
             k = end
         else:
             k += 1
 
 
-def _spelt(said: Sequence[Token], start: int) -> tuple[float, int]:
+def _spelt(tokens: Sequence[Token], start: int) -> tuple[float, int]:
     """Parse a number in words and return it with its end: "twenty five", "two hundred and fifty"."""
     total, k = 0.0, start
-    while k < len(said):
-        text = said[k].text
-        if text in w.NUMBERS and (k == start or w.NUMBERS[text] < _room(said[k - 1].text)):
+    while k < len(tokens):
+        text = tokens[k].text
+        if text in w.NUMBERS and (k == start or w.NUMBERS[text] < _room(tokens[k - 1].text)):
             total += w.NUMBERS[text]
         elif text in ("hundred", "thousand") and total < 1e9:
             total = max(total, 1.0) * (100.0 if text == "hundred" else 1000.0)
-        elif not (text in ("and", "-") and k + 1 < len(said) and said[k + 1].text in w.NUMBERS and _open(said, k)):
+        elif not (
+            text in ("and", "-") and k + 1 < len(tokens) and tokens[k + 1].text in w.NUMBERS and _open(tokens, k)
+        ):
             break
         k += 1
     return total, k
@@ -140,61 +145,61 @@ def _room(before: str) -> float:
     return 10.0 if before == "-" or w.NUMBERS.get(before, 0.0) >= 20.0 else 0.0
 
 
-def _open(said: Sequence[Token], k: int) -> bool:
+def _open(tokens: Sequence[Token], k: int) -> bool:
     """Return True if a number continues after a joining word: "hundred and fifty", but not "two and three"."""
-    before = said[k - 1].text
-    if said[k].text == "-":
-        return w.NUMBERS.get(before, 0.0) >= 20.0 and w.NUMBERS[said[k + 1].text] < 10.0
+    before = tokens[k - 1].text
+    if tokens[k].text == "-":
+        return w.NUMBERS.get(before, 0.0) >= 20.0 and w.NUMBERS[tokens[k + 1].text] < 10.0
     return before in ("hundred", "thousand")
 
 
-def _amount(said: Sequence[Token], number: _Number, nouns: dict[int, Noun], units: frozenset[str]) -> StatedAmount:
+def _amount(tokens: Sequence[Token], number: _Number, nouns: dict[int, Noun], units: frozenset[str]) -> StatedAmount:
     value, k = number.value, number.end
-    if [token.text for token in said[k : k + 1]] == ["-"]:
+    if [token.text for token in tokens[k : k + 1]] == ["-"]:
         k += 1  # "two-year-old"
-    after = said[k].text if k < len(said) else ""
-    words = w.quoted(said[number.start : min(k + 1, len(said))])
+    after = tokens[k].text if k < len(tokens) else ""
+    words = w.quoted(tokens[number.start : min(k + 1, len(tokens))])
     made = StatedAmount(
         kind="ordinal" if number.ordinal else "plain",
         values=(value,),
-        said=words,
+        words=words,
         index=number.start,
-        sentence=said[number.start].sentence,
-        compared=_compared(said, number.start),
+        sentence=tokens[number.start].sentence,
+        compared=_compared(tokens, number.start),
     )
     if number.ordinal:
         return made
-    if after in w.LENGTHS and (pace := _pace(said, k + 1)):
+    if after in w.LENGTHS and (pace := _pace(tokens, k + 1)):
         return replace(made, kind="speed", values=(value * w.LENGTHS[after] / pace,))
     if after in w.LENGTHS:
         return replace(made, kind="length", values=(value * w.LENGTHS[after],))
     if after in w.TIMES:
         return replace(made, kind="time", values=(value * w.TIMES[after],))
-    if after in w.PERCENT or (said[k : k + 2] and [t.text for t in said[k : k + 2]] == ["per", "cent"]):
+    if after in w.PERCENT or (tokens[k : k + 2] and [t.text for t in tokens[k : k + 2]] == ["per", "cent"]):
         return replace(made, kind="percent")
-    if after in w.DEGREES and _degrees(said, k):
-        return replace(made, kind="temperature", values=_celsius(value, said, k))
+    if after in w.DEGREES and _degrees(tokens, k):
+        return replace(made, kind="temperature", values=_celsius(value, tokens, k))
     if after in units:
         return replace(made, kind="unit", unit=after)
-    if after in w.AGES or (after == "-" and said[k + 1 : k + 2] and said[k + 1].text in w.AGES):
+    if after in w.AGES or (after == "-" and tokens[k + 1 : k + 2] and tokens[k + 1].text in w.AGES):
         return replace(made, kind="attribute")
-    if after in ("times", "x") or [token.text for token in said[k : k + 2]] == ["more", "times"]:
+    if after in ("times", "x") or [token.text for token in tokens[k : k + 2]] == ["more", "times"]:
         return replace(made, kind="times")
     if after in w.ROWS:
         return replace(made, kind="rows")
-    name = _name(said[max(0, number.start - 3) : number.start])
-    counted = _counted(said, k, nouns)
-    spelt = not w.is_number(said[number.start].text)
-    if name == "id" and spelt and counted is not None and _is_counted(said, k, nouns):
+    name = _name(tokens[max(0, number.start - 3) : number.start])
+    counted = _counted(tokens, k, nouns)
+    spelt = not w.is_number(tokens[number.start].text)
+    if name == "id" and spelt and counted is not None and _is_counted(tokens, k, nouns):
         name = None  # "take at each corner tree two pictures"
     if name == "row" or (name and after not in w.TREES):
         return replace(made, kind=name)
     return made if counted is None else replace(made, kind=counted[0], actions=counted[1])
 
 
-def _pace(said: Sequence[Token], k: int) -> float:
+def _pace(tokens: Sequence[Token], k: int) -> float:
     """Return the seconds of a speed's unit of time ("/ s", "per hour", "a second"); 0 if it is no speed."""
-    per = [token.text for token in said[k : k + 2]]
+    per = [token.text for token in tokens[k : k + 2]]
     return w.TIMES.get(per[1], 0.0) if len(per) == 2 and per[0] in ("/", "per", "a", "an") else 0.0
 
 
@@ -216,29 +221,31 @@ def _name(before: Sequence[Token]) -> AmountKind | None:
     return None
 
 
-def _degrees(said: Sequence[Token], k: int) -> bool:
+def _degrees(tokens: Sequence[Token], k: int) -> bool:
     """Return True if a degree sign or letter is a temperature: "90 F", "33c"."""
-    text = said[k].text
-    return text not in ("c", "f") or k + 1 >= len(said) or not said[k + 1].joined or not said[k + 1].text.isalpha()
+    text = tokens[k].text
+    return (
+        text not in ("c", "f") or k + 1 >= len(tokens) or not tokens[k + 1].joined or not tokens[k + 1].text.isalpha()
+    )
 
 
-def _celsius(value: float, said: Sequence[Token], k: int) -> tuple[float, ...]:
+def _celsius(value: float, tokens: Sequence[Token], k: int) -> tuple[float, ...]:
     """Return a temperature in degC; both readings if the scale is not given."""
-    scale = next((t.text[0] for t in said[k : k + 4] if t.text in w.DEGREES and t.text[0] in "cf"), "")
+    scale = next((t.text[0] for t in tokens[k : k + 4] if t.text in w.DEGREES and t.text[0] in "cf"), "")
     fahrenheit = (value - 32.0) / 1.8
     return (value,) if scale == "c" else (fahrenheit,) if scale == "f" else (value, fahrenheit)
 
 
-def _is_counted(said: Sequence[Token], k: int, nouns: dict[int, Noun]) -> bool:
+def _is_counted(tokens: Sequence[Token], k: int, nouns: dict[int, Noun]) -> bool:
     """Return True if a noun of captures begins at a token; "photographed" is none."""
-    return k in nouns and not said[k].text.endswith("ed")
+    return k in nouns and not tokens[k].text.endswith("ed")
 
 
-def _counted(said: Sequence[Token], k: int, nouns: dict[int, Noun]) -> tuple[AmountKind, frozenset[str]] | None:
+def _counted(tokens: Sequence[Token], k: int, nouns: dict[int, Noun]) -> tuple[AmountKind, frozenset[str]] | None:
     """Return the kind and actions that a number counts, by the noun at the end of its phrase."""
-    for at in range(k, min(k + 6, len(said))):
-        text = said[at].text
-        if _is_counted(said, at, nouns) and nouns[at].actions:
+    for at in range(k, min(k + 6, len(tokens))):
+        text = tokens[at].text
+        if _is_counted(tokens, at, nouns) and nouns[at].actions:
             return "captures", nouns[at].actions
         if text in w.CORNERS:
             return "corners", frozenset()
@@ -251,31 +258,31 @@ def _counted(said: Sequence[Token], k: int, nouns: dict[int, Noun]) -> tuple[Amo
     return None
 
 
-def _compared(said: Sequence[Token], index: int) -> str:
+def _compared(tokens: Sequence[Token], index: int) -> str:
     """Return the direction of the comparison whose threshold a number is; empty if there is none."""
     for k in range(index - 1, max(-1, index - 1 - _COMPARED), -1):
-        text = said[k].text
-        number = k + 2 < len(said) and (w.is_number(said[k + 1].text) or said[k + 1].text in w.NUMBERS)
-        if text == "between" or (text == "from" and number and said[k + 2].text == "to"):
+        text = tokens[k].text
+        number = k + 2 < len(tokens) and (w.is_number(tokens[k + 1].text) or tokens[k + 1].text in w.NUMBERS)
+        if text == "between" or (text == "from" and number and tokens[k + 2].text == "to"):
             return "between"
         if text in w.BELOW or text in w.ABOVE:
             side = "below" if text in w.BELOW else "above"
-            negated = any(t.text in w.NEGATIONS for t in said[max(0, k - 3) : k])
+            negated = any(t.text in w.NEGATIONS for t in tokens[max(0, k - 3) : k])
             return "between" if negated else side
         if text in (".", ";", ",", "if", "then", "another", "take"):
             break
     return ""
 
 
-def _listed(said: Sequence[Token], before: StatedAmount, number: _Number) -> bool:
+def _listed(tokens: Sequence[Token], before: StatedAmount, number: _Number) -> bool:
     """Return True if a bare number continues a list of names: "trees 4, 9 and 12"."""
     if before.kind not in ("id", "row", "name") or number.ordinal:
         return False
-    between = [t.text for t in said[before.index + 1 : number.start]]
-    behind = [t.text for t in said[number.end : number.end + 2]]
+    between = [t.text for t in tokens[before.index + 1 : number.start]]
+    behind = [t.text for t in tokens[number.end : number.end + 2]]
     if before.kind == "row" and len(behind) == 2 and behind[0] in ("in", "from", "of") and behind[1] in w.ROWS:
         return False  # "one tree in row 3 and two in row 5"
-    spelt = not w.is_number(said[number.start].text)
+    spelt = not w.is_number(tokens[number.start].text)
     if between and spelt and behind and not (behind[0] in _JOINS or behind[0] in _STOPS or behind[0] in w.TREES):
         return False  # "three at tree 12, two at tree 13", "along row 3, one reading every 20 m"
     if number.value <= before.values[0] and not _RANGES.isdisjoint(between):
@@ -283,17 +290,17 @@ def _listed(said: Sequence[Token], before: StatedAmount, number: _Number) -> boo
     return 0 < len(between) <= _LONGEST_JOINT and all(text in _JOINS | w.TREES | w.ROWS for text in between)
 
 
-def _shared_units(found: Sequence[StatedAmount], said: Sequence[Token]) -> Iterator[StatedAmount]:
+def _shared_units(amounts_found: Sequence[StatedAmount], tokens: Sequence[Token]) -> Iterator[StatedAmount]:
     """Yield amounts with a unit taken from the second number of a range: "between 380 and 420 ppm"."""
-    for amount, following in zip_longest(found, found[1:]):
-        joined = following is not None and [t.text for t in said[amount.index + 1 : following.index]] in (
+    for amount, following in zip_longest(amounts_found, amounts_found[1:]):
+        joined = following is not None and [t.text for t in tokens[amount.index + 1 : following.index]] in (
             ["and"], ["to"], ["-"], ["or"]
         )  # fmt: skip
         if not joined or following is None or amount.kind != "plain" or following.kind in ("ordinal", "plain"):
             yield amount
             continue
         if following.kind == "temperature" and len(following.values) == 1:
-            fahrenheit = abs(following.values[0] - _first(following.said)) > 1e-9
+            fahrenheit = abs(following.values[0] - _first(following.words)) > 1e-9
             values = tuple((v - 32.0) / 1.8 if fahrenheit else v for v in amount.values)
         else:
             values = amount.values

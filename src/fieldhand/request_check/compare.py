@@ -11,6 +11,7 @@ from itertools import accumulate, takewhile
 
 from fieldhand.language import Number, message
 from fieldhand.language.words import listed, say_name
+from fieldhand.places.selectors import AlongRow, InRow, Rows
 from fieldhand.request_check import words as w
 from fieldhand.request_check.amounts import StatedAmount, numbers_of
 from fieldhand.request_check.limits import limit_mismatches
@@ -41,28 +42,28 @@ def mismatches(task: Task, site: Site, robot: RobotProfile) -> tuple[PlanMismatc
     """
     request = task.command.read_as or task.command.request
     sizes = SelectorSizes(task, site)
-    said, plan = request_facts(request, robot, site), plan_facts(task, sizes.of_node)
+    facts, plan = request_facts(request, robot, site), plan_facts(task, sizes.of_node)
     found = [
-        *_sensors(said, plan, robot),
-        *_counts(said, plan, sizes),
-        *threshold_mismatches(said, plan, robot),
-        *limit_mismatches(said, plan),
-        *place_mismatches(said, plan, site),
-        *unsupported_words(said),
+        *_sensors(facts, plan, robot),
+        *_counts(facts, plan, sizes),
+        *threshold_mismatches(facts, plan, robot),
+        *limit_mismatches(facts, plan),
+        *place_mismatches(facts, plan, site),
+        *unsupported_words(facts),
     ]
     return tuple(dict.fromkeys(found))
 
 
-def _sensors(said: RequestFacts, plan: PlanFacts, robot: RobotProfile) -> Iterator[PlanMismatch]:
+def _sensors(facts: RequestFacts, plan: PlanFacts, robot: RobotProfile) -> Iterator[PlanMismatch]:
     """Yield requested actions that the plan lacks, and planned actions that the request does not mention."""
     spoken: set[str] = set()
-    told: set[frozenset[str]] = set()
-    for k, noun in said.nouns.items():
+    reported: set[frozenset[str]] = set()
+    for k, noun in facts.nouns.items():
         spoken |= noun.actions
-        if noun.actions & plan.actions or said.negated(k) or noun.actions in told:
+        if noun.actions & plan.actions or facts.negated(k) or noun.actions in reported:
             continue
-        told.add(noun.actions)
-        words = w.quoted(said.said[k : k + noun.length])
+        reported.add(noun.actions)
+        words = w.quoted(facts.tokens[k : k + noun.length])
         able = listed([say_name(name) for name in sorted(noun.actions)], "or")
         yield PlanMismatch(
             kind="sensor",
@@ -70,9 +71,9 @@ def _sensors(said: RequestFacts, plan: PlanFacts, robot: RobotProfile) -> Iterat
                 "the request says '{words}', but nothing in the plan does that ({able})", words=words, able=able
             ),
         )
-    if not spoken or said.unknown:
+    if not spoken or facts.unknown:
         return
-    stems = {w.singular(word) for word in said.words}
+    stems = {w.singular(word) for word in facts.words}
     for one in plan.captures:
         if one.action in spoken or one.action not in robot.action or hints(robot.action[one.action], robot) & stems:
             continue
@@ -83,11 +84,11 @@ def _sensors(said: RequestFacts, plan: PlanFacts, robot: RobotProfile) -> Iterat
         )
 
 
-def _counts(said: RequestFacts, plan: PlanFacts, sizes: SelectorSizes) -> Iterator[PlanMismatch]:
+def _counts(facts: RequestFacts, plan: PlanFacts, sizes: SelectorSizes) -> Iterator[PlanMismatch]:
     """Yield stated numbers of captures, trees or corners that the plan lacks, and numbers only in the plan."""
-    for amount in said.amounts:
+    for amount in facts.amounts:
         n = int(amount.values[0]) if float(amount.values[0]).is_integer() else 0
-        if amount.kind not in ("captures", "trees", "corners") or n < 2 or said.negated(amount.index):
+        if amount.kind not in ("captures", "trees", "corners") or n < 2 or facts.negated(amount.index):
             continue
         if amount.compared or n in _explained(plan, amount) or n in _visited(plan, sizes):
             continue
@@ -95,14 +96,14 @@ def _counts(said: RequestFacts, plan: PlanFacts, sizes: SelectorSizes) -> Iterat
             kind="count",
             what=message(
                 "the request says '{amount}', but no steps of the plan add up to {number}",
-                amount=_phrase(said, amount),
+                amount=_phrase(facts, amount),
                 number=n,
             ),
         )
     for number in plan.numbers:
-        if number.kind != "count" or int(number.value) in _allowed(said, number) or _by_itself(said, number.what):
+        if number.kind != "count" or int(number.value) in _allowed(facts, number) or _by_itself(facts, number):
             continue
-        if number.what.endswith(" count") and _comes_to_what_is_said(said, plan, number.node, sizes):
+        if number.field == "count" and _amounts_to_stated_count(facts, plan, number.node, sizes):
             continue
         what_differs = message(
             "the plan holds the number {number} ({what}), which the request does not mention",
@@ -112,24 +113,24 @@ def _counts(said: RequestFacts, plan: PlanFacts, sizes: SelectorSizes) -> Iterat
         yield PlanMismatch(kind="count", what=what_differs, node=number.node)
 
 
-def _comes_to_what_is_said(said: RequestFacts, plan: PlanFacts, node: str, sizes: SelectorSizes) -> bool:
+def _amounts_to_stated_count(facts: RequestFacts, plan: PlanFacts, node: str, sizes: SelectorSizes) -> bool:
     """Return True if a selector filters a counted group to as many places as the request states."""
     top = next(x for name, x in plan.selectors if name == node)
-    request_facts = {n for a in said.amounts if a.kind in ("trees", "captures") for n in numbers_of(a)}
-    return not hasattr(top, "count") and sizes.of_node(node) in request_facts
+    stated = {n for a in facts.amounts if a.kind in ("trees", "captures") for n in numbers_of(a)}
+    return not hasattr(top, "count") and sizes.of_node(node) in stated
 
 
-def _phrase(said: RequestFacts, amount: StatedAmount) -> str:
+def _phrase(facts: RequestFacts, amount: StatedAmount) -> str:
     """Return a number with the following words, up to the counted noun."""
     end = amount.index + 1
-    for k in range(amount.index + 1, min(amount.index + 6, len(said.said))):
-        text = said.said[k].text
+    for k in range(amount.index + 1, min(amount.index + 6, len(facts.tokens))):
+        text = facts.tokens[k].text
         if text in w.ENDS_PHRASE:
             break
-        end = k + (said.nouns[k].length if k in said.nouns else 1)
-        if k in said.nouns or text in w.TREES | w.CORNERS:
+        end = k + (facts.nouns[k].length if k in facts.nouns else 1)
+        if k in facts.nouns or text in w.TREES | w.CORNERS:
             break
-    return w.quoted(said.said[amount.index : end])
+    return w.quoted(facts.tokens[amount.index : end])
 
 
 def _explained(plan: PlanFacts, amount: StatedAmount) -> set[int]:
@@ -167,33 +168,31 @@ def _visited(plan: PlanFacts, sizes: SelectorSizes) -> set[int]:
     return found
 
 
-def _allowed(said: RequestFacts, number: PlannedNumber) -> set[int]:
+def _allowed(facts: RequestFacts, number: PlannedNumber) -> set[int]:
     """Return the whole numbers of the request that explain a number of the plan.
 
     Names of trees and rows, and numbers with a unit, are no numbers of captures.
     """
-    captures = number.what == "captures at a place"
-    others = _PLACES if captures else _NAMES if number.what.endswith(" count") else frozenset()
-    request_facts = {n for a in said.amounts if a.kind not in others for n in numbers_of(a)}
-    request_facts |= {n for word, n in w.MULTIPLES.items() if word in said.words}
-    found = set(request_facts)
-    if number.what.startswith("along row"):
-        found |= set(range(max(request_facts, default=0) + 1))  # "the next five trees"
+    captures = number.field == "captures"
+    others = _PLACES if captures else _NAMES if number.field == "count" else frozenset()
+    stated = {n for a in facts.amounts if a.kind not in others for n in numbers_of(a)}
+    stated |= {n for word, n in w.MULTIPLES.items() if word in facts.words}
+    found = set(stated)
+    if number.selector is AlongRow:
+        found |= set(range(max(stated, default=0) + 1))  # "the next five trees"
     if not captures:
-        found |= {n + 1 for n in request_facts} | {n - 1 for n in request_facts}
-    if said.words & {"another", "again", "second", "repeat", "same", "more", "also", "other", "alternate"}:
+        found |= {n + 1 for n in stated} | {n - 1 for n in stated}
+    if facts.words & {"another", "again", "second", "repeat", "same", "more", "also", "other", "alternate"}:
         found |= {2}
-    if said.words & {"odd", "even", "next", "adjacent", "side"}:
+    if facts.words & {"odd", "even", "next", "adjacent", "side"}:
         found |= {2}
-    if said.words & {"total", "altogether", "overall"} or {"in", "all"} <= said.words:
-        found |= {a * b for a in request_facts for b in request_facts} | {
-            a // b for a in request_facts for b in request_facts if b and a % b == 0
-        }
+    if facts.words & {"total", "altogether", "overall"} or {"in", "all"} <= facts.words:
+        found |= {a * b for a in stated for b in stated} | {a // b for a in stated for b in stated if b and a % b == 0}
     return found
 
 
-def _by_itself(said: RequestFacts, what: str) -> bool:
+def _by_itself(facts: RequestFacts, number: PlannedNumber) -> bool:
     """Return True if a number follows without being stated, such as one row of "each row"."""
-    if what.startswith(("in row ", "inrow ")) and said.words & _PARTS:
+    if number.selector is InRow and facts.words & _PARTS:
         return True  # the trees of the first half of a row
-    return said.vague or (what.startswith(("rows ", "inrow ")) and bool(said.words & {"each", "every", "all", "per"}))
+    return facts.vague or (number.selector is Rows and bool(facts.words & {"each", "every", "all", "per"}))

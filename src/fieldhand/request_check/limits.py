@@ -31,30 +31,30 @@ _CLOSE = 0.02
 _PARTS = {"half": 0.5, "quarter": 0.25, "third": 1 / 3}
 
 
-def limit_mismatches(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
+def limit_mismatches(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
     """Yield contradictions in budgets, reserve, speed and distances."""
-    for amount in said.amounts:
+    for amount in facts.amounts:
         if amount.kind == "percent":
-            yield from _battery(said, plan, amount)
+            yield from _battery(facts, plan, amount)
         elif amount.kind in ("time", "length"):
-            yield from _dropped(said, plan, amount)
+            yield from _dropped(facts, plan, amount)
         elif amount.kind == "speed" and not _drives(plan, amount.values[0]):
             what_differs = message(
-                "the request says '{amount}' as a speed, but the plan does not drive at that speed", amount=amount.said
+                "the request says '{amount}' as a speed, but the plan does not drive at that speed", amount=amount.words
             )
             yield PlanMismatch(kind="limit", what=what_differs)
-    yield from _invented(said, plan)
-    if said.as_many and not any(getattr(node, "optional", False) for node in plan.nodes):
+    yield from _invented(facts, plan)
+    if facts.as_many and not any(getattr(node, "optional", False) for node in plan.nodes):
         yield PlanMismatch(
             kind="limit",
             what=message("the request asks for as many as possible, but no visit of the plan is optional"),
         )
 
 
-def _battery(said: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> Iterator[PlanMismatch]:
+def _battery(facts: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> Iterator[PlanMismatch]:
     """Yield a battery share of the request that is neither a budget nor a reserve of the plan."""
-    sentence = {t.text for t in said.said if t.sentence == amount.sentence}
-    if not sentence & BATTERY or said.conditional(amount.sentence):
+    sentence = {t.text for t in facts.tokens if t.sentence == amount.sentence}
+    if not sentence & BATTERY or facts.conditional(amount.sentence):
         return
     percent = amount.values[0]
     reserve = plan.task.constraints.reserve_percent
@@ -66,11 +66,11 @@ def _battery(said: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> Itera
     if not any(abs(percent - x) < 0.5 for x in ways):
         yield PlanMismatch(
             kind="limit",
-            what=message("the request limits the battery by '{amount}', but the plan does not", amount=amount.said),
+            what=message("the request limits the battery by '{amount}', but the plan does not", amount=amount.words),
         )
 
 
-def _dropped(said: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> Iterator[PlanMismatch]:
+def _dropped(facts: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> Iterator[PlanMismatch]:
     """Yield a stated distance or time that the plan lacks."""
     value = amount.values[0]
     limit: BudgetKind = "distance_m" if amount.kind == "length" else "duration_s"
@@ -81,16 +81,16 @@ def _dropped(said: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> Itera
         have += _parameters(plan)
     if any(_close(value, x) for x in have):
         return
-    before = {t.text for t in said.said[max(0, amount.index - 6) : amount.index]}
-    after = {t.text for t in said.said[amount.index : amount.index + 4]}
-    if amount.kind == "length" and said.spaced and plan.trees:
+    before = {t.text for t in facts.tokens[max(0, amount.index - 6) : amount.index]}
+    after = {t.text for t in facts.tokens[amount.index : amount.index + 4]}
+    if amount.kind == "length" and facts.spaced and plan.trees:
         return  # the plan names the trees at that distance
     if amount.kind == "length" or before & _LIMITS:
         if amount.kind == "length" and not (before & _LIMITS or after & {"apart", "intervals", "interval", "spacing"}):
             return
         yield PlanMismatch(
             kind="limit",
-            what=message("the request says '{amount}', which the plan does not contain", amount=amount.said),
+            what=message("the request says '{amount}', which the plan does not contain", amount=amount.words),
         )
 
 
@@ -102,17 +102,17 @@ def _drives(plan: PlanFacts, metres_per_second: float) -> bool:
 
 def _parameters(plan: PlanFacts) -> list[float]:
     """Return numeric parameters of actions, also converted from centimetres to metres."""
-    told = [
+    stated = [
         value for node in plan.nodes for _, value in getattr(node, "parameters", ()) if isinstance(value, float | int)
     ]
-    return [x for value in told for x in (float(value), float(value) / 100.0)]
+    return [x for value in stated for x in (float(value), float(value) / 100.0)]
 
 
-def _invented(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
+def _invented(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
     """Yield limits and distances of the plan that the request does not state."""
     for budget in plan.task.constraints.budgets:
         kind, unit = _KINDS[budget.kind]
-        if not any(_close(budget.limit, x) for x in _stated(said, kind)):
+        if not any(_close(budget.limit, x) for x in _stated(facts, kind)):
             yield PlanMismatch(
                 kind="limit",
                 what=message(
@@ -122,7 +122,7 @@ def _invented(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
                 ),
             )
     reserve = plan.task.constraints.reserve_percent
-    if reserve is not None and not any(abs(reserve - x) < 0.5 for x in _stated(said, "percent")):
+    if reserve is not None and not any(abs(reserve - x) < 0.5 for x in _stated(facts, "percent")):
         yield PlanMismatch(
             kind="limit",
             what=message(
@@ -131,7 +131,7 @@ def _invented(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
             ),
         )
     speed = plan.task.constraints.speed_m_s
-    if speed is not None and not any(_close(speed, x) for a in said.amounts for x in a.values):
+    if speed is not None and not any(_close(speed, x) for a in facts.amounts for x in a.values):
         yield PlanMismatch(
             kind="limit",
             what=message(
@@ -139,7 +139,7 @@ def _invented(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
             ),
         )
     for number in plan.numbers:
-        if number.kind == "length" and not any(_close(number.value, x) for x in _stated(said, "length")):
+        if number.kind == "length" and not any(_close(number.value, x) for x in _stated(facts, "length")):
             yield PlanMismatch(
                 kind="distance",
                 what=message(
@@ -151,20 +151,20 @@ def _invented(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
             )
 
 
-def _stated(said: RequestFacts, kind: str) -> list[float]:
+def _stated(facts: RequestFacts, kind: str) -> list[float]:
     """Return the stated amounts of a kind; a number without a unit may be of any kind."""
-    found = [x for a in said.amounts if a.kind == kind for x in a.values]
-    plain = [x for a in said.amounts if a.kind in ("plain", "times") for x in a.values]
+    found = [x for a in facts.amounts if a.kind == kind for x in a.values]
+    plain = [x for a in facts.amounts if a.kind in ("plain", "times") for x in a.values]
     if kind == "percent":
-        found += [100.0 - x for x in found] + [100.0 * part for word, part in _PARTS.items() if word in said.words]
+        found += [100.0 - x for x in found] + [100.0 * part for word, part in _PARTS.items() if word in facts.words]
         return found + plain + [100.0 - x for x in plain]
     if kind == "time":
-        units = [(u, s) for u, s in (("hour", 3600.0), ("minute", 60.0)) if {u, f"{u}s"} & said.words]
+        units = [(u, s) for u, s in (("hour", 3600.0), ("minute", 60.0)) if {u, f"{u}s"} & facts.words]
         found += [part * s for _, s in units for part in (1.0, *_PARTS.values(), 1.5, 0.75)]
         found += [sum(found[:2])] if len(found) > 1 else []
         return found + [x * s for x in plain for s in (1.0, 60.0, 3600.0)]
     units = [(u, s) for u, s in (("kilometre", 1000.0), ("kilometer", 1000.0), ("km", 1000.0), ("mile", 1609.344))]
-    found += [part * s for u, s in units if {u, f"{u}s"} & said.words for part in (1.0, *_PARTS.values())]
+    found += [part * s for u, s in units if {u, f"{u}s"} & facts.words for part in (1.0, *_PARTS.values())]
     return found + [x * s for x in plain for s in (1.0, 0.3048)]
 
 

@@ -42,44 +42,44 @@ _SERIES = re.compile(r"\b(?:and so (?:on|forth)|etc|like that)\b|\bevery \S+ (?:
 _CODE_RANGE = re.compile(r"\b([a-z]+)(\d+)\s*(?:to|through|thru|a|al|hasta|-|\u2013)\s*\1(\d+)\b")
 
 
-def place_mismatches(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
+def place_mismatches(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
     """Yield contradictions in places."""
-    yield from _trees(said, plan)
-    yield from _rows(said, plan, site)
-    yield from _areas(said, plan, site)
-    yield from _gates(said, plan, site)
-    yield from _sides(said, plan)
-    yield from _attributes(said, plan)
-    yield from _ends(said, plan, site)
-    yield from _faults(said, plan, site)
-    yield from _order(said, plan)
+    yield from _trees(facts, plan)
+    yield from _rows(facts, plan, site)
+    yield from _areas(facts, plan, site)
+    yield from _gates(facts, plan, site)
+    yield from _sides(facts, plan)
+    yield from _attributes(facts, plan)
+    yield from _ends(facts, plan, site)
+    yield from _faults(facts, plan, site)
+    yield from _order(facts, plan)
 
 
-def _trees(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
+def _trees(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
     """Yield numbered trees of the request that the plan lacks, and the reverse."""
     named = {_digits(tree) for _, tree in plan.trees}
     spans = [(abs(x.first), abs(x.last)) for _, x in plan.having(s.InRow) if isinstance(x, s.InRow)]
     counted = {int(n.value) for n in plan.numbers if n.kind == "count"} | {
         abs(x.nth) for _, x in plan.having(s.Nth) if isinstance(x, s.Nth)
     }
-    for amount in said.amounts:
+    for amount in facts.amounts:
         n = int(amount.values[0])
         if amount.kind != "id" or str(n) in named or n in counted or any(a <= n <= b for a, b in map(sorted, spans)):
             continue
         yield PlanMismatch(
             kind="place", what=message("the request names tree {number}, but the plan does not", number=n)
         )
-    if said.spaced:
+    if facts.spaced:
         return  # the trees at that distance depend on the site
-    spoken = said.text.replace(" ", "")
-    numbers = {str(n) for n in said.whole_numbers}
+    spoken = facts.text.replace(" ", "")
+    numbers = {str(n) for n in facts.whole_numbers}
     for node, tree in plan.trees:
         spelt = "".join(ch for ch in tree.lower() if ch.isalnum())
         if _digits(tree) in numbers or tree.lower() in spoken or spelt in "".join(c for c in spoken if c.isalnum()):
             continue
-        if any(_is_between(tree.lower(), *ends) for ends in _CODE_RANGE.findall(said.text)):
+        if any(_is_between(tree.lower(), *ends) for ends in _CODE_RANGE.findall(facts.text)):
             continue
-        if _SERIES.search(said.text) and _is_in_series(_digits(tree), said.text):
+        if _SERIES.search(facts.text) and _is_in_series(_digits(tree), facts.text):
             continue
         yield PlanMismatch(
             kind="place",
@@ -109,24 +109,24 @@ def _digits(name: str) -> str:
     return name[len(head) :].lstrip("0")
 
 
-def _rows(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
+def _rows(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
     """Yield numbered rows of the request that the plan lacks, and the reverse."""
     rows = [(node, x) for node, x in plan.having(s.Rows) if isinstance(x, s.Rows)]
     if not all(_NUMBER.fullmatch(name) for _, row in rows for name in (row.first, row.last)):
         return
-    for amount in said.amounts:
-        if not _is_row(said, amount) or _of_named_tree(said, plan, amount):
+    for amount in facts.amounts:
+        if not _is_row(facts, amount) or _of_named_tree(facts, plan, amount):
             continue
         if not any(_holds(row, amount) for _, row in rows) and not _has_named_tree(amount, plan, site):
             what_differs = message(
                 "the request names row {row}, but the plan does not", row=Number(f"{amount.values[0]:g}")
             )
             yield PlanMismatch(kind="place", what=what_differs)
-    if said.unknown or _SOME_ROWS.search(said.text):
+    if facts.unknown or _SOME_ROWS.search(facts.text):
         return
     for node, row in rows:
         for name in dict.fromkeys((row.first, row.last)):
-            if int(name) > 1 and int(name) not in said.whole_numbers:
+            if int(name) > 1 and int(name) not in facts.whole_numbers:
                 yield PlanMismatch(
                     kind="place",
                     what=message("the plan names row {name}, but the request does not", name=name),
@@ -134,20 +134,20 @@ def _rows(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMisma
                 )
 
 
-def _is_row(said: RequestFacts, amount: StatedAmount) -> bool:
+def _is_row(facts: RequestFacts, amount: StatedAmount) -> bool:
     """Return True if a number names a row: "row 3", "the third row", but not "every third row"."""
     if amount.kind != "ordinal":
         return amount.kind == "row"
-    after = [t.text for t in said.said[amount.index + 1 : amount.index + 3]]
-    before = [t.text for t in said.said[max(0, amount.index - 2) : amount.index]]
+    after = [t.text for t in facts.tokens[amount.index + 1 : amount.index + 3]]
+    before = [t.text for t in facts.tokens[max(0, amount.index - 2) : amount.index]]
     return "row" in (after[:1] or [""]) and not {"every", "each"} & set(before)
 
 
-def _of_named_tree(said: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> bool:
+def _of_named_tree(facts: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> bool:
     """Return True if a row only locates a tree that the plan names by its id: "tree 25 of row 2"."""
     named = {_digits(tree) for _, tree in plan.trees}
     return any(
-        a.kind == "id" and 0 < amount.index - a.index <= 8 and str(int(a.values[0])) in named for a in said.amounts
+        a.kind == "id" and 0 < amount.index - a.index <= 8 and str(int(a.values[0])) in named for a in facts.amounts
     )
 
 
@@ -163,12 +163,12 @@ def _holds(row: s.Rows, amount: StatedAmount) -> bool:
     return first < 0 or last < 0 or min(first, last) <= amount.values[0] <= max(first, last)
 
 
-def _areas(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
+def _areas(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
     """Yield zones and blocks of the request that the plan lacks, and the reverse."""
     pointed = _pointed(plan)
-    held = {_said(name) for _, name in plan.areas}
+    held = {_name_text(name) for _, name in plan.areas}
     rows = {t for _, x in plan.having(s.Rows) if isinstance(x, s.Rows) for t in (x.first.lower(), x.last.lower())}
-    for name in sorted(said.zones - held - rows):
+    for name in sorted(facts.zones - held - rows):
         if name in w.COMPASS and w.COMPASS[name] <= pointed:
             continue  # "from the north" or "the northernmost" does not mean a block called "North"
         if not any(name in other for other in held) and not _stands_in(plan, name, site):
@@ -177,14 +177,14 @@ def _areas(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMism
             )
     for node, name in plan.areas:
         words = {t.text for t in _tokens(name)}
-        if said.unknown or words & said.words or name.isdecimal() or said.words & {"each", "every", "all", "both"}:
+        if facts.unknown or words & facts.words or name.isdecimal() or facts.words & {"each", "every", "all", "both"}:
             continue
         yield PlanMismatch(
             kind="place",
             what=message("the plan names '{name}', but the request does not", name=name[:40]),
             node=node,
         )
-    if said.words & _CHARGER and "charger" not in plan.markers and not said.words & {"recharge", "recharging"}:
+    if facts.words & _CHARGER and "charger" not in plan.markers and not facts.words & {"recharge", "recharging"}:
         yield PlanMismatch(kind="place", what=message("the request names the charger, but the plan does not"))
 
 
@@ -208,7 +208,9 @@ def _stands_in(plan: PlanFacts, name: str, site: Site) -> bool:
     named = {tree for _, tree in plan.trees if tree in site.by_id}
     if not named:
         return False
-    called = [x for x in (*(z.name for z in site.zones), *(b.name for b in site.planting.blocks)) if _said(x) == name]
+    called = [
+        x for x in (*(z.name for z in site.zones), *(b.name for b in site.planting.blocks)) if _name_text(x) == name
+    ]
     for zone in called:
         try:
             inside = resolve(s.InZone(zone=zone), site, Context(here=site.start))
@@ -219,16 +221,16 @@ def _stands_in(plan: PlanFacts, name: str, site: Site) -> bool:
     return False
 
 
-def _gates(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
+def _gates(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
     """Yield gates of the request that the plan lacks, and the reverse."""
-    held = {_said(x.gate): node for node, x in plan.having(s.GateIs) if isinstance(x, s.GateIs)}
-    for name in dict.fromkeys(_said(gate.place.id) for gate in site.gates):
-        if f" {name} " in f" {said.text} " and not held and name not in said.zones:
+    held = {_name_text(x.gate): node for node, x in plan.having(s.GateIs) if isinstance(x, s.GateIs)}
+    for name in dict.fromkeys(_name_text(gate.place.id) for gate in site.gates):
+        if f" {name} " in f" {facts.text} " and not held and name not in facts.zones:
             yield PlanMismatch(
                 kind="place", what=message("the request names '{name}', but the plan does not", name=name)
             )
     for name, node in held.items():
-        if not said.unknown and not set(name.split()) & said.words:
+        if not facts.unknown and not set(name.split()) & facts.words:
             yield PlanMismatch(
                 kind="place",
                 what=message("the plan names '{name}', but the request does not", name=name[:40]),
@@ -236,7 +238,7 @@ def _gates(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMism
             )
 
 
-def _said(name: str) -> str:
+def _name_text(name: str) -> str:
     return " ".join(t.text for t in _tokens(name))
 
 
@@ -244,10 +246,10 @@ def _tokens(name: str) -> tuple[w.Token, ...]:
     return w.tokens(name.replace("_", " "))
 
 
-def _sides(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
+def _sides(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
     """Yield sides of the compass of the request that the plan lacks, and the reverse."""
-    by_name = {word for name in said.zones for word in name.split()} | set(said.attributes)
-    spoken = {side for side in said.sides if not any(side in name for name in by_name)}
+    by_name = {word for name in facts.zones for word in name.split()} | set(facts.attributes)
+    spoken = {side for side in facts.sides if not any(side in name for name in by_name)}
     corners = {letter for _, x in plan.having(s.Corners) if isinstance(x, s.Corners) for c in x.which for letter in c}
     orders = {x.by for _, x in plan.having(s.Ordered) if isinstance(x, s.Ordered)}
     counted = {getattr(x, "counted_from", "") for _, x in plan.selectors}
@@ -260,19 +262,19 @@ def _sides(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
                 kind="side",
                 what=message("the request says '{side}', but no place of the plan is there", side=side),
             )
-    if said.unknown or said.words & w.VAGUE_SIDES or _OTHER_PART.search(said.text):
+    if facts.unknown or facts.words & w.VAGUE_SIDES or _OTHER_PART.search(facts.text):
         return
     around = len(plan.sides) == 4 and not spoken  # each quarter, or the whole edge
-    ends = frozenset() if said.sides else plan.ends_driven
+    ends = frozenset() if facts.sides else plan.ends_driven
     for side, node in plan.sides.items():
-        if side not in said.sides and not around and side not in ends:
+        if side not in facts.sides and not around and side not in ends:
             yield PlanMismatch(
                 kind="side",
                 what=message("the plan goes to the {side}, which the request does not mention", side=side),
                 node=node,
             )
     for by in sorted(orders):
-        if "_to_" in by and not any(side in by for side in said.sides) and not _REVERSED.search(said.text):
+        if "_to_" in by and not any(side in by for side in facts.sides) and not _REVERSED.search(facts.text):
             yield PlanMismatch(
                 kind="order",
                 what=message(
@@ -281,23 +283,23 @@ def _sides(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
             )
 
 
-def _attributes(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
+def _attributes(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
     """Yield attribute values of the request that the plan lacks, and the reverse."""
     held = {" ".join(t.text for t in _tokens(str(value))) for _, _, value in plan.values}
-    for word in said.attributes:
+    for word in facts.attributes:
         if not any(word in other or other in word for other in held):
             yield PlanMismatch(
                 kind="attribute",
                 what=message("the request says '{word}', but the plan does not ask for that", word=word),
             )
-    if said.unknown:
+    if facts.unknown:
         return
-    stems = {w.singular(word) for word in said.words}
+    stems = {w.singular(word) for word in facts.words}
     for node, attribute, value in plan.values:
         words = {t.text for t in _tokens(str(value))}
-        if said.words & _EACH_KIND and stems & {w.singular(t.text) for t in _tokens(attribute)}:
+        if facts.words & _EACH_KIND and stems & {w.singular(t.text) for t in _tokens(attribute)}:
             continue  # the plan covers each variety
-        if isinstance(value, str) and not words & (said.words | stems):
+        if isinstance(value, str) and not words & (facts.words | stems):
             yield PlanMismatch(
                 kind="attribute",
                 what=message(
@@ -309,24 +311,24 @@ def _attributes(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
             )
 
 
-def _ends(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
+def _ends(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
     """Yield a requested return that is neither the exit of the plan nor a drive in it."""
-    if not said.returns or said.returns not in site.markers:
+    if not facts.returns or facts.returns not in site.markers:
         return
-    wanted = f"return_to_{said.returns}"
+    wanted = f"return_to_{facts.returns}"
     driven = any(
-        n.only_drives and n.selector is not None and n.selector.named_marker == said.returns for n in plan.nodes
+        n.only_drives and n.selector is not None and n.selector.named_marker == facts.returns for n in plan.nodes
     )
     if plan.task.composition.nominal != wanted and not driven:
         yield PlanMismatch(
             kind="return",
-            what=message("the request ends at the {marker}, but the plan does not", marker=said.returns),
+            what=message("the request ends at the {marker}, but the plan does not", marker=facts.returns),
         )
 
 
-def _faults(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
+def _faults(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
     """Yield reactions to faults that are not the usual ones and were not requested."""
-    if said.unknown or said.words & _OF_FAULTS or not site.markers:
+    if facts.unknown or facts.words & _OF_FAULTS or not site.markers:
         return
     usual = {e.fault: e.then for e in FAULTED_EXITS}
     for chosen in plan.task.composition.faulted:
@@ -338,11 +340,11 @@ def _faults(said: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMis
             yield PlanMismatch(kind="return", what=what_differs)
 
 
-def _order(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
+def _order(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
     """Yield a mismatch if trees requested "in that order" are planned in another order."""
-    if not any(phrase in said.text for phrase in ("in that order", "in this order", "in the given order")):
+    if not any(phrase in facts.text for phrase in ("in that order", "in this order", "in the given order")):
         return
-    numbers = [str(int(a.values[0])) for a in said.amounts if a.kind == "id" and not a.through]
+    numbers = [str(int(a.values[0])) for a in facts.amounts if a.kind == "id" and not a.through]
     named = [_digits(tree) for _, tree in plan.trees]
     if len(set(numbers)) == len(numbers) > 1 and sorted(named) == sorted(numbers) and named != numbers:
         yield PlanMismatch(

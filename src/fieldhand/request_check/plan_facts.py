@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Literal
 
 from fieldhand.places import selectors as s
@@ -78,12 +78,23 @@ class PlannedTest:
 
 @dataclass(frozen=True, kw_only=True)
 class PlannedNumber:
-    """A whole number or distance in a selector or node that differs from the default."""
+    """A whole number or distance in a selector or node that differs from the default.
+
+    Attributes:
+        node: Id of the node.
+        what: Name of the number, for messages.
+        value: The number.
+        kind: ``count`` for a whole number, ``length`` for metres.
+        field: Field of the selector or the node.
+        selector: Class of the selector; None for a number of the node itself.
+    """
 
     node: str
     what: str
     value: float
     kind: Literal["count", "length"]
+    field: str
+    selector: type[Selector] | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -281,11 +292,13 @@ def _numbers(nodes: tuple[p.Node, ...], selectors: tuple[tuple[str, Selector], .
     """Yield the numbers of nodes and selectors that differ from their defaults."""
     for node in nodes:
         if node.act is not None and node.act.count > 1:
-            yield PlannedNumber(node=node.id, what="captures at a place", value=node.act.count, kind="count")
+            yield PlannedNumber(
+                node=node.id, what="captures at a place", value=node.act.count, kind="count", field="captures"
+            )
         if node.at_most is not None:
-            yield PlannedNumber(node=node.id, what="visits at most", value=node.at_most, kind="count")
+            yield PlannedNumber(node=node.id, what="visits at most", value=node.at_most, kind="count", field="at_most")
         if node.rounds is not None and node.tested is None:
-            yield PlannedNumber(node=node.id, what="rounds", value=node.rounds, kind="count")
+            yield PlannedNumber(node=node.id, what="rounds", value=node.rounds, kind="count", field="rounds")
     for name, x in selectors:
         for field in fields(x):
             value = getattr(x, field.name)
@@ -294,7 +307,8 @@ def _numbers(nodes: tuple[p.Node, ...], selectors: tuple[tuple[str, Selector], .
             if field.name == "seed":
                 continue  # it numbers draws from several groups
             what = re.sub("[-_]", " ", f"{element_name(type(x))} {field.name}")
+            number = partial(PlannedNumber, node=name, what=what, field=field.name, selector=type(x))
             if isinstance(value, float):
-                yield PlannedNumber(node=name, what=what, value=value, kind="length")
+                yield number(value=value, kind="length")
             elif isinstance(value, int) and abs(value) > 1:
-                yield PlannedNumber(node=name, what=what, value=abs(value), kind="count")
+                yield number(value=abs(value), kind="count")

@@ -30,7 +30,7 @@ class RequestFacts:
 
     Attributes:
         request: The request.
-        said: Tokens of the request: words, numbers and signs.
+        tokens: Tokens of the request: words, numbers and signs.
         nouns: Nouns of the robot's vocabulary by the index of their first token.
         amounts: Numbers with their quantities.
         zones: Mentioned zones and blocks of the site.
@@ -41,7 +41,7 @@ class RequestFacts:
     """
 
     request: str
-    said: tuple[Token, ...]
+    tokens: tuple[Token, ...]
     nouns: dict[int, Noun]
     amounts: tuple[StatedAmount, ...]
     zones: frozenset[str]
@@ -53,17 +53,17 @@ class RequestFacts:
     @cached_property
     def text(self) -> str:
         """Return the words separated by single spaces."""
-        return " ".join(token.text for token in self.said)
+        return " ".join(token.text for token in self.tokens)
 
     @cached_property
     def words(self) -> frozenset[str]:
         """Return the set of words."""
-        return frozenset(token.text for token in self.said)
+        return frozenset(token.text for token in self.tokens)
 
     @cached_property
     def unknown(self) -> bool:
         """Return True if a word is unknown to this check, so that additions of the plan may come from it."""
-        return any(t.text[0].isalpha() and t.text not in self.known for t in self.said)
+        return any(t.text[0].isalpha() and t.text not in self.known for t in self.tokens)
 
     @cached_property
     def vague(self) -> bool:
@@ -83,21 +83,21 @@ class RequestFacts:
 
     @cached_property
     def _compass_words(self) -> tuple[str, ...]:
-        pairs = [f"{a.text}{b.text}" for a, b in zip(self.said, self.said[1:], strict=False)]
-        split = [f"{a.text}{c.text}" for a, b, c in _windows(self.said) if b.text in ("-", "\u2013")]
-        return tuple(x for x in (*(t.text for t in self.said if len(t.text) > 1), *pairs, *split) if x in w.COMPASS)
+        pairs = [f"{a.text}{b.text}" for a, b in zip(self.tokens, self.tokens[1:], strict=False)]
+        split = [f"{a.text}{c.text}" for a, b, c in _windows(self.tokens) if b.text in ("-", "\u2013")]
+        return tuple(x for x in (*(t.text for t in self.tokens if len(t.text) > 1), *pairs, *split) if x in w.COMPASS)
 
     def conditional(self, sentence: int) -> bool:
         """Return True if a sentence contains a condition; an indirect question ("check whether") does not count."""
-        inside = [t.text for t in self.said if t.sentence == sentence]
+        inside = [t.text for t in self.tokens if t.sentence == sentence]
         asked = re.search(r"\b(?:check|see|find out|tell me|know|report|look) (?:if|whether)\b|\bwhether\b", self.text)
-        if asked and sum(t.text in w.CONDITIONAL for t in self.said) <= 1:
+        if asked and sum(t.text in w.CONDITIONAL for t in self.tokens) <= 1:
             return False
         return bool(w.CONDITIONAL.intersection(inside))
 
     def negated(self, index: int) -> bool:
         """Return True if the phrase at a token is negated."""
-        before = [t for t in self.said[max(0, index - 8) : index] if t.sentence == self.said[index].sentence]
+        before = [t for t in self.tokens[max(0, index - 8) : index] if t.sentence == self.tokens[index].sentence]
         return any(t.text in w.NEGATIONS for t in before)
 
     @cached_property
@@ -127,20 +127,22 @@ class RequestFacts:
 
 def request_facts(request: str, robot: RobotProfile, site: Site) -> RequestFacts:
     """Return the facts of a request."""
-    said = w.tokens_of_request(request)
+    tokens = w.tokens_of_request(request)
     names = _names(site)
-    zones, covered = _said_names(said, names)
+    zones, covered = _named_zones(tokens, names)
     attributes = {
-        word: k for word, k in _phrases(said, _kinds(site)) if not covered.intersection(range(k, k + len(word.split())))
+        word: k
+        for word, k in _phrases(tokens, _kinds(site))
+        if not covered.intersection(range(k, k + len(word.split())))
     }
     taken = covered | {k + j for word, k in attributes.items() for j in range(len(word.split()))}
-    nouns = {k: n for k, n in _nouns(said, robot, site).items() if k not in taken}
+    nouns = {k: n for k, n in _nouns(tokens, robot, site).items() if k not in taken}
     units = frozenset(q.unit.lower() for q in robot.quantities)
-    found = amounts(said, nouns, units)
+    found = amounts(tokens, nouns, units)
     levels = {word for q in robot.quantities for word in q.levels}
     facts = RequestFacts(
         request=request,
-        said=said,
+        tokens=tokens,
         nouns=nouns,
         amounts=found,
         zones=frozenset(zones),
@@ -150,13 +152,13 @@ def request_facts(request: str, robot: RobotProfile, site: Site) -> RequestFacts
         named=frozenset(taken | {k + j for k, noun in nouns.items() for j in range(noun.length)}),
     )
     spoken = {
-        word for word, k in _phrases(said, levels) if facts.conditional(said[k].sentence) and not facts.negated(k)
+        word for word, k in _phrases(tokens, levels) if facts.conditional(tokens[k].sentence) and not facts.negated(k)
     }
     return replace(facts, levels=frozenset(spoken))
 
 
-def _windows(said: Sequence[Token]) -> Iterator[tuple[Token, Token, Token]]:
-    return zip(said, said[1:], said[2:], strict=False)
+def _windows(tokens: Sequence[Token]) -> Iterator[tuple[Token, Token, Token]]:
+    return zip(tokens, tokens[1:], tokens[2:], strict=False)
 
 
 def _norm(name: str) -> str:
@@ -184,39 +186,39 @@ def _kinds(site: Site) -> set[str]:
     return {word for word in kinds if not set(word.split()) <= w.PLAIN}
 
 
-def _said_names(said: Sequence[Token], names: set[str]) -> tuple[set[str], set[int]]:
+def _named_zones(tokens: Sequence[Token], names: set[str]) -> tuple[set[str], set[int]]:
     """Return the names in the request and their tokens; names of plain words only ("row", "end") do not count."""
     found: set[str] = set()
     covered: set[int] = set()
-    for name, k in _phrases(said, names):
+    for name, k in _phrases(tokens, names):
         covered.update(range(k, k + len(name.split())))
         if len(name) > 3 and (len(name.split()) > 1 or name not in w.PLAIN):
             found.add(name)
     return found, covered
 
 
-def _phrases(said: Sequence[Token], phrases: set[str]) -> Iterator[tuple[str, int]]:
+def _phrases(tokens: Sequence[Token], phrases: set[str]) -> Iterator[tuple[str, int]]:
     """Yield every phrase of a set that occurs, with its first token; the longest at each token."""
     longest = min(max((len(p.split()) for p in phrases), default=0), 8)
-    for k in range(len(said)):
-        for length in range(min(longest, len(said) - k), 0, -1):
-            phrase = " ".join(t.text for t in said[k : k + length])
+    for k in range(len(tokens)):
+        for length in range(min(longest, len(tokens) - k), 0, -1):
+            phrase = " ".join(t.text for t in tokens[k : k + length])
             if phrase in phrases:
                 yield phrase, k
                 break
 
 
-def _nouns(said: Sequence[Token], robot: RobotProfile, site: Site) -> dict[int, Noun]:
+def _nouns(tokens: Sequence[Token], robot: RobotProfile, site: Site) -> dict[int, Noun]:
     """Return the robot's nouns by token, the longest phrase at each."""
-    told = {_singular(word): word for a in robot.actions for word in (*a.words, *a.verbs)}
+    actions = {_singular(word): word for a in robot.actions for word in (*a.words, *a.verbs)}
     of_attributes = {word for name in site.attributes for word in _norm(name).split()}
     found: dict[int, Noun] = {}
     k = 0
-    while k < len(said):
-        for length in range(min(5, len(said) - k), 0, -1):
-            phrase = _stem(" ".join(t.text for t in said[k : k + length]))
-            if phrase in told and phrase not in of_attributes:
-                found[k] = Noun(length=length, actions=_meant(told[phrase], robot))
+    while k < len(tokens):
+        for length in range(min(5, len(tokens) - k), 0, -1):
+            phrase = _stem(" ".join(t.text for t in tokens[k : k + length]))
+            if phrase in actions and phrase not in of_attributes:
+                found[k] = Noun(length=length, actions=_meant(actions[phrase], robot))
                 k += length - 1
                 break
         k += 1

@@ -43,17 +43,17 @@ class SelectorSizes:
             self._bind(node, (self._here,))
             return
         self.every.update(n for part in selector.walk() if (n := self._size(part)) is not None)
-        found = self._places(selector)
+        places = self._places(selector)
         visited = any(isinstance(part, s.NotVisited) for part in selector.walk())
-        self._of_node[node.id] = selector.size.exact if found is None or visited else len(found)
-        if found:
-            self._bind(node, found)
-            self._here = found[-1]
+        self._of_node[node.id] = selector.size.exact if places is None or visited else len(places)
+        if places:
+            self._bind(node, places)
+            self._here = places[-1]
             self._from_here.clear()
 
-    def _bind(self, node: p.Node, found: tuple[Place, ...]) -> None:
+    def _bind(self, node: p.Node, places: tuple[Place, ...]) -> None:
         if node.label:
-            self._bound[node.label] = found[:1] if node.visits_each else found
+            self._bound[node.label] = places[:1] if node.visits_each else places
 
     def _size(self, selector: s.Selector) -> int | None:
         found = self._places(selector)

@@ -37,15 +37,15 @@ def english_words(words: Sequence[str]) -> Iterator[tuple[int, int, list[str]]]:
     k = 0
     while k < len(plain):
         length = next((n for n in range(longest, 0, -1) if tuple(plain[k : k + n]) in known), 1)
-        said = known.get(tuple(plain[k : k + length]))
+        english = known.get(tuple(plain[k : k + length]))
         if plain[k] == "este" and length == 1 and k and plain[k - 1] in east:
-            said = "east"
+            english = "east"
         if plain[k] in ("del", "al") and "".join(plain[k + 1 : k + 2]).isdecimal():
-            said = "to" if plain[k] == "al" else ""  # "árboles del 4 al 9"
-        if said is None:
+            english = "to" if plain[k] == "al" else ""  # "árboles del 4 al 9"
+        if english is None:
             verb = _verbs().fullmatch(plain[k])
-            said = words[k] if verb is None or verb.lastgroup is None else verb.lastgroup
-        yield k, k + length, said.split()
+            english = words[k] if verb is None or verb.lastgroup is None else verb.lastgroup
+        yield k, k + length, english.split()
         k += length
 
 
@@ -70,7 +70,7 @@ def _verbs() -> re.Pattern[str]:
 def _phrases() -> Mapping[tuple[str, ...], str]:
     """Return English words by Spanish phrases: those of the tables, and numbers in digits."""
     tables = _tables()
-    found = {tuple(said.split()): english for english, phrases in tables["phrases"].items() for said in phrases}
+    found = {tuple(spanish.split()): english for english, phrases in tables["phrases"].items() for spanish in phrases}
     found |= {(word,): english for word, english in (*tables["sides"].items(), *tables["forms"].items())}
     found |= {phrase: str(number) for phrase, number in _numbers(tables["numbers"]) if phrase != ("uno",)}
     return found

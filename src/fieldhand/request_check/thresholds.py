@@ -21,19 +21,19 @@ _CALENDAR = (1900.0, 2100.0)
 _WAYS = {"below": ("lt", "le"), "above": ("gt", "ge")}
 
 
-def threshold_mismatches(said: RequestFacts, plan: PlanFacts, robot: RobotProfile) -> Iterator[PlanMismatch]:
+def threshold_mismatches(facts: RequestFacts, plan: PlanFacts, robot: RobotProfile) -> Iterator[PlanMismatch]:
     """Yield contradictions in tested thresholds and levels."""
-    for amount in said.amounts:
-        yield from _kept(said, plan, robot, amount)
+    for amount in facts.amounts:
+        yield from _kept(facts, plan, robot, amount)
     for test in plan.tests:
         if test.test != "level":
-            yield from _invented(said, robot, test)
-    yield from _levels(said, plan)
+            yield from _invented(facts, robot, test)
+    yield from _levels(facts, plan)
 
 
-def _kept(said: RequestFacts, plan: PlanFacts, robot: RobotProfile, amount: StatedAmount) -> Iterator[PlanMismatch]:
+def _kept(facts: RequestFacts, plan: PlanFacts, robot: RobotProfile, amount: StatedAmount) -> Iterator[PlanMismatch]:
     """Yield a mismatch if a stated threshold is not tested, or with the wrong direction or quantity."""
-    if not _certain(said, amount):
+    if not _certain(facts, amount):
         return
     same = [t for t in plan.tests if any(_same(v, x) for v in amount.values for x in t.values)]
     if not same:
@@ -41,22 +41,22 @@ def _kept(said: RequestFacts, plan: PlanFacts, robot: RobotProfile, amount: Stat
             yield PlanMismatch(
                 kind="condition",
                 what=message(
-                    "the request states the threshold '{amount}', which the plan never tests", amount=amount.said
+                    "the request states the threshold '{amount}', which the plan never tests", amount=amount.words
                 ),
             )
         return
-    yield from _turned(amount, same, said)
-    yield from _other_quantity(amount, same, said, robot)
+    yield from _turned(amount, same, facts)
+    yield from _other_quantity(amount, same, facts, robot)
 
 
-def _certain(said: RequestFacts, amount: StatedAmount) -> bool:
+def _certain(facts: RequestFacts, amount: StatedAmount) -> bool:
     """Return True if a number is certainly the threshold of a condition."""
     if amount.kind == "attribute":
-        return bool(amount.compared) and not said.negated(amount.index)
-    if not said.conditional(amount.sentence):
+        return bool(amount.compared) and not facts.negated(amount.index)
+    if not facts.conditional(amount.sentence):
         return False
     if amount.kind == "percent":
-        return bool(amount.compared) and not {t.text for t in said.said if t.sentence == amount.sentence} & BATTERY
+        return bool(amount.compared) and not {t.text for t in facts.tokens if t.sentence == amount.sentence} & BATTERY
     return amount.kind in ("temperature", "unit") or (amount.kind == "plain" and bool(amount.compared))
 
 
@@ -74,14 +74,14 @@ def _as_level(plan: PlanFacts, robot: RobotProfile, amount: StatedAmount) -> boo
     return False
 
 
-def _turned(amount: StatedAmount, same: list[PlannedTest], said: RequestFacts) -> Iterator[PlanMismatch]:
+def _turned(amount: StatedAmount, same: list[PlannedTest], facts: RequestFacts) -> Iterator[PlanMismatch]:
     """Yield a mismatch if "below" is tested as "above", unless plan or request negates it."""
-    alike = {a.compared for a in said.amounts if any(_same(v, x) for v in a.values for x in amount.values)}
+    alike = {a.compared for a in facts.amounts if any(_same(v, x) for v in a.values for x in amount.values)}
     ways = _WAYS.get(amount.compared)
-    around = [t.text for t in said.said if t.sentence == amount.sentence]
+    around = [t.text for t in facts.tokens if t.sentence == amount.sentence]
     if ways is None or alike != {amount.compared} or w.NEGATIONS.intersection(around) or "until" in around:
         return
-    wanted = _wanted(said, amount)
+    wanted = _wanted(facts, amount)
     for test in same:
         if test.test not in ("lt", "le", "gt", "ge") or test.test in ways or test.attribute:
             continue
@@ -91,7 +91,7 @@ def _turned(amount: StatedAmount, same: list[PlannedTest], said: RequestFacts) -
                 what=message(
                     "the request says {test} '{amount}', and the plan tests {planned} {value}",
                     test=amount.compared,
-                    amount=amount.said,
+                    amount=amount.words,
                     planned=TESTS[test.test],
                     value=say_quantity(test.values[0], test.unit),
                 ),
@@ -99,38 +99,38 @@ def _turned(amount: StatedAmount, same: list[PlannedTest], said: RequestFacts) -
             )
 
 
-def _wanted(said: RequestFacts, amount: StatedAmount) -> frozenset[str]:
+def _wanted(facts: RequestFacts, amount: StatedAmount) -> frozenset[str]:
     """Return the actions that a sentence requests if its threshold holds; "stop" for an end of the mission."""
     found: set[str] = set()
-    for k in range(amount.index + 1, len(said.said)):
-        token = said.said[k]
+    for k in range(amount.index + 1, len(facts.tokens)):
+        token = facts.tokens[k]
         if token.sentence != amount.sentence or token.text in ("otherwise", "else", "if"):
             break
-        found |= said.nouns[k].actions if k in said.nouns else set()
+        found |= facts.nouns[k].actions if k in facts.nouns else set()
         found |= {"stop"} if token.text in ("stop", "finish", "end") else set()
     return frozenset(found)
 
 
 def _other_quantity(
-    amount: StatedAmount, same: list[PlannedTest], said: RequestFacts, robot: RobotProfile
+    amount: StatedAmount, same: list[PlannedTest], facts: RequestFacts, robot: RobotProfile
 ) -> Iterator[PlanMismatch]:
     """Yield a mismatch if another quantity is tested than the one named before the threshold."""
-    named = _quantity_before(amount, said, robot)
+    named = _quantity_before(amount, facts, robot)
     if named and all(t.quantity and t.quantity != named for t in same):
         test = same[0]
         what_differs = message(
             "the request compares the {quantity} with '{amount}', and the plan the {other}",
             quantity=say_name(named),
-            amount=amount.said,
+            amount=amount.words,
             other=say_name(test.quantity),
         )
         yield PlanMismatch(kind="sensor", what=what_differs, node=test.node)
 
 
-def _quantity_before(amount: StatedAmount, said: RequestFacts, robot: RobotProfile) -> str:
+def _quantity_before(amount: StatedAmount, facts: RequestFacts, robot: RobotProfile) -> str:
     """Return the one quantity named in the few words before a number; empty if not unique."""
     words: list[str] = []
-    for token in reversed(said.said[max(0, amount.index - 7) : amount.index]):
+    for token in reversed(facts.tokens[max(0, amount.index - 7) : amount.index]):
         if token.sentence != amount.sentence or token.text in ("if", "when", "where", "or", "and", ",", "unless"):
             break
         words.insert(0, token.text)
@@ -143,22 +143,22 @@ def _quantity_before(amount: StatedAmount, said: RequestFacts, robot: RobotProfi
     return found[0] if len(found) == 1 else ""
 
 
-def _invented(said: RequestFacts, robot: RobotProfile, test: PlannedTest) -> Iterator[PlanMismatch]:
+def _invented(facts: RequestFacts, robot: RobotProfile, test: PlannedTest) -> Iterator[PlanMismatch]:
     """Yield thresholds of the plan that do not follow from the request."""
     for value in test.values:
         if test.attribute and _CALENDAR[0] <= value <= _CALENDAR[1]:
             continue
-        if any(_follows(value, amount, test) for amount in said.amounts):
+        if any(_follows(value, amount, test) for amount in facts.amounts):
             continue
         quantity = robot.quantity.get(test.quantity)
         if quantity is not None and any(_same(value, level.value) for level in quantity.levels.values()):
             continue
         what = say_name(test.attribute or test.quantity)
-        told = say_quantity(value, test.unit)
+        text = say_quantity(value, test.unit)
         yield PlanMismatch(
             kind="threshold",
             what=message(
-                "the plan compares the {what} with {value}, which the request does not mention", what=what, value=told
+                "the plan compares the {what} with {value}, which the request does not mention", what=what, value=text
             ),
             node=test.node,
         )
@@ -174,16 +174,16 @@ def _follows(value: float, amount: StatedAmount, test: PlannedTest) -> bool:
     return any(_same(value, x * factor) for x in amount.values for factor in factors)
 
 
-def _levels(said: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
+def _levels(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
     """Yield levels tested but not requested, and levels requested while no reading is tested."""
     tested = {t.level: t.node for t in plan.tests if t.test == "level"}
-    if said.levels and not said.unknown:
-        for word in sorted(tested.keys() - said.words):
+    if facts.levels and not facts.unknown:
+        for word in sorted(tested.keys() - facts.words):
             what_differs = message("the plan tests for '{word}', which the request does not mention", word=word)
             yield PlanMismatch(kind="condition", what=what_differs, node=tested[word])
     if tested or any(t.quantity for t in plan.tests):
         return
-    for word in sorted(said.levels):
+    for word in sorted(facts.levels):
         what_differs = message(
             "the request makes something depend on '{word}', but the plan tests no reading", word=word
         )

@@ -58,22 +58,22 @@ _KINDS = (
 _REMARKS = _KINDS[1][0]
 
 
-def unsupported_words(said: RequestFacts) -> Iterator[PlanMismatch]:
+def unsupported_words(facts: RequestFacts) -> Iterator[PlanMismatch]:
     """Yield a contradiction for each part of the request that no plan can express."""
     starts: dict[int, int] = {}
     at = 0
-    for k, token in enumerate(said.said):
+    for k, token in enumerate(facts.tokens):
         starts[at] = k
         at += len(token.text) + 1
     for pattern, why in _KINDS:
-        for match in pattern.finditer(said.text):
+        for match in pattern.finditer(facts.text):
             first = starts[match.start()]
-            sentence = said.said[first].sentence
-            remark = pattern is _REMARKS and not any(said.said[k].sentence == sentence for k in said.nouns)
-            speed = first and said.said[first - 1].text in w.LENGTHS and match[0].startswith(("per ", "a ", "an "))
+            sentence = facts.tokens[first].sentence
+            remark = pattern is _REMARKS and not any(facts.tokens[k].sentence == sentence for k in facts.nouns)
+            speed = first and facts.tokens[first - 1].text in w.LENGTHS and match[0].startswith(("per ", "a ", "an "))
             last = first + len(match[0].split())
-            if not remark and not speed and said.named.isdisjoint(range(first, last)):
-                words = w.quoted(said.said[first:last])
+            if not remark and not speed and facts.named.isdisjoint(range(first, last)):
+                words = w.quoted(facts.tokens[first:last])
                 yield PlanMismatch(
                     kind="unheld", what=message("the request says '{words}', and {why}", words=words, why=why)
                 )

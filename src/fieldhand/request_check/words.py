@@ -185,20 +185,20 @@ def tokens_of_request(request: str) -> tuple[Token, ...]:
     """Return the tokens of a request in any language that is read; those of Spanish with English words for them."""
     if language_of_request(request) != "es":
         return tokens(request)
-    said = tokens(spanish.with_decimal_points(request))
+    corrected = tokens(spanish.with_decimal_points(request))
     found: list[Token] = []
-    for start, end, words in spanish.english_words([token.text for token in said]):
-        typed = " ".join(token.text for token in said[start:end])
-        first = said[start]
+    for start, end, words in spanish.english_words([token.text for token in corrected]):
+        typed = " ".join(token.text for token in corrected[start:end])
+        first = corrected[start]
         for k, word in enumerate(words):
             other = word if word == typed else typed if k == 0 else " "
             found.append(Token(text=word, sentence=first.sentence, joined=first.joined and k == 0, typed=other))
     return tuple(found)
 
 
-def quoted(said: Sequence[Token]) -> str:
+def quoted(tokens: Sequence[Token]) -> str:
     """Return tokens as the request has them."""
-    return " ".join(token.typed or token.text for token in said if token.typed != " ")
+    return " ".join(token.typed or token.text for token in tokens if token.typed != " ")
 
 
 def is_number(text: str) -> bool:

@@ -14,7 +14,7 @@ from typing import Annotated, Literal, get_args
 from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator, model_validator
 
 from fieldhand.robot.bindings import Distro, NavigationFault, NavigationType, RequestValue
-from fieldhand.robot.fields import Keyed, Name, Number, Positive, Unit, no_bool
+from fieldhand.robot.fields import IdentifierField, Keyed, NumberField, Positive, UnitField, no_bool
 
 #: Maximum length of a name; ROS requires shorter ones.
 _LONGEST_NAME = 255
@@ -88,12 +88,12 @@ def _text(value: str) -> str:
 
 
 RosName = Annotated[str, AfterValidator(_ros_name)]
-Path = Annotated[str, AfterValidator(_path)]
+FieldPath = Annotated[str, AfterValidator(_path)]
 MessageType = Annotated[str, AfterValidator(lambda value: _typed("msg", value))]
 ActionType = Annotated[str, AfterValidator(lambda value: _typed("action", value))]
 ServiceType = Annotated[str, AfterValidator(lambda value: _typed("srv", value))]
 AnyType = Annotated[str, AfterValidator(lambda value: _typed("(?:msg|srv|action)", value))]
-Limit = Annotated[Positive, Field(le=3600)]
+TimeLimitField = Annotated[Positive, Field(le=3600)]
 #: Maximum age of the last message in seconds, up to a day for topics that are published only on change.
 Stale = Annotated[Positive, Field(le=86_400)]
 Metres = Annotated[Positive, Field(le=100)]
@@ -104,10 +104,10 @@ Constant = Annotated[RequestValue, PlainValidator(_constant)]
 class _ConvertedDocument(Keyed):
     """A number in a message with its conversion to the unit of the quantity."""
 
-    path: Path | None = None
-    unit: Unit | None = None
-    scale: Number | None = None
-    offset: Number | None = None
+    path: FieldPath | None = None
+    unit: UnitField | None = None
+    scale: NumberField | None = None
+    offset: NumberField | None = None
 
     @model_validator(mode="after")
     def _converted_once(self) -> _ConvertedDocument:
@@ -141,7 +141,7 @@ class NextMessageDocument(_ConvertedDocument):
 
     topic: RosName
     type: MessageType
-    within_s: Limit | None = None
+    within_s: TimeLimitField | None = None
     reliable: bool = False
 
 
@@ -149,11 +149,11 @@ class _CallDocument(Keyed):
     """The keys shared by action and service calls."""
 
     name: RosName
-    request: Annotated[dict[Path, Constant], Field(max_length=100)] = Field(default_factory=dict)
+    request: Annotated[dict[FieldPath, Constant], Field(max_length=100)] = Field(default_factory=dict)
     readings: dict[str, Annotated[ReadingDocument, BeforeValidator(_only_path)]] = Field(default_factory=dict)
-    success: Path | None = None
-    message: Path | None = None
-    within_s: Limit | None = None
+    success: FieldPath | None = None
+    message: FieldPath | None = None
+    within_s: TimeLimitField | None = None
 
 
 class ActionCallDocument(_CallDocument):
@@ -187,9 +187,9 @@ class ActionBindingDocument(Keyed):
 class DatumDocument(Keyed):
     """The geographic position and heading of the map frame's origin."""
 
-    lat: Annotated[Number, Field(ge=-90, le=90)]
-    lon: Annotated[Number, Field(ge=-180, le=180)]
-    heading_deg: Annotated[Number, Field(ge=-360, le=360)] = 90.0
+    lat: Annotated[NumberField, Field(ge=-90, le=90)]
+    lon: Annotated[NumberField, Field(ge=-180, le=180)]
+    heading_deg: Annotated[NumberField, Field(ge=-360, le=360)] = 90.0
 
 
 class NavigationDocument(Keyed):
@@ -205,10 +205,10 @@ class NavigationDocument(Keyed):
     speed_limit: RosName | None = None
     codes: Annotated[dict[Code, NavigationFault], Field(max_length=100)] = Field(default_factory=dict)
     without_code: NavigationFault = "blocked"
-    accept_s: Limit = 5.0
-    quiet_s: Limit = 15.0
-    slower: Annotated[Number, Field(ge=1, le=100)] = 5.0
-    extra_s: Annotated[Number, Field(ge=0, le=3600)] = 60.0
+    accept_s: TimeLimitField = 5.0
+    quiet_s: TimeLimitField = 15.0
+    slower: Annotated[NumberField, Field(ge=1, le=100)] = 5.0
+    extra_s: Annotated[NumberField, Field(ge=0, le=3600)] = 60.0
 
     @model_validator(mode="after")
     def _one_map(self) -> NavigationDocument:
@@ -246,7 +246,7 @@ class StopDocument(_TopicDocument):
     """An emergency stop."""
 
     type: MessageType = "std_msgs/msg/Bool"
-    path: Path = "data"
+    path: FieldPath = "data"
     stopped: bool = True
     stale_s: Stale = 10.0
 
@@ -262,7 +262,7 @@ class Ros2Document(Keyed):
     battery: BatteryDocument
     odometry: OdometryDocument | None = None
     stop: StopDocument | None = None
-    actions: dict[Name, ActionBindingDocument] = Field(default_factory=dict)
+    actions: dict[IdentifierField, ActionBindingDocument] = Field(default_factory=dict)
     interfaces: Annotated[dict[AnyType, Annotated[str, AfterValidator(_text)]], Field(max_length=_MOST_INTERFACES)] = (
         Field(default_factory=dict)
     )

@@ -160,8 +160,8 @@ def _unreadable(valued: Valued, type_name: str, wanted: str, where: str) -> Iter
 
 def _field(valued: Valued, type_name: str, wanted: str) -> FieldBinding:
     path, given = _place_and_unit(valued, type_name)
-    said = (1.0 if valued.scale is None else valued.scale, valued.offset or 0.0)
-    scale, offset = (conversion(given, wanted) if given else None) or said
+    stated = (1.0 if valued.scale is None else valued.scale, valued.offset or 0.0)
+    scale, offset = (conversion(given, wanted) if given else None) or stated
     return FieldBinding(path=path, scale=scale, offset=offset)
 
 

@@ -12,7 +12,16 @@ from typing import Annotated
 from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
 from fieldhand.robot.bindings_document import Ros2Document
-from fieldhand.robot.fields import Keyed, Name, NotNegative, Number, Positive, Unit, each_once, no_bool
+from fieldhand.robot.fields import (
+    IdentifierField,
+    Keyed,
+    NotNegative,
+    NumberField,
+    Positive,
+    UnitField,
+    each_once,
+    no_bool,
+)
 from fieldhand.robot.model import HOLD_S, InDoubtPolicy
 from fieldhand.task.capabilities import RESERVED_ACTIONS
 
@@ -52,17 +61,17 @@ _WIDEST = 100.0
 
 Breadth = Annotated[Positive, Field(le=_WIDEST)]
 Retries = Annotated[int, BeforeValidator(no_bool), Field(ge=0, le=10)]
-Wait = Annotated[Number, Field(ge=0, le=3600)]
-Words = Annotated[tuple[Annotated[str, AfterValidator(_word)], ...], AfterValidator(each_once)]
+Wait = Annotated[NumberField, Field(ge=0, le=3600)]
+Synonyms = Annotated[tuple[Annotated[str, AfterValidator(_word)], ...], AfterValidator(each_once)]
 Choice = Annotated[str, AfterValidator(_choice)]
-Labels = dict[Annotated[str, AfterValidator(_code)], Annotated[str, AfterValidator(_label)]]
+LanguageLabels = dict[Annotated[str, AfterValidator(_code)], Annotated[str, AfterValidator(_label)]]
 
 
 class LevelDocument(Keyed):
     """``{below: 33}`` or ``{above: 38}``."""
 
-    below: Number | None = None
-    above: Number | None = None
+    below: NumberField | None = None
+    above: NumberField | None = None
 
     @model_validator(mode="after")
     def _one(self) -> LevelDocument:
@@ -74,14 +83,14 @@ class LevelDocument(Keyed):
 class QuantityDocument(Keyed):
     """A quantity that the robot measures."""
 
-    unit: Unit
-    words: Words
+    unit: UnitField
+    words: Synonyms
     levels: dict[Annotated[str, AfterValidator(_level_word)], LevelDocument] = Field(default_factory=dict)
-    minimum: Number
-    maximum: Number
-    typical: Number
+    minimum: NumberField
+    maximum: NumberField
+    typical: NumberField
     spread: NotNegative
-    labels: Labels = Field(default_factory=dict)
+    labels: LanguageLabels = Field(default_factory=dict)
 
     @model_validator(mode="after")
     def _ranges(self) -> QuantityDocument:
@@ -102,9 +111,9 @@ class ParameterDocument(Keyed):
     """A parameter of an action: a number within bounds, or a choice."""
 
     default: Annotated[float | str, BeforeValidator(no_bool)]
-    minimum: Number | None = None
-    maximum: Number | None = None
-    unit: Unit | None = None
+    minimum: NumberField | None = None
+    maximum: NumberField | None = None
+    unit: UnitField | None = None
     choices: Annotated[tuple[Choice, ...], AfterValidator(each_once)] = ()
 
     @model_validator(mode="after")
@@ -129,12 +138,12 @@ class ParameterDocument(Keyed):
 class ActionDocument(Keyed):
     """An action that the robot performs at a place."""
 
-    labels: Labels = Field(default_factory=dict)
+    labels: LanguageLabels = Field(default_factory=dict)
     description: str = ""
-    words: Annotated[Words, Field(min_length=1)]
-    verbs: Words = ()
+    words: Annotated[Synonyms, Field(min_length=1)]
+    verbs: Synonyms = ()
     measures: Annotated[tuple[str, ...], AfterValidator(each_once)] = ()
-    parameters: dict[Name, ParameterDocument] = Field(default_factory=dict)
+    parameters: dict[IdentifierField, ParameterDocument] = Field(default_factory=dict)
     duration_s: Positive
     energy_j: NotNegative
     retries: Retries | None = None
@@ -156,11 +165,11 @@ class EnergyDocument(Keyed):
     capacity_j: Positive
     drive_j_per_m: Positive
     idle_w: NotNegative
-    reserve_percent: Annotated[Number, Field(ge=0, lt=100)]
-    warn_percent: Annotated[Number, Field(ge=0, le=100)] | None = None
-    return_percent: Annotated[Number, Field(ge=0, le=100)] | None = None
-    stop_percent: Annotated[Number, Field(ge=0, lt=100)] | None = None
-    hold_s: Annotated[Number, Field(ge=0, le=60)] = HOLD_S
+    reserve_percent: Annotated[NumberField, Field(ge=0, lt=100)]
+    warn_percent: Annotated[NumberField, Field(ge=0, le=100)] | None = None
+    return_percent: Annotated[NumberField, Field(ge=0, le=100)] | None = None
+    stop_percent: Annotated[NumberField, Field(ge=0, lt=100)] | None = None
+    hold_s: Annotated[NumberField, Field(ge=0, le=60)] = HOLD_S
 
     @model_validator(mode="after")
     def _levels(self) -> EnergyDocument:
@@ -186,13 +195,13 @@ class EnergyDocument(Keyed):
 class LegCostDocument(Keyed):
     """Random cost of a leg."""
 
-    alpha: Annotated[Number, Field(ge=0, le=1)]
+    alpha: Annotated[NumberField, Field(ge=0, le=1)]
 
 
 class ProfileDocument(Keyed):
     """A complete robot profile."""
 
-    name: Name
+    name: IdentifierField
     description: str = ""
     speed_m_s: Positive
     width_m: Breadth
@@ -201,8 +210,8 @@ class ProfileDocument(Keyed):
     patience: PatienceDocument = PatienceDocument()
     energy: EnergyDocument
     leg_cost: LegCostDocument
-    quantities: dict[Name, QuantityDocument] = Field(default_factory=dict)
-    actions: Annotated[dict[Name, ActionDocument], Field(min_length=1)]
+    quantities: dict[IdentifierField, QuantityDocument] = Field(default_factory=dict)
+    actions: Annotated[dict[IdentifierField, ActionDocument], Field(min_length=1)]
     ros2: Ros2Document | None = None
 
     @model_validator(mode="after")

@@ -54,11 +54,11 @@ def _not_huge(value: float) -> float:
 #: Smallest and largest magnitude of a number in any unit, so that computations neither overflow nor underflow.
 _LEAST, _MOST = 1e-9, 1e12
 
-Number = Annotated[float, BeforeValidator(no_bool), Field(allow_inf_nan=False), AfterValidator(_not_huge)]
-Positive = Annotated[Number, Field(gt=0), AfterValidator(_not_tiny)]
-NotNegative = Annotated[Number, Field(ge=0)]
-Name = Annotated[str, AfterValidator(_name)]
-Unit = Annotated[str, AfterValidator(_unit)]
+NumberField = Annotated[float, BeforeValidator(no_bool), Field(allow_inf_nan=False), AfterValidator(_not_huge)]
+Positive = Annotated[NumberField, Field(gt=0), AfterValidator(_not_tiny)]
+NotNegative = Annotated[NumberField, Field(ge=0)]
+IdentifierField = Annotated[str, AfterValidator(_name)]
+UnitField = Annotated[str, AfterValidator(_unit)]
 
 
 class Keyed(BaseModel):

@@ -37,8 +37,8 @@ def with_figures(data: bytes, figures: Mapping[Keys, float], *, note: str, sourc
                 f"the key {'.'.join(keys)!r} is not in the text", where=source, advice=f"write it out; {GUIDE}"
             )
         edits.append((node.start_mark.index, node.end_mark.index, figure(value)))
-    for start, end, said in sorted(edits, reverse=True):
-        text = f"{text[:start]}{said}{text[end:]}"
+    for start, end, replacement in sorted(edits, reverse=True):
+        text = f"{text[:start]}{replacement}{text[end:]}"
     comment = "".join(f"# {' '.join(line.split())}\n" for line in note.splitlines())
     changed = f"{comment}{text}".encode()
     parse_profile(changed, source=source)

@@ -14,11 +14,14 @@ from shapely.geometry import Polygon
 #: Zones are stored in metres only; their corners are rounded to the millimetre.
 _DECIMALS = 3
 
-Record = Sequence[Any]
+HashItem = Sequence[Any]
 
 
 def content_sha256(
-    trees: Sequence[Record], markers: Sequence[Record], gates: Sequence[Record], zones: Sequence[Record]
+    trees: Sequence[HashItem],
+    markers: Sequence[HashItem],
+    gates: Sequence[HashItem],
+    zones: Sequence[HashItem],
 ) -> str:
     """Return the SHA-256 of one JSON line for each tree, marker, gate and zone.
 
@@ -45,7 +48,10 @@ def rings_of(polygon: Polygon) -> list[list[list[float]]]:
 
 
 def _lines(
-    trees: Sequence[Record], markers: Sequence[Record], gates: Sequence[Record], zones: Sequence[Record]
+    trees: Sequence[HashItem],
+    markers: Sequence[HashItem],
+    gates: Sequence[HashItem],
+    zones: Sequence[HashItem],
 ) -> Iterator[str]:
     for tree in trees:
         yield _line("tree", tree)
@@ -55,5 +61,5 @@ def _lines(
     yield from sorted(_line("zone", zone) for zone in zones)
 
 
-def _line(kind: str, record: Record) -> str:
+def _line(kind: str, record: HashItem) -> str:
     return json.dumps([kind, *record], ensure_ascii=True, separators=(",", ":"))

@@ -125,9 +125,7 @@ class _Frame:
         """Convert local metres to GeoJSON positions."""
         c, s = math.cos(self.turned), math.sin(self.turned)
         east_north = np.atleast_2d(local) @ np.array([[c, -s], [s, c]])
-        return [
-            [round(lon, _DECIMALS), round(lat, _DECIMALS)] for lat, lon in self.projection.degrees(east_north).tolist()
-        ]
+        return self.projection.positions(east_north, _DECIMALS)
 
 
 def _grid(count: int, spacing: float) -> Points:

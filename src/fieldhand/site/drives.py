@@ -27,7 +27,7 @@ from fieldhand.site.driving.stands import Candidate, StandCandidates
 from fieldhand.site.model import Place, Site
 
 XY = tuple[float, float]
-Key = tuple[str, str, XY, XY | None]
+DriveKey = tuple[str, str, XY, XY | None]
 
 #: Number of drives that are kept; guards look again and again at the drives between the stops that remain.
 _MOST_DRIVES = 20_000
@@ -76,9 +76,9 @@ class Drives:
         self.clearance_m = clearance_m
         self.layout = Layout(site, clearance_m, standoff_m)
         self._stands = StandCandidates(site, self.layout, clearance_m, standoff_m)
-        self._ables: dict[Key, list[Candidate]] = {}
-        self._closed: dict[Key, str] = {}
-        self._problems: dict[Key, str] = {}
+        self._ables: dict[DriveKey, list[Candidate]] = {}
+        self._closed: dict[DriveKey, str] = {}
+        self._problems: dict[DriveKey, str] = {}
         self._ways: dict[tuple[XY, XY], tuple[tuple[XY, ...], float] | None] = {}
         self._drives: dict[tuple[Place, XY | None, Place, XY | None], Drive] = {}
 
@@ -278,7 +278,7 @@ class Drives:
         """Return for each place why a robot can never be there, wherever it comes from; empty if it can. Cached."""
         new = list({_key(p): p for p in places if _key(p) not in self._closed}.values())
         if new:
-            at = np.array([self._ground_of(p) for p in new])
+            at = np.array([self._bounded_point(p) for p in new])
             outside = np.full(len(new), bool(boundaries := self.site.zones_of("boundary")))
             for zone in boundaries:
                 outside &= ~shapely.intersects_xy(zone.polygon, at[:, 0], at[:, 1])
@@ -290,7 +290,7 @@ class Drives:
                 self._closed[_key(place)] = reason or ("" if able else self._no_stand(place))
         return [self._closed[_key(p)] for p in places]
 
-    def _ground_of(self, place: Place) -> XY:
+    def _bounded_point(self, place: Place) -> XY:
         """Return the point that must be inside the boundary: the place, or the stand of a gate (on the fence)."""
         is_gate = any(gate.place == place for gate in self.site.gates)
         return self._stands.of(place)[0].xy if is_gate else place.xy
@@ -361,7 +361,7 @@ class Drives:
         )
 
 
-def _key(place: Place) -> Key:
+def _key(place: Place) -> DriveKey:
     return place.kind, place.id, place.xy, place.stand
 
 

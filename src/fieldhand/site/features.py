@@ -32,8 +32,8 @@ _GATE_KEYS = ("width m", "width", "gate width m", "gate width", "opening m", "op
 _METRES = re.compile(r"\s*(\d+(?:\.\d+)?)\s*(?:m|metres?|meters?)?\s*", re.IGNORECASE)
 USUAL_GATE_M = 4.0
 
-Position = tuple[float, float]
-Ring = list[Position]
+LonLat = tuple[float, float]
+Ring = list[LonLat]
 
 
 @dataclass(slots=True, kw_only=True)
@@ -267,7 +267,7 @@ class _FeatureReader:
                 kept[key] = _number(value, f"property {_shown(name)}")
         return kept
 
-    def _position(self, value: Any) -> Position:
+    def _position(self, value: Any) -> LonLat:
         """Return longitude and latitude; a height is ignored."""
         if not isinstance(value, list) or len(value) < 2:
             held = f"are {_shown(value)}"

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from fieldhand.short_repr import short_repr
 
-Known = Literal["file", "inferred"]
+RowSource = Literal["file", "inferred"]
 Indices = NDArray[np.intp]
 
 
@@ -39,7 +39,7 @@ class Row:
     block: int
     trees: Indices
     slots: Indices
-    known: Known
+    known: RowSource
     confidence: float
 
 
@@ -62,7 +62,7 @@ class Block:
     bearing_deg: float
     row_spacing_m: float
     tree_spacing_m: float
-    known: Known
+    known: RowSource
     confidence: float
 
     __repr__ = short_repr

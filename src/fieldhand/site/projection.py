@@ -39,6 +39,10 @@ class Projection:
         """Return points in metres east and north, shape (n, 2), as n pairs of latitude and longitude in degrees."""
         return tuple((lat, lon) for lat, lon in self.degrees(xy).tolist())
 
+    def positions(self, xy: ArrayLike, decimals: int = 15) -> list[list[float]]:
+        """Return points in metres east and north, shape (n, 2), as GeoJSON positions; in full precision by default."""
+        return [[round(lon, decimals), round(lat, decimals)] for lat, lon in self.degrees(xy).tolist()]
+
 
 #: WGS 84 in degrees. PROJ finds the same operation for ``EPSG:4326``, after a search of its database that takes 15 ms.
 _DEGREES = "+proj=longlat +datum=WGS84"

@@ -182,7 +182,7 @@ def make_orchard(
     projection = Projection(latitude, longitude)
     features = _around(projection, xy, pond, pond_m, fenced, markers)
     xy, row_of, block_of, position = xy[order], row_of[order], block_of[order], position[order]
-    degrees = _degrees(projection, xy)
+    degrees = projection.positions(xy, _DECIMALS)
     properties = [
         _properties(named, int(r - rows_before[b]) + 1, int(b), int(s))
         for r, b, s in zip(row_of, block_of, position, strict=True)
@@ -200,11 +200,6 @@ def make_orchard(
     )
 
 
-def _degrees(projection: Projection, xy: Points) -> list[list[float]]:
-    """Convert metres to GeoJSON positions."""
-    return np.round(projection.degrees(xy)[:, ::-1], _DECIMALS).tolist()  # type: ignore[no-any-return]
-
-
 def _around(
     projection: Projection, xy: Points, pond: Points | None, pond_m: float, fenced: bool, markers: bool
 ) -> list[dict[str, Any]]:
@@ -213,15 +208,15 @@ def _around(
     features: list[dict[str, Any]] = []
     if fenced:
         fence = np.array([(west, south), (east, south), (east, north), (west, north), (west, south)])
-        features.append(_area(_degrees(projection, fence), "boundary", "fence"))
+        features.append(_area(projection.positions(fence, _DECIMALS), "boundary", "fence"))
     if pond is not None:
         turn = np.append(np.arange(16), 0) * (math.pi / 8)
         shore = pond + pond_m * np.column_stack([np.cos(turn), np.sin(turn)])
-        features.append(_area(_degrees(projection, shore), "keep-out", "pond"))
+        features.append(_area(projection.positions(shore, _DECIMALS), "keep-out", "pond"))
     if markers:
         inside = _HEADLAND_M / 2
         for kind, x in (("start", west + inside), ("end", east - inside)):
-            place = _degrees(projection, np.array([(x, south + inside)]))[0]
+            place = projection.positions(np.array([(x, south + inside)]), _DECIMALS)[0]
             point = {"type": "Point", "coordinates": place}
             features.append({"type": "Feature", "properties": {"marker-symbol": kind}, "geometry": point})
     return features

@@ -10,10 +10,13 @@ from typing import TYPE_CHECKING, Any, get_args
 
 from fieldhand.errors import TaskError
 from fieldhand.hidden_characters import json_text
-from fieldhand.task.results import Event
+from fieldhand.task.results import Event, Shed
 
 if TYPE_CHECKING:
     from pydantic import TypeAdapter
+
+#: Beginnings of reasons in logs of earlier versions that named the places left out.
+_NAMED_PLACES = ("skipped ", "left out ", "there is no way to ")
 
 _TYPES: dict[str, type[Event]] = {kind.event: kind for kind in get_args(Event)}
 
@@ -35,12 +38,26 @@ def from_json(line: str, *, where: str = "") -> Event | None:
         kind = _TYPES.get(record.pop("event"))
         if kind is None:
             return None
+        record = _of_earlier_version(kind, record)
         known = {f.name for f in dataclasses.fields(kind)}
         return _checked(kind, {key: value for key, value in record.items() if key in known})
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise TaskError(
             f"not an event: {' '.join(str(error).split())[:200]}", where=where, advice="was the log cut off or edited?"
         ) from None
+
+
+def _of_earlier_version(kind: type[Event], record: dict[str, Any]) -> dict[str, Any]:
+    """Return the fields of an event with those that earlier versions expressed by words in others.
+
+    The reason of a ``Shed`` without ``names_places`` named the places if it began with one of a few words.
+    """
+    reason = record.get("reason")
+    if kind is not Shed or "names_places" in record or not isinstance(reason, str):
+        return record
+    if not record.get("optional") or not reason.startswith(_NAMED_PLACES):
+        return record
+    return {**record, "names_places": True, "reason": reason.removeprefix("skipped ").removeprefix("left out ")}
 
 
 def _checked(kind: type[Event], record: dict[str, Any]) -> Event:

@@ -71,14 +71,14 @@ def is_exceeded(kind: LimitKind, used: float, limit: float) -> bool:
     return used < limit - slack if kind == "reserve" else used > limit + slack
 
 
-def final_status(status: MissionStatus, found: Sequence[Exceeded]) -> MissionStatus:
+def final_status(status: MissionStatus, exceeded: Sequence[Exceeded]) -> MissionStatus:
     """Return the status of a mission: ``exceeded`` if it ended normally beyond a limit, else as given."""
-    return "exceeded" if found and status in ("completed", "returned") else status
+    return "exceeded" if exceeded and status in ("completed", "returned") else status
 
 
-def reason_with(found: Sequence[Exceeded], reason: str) -> str:
+def reason_with(exceeded: Sequence[Exceeded], reason: str) -> str:
     """Return the reason why a mission was no success: the exceeded limits, then the reason recorded at its end."""
-    return joined("; ", [*(one.why for one in found), *([reason] if reason else [])])
+    return joined("; ", [*(one.why for one in exceeded), *([reason] if reason else [])])
 
 
 def say_status(status: MissionStatus) -> str:
@@ -145,7 +145,7 @@ def _near(event: Event, before: Sequence[Event]) -> str:
 def _digits(value: float, limit: float) -> str:
     """Return a number with enough decimals to distinguish it from the limit."""
     for decimals in range(1, 7):
-        said = f"{value:.{decimals}f}"
-        if value == limit or said != f"{limit:.{decimals}f}":
+        text = f"{value:.{decimals}f}"
+        if value == limit or text != f"{limit:.{decimals}f}":
             break
-    return Number(said.rstrip("0").rstrip(".") if "." in said else said)
+    return Number(text.rstrip("0").rstrip(".") if "." in text else text)

@@ -45,7 +45,7 @@ def reference_problems(task: Task, capabilities: Capabilities | None = None) -> 
     problems = [*_ids(task), *_frames(task, nodes), *_endless(task.composition.plan)]
     problems.extend(_twice_optional(task.composition.plan))
     problems.extend(_ordered_optional(task.composition.plan))
-    _visit(task.composition.plan, _Known(), _Found(problems=problems, capabilities=capabilities))
+    _visit(task.composition.plan, _Known(), _ReferenceCheck(problems=problems, capabilities=capabilities))
     return tuple(problems)
 
 
@@ -147,7 +147,7 @@ class _Known:
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Found:
+class _ReferenceCheck:
     problems: list[ReferenceProblem]
     capabilities: Capabilities | None
     #: Names bound inside optional steps, which are unreliable outside.
@@ -160,39 +160,39 @@ class _Found:
             self.problems.append(problem)
 
 
-def _visit(node: Node, known: _Known, found: _Found) -> _Known:
+def _visit(node: Node, known: _Known, check: _ReferenceCheck) -> _Known:
     """Check a node given the bindings possible before it, and return those possible after it."""
-    _check_places(node, known, found)
+    _check_places(node, known, check)
     known = known.label(node.label)
     if node.act is not None:
         known = known.reading(node.reading, node.act.action)
     after = node.flow(
         known,
-        lambda child, before: _visit(child, before, found),
-        lambda tester, before: _check_condition(tester, before, found),
+        lambda child, before: _visit(child, before, check),
+        lambda tester, before: _check_condition(tester, before, check),
     )
     if not node.is_optional_step:
         return after
-    found.shed.update((after.labels | after.readings.keys()) - (known.labels | known.readings.keys()))
+    check.shed.update((after.labels | after.readings.keys()) - (known.labels | known.readings.keys()))
     return after.within(known)
 
 
 _NOTHING_BINDS, _NOTHING_TAKES = "nothing before it binds", "nothing before it takes"
 
 
-def _check_places(node: Node, known: _Known, found: _Found) -> None:
+def _check_places(node: Node, known: _Known, check: _ReferenceCheck) -> None:
     selector = node.selector
     for part in selector.walk() if selector is not None else ():
         if isinstance(part, Bound) and part.label not in known.labels:
-            by = "only an optional step binds: name it inside that" if part.label in found.shed else _NOTHING_BINDS
-            found.add(node, f"node {node.id!r} names the place {part.label!r}, which {by}")
+            by = "only an optional step binds: name it inside that" if part.label in check.shed else _NOTHING_BINDS
+            check.add(node, f"node {node.id!r} names the place {part.label!r}, which {by}")
 
 
-def _check_condition(node: Node, known: _Known, found: _Found) -> None:
+def _check_condition(node: Node, known: _Known, check: _ReferenceCheck) -> None:
     condition: Condition | None = node.tested
     for part in conditions.walk(condition) if condition is not None else ():
         if isinstance(part, Between) and part.low > part.high:
-            found.add(
+            check.add(
                 node,
                 f"node {node.id!r} tests whether the {part.quantity} is between {part.low:g} and {part.high:g}, which "
                 "is impossible: give the low end first",
@@ -201,13 +201,13 @@ def _check_condition(node: Node, known: _Known, found: _Found) -> None:
             continue
         actions = known.readings.get(part.reading)
         if actions is None:
-            by = "only an optional step takes: test it inside that" if part.reading in found.shed else _NOTHING_TAKES
-            found.add(node, f"node {node.id!r} tests the reading {part.reading!r}, which {by}")
+            by = "only an optional step takes: test it inside that" if part.reading in check.shed else _NOTHING_TAKES
+            check.add(node, f"node {node.id!r} tests the reading {part.reading!r}, which {by}")
             continue
-        for action in sorted(actions) if found.capabilities else ():
-            able = found.capabilities.actions.get(action) if found.capabilities else None
+        for action in sorted(actions) if check.capabilities else ():
+            able = check.capabilities.actions.get(action) if check.capabilities else None
             if able is None or part.quantity not in able.measures:
-                found.add(
+                check.add(
                     node,
                     f"node {node.id!r} tests the {part.quantity} of the reading {part.reading!r}, "
                     f"but {action} does not measure it",

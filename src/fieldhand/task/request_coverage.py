@@ -57,7 +57,7 @@ def request_pieces(task: Task) -> tuple[Piece, ...]:
     roles: list[WordRole] = ["between"] * len(request)
     for start, end, role in _words(task):
         roles[start:end] = [role] * (end - start)
-    _bridge(roles, request)
+    _join_gaps(roles, request)
     pieces: list[Piece] = []
     at = 0
     for role, run in groupby(roles):
@@ -108,7 +108,7 @@ def _ranges(task: Task) -> Iterator[tuple[Span, WordRole]]:
     yield from ((span, "no_part") for span in task.command.no_part)
 
 
-def _bridge(roles: list[WordRole], request: str) -> None:
+def _join_gaps(roles: list[WordRole], request: str) -> None:
     """Assign text between two words of one role to that role, unless it contains punctuation; changes ``roles``."""
     at = 0
     for role, run in groupby(list(roles)):

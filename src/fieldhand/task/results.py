@@ -181,7 +181,10 @@ ShedCause = Literal["budget", "unreachable"]
 
 @dataclass(frozen=True, kw_only=True)
 class Shed:
-    """Work was dropped, to stay within the budget or because no way leads to it: the places, and the reason."""
+    """Work was dropped, to stay within the budget or because no way leads to it: the places, and the reason.
+
+    ``names_places``: the reason names the places, so that a sentence about the event does not repeat them.
+    """
 
     event: ClassVar[str] = "shed"
     t: float
@@ -191,6 +194,7 @@ class Shed:
     reason: str
     chance_short: float = 0.0
     cause: ShedCause = "budget"
+    names_places: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)

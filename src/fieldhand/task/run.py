@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from fieldhand.task.instructions import Instruction, OpaqueTour
     from fieldhand.task.plan import Node
 
-Outcome = Literal["done", "failed", "cut"]
+RunOutcome = Literal["done", "failed", "cut"]
 
 #: A generator that yields while it waits, and returns when done.
 Steps = Generator[None, None, None]
@@ -56,7 +56,7 @@ class PlanRun:
         self.plan = plan
         self.frames: list[StackFrame] = []
         self.entered: Callable[[Node], None] = _unheard
-        self.left: Callable[[Node, Outcome], None] = _unheard
+        self.left: Callable[[Node, RunOutcome], None] = _unheard
 
     def program(self) -> Program:
         """Return the program of the whole plan."""
@@ -66,7 +66,7 @@ class PlanRun:
         """Execute a node inside the active one."""
         self.frames.append(StackFrame(node=node))
         depth = len(self.frames)
-        outcome: Outcome = "cut"
+        outcome: RunOutcome = "cut"
         self.entered(node)
         try:
             yield from node.execute(self)
@@ -137,19 +137,19 @@ def carry_out_in_steps(program: Program, perform: Callable[[Instruction], Genera
         request = next(program, None)
         while request is not None:
             try:
-                found = yield from perform(request)
+                result = yield from perform(request)
             except (Failed, GivenUp, Cut) as thrown:
                 request = _thrown(program, thrown)
             else:
-                request = _sent(program, found)
+                request = _sent(program, result)
     finally:
         program.close()
 
 
-def _sent(program: Program, found: Any) -> Instruction | None:
+def _sent(program: Program, result: Any) -> Instruction | None:
     """Send a result and return the next instruction; None at the end."""
     try:
-        return program.send(found)
+        return program.send(result)
     except StopIteration:
         return None
 

@@ -62,8 +62,8 @@ def validate(document: bytes, capabilities: Capabilities, *, draft: bool = False
         schema = _compiled(_Key(capabilities), draft)
         if schema.validate(root):
             return ()
-        said = schema.error_log
-    return explain(root, said, vocabulary(capabilities, draft=draft))
+        log = schema.error_log
+    return explain(root, log, vocabulary(capabilities, draft=draft))
 
 
 class _Key:
@@ -102,9 +102,9 @@ def require_valid(document: bytes, capabilities: Capabilities, *, source: str = 
     """
     problems = validate(document, capabilities, draft=draft)
     if problems:
-        said = few([str(problem) for problem in problems], 3, "; ")
+        text = few([str(problem) for problem in problems], 3, "; ")
         advice = "correct the document, or plan the request again for this robot"
-        raise TaskError(f"is not valid for this robot: {said}", where=source, advice=advice)
+        raise TaskError(f"is not valid for this robot: {text}", where=source, advice=advice)
 
 
 def vocabulary(capabilities: Capabilities, *, draft: bool = False) -> Vocabulary:

@@ -27,12 +27,12 @@ _MOST = 6
 
 def say_branch(branch: BranchEstimate, task: Task, robot: RobotProfile) -> str:
     """Return a branch in one line: "the canopy temperature is below 33 °C (n4): 3 times yes, once no"."""
-    said = say_decisions(branch.decisions, task, robot)
+    text = say_decisions(branch.decisions, task, robot)
     if branch.fault is None:
-        return said or message("the only one")
+        return text or message("the only one")
     last = branch.walk.steps[-1].node.id
     fault = message("{fault} ({node})", fault=FAULTS[branch.fault], node=last)
-    return message("{clause}; {other}", clause=said, other=fault) if said else fault
+    return message("{clause}; {other}", clause=text, other=fault) if text else fault
 
 
 def say_decisions(decisions: Sequence[Decision], task: Task, robot: RobotProfile) -> str:
@@ -42,15 +42,19 @@ def say_decisions(decisions: Sequence[Decision], task: Task, robot: RobotProfile
         answers.setdefault((decision.node, decision.kind), []).append(decision)
     nodes = {node.id: node for node in plan.walk(task.composition.plan)}
     # Actions that never failed are not mentioned.
-    told = {key: some for key, some in answers.items() if key[1] in ("holds", "taken") or any(d.answer for d in some)}
+    decided = {
+        key: some for key, some in answers.items() if key[1] in ("holds", "taken") or any(d.answer for d in some)
+    }
     taken = {node.reading: message("of {node}", node=node.id) for node in reversed(nodes.values()) if node.reading}
-    said = [_said(kind, nodes[node], some, taken, robot) for (node, kind), some in list(told.items())[:_MOST]]
-    if len(told) > _MOST:
-        said.append(message("and {count} more", count=len(told) - _MOST))
-    return joined("; ", said) if said else ""
+    parts = [
+        _say_answers(kind, nodes[node], some, taken, robot) for (node, kind), some in list(decided.items())[:_MOST]
+    ]
+    if len(decided) > _MOST:
+        parts.append(message("and {count} more", count=len(decided) - _MOST))
+    return joined("; ", parts) if parts else ""
 
 
-def _said(
+def _say_answers(
     kind: str, node: plan.Node, answers: Sequence[Decision], taken: Mapping[str, str], robot: RobotProfile
 ) -> str:
     match kind:
@@ -80,8 +84,8 @@ def _answers(decisions: Sequence[Decision]) -> str:
 def _times(decisions: Sequence[Decision], answer: Literal["yes", "no"], *, places: bool) -> str:
     """Return the number of times, and the places if these distinguish the branch from others."""
     times = say_times(len(decisions))
-    said = message("{times} yes", times=times) if answer == "yes" else message("{times} no", times=times)
+    text = message("{times} yes", times=times) if answer == "yes" else message("{times} no", times=times)
     where = ", ".join(dict.fromkeys(d.place for d in decisions))
     if not places or not where or len(decisions) > _MOST:
-        return said
-    return message("{what} (at {places})", what=said, places=where)
+        return text
+    return message("{what} (at {places})", what=text, places=where)

@@ -102,7 +102,7 @@ def _labels(once: Mapping[str, str], count: int) -> Mapping[str, str]:
     """Return the translated labels of an action, extended by the number of captures."""
     if count == 1:
         return once
-    return {code: message("{action} {times}", action=said, times=say_times(count)) for code, said in once.items()}
+    return {code: message("{action} {times}", action=phrase, times=say_times(count)) for code, phrase in once.items()}
 
 
 def _threshold(condition: c.Level, robot: RobotProfile | None) -> str:
@@ -123,18 +123,18 @@ def _joined(condition: c.AllOf | c.AnyOf, where: Names, robot: RobotProfile | No
     every = isinstance(condition, c.AllOf)
     if not condition.conditions:
         return message("always") if every else message("never")
-    said = ""
+    clauses = ""
     for part in condition.conditions:
         text = say_condition(part, where, robot)
         if isinstance(part, c.AllOf | c.AnyOf) and len(part.conditions) > 1:
             text = joined("", ("(", text, ")"))
-        if not said:
-            said = text
+        if not clauses:
+            clauses = text
         elif every:
-            said = message("{clause} and {other}", clause=said, other=text)
+            clauses = message("{clause} and {other}", clause=clauses, other=text)
         else:
-            said = message("{clause} or {other}", clause=said, other=text)
-    return said
+            clauses = message("{clause} or {other}", clause=clauses, other=text)
+    return clauses
 
 
 def say_act(act: Act, robot: RobotProfile | None = None) -> str:

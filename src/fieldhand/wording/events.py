@@ -36,9 +36,6 @@ from fieldhand.wording.limits import say_crossing
 #: A list of places longer than this is counted, not named.
 NAMED = 8
 
-#: Beginnings of the guard's reasons (:mod:`fieldhand.evaluation.reasons`) that name what was left out themselves.
-_SKIPPED, _NO_WAY = "skipped", "there is no way to"
-
 
 class EventText:
     """Describes events in words."""
@@ -160,8 +157,8 @@ def _shed(event: Shed) -> str:
     if not event.optional:
         places = _names(event.places) or event.node
         return message("GIVEN UP: {places}: {reason}", places=places, reason=kept_in_log(event.reason))
-    if event.reason.startswith((f"{_SKIPPED} ", f"{_NO_WAY} ")):
-        return message("left out: {what}", what=kept_in_log(event.reason.removeprefix(f"{_SKIPPED} ")))
+    if event.names_places:
+        return message("left out: {what}", what=kept_in_log(event.reason))
     return message("left out: {places} ({reason})", places=_names(event.places), reason=kept_in_log(event.reason))
 
 
@@ -189,12 +186,12 @@ def _waited(event: Waited) -> str:
 
 def _exited(event: Exited) -> str:
     then = named(event.then.replace("_", " "), "way")
-    said = (
+    text = (
         message("nominal exit: {then}", then=then)
         if event.exit == "nominal"
         else message("faulted exit: {then}", then=then)
     )
-    return message("{what} ({why})", what=said, why=kept_in_log(event.reason)) if event.reason else said
+    return message("{what} ({why})", what=text, why=kept_in_log(event.reason)) if event.reason else text
 
 
 def goal_names(task: Task, robot: RobotProfile) -> Callable[[str], str]:

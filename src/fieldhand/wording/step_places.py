@@ -13,11 +13,11 @@ from fieldhand.wording.resolved_places import ResolvedPlaces
 _SURE, _NAMED = 0.9, 6
 
 
-def say_expected(found: ResolvedPlaces | None) -> str:
+def say_expected(resolved: ResolvedPlaces | None) -> str:
     """Return the forecast for an optional step: it fits the budget or not, or how often if it is repeated."""
-    if found is None:
+    if resolved is None:
         return ""
-    fit, times = sum(bool(visit) for visit in found.visits), len(found.visits)
+    fit, times = sum(bool(visit) for visit in resolved.visits), len(resolved.visits)
     if times > 1 and 0 < fit < times:
         return message("(according to the estimate, about {count} of {total} times)", count=fit, total=times)
     return (
@@ -25,36 +25,36 @@ def say_expected(found: ResolvedPlaces | None) -> str:
     )
 
 
-def say_expected_visits(found: ResolvedPlaces | None) -> str:
+def say_expected_visits(resolved: ResolvedPlaces | None) -> str:
     """Return the expected number of optional visits, the probability of running short, and the visits dropped first."""
-    if found is None or found.visit_forecast is None:
+    if resolved is None or resolved.visit_forecast is None:
         return ""
     chance = message(
         "{expected} of {total} expected, {chance} % chance of running short",
-        expected=say_rounded(found.visit_forecast.visits),
-        total=len(found.places) + len(found.shed),
-        chance=say_rounded(100 * found.short),
+        expected=say_rounded(resolved.visit_forecast.visits),
+        total=len(resolved.places) + len(resolved.shed),
+        chance=say_rounded(100 * resolved.short),
     )
-    doubtful = sorted((chance, place) for place, chance in found.visit_forecast.chances.items() if chance < _SURE)
+    doubtful = sorted((chance, place) for place, chance in resolved.visit_forecast.chances.items() if chance < _SURE)
     if not 0 < len(doubtful) <= _NAMED:
         return message("({expectation})", expectation=chance)
     ids, count = say_places(tuple(place for _, place in doubtful)), len(doubtful)
-    if {place.kind for place in (*found.places, *found.shed)} == {"tree"}:
+    if {place.kind for place in (*resolved.places, *resolved.shed)} == {"tree"}:
         first = counted("tree {ids} is left out first", "trees {ids} are left out first", count, ids=ids)
     else:
         first = counted("{ids} is left out first", "{ids} are left out first", count, ids=ids)
     return message("({expectation}; {gone_first})", expectation=chance, gone_first=first)
 
 
-def say_ids(selector: Selector, found: ResolvedPlaces | None) -> str:
+def say_ids(selector: Selector, resolved: ResolvedPlaces | None) -> str:
     """Return the ids of the places if they are few and not named yet."""
-    if found is None:
+    if resolved is None:
         return ""
-    ids = tuple(p.id for p in found.places)
-    said = say_selector(selector)
-    if not found.known:
+    ids = tuple(p.id for p in resolved.places)
+    text = say_selector(selector)
+    if not resolved.known:
         return message("(decided on the way; most likely {ids})", ids=say_places(ids))
-    new = 0 < len(ids) <= 12 and not all(i in said.split() for i in ids)
+    new = 0 < len(ids) <= 12 and not all(i in text.split() for i in ids)
     return message("({ids})", ids=say_places(ids)) if new else ""
 
 

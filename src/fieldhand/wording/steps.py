@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 from fieldhand.language import counted, message, shaped
 from fieldhand.language.words import say_marker, say_name, say_number, say_times, say_tree
 from fieldhand.places.selector import Selector
-from fieldhand.places.selectors import Trees, UnionOf
-from fieldhand.places.wording import say_places, say_selector
+from fieldhand.places.selectors import Trees
+from fieldhand.places.wording import SelectorWording, say_places, say_selector
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.conditions import Condition
@@ -48,7 +48,7 @@ def say_place(place: Place) -> str:
 
 
 def write_lines(
-    task: Task, site: Site, robot: RobotProfile, found: Mapping[str, ResolvedPlaces]
+    task: Task, site: Site, robot: RobotProfile, resolved: Mapping[str, ResolvedPlaces]
 ) -> tuple[ReadBackLine, ...]:
     """Return the plan and its nominal exit as lines.
 
@@ -57,7 +57,7 @@ def write_lines(
         site, robot: Site and robot of the mission.
         found: Resolved places of each node, from :func:`fieldhand.wording.resolved_places.gather`.
     """
-    writer = _LineWriter(robot, found)
+    writer = _LineWriter(robot, resolved)
     writer.node(task.composition.plan, 0)
     writer.step(task.composition.plan.id, 0, say_exit(task.composition.nominal, site))
     return tuple(writer.lines)
@@ -100,9 +100,9 @@ class _Taken:
 class _LineWriter:
     """Writes the lines, and tracks the names by which later steps refer to earlier ones."""
 
-    def __init__(self, robot: RobotProfile, found: Mapping[str, ResolvedPlaces]) -> None:
+    def __init__(self, robot: RobotProfile, resolved: Mapping[str, ResolvedPlaces]) -> None:
         self.lines: list[ReadBackLine] = []
-        self._robot, self._found = robot, found
+        self._robot, self._resolved = robot, resolved
         self._number = 0
         #: Description of each label, and the place of each reading.
         self._names: Names = {}
@@ -168,20 +168,20 @@ class _LineWriter:
 
     def _at(self, node: Node, selector: Selector) -> str:
         """Return a resolved place with its wording in the Task, or the reverse if it is decided during the mission."""
-        said = say_selector(selector, self._names)
-        found = self._found.get(node.id)
-        one = found.one if found else None
+        text = say_selector(selector, self._names)
+        resolved = self._resolved.get(node.id)
+        one = resolved.one if resolved else None
         if one is not None:
             place = say_place(one)
-            aside = selector.aside(said)
+            aside = selector.aside(text)
             return message("{place} ({words})", place=place, words=aside) if aside else place
-        if found is None:
-            return said
-        if found.known:
-            ids = say_places(tuple(p.id for visit in found.visits for p in visit))
-            return message("{place} (in turn {ids})", place=said, ids=ids)
-        likely = say_place(found.places[0])
-        return message("{place} (decided on the way; most likely {likely})", place=said, likely=likely)
+        if resolved is None:
+            return text
+        if resolved.known:
+            ids = say_places(tuple(p.id for visit in resolved.visits for p in visit))
+            return message("{place} (in turn {ids})", place=text, ids=ids)
+        likely = say_place(resolved.places[0])
+        return message("{place} (decided on the way; most likely {likely})", place=text, likely=likely)
 
     def _arrived(self, label: str, node: str, number: int) -> None:
         """Register a new current place, so that earlier readings count as taken elsewhere."""
@@ -191,8 +191,8 @@ class _LineWriter:
 
     def _name(self, label: str, node: str, number: int) -> None:
         if label:
-            found = self._found.get(node)
-            one = found.one if found else None
+            resolved = self._resolved.get(node)
+            one = resolved.one if resolved else None
             self._names[label] = (
                 say_place(one) if one is not None else message("the place of step {number}", number=number)
             )
@@ -231,34 +231,37 @@ class _LineWriter:
 
     def _visits(self, node: ForEach) -> str:
         """Return the places that a for-each visits, with their order."""
-        found = self._found.get(node.id)
-        places = (*found.places, *found.shed) if found else ()
+        resolved = self._resolved.get(node.id)
+        places = (*resolved.places, *resolved.shed) if resolved else ()
         if node.select.single and len(places) < 2:
             return message("At {place}", place=self._at(node, node.select))
         whole = node.optional or node.at_most is None
-        count = len(places) if found and found.known and places and whole else None
-        said = say_selector(node.select, self._names, count)
+        count = len(places) if resolved and resolved.known and places and whole else None
+        phrase = SelectorWording(self._names).phrase(node.select)
+        text = phrase.say(count)
         if node.select == Trees():
-            said = counted("the {count} tree", "the {count} trees", count) if count else message("all trees")
+            text = counted("the {count} tree", "the {count} trees", count) if count else message("all trees")
         if node.optional:
-            return self._optional_visits(node, said, found)
+            return self._optional_visits(node, text, resolved)
         if node.at_most is not None:
-            at = message("At no more than {count} of {trees}", count=node.at_most, trees=said)
-        elif isinstance(node.select, UnionOf) and not said.startswith("trees "):
-            at = message("At {place}", place=said)
-        elif said.startswith("every "):
-            at = message("At {every_tree}", every_tree=said)
+            at = message("At no more than {count} of {trees}", count=node.at_most, trees=text)
+        elif phrase.listed:
+            at = message("At {place}", place=text)
+        elif phrase.every or (phrase.plain and count is None):
+            at = message("At {every_tree}", every_tree=text)
         else:
-            at = message("At each of {trees}", trees=said)
-        return in_order(node, message("{at_places} {ids}", at_places=at, ids=say_ids(node.select, found)), len(places))
+            at = message("At each of {trees}", trees=text)
+        return in_order(
+            node, message("{at_places} {ids}", at_places=at, ids=say_ids(node.select, resolved)), len(places)
+        )
 
-    def _optional_visits(self, node: ForEach, said: str, found: ResolvedPlaces | None) -> str:
-        at = message("At as many of {trees} as the budget allows", trees=said)
+    def _optional_visits(self, node: ForEach, text: str, resolved: ResolvedPlaces | None) -> str:
+        at = message("At as many of {trees} as the budget allows", trees=text)
         if node.at_most is not None:
             at = message("{at_places}, at most {count}", at_places=at, count=node.at_most)
         if node.reward:
             at = message("{at_places}, preferring high {reward}", at_places=at, reward=say_name(node.reward))
-        return message("{at_places} {expected}", at_places=at, expected=say_expected_visits(found))
+        return message("{at_places} {expected}", at_places=at, expected=say_expected_visits(resolved))
 
     def _repeat(self, node: Repeat, indent: int) -> None:
         times = say_times(node.times)
@@ -273,7 +276,7 @@ class _LineWriter:
             )
 
     def _optional(self, node: OptionalStep, indent: int) -> None:
-        expected = say_expected(self._found.get(node.id))
+        expected = say_expected(self._resolved.get(node.id))
         if node.reward == 1.0:
             head = message("If the budget allows {expected}:", expected=expected)
         else:

@@ -8,7 +8,7 @@ import pytest
 
 from fieldhand.errors import FieldhandError, ProblemError
 from fieldhand_bench.orienteering.engine import spread
-from fieldhand_bench.orienteering.graphs import Graph, load_graphs
+from fieldhand_bench.orienteering.graphs import BenchmarkGraph, load_graphs
 from fieldhand_bench.orienteering.plot import plot
 from fieldhand_bench.orienteering.published import published_for
 from fieldhand_bench.orienteering.run import run, wilson
@@ -19,7 +19,7 @@ OPTIONS = Options(missions=10)
 
 def graph(n=10, seed=1):
     rng = np.random.default_rng(seed)
-    return Graph(name=f"random{n}", xy=tuple(map(tuple, rng.random((n, 2)))), reward=tuple(rng.random(n)))
+    return BenchmarkGraph(name=f"random{n}", xy=tuple(map(tuple, rng.random((n, 2)))), reward=tuple(rng.random(n)))
 
 
 def rows(trials=60, solvers=("online", "fixed"), **where):
@@ -123,7 +123,7 @@ def test_a_file_that_is_no_graph_is_refused_with_its_name(tmp_path, text, says):
 def test_a_graph_that_is_no_problem_is_refused(changes):
     values = {"name": "g", "xy": ((0, 0), (1, 0), (2, 0)), "reward": (0.0, 1.0, 0.0)} | changes
     with pytest.raises(ProblemError):
-        Graph(**values).problem(3.0, 0.1)
+        BenchmarkGraph(**values).problem(3.0, 0.1)
 
 
 def test_no_graphs_are_said_to_be_none(tmp_path):

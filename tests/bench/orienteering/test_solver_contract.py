@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import pytest
 
 from fieldhand.orienteering.policy import State
-from fieldhand.orienteering.prepared_solver import Decide, PreparedSolver
+from fieldhand.orienteering.prepared_solver import NextVertex, PreparedSolver
 from fieldhand.orienteering.problem import Problem
 from fieldhand.testing.solver_contract import SolverContract
 from fieldhand_bench.orienteering.solvers import Options, prepare, solver_names
@@ -52,7 +52,7 @@ class Insatiable:
 
     problem: Problem
 
-    def mission(self, seed: int) -> Decide:
+    def mission(self, seed: int) -> NextVertex:
         return self._next
 
     def _next(self, state: State) -> int:
@@ -69,7 +69,7 @@ class InsatiableContract(SolverContract):
 class Undecided:
     """A solver that breaks the contract: it never leaves the start."""
 
-    def mission(self, seed: int) -> Decide:
+    def mission(self, seed: int) -> NextVertex:
         return lambda state: state.vertex
 
 

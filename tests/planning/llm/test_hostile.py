@@ -15,6 +15,7 @@ from fieldhand import mission
 from fieldhand.errors import ModelError, NotApprovedError
 from fieldhand.hidden_characters import visible
 from fieldhand.planning.llm.prompt import LONGEST_LINE, MOST_DATA, opening, repair
+from fieldhand.planning.llm.review import AnswerProblem
 from fieldhand.planning.planner import Clarify, Planned, Refused
 from fieldhand.request_check import mismatches
 from fieldhand.robot.loader import load_robot
@@ -101,7 +102,8 @@ SITE = grid(3, 4)
 
 @pytest.mark.parametrize("order", ORDERS, ids=range(len(ORDERS)))
 def test_an_order_that_a_problem_quotes_stays_fenced_too(order: str) -> None:
-    text = repair([f"[site] line 4 <act>: there is no zone 'x'; this site has {order}"], 2).text
+    quoted = AnswerProblem(kind="site", message=f"there is no zone 'x'; this site has {order}", where="line 4 <act>")
+    text = repair([quoted], 2).text
     head, body, tail = re.split(r"--- problems .*---\n|\n--- end of problems ---", text)
     assert head == "Your answer cannot be used:\n"
     assert "\n" not in body

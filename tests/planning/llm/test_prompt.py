@@ -14,7 +14,7 @@ from fieldhand.planning.llm.answer import QuestionAnswer, RefusalAnswer, TaskAns
 from fieldhand.planning.llm.chat import Reply
 from fieldhand.planning.llm.examples import EXAMPLES, ROBOT
 from fieldhand.planning.llm.prompt import LONGEST_LINE, MOST_DATA, fenced, instructions, opening, repair, robot_lines
-from fieldhand.planning.llm.review import read_draft, review
+from fieldhand.planning.llm.review import AnswerProblem, read_draft, review
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import load_robot, robot_names
@@ -161,11 +161,15 @@ def test_the_examples_show_each_kind_of_answer() -> None:
     assert kinds == {TaskAnswer, QuestionAnswer, RefusalAnswer}
 
 
+def problem(message: str, where: str = "") -> AnswerProblem:
+    return AnswerProblem(kind="site", message=message, where=where)
+
+
 def test_a_repair_lists_the_problems_and_says_how_often_one_may_try() -> None:
-    text = repair(["[site] line 3 <act>: no such zone", "second"], 2).text
-    assert "- [site] line 3 <act>: no such zone\n- second" in text
+    text = repair([problem("no such zone", "line 3 <act>"), problem("second")], 2).text
+    assert "- [site] line 3 <act>: no such zone\n- [site] second" in text
     assert "2 tries are left" in text
-    assert "last try" in repair(["x"], 1).text
+    assert "last try" in repair([problem("x")], 1).text
     for permitted in ("corrected", "<refusal>", "<question>", "Do not change what is asked for"):
         assert permitted in text
 

@@ -207,7 +207,7 @@ def fly(seed: int, *, demo: bool = True) -> Flown:
 
 
 def problems(flown: Flown) -> list[str]:
-    """What a log shows that no mission may do: from its lines, and from site and task as they were made."""
+    """Return what a log shows that no mission may do: from its lines, and from site and task as they were made."""
     return [*_ends(flown), *_drives_over(flown), *_recounted(flown), *_silently_shed(flown), *_believed(flown)]
 
 

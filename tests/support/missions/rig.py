@@ -107,7 +107,7 @@ def approved(task: Task, site: Site, robot: RobotProfile) -> mission.ApprovedMis
 
 @dataclass
 class Rig:
-    """What a test mission runs on; every field can be replaced."""
+    """A site, a robot and their world for a test mission; every field can be replaced."""
 
     site: Site = field(default_factory=orchard)
     robot: RobotProfile = field(default_factory=husky)

@@ -44,7 +44,7 @@ KEY = signing_key()
 
 
 def known(*keys: SigningKey, revoked: str | None = None) -> dict[str, KnownKey]:
-    """What a machine that trusts these keys knows."""
+    """Return the known keys of a machine that trusts these keys."""
     found = [key.public for key in keys or (KEY,)]
     return {
         public.fingerprint: KnownKey(

@@ -97,11 +97,11 @@ def task_of(plan: Node, request: str, site: Site, robot: RobotProfile) -> Task:
 
 @cache
 def corner_warnings() -> tuple[str, ...]:
-    """What has to be confirmed of that Task: its request says none of what it does."""
+    """Return the warning to confirm for that Task: its request names nothing of its plan."""
     site, robot = load_demo(), load_robot("husky")
     return mission.review(corner_task("corners", site, robot), site, robot).warnings
 
 
 def corner_xml() -> str:
-    """That Task on the built-in orchard for the husky, as a document."""
+    """Return that Task on the built-in orchard for the husky, as a document."""
     return encode(corner_task("corners", load_demo(), load_robot("husky"))).decode()

@@ -30,7 +30,7 @@ _LIMIT_S = 900
 
 @dataclass(frozen=True, kw_only=True)
 class Run:
-    """What a command printed and how it ended."""
+    """The output and the exit status of a command."""
 
     status: int
     out: str
@@ -129,7 +129,7 @@ def _ordered(
     terminal: bool = False,
     deaf: bool = False,
 ) -> int:
-    """What the first process answers to an order."""
+    """Return the answer of the first process to an order."""
     order = {
         "words": words,
         "cwd": str(cwd or Path.cwd()),

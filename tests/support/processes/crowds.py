@@ -68,7 +68,7 @@ def crowd(port: int, kind: str, many: int) -> Iterator[list[socket.socket]]:
 
 
 def is_closed(link: socket.socket) -> bool:
-    """Whether the server has ended a connection; reads nothing of it."""
+    """Return True if the server has ended a connection; read nothing of it."""
     poll = select.poll()
     poll.register(link, select.POLLRDHUP)
     return bool(poll.poll(0))

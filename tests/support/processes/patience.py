@@ -13,7 +13,7 @@ _Seen = TypeVar("_Seen")
 
 
 def until(seen: Callable[[], _Seen], within_s: float = LONG_S) -> _Seen:
-    """What is seen, as soon as it is something; fails where it stays nothing."""
+    """Return what is seen as soon as it is true; fail if it stays false."""
     end = time.monotonic() + within_s
     while not (found := seen()):
         assert time.monotonic() < end, "it did not come"

@@ -150,7 +150,7 @@ class RobotAgentInProcess:
         return (said or [0])[0], reads
 
     def is_empty(self) -> bool:
-        """Whether nothing of any mission is there."""
+        """Return True if no mission is stored."""
         folders = [self.store / name for name in ("bundles", "incoming", "missions")]
         return not any(any(folder.iterdir()) for folder in folders) and not self.mission_store.latest(9)
 

@@ -1,4 +1,4 @@
-"""What the built-in planner makes of the requests of the tables, planned once in a run of the tests.
+"""Outcomes of the built-in planner for the requests of the tables, planned once in a run of the tests.
 
 Many tests check the same plans, and planning takes longer than most checks. So outcomes are kept in a folder that all
 processes of a run share. Tests of the planner compare them with those that it plans anew.

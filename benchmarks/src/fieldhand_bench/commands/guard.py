@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from fieldhand_bench.fly import Trial
-    from fieldhand_bench.summary import Group, Summary, Times
+    from fieldhand_bench.summary import Summary, Times, TrialGroup
 
 _MOST_NAMED = 10
 
@@ -48,16 +48,16 @@ def bench_guard(
         trials.append(trial)
         if len(trials) % 50 == 0:
             show.note(f"{len(trials)} of {missions} missions flown")
-    found = summarize(trials)
+    summary = summarize(trials)
     looked = worth_looking_at(trials, worst)
     if json:
         show.print_json(
-            {"machine": on, "seed": seed, "trees": trees, "passed": found.passed, "summary": asdict(found),
+            {"machine": on, "seed": seed, "trees": trees, "passed": summary.passed, "summary": asdict(summary),
              "worst": [{"seed": trial.seed, "why": why} for trial, why in looked],
              "missions": [asdict(trial) for trial in trials]}
         )  # fmt: skip
     else:
-        _show(found)
+        _show(summary)
         if looked:
             show.heading(f"Worth a look (replay one with --trees {trees} --only SEED)")
         for trial, why in looked:
@@ -65,7 +65,7 @@ def bench_guard(
         show.out.print()
         where = f"{on['machine']}, {on['cpu']}, {on['cores']} cores, load {on['load']}"
         show.out.print(f"{missions} missions, seed {seed}, up to {trees} trees; {where}; {on['software']}.")
-    raise SystemExit(0 if found.passed else 1)
+    raise SystemExit(0 if summary.passed else 1)
 
 
 def _seeds(missions: int, first: int, family: str | None) -> list[int]:
@@ -84,33 +84,33 @@ def _seeds(missions: int, first: int, family: str | None) -> list[int]:
     return list(itertools.islice(fitting, missions))
 
 
-def _show(found: Summary) -> None:
+def _show(summary: Summary) -> None:
     from fieldhand.cli import show
 
-    show.out.print(_table("Missions", found.promises))
-    show.out.print(_table("By family (home alone is safe)", found.families))
-    show.out.print(_table("By what limits them (home alone is safe)", found.limits))
-    show.out.print(_table("By accepted probability (home alone is safe)", found.probabilities))
+    show.out.print(_table("Missions", summary.promises))
+    show.out.print(_table("By family (home alone is safe)", summary.families))
+    show.out.print(_table("By what limits them (home alone is safe)", summary.limits))
+    show.out.print(_table("By accepted probability (home alone is safe)", summary.probabilities))
     show.out.print_lines(
         "Failed: a budget or the reserve was exceeded. Most: failures that chance explains (97.5 %). Safe: what must",
         "be done is within Pf at approval; warned: it is not. Visits: optional ones, mean; +/-: made less forecast;",
         "reward: over that of the best route were all legs' costs their means.",
     )
     show.heading("Beyond the limits")
-    show.out.print(f"{found.refused} drafts were not approved, and not flown")
-    show.out.print(f"{found.given_up} pieces of mandatory work given up with a reason, in {found.gave_up} missions")
-    show.out.print(f"{len(found.silent)} pieces of mandatory work given up in silence{_some(found.silent)}")
-    show.out.print(f"{found.lost} missions ended by a fault")
-    show.out.print(f"{len(found.wrong)} double visits, wrong ends and logs that do not fit{_some(found.wrong)}")
+    show.out.print(f"{summary.refused} drafts were not approved, and not flown")
+    show.out.print(f"{summary.given_up} pieces of mandatory work given up with a reason, in {summary.gave_up} missions")
+    show.out.print(f"{len(summary.silent)} pieces of mandatory work given up in silence{_some(summary.silent)}")
+    show.out.print(f"{summary.lost} missions ended by a fault")
+    show.out.print(f"{len(summary.wrong)} double visits, wrong ends and logs that do not fit{_some(summary.wrong)}")
     show.heading("Processor time of the guard")
-    show.out.print(f"first decision: {_said(found.first)}")
-    show.out.print(f"later choices of an optional visit: {_said(found.choices)}")
-    show.out.print(f"later answers about mandatory work: {_said(found.admissions)}")
+    show.out.print(f"first decision: {_times_text(summary.first)}")
+    show.out.print(f"later choices of an optional visit: {_times_text(summary.choices)}")
+    show.out.print(f"later answers about mandatory work: {_times_text(summary.admissions)}")
     show.out.print()
-    show.out.print("The guard kept what it promises." if found.passed else "The guard did NOT keep what it promises.")
+    show.out.print("The guard kept what it promises." if summary.passed else "The guard did NOT keep what it promises.")
 
 
-def _table(title: str, groups: Sequence[Group]) -> Table:
+def _table(title: str, groups: Sequence[TrialGroup]) -> Table:
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
 
@@ -138,7 +138,7 @@ def _some(sentences: Sequence[str]) -> str:
     return f": {'; '.join(sentences[:_MOST_NAMED])}{more}"
 
 
-def _said(times: Times) -> str:
+def _times_text(times: Times) -> str:
     return (
         f"median {times.median_ms:.1f} ms, 99th percentile {times.p99_ms:.0f} ms, worst {times.worst_ms:.0f} ms"
         f" ({times.count:,})"

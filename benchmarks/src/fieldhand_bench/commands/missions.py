@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from fieldhand_bench.missions.cases import Case
-    from fieldhand_bench.missions.trial import Trial
+    from fieldhand_bench.missions.trial import CaseTrial
 
 _ANSWERS = {
     "planned": "wrong",
@@ -100,7 +100,7 @@ def _writer(folder: Path) -> Callable[[Case, int, Sequence[str]], None]:
     return write
 
 
-def _record(trials: Sequence[Trial]) -> dict[str, Any]:
+def _record(trials: Sequence[CaseTrial]) -> dict[str, Any]:
     from dataclasses import asdict
 
     from fieldhand_bench.missions.published import row_of, sorted_by_row, tallies
@@ -122,14 +122,14 @@ def _record(trials: Sequence[Trial]) -> dict[str, Any]:
     return {"totals": totals, "cases": rows}
 
 
-def _result(trial: Trial) -> str:
-    said = _ANSWERS[trial.answer]
+def _result(trial: CaseTrial) -> str:
+    text = _ANSWERS[trial.answer]
     if not trial.as_asked:
-        return said
-    return "as asked" if trial.answer == "planned" else f"as asked: {said}"
+        return text
+    return "as asked" if trial.answer == "planned" else f"as asked: {text}"
 
 
-def _show(trials: Sequence[Trial], planner: str, seed: int) -> None:
+def _show(trials: Sequence[CaseTrial], planner: str, seed: int) -> None:
     from fieldhand.cli import show
     from fieldhand_bench.missions.published import row_of, tallies
 
@@ -162,17 +162,17 @@ def _show(trials: Sequence[Trial], planner: str, seed: int) -> None:
     )
 
 
-def _table(title: str, trials: Sequence[Trial], *, published: bool) -> Table:
+def _table(title: str, trials: Sequence[CaseTrial], *, published: bool) -> Table:
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
 
     from fieldhand_bench.missions.published import row_of
 
-    told = any(trial.tries for trial in trials)
+    with_model = any(trial.tries for trial in trials)
     table = Table(title=title, title_justify="left", box=SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0))
     for head in ("case", "result", *(("published",) if published else ())):
         table.add_column(head)
-    for head in ("worlds", "acts", "ifs", "plan ms", *(("tokens", "tries") if told else ())):
+    for head in ("worlds", "acts", "ifs", "plan ms", *(("tokens", "tries") if with_model else ())):
         table.add_column(head, justify="right", no_wrap=True)
     for trial in trials:
         row = row_of(trial.id)
@@ -180,6 +180,6 @@ def _table(title: str, trials: Sequence[Trial], *, published: bool) -> Table:
             trial.id, _result(trial), *((row.verdict,) if published and row else ()),
             f"{trial.worlds_right}/{trial.worlds}" if trial.worlds else "", str(trial.tasks or ""),
             str(trial.conditionals or ""), f"{1000 * trial.plan_s:.0f}",
-            *((str(trial.tokens or ""), str(trial.tries or "")) if told else ()),
+            *((str(trial.tokens or ""), str(trial.tries or "")) if with_model else ()),
         )  # fmt: skip
     return table

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from fieldhand_bench.orienteering.certain import RouteResult
-    from fieldhand_bench.orienteering.run import Row
+    from fieldhand_bench.orienteering.run import SolverResult
 
 
 def bench_orienteering(
@@ -73,7 +73,7 @@ def bench_orienteering(
     loaded = load_graphs(graphs)
     options = Options(seed=seed, milp_s=milp_time, daring=daring, missions=learn)
     on = machine()
-    rows: list[Row] = []
+    rows: list[SolverResult] = []
     compared: list[dict[str, Any]] = []
     for b in budget or [2.0]:
         for p in pf or [0.1]:
@@ -100,7 +100,7 @@ def bench_orienteering(
 
 
 def _show(
-    rows: Sequence[Row], compared: Sequence[dict[str, Any]], trials: int, certain: float, on: dict[str, Any]
+    rows: Sequence[SolverResult], compared: Sequence[dict[str, Any]], trials: int, certain: float, on: dict[str, Any]
 ) -> None:
     """Print the tables, the meaning of their columns, and the machine they were measured on."""
     from fieldhand.cli import show
@@ -132,7 +132,7 @@ def _compared(graphs: Sequence[Any], budget: float, seed: int, seconds: float) -
     return [one(graph) for graph in graphs]
 
 
-def _published(rows: Sequence[Row]) -> list[dict[str, Any]]:
+def _published(rows: Sequence[SolverResult]) -> list[dict[str, Any]]:
     from dataclasses import asdict
 
     from fieldhand_bench.orienteering.published import published_for
@@ -141,7 +141,7 @@ def _published(rows: Sequence[Row]) -> list[dict[str, Any]]:
     return [asdict(found) for setting in settings for found in published_for(*setting)]
 
 
-def _table(rows: Sequence[Row]) -> Table:
+def _table(rows: Sequence[SolverResult]) -> Table:
     """Return a table of one graph's rows with the published rows below, narrow enough for 80 columns."""
     from rich.box import SIMPLE_HEAD
     from rich.table import Table

@@ -47,8 +47,8 @@ def bench_planning(
         table.add_column(head, justify="left" if head == "ms" else "right", no_wrap=True)
     for timing in sorted(measured.requests, key=lambda t: -t.median_s)[:_SLOWEST]:
         words = timing.request if len(timing.request) <= _SHOWN else f"{timing.request[: _SHOWN - 3]}..."
-        said = words if timing.answer == "planned" else f"{words} ({timing.answer})"
-        table.add_row(said, *(f"{1000 * s:.1f}" for s in (timing.first_s, timing.median_s, timing.worst_s)))
+        text = words if timing.answer == "planned" else f"{words} ({timing.answer})"
+        table.add_row(text, *(f"{1000 * s:.1f}" for s in (timing.first_s, timing.median_s, timing.worst_s)))
     show.out.print(table)
     planned = sum(timing.answer == "planned" for timing in measured.requests)
     kept = "✓" if measured.slowest.median_s <= PLAN_S else "✗"

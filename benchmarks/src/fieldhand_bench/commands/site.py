@@ -112,5 +112,5 @@ def _target(value: float, most: float | None) -> str:
     """Return the target for 100,000 trees, marked as met or missed; an empty text without a target."""
     if most is None:
         return ""
-    told = f"{most / 1e9:.0f} GB" if most is PEAK_BYTES else _seconds(most)
-    return f"{told} {'✓' if value <= most else '✗'}"
+    text = f"{most / 1e9:.0f} GB" if most is PEAK_BYTES else _seconds(most)
+    return f"{text} {'✓' if value <= most else '✗'}"

@@ -3,7 +3,7 @@
 cases       a request, the worlds in which it is simulated, and the outcome expected in each
 case_form   pydantic models of a case file
 case_file   reads cases from YAML and explains mistakes in them
-ground      trees and markers of a GeoJSON file, read by the judge itself
+case_site   trees and markers of a GeoJSON file, read by the judge itself
 places      conditions on the tree at which an action was done
 log         reads an event log: actions at trees, distance driven, the end
 matching    compares expected steps with the actions done

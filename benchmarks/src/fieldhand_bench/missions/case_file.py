@@ -31,9 +31,9 @@ from fieldhand_bench.missions.case_form import (
     StepForm,
     WorldForm,
 )
+from fieldhand_bench.missions.case_site import CaseSite, load_case_site
 from fieldhand_bench.missions.cases import Case, CaseWorld, Expected
-from fieldhand_bench.missions.ground import Ground, load_ground
-from fieldhand_bench.missions.places import Attributes, Place, Positions
+from fieldhand_bench.missions.places import Attributes, CasePlace, Positions
 
 BUILTIN = "builtin"
 #: A case has about twenty lines; a larger file is not a file of cases.
@@ -65,7 +65,7 @@ def load_cases(names: Sequence[str]) -> tuple[Case, ...]:
         WorldError: The readings of a world are invalid.
         ProfileError: A robot is unknown or its profile is invalid.
     """
-    loaders = _Loaders(ground=cache(load_ground), robot=cache(load_robot))
+    loaders = _Loaders(case_site=cache(load_case_site), robot=cache(load_robot))
     cases = [case for name in names for path in _files(name) for case in _cases(path, loaders)]
     seen: dict[str, str] = {}
     for case in cases:
@@ -83,7 +83,7 @@ def load_cases(names: Sequence[str]) -> tuple[Case, ...]:
 class _Loaders:
     """Cached loaders, so that each site and robot is read once for all cases."""
 
-    ground: Callable[[Path], Ground]
+    case_site: Callable[[Path], CaseSite]
     robot: Callable[[str], RobotProfile]
 
 
@@ -111,13 +111,13 @@ def _case(form: CaseForm, book: BookForm, path: Path, loaders: _Loaders) -> Case
     if robot_name is None:
         raise CaseError("has no robot", where=where, advice="give 'robot' for the case or for the whole file")
     site = _site(named, path, where)
-    ground, robot = loaders.ground(site), loaders.robot(robot_name)
+    case_site, robot = loaders.case_site(site), loaders.robot(robot_name)
     worlds = []
     for number, world in enumerate(form.worlds or ()):
         at = f"{where}: worlds[{number}]"
         _require_actions(world.expect.actions, robot, at)
         expected = world.expect.expected()
-        _fits(expected, ground, at)
+        _fits(expected, case_site, at)
         read = parse_world({"readings": world.readings}, source=at)
         worlds.append(CaseWorld(world=read, expected=expected))
     return Case(
@@ -155,22 +155,22 @@ def _require_actions(actions: Iterable[str], robot: RobotProfile, where: str) ->
             )
 
 
-def _fits(expected: Expected, ground: Ground, where: str) -> None:
+def _fits(expected: Expected, case_site: CaseSite, where: str) -> None:
     """Raise a CaseError if the site lacks a tree, an attribute or a marker that is expected."""
-    if isinstance(expected.end, str) and expected.end not in ground.markers:
+    if isinstance(expected.end, str) and expected.end not in case_site.markers:
         raise CaseError(f"the site has no {expected.end} marker", where=where, advice="expect another end")
-    ends = (expected.end,) if isinstance(expected.end, Place) else ()
+    ends = (expected.end,) if isinstance(expected.end, CasePlace) else ()
     for place in (*(step.at for step in expected.steps or ()), expected.at_all, *ends):
         for demand in place.demands:
             match demand:
-                case Positions(positions=positions) if max(positions) >= len(ground.xy):
+                case Positions(positions=positions) if max(positions) >= len(case_site.xy):
                     raise CaseError(
                         f"ids: there is no tree {max(positions)}",
                         where=where,
-                        advice=f"the site's {len(ground.xy)} trees are counted from 0",
+                        advice=f"the site's {len(case_site.xy)} trees are counted from 0",
                     )
                 case Attributes(values=values):
-                    there = {key for said in ground.properties for key in said}
+                    there = {key for properties in case_site.properties for key in properties}
                     for key in values:
                         if key not in there:
                             raise CaseError(
@@ -213,14 +213,14 @@ def _explained(error: ValidationError, path: Path, content: dict[Any, Any]) -> C
 
 def _where(path: Path, content: dict[Any, Any], loc: list[int | str]) -> str:
     """Return the location of a mistake: the file, the id of the case, and the path of keys and indices in it."""
-    said = str(path)
+    text = str(path)
     if len(loc) > 1 and loc[0] == "cases" and isinstance(loc[1], int):
         case = content["cases"][loc[1]]
         named = case.get("id") if isinstance(case, dict) else None
-        said += f", case '{named}'" if isinstance(named, str) else f", case {loc[1] + 1} of the list"
+        text += f", case '{named}'" if isinstance(named, str) else f", case {loc[1] + 1} of the list"
         loc = loc[2:]
     inner = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in loc).lstrip(".")
-    return f"{said}: {inner}" if inner else said
+    return f"{text}: {inner}" if inner else text
 
 
 def _keys(loc: list[int | str]) -> list[str]:

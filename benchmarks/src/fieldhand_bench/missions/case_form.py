@@ -17,9 +17,9 @@ from pydantic import (
 )
 
 from fieldhand_bench.missions import places
-from fieldhand_bench.missions.cases import Expected, MarkerName, Step
-from fieldhand_bench.missions.ground import CornerName
-from fieldhand_bench.missions.places import ANYWHERE, Demand, Place, Side
+from fieldhand_bench.missions.case_site import CornerName
+from fieldhand_bench.missions.cases import Expected, ExpectedStep, MarkerName
+from fieldhand_bench.missions.places import ANYWHERE, CasePlace, Demand, Side
 
 
 def _number(value: object) -> object:
@@ -44,11 +44,13 @@ def _listed(value: object) -> object:
     return [value] if isinstance(value, str) else value
 
 
-Number = Annotated[float, BeforeValidator(_number), Field(allow_inf_nan=False)]
-Above0 = Annotated[Number, Field(gt=0)]
+NumberField = Annotated[float, BeforeValidator(_number), Field(allow_inf_nan=False)]
+Above0 = Annotated[NumberField, Field(gt=0)]
 Least1 = Annotated[StrictInt, Field(ge=1)]
 Text = Annotated[str, Field(min_length=1, strict=True)]
-Bounds = Annotated[tuple[Annotated[Number, Field(ge=0)], Annotated[Number, Field(ge=0)]], AfterValidator(_rising)]
+BoundsPair = Annotated[
+    tuple[Annotated[NumberField, Field(ge=0)], Annotated[NumberField, Field(ge=0)]], AfterValidator(_rising)
+]
 
 _QUARTERS: Mapping[str, tuple[Side, Side]] = {
     "nw": ("north", "west"),
@@ -111,14 +113,14 @@ class PlaceForm(Form):
                 raise ValueError(f"'{more}' says more about '{' or '.join(about)}', which is not here")
         return self
 
-    def place(self) -> Place:
+    def place(self) -> CasePlace:
         """Return the place as used by the judge."""
-        return Place(demands=tuple(self._demands()), words=self.words())
+        return CasePlace(demands=tuple(self._demands()), words=self.words())
 
     def words(self) -> str:
         """Return the place as written in the file, on one line."""
-        said = self.model_dump(by_alias=True, exclude_none=True)
-        return "{" + ", ".join(f"{key}: {_flow(value)}" for key, value in said.items()) + "}"
+        fields = self.model_dump(by_alias=True, exclude_none=True)
+        return "{" + ", ".join(f"{key}: {_flow(value)}" for key, value in fields.items()) + "}"
 
     def _demands(self) -> Iterator[Demand]:
         if self.corner is not None:
@@ -148,9 +150,9 @@ class PlaceForm(Form):
         if self.ids is not None:
             yield places.Positions(frozenset(self.ids))
         if self.first:
-            yield places.Terminal("start")
+            yield places.EndTree("start")
         if self.last:
-            yield places.Terminal("end")
+            yield places.EndTree("end")
         if self.attribute is not None:
             yield places.Attributes(self.attribute)
 
@@ -175,10 +177,10 @@ class StepForm(Form):
     at: PlaceForm | None = None
     as_: Text | None = Field(None, alias="as")
 
-    def step(self) -> Step:
+    def step(self) -> ExpectedStep:
         """Return the step as used by the judge."""
         at = ANYWHERE if self.at is None else self.at.place()
-        return Step(action=self.do, captures=self.n, at=at, label=self.as_ or "")
+        return ExpectedStep(action=self.do, captures=self.n, at=at, label=self.as_ or "")
 
 
 class ExpectForm(Form):
@@ -186,12 +188,12 @@ class ExpectForm(Form):
 
     steps: tuple[StepForm, ...] | None = None
     order: Literal["any"] | None = None
-    count_only: Annotated[dict[str, Bounds], Field(min_length=1)] | None = None
-    distinct_trees: dict[str, Bounds] = {}
+    count_only: Annotated[dict[str, BoundsPair], Field(min_length=1)] | None = None
+    distinct_trees: dict[str, BoundsPair] = {}
     at_all: PlaceForm | None = None
     free_points: StrictBool = False
     repeats: StrictBool = False
-    apart_m: Bounds | None = None
+    apart_m: BoundsPair | None = None
     max_travel_m: Above0 | None = None
     min_steps: Least1 | None = None
     status: Literal["completed", "returned", "faulted", "aborted"] = "completed"

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Literal
 
 from fieldhand.execution.drivers.simulation.world import World
-from fieldhand_bench.missions.places import ANYWHERE, Place
+from fieldhand_bench.missions.places import ANYWHERE, CasePlace
 
 MarkerName = Literal["start", "end"]
 #: Minimum and maximum, both included.
@@ -16,7 +16,7 @@ Bounds = tuple[float, float]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Step:
+class ExpectedStep:
     """An action that must be done.
 
     Attributes:
@@ -28,7 +28,7 @@ class Step:
 
     action: str
     captures: int = 1
-    at: Place = ANYWHERE
+    at: CasePlace = ANYWHERE
     label: str = ""
 
 
@@ -51,18 +51,18 @@ class Expected:
         end: Final position: a marker, or a place that the nearest tree must match. None for anywhere.
     """
 
-    steps: tuple[Step, ...] | None = None
+    steps: tuple[ExpectedStep, ...] | None = None
     any_order: bool = False
     counts: Mapping[str, Bounds] | None = None
     trees: Mapping[str, Bounds] = field(default_factory=dict)
-    at_all: Place = ANYWHERE
+    at_all: CasePlace = ANYWHERE
     free_points: bool = False
     repeats: bool = False
     apart_m: Bounds | None = None
     most_travel_m: float | None = None
     least_stops: int = 0
     status: str = "completed"
-    end: Place | MarkerName | None = None
+    end: CasePlace | MarkerName | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

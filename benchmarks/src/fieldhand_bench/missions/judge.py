@@ -6,8 +6,8 @@ import itertools
 import math
 from collections.abc import Iterator, Mapping
 
+from fieldhand_bench.missions.case_site import CaseSite
 from fieldhand_bench.missions.cases import Bounds, Expected
-from fieldhand_bench.missions.ground import Ground
 from fieldhand_bench.missions.log import Done, Log
 from fieldhand_bench.missions.matching import describe, mismatch
 
@@ -17,29 +17,29 @@ _AT_TREE, _AT_TREE_M = 0.75, 3.0
 _AT_MARKER_M = 3.0
 
 
-def judge(ground: Ground, expected: Expected, log: Log) -> tuple[str, ...]:
+def judge(site: CaseSite, expected: Expected, log: Log) -> tuple[str, ...]:
     """Return the deviations from the expected outcome, one sentence each; empty if there are none."""
     return (
-        *_away_from_trees(ground, expected, log),
-        *_steps(ground, expected, log),
+        *_away_from_trees(site, expected, log),
+        *_steps(site, expected, log),
         *_counts(expected, log),
-        *_elsewhere(ground, expected, log),
+        *_elsewhere(site, expected, log),
         *_distances(expected, log),
-        *_end(ground, expected, log),
+        *_end(site, expected, log),
     )
 
 
-def _away_from_trees(ground: Ground, expected: Expected, log: Log) -> Iterator[str]:
+def _away_from_trees(site: CaseSite, expected: Expected, log: Log) -> Iterator[str]:
     if expected.free_points:
         return
     for one in log.done:
-        if one.off_m > max(_AT_TREE * ground.spacing_m, _AT_TREE_M):
+        if one.off_m > max(_AT_TREE * site.spacing_m, _AT_TREE_M):
             yield f"{one.action} was done {one.off_m:.1f} m from the nearest tree"
 
 
-def _steps(ground: Ground, expected: Expected, log: Log) -> Iterator[str]:
+def _steps(site: CaseSite, expected: Expected, log: Log) -> Iterator[str]:
     if expected.steps is not None:
-        wrong = mismatch(ground, expected.steps, log.done, any_order=expected.any_order)
+        wrong = mismatch(site, expected.steps, log.done, any_order=expected.any_order)
         if wrong:
             yield wrong
     if len(log.done) < expected.least_stops:
@@ -50,11 +50,11 @@ def _counts(expected: Expected, log: Log) -> Iterator[str]:
     for action, bounds in (expected.counts or {}).items():
         captures = sum(one.captures for one in log.done if one.action == action)
         if not _within(captures, bounds):
-            yield f"{action} was done {captures} times, wanted {_said(bounds)}"
+            yield f"{action} was done {captures} times, wanted {_bounds_text(bounds)}"
     for action, bounds in expected.trees.items():
         trees = len({one.tree for one in log.done if one.action == action})
         if not _within(trees, bounds):
-            yield f"{action} was done at {trees} different trees, wanted {_said(bounds)}"
+            yield f"{action} was done at {trees} different trees, wanted {_bounds_text(bounds)}"
     if expected.counts is not None:
         yield from _uncalled_for(expected.counts, expected, log.done)
 
@@ -66,10 +66,10 @@ def _uncalled_for(counts: Mapping[str, Bounds], expected: Expected, done: tuple[
         yield "a tree was worked on twice"
 
 
-def _elsewhere(ground: Ground, expected: Expected, log: Log) -> Iterator[str]:
+def _elsewhere(site: CaseSite, expected: Expected, log: Log) -> Iterator[str]:
     for one in log.done:
-        if not expected.at_all.holds(ground, one.tree, {}):
-            yield f"{describe(ground, one)} is not at {expected.at_all.words}"
+        if not expected.at_all.holds(site, one.tree, {}):
+            yield f"{describe(site, one)} is not at {expected.at_all.words}"
 
 
 def _distances(expected: Expected, log: Log) -> Iterator[str]:
@@ -77,22 +77,22 @@ def _distances(expected: Expected, log: Log) -> Iterator[str]:
         for here, there in itertools.pairwise(log.stops):
             away = math.dist(here, there)
             if not _within(away, expected.apart_m):
-                yield f"two stops are {away:.1f} m apart, wanted {_said(expected.apart_m)} m"
+                yield f"two stops are {away:.1f} m apart, wanted {_bounds_text(expected.apart_m)} m"
     if expected.most_travel_m is not None and log.travelled_m > expected.most_travel_m:
         yield f"{log.travelled_m:.1f} m were driven, {expected.most_travel_m:g} m at most wanted"
 
 
-def _end(ground: Ground, expected: Expected, log: Log) -> Iterator[str]:
+def _end(site: CaseSite, expected: Expected, log: Log) -> Iterator[str]:
     if log.end is None:
         yield "the log does not say how the mission ended"
         return
     if log.status != expected.status:
         yield f"the mission ended as {log.status}, wanted {expected.status}"
     if isinstance(expected.end, str):
-        away = math.dist(log.end, ground.markers[expected.end])
+        away = math.dist(log.end, site.markers[expected.end])
         if away > _AT_MARKER_M:
             yield f"it ended {away:.1f} m from the {expected.end} marker"
-    elif expected.end is not None and not expected.end.holds(ground, ground.nearest(log.end)[0], {}):
+    elif expected.end is not None and not expected.end.holds(site, site.nearest(log.end)[0], {}):
         yield f"it did not end at {expected.end.words}"
 
 
@@ -100,6 +100,6 @@ def _within(value: float, bounds: Bounds) -> bool:
     return bounds[0] <= value <= bounds[1]
 
 
-def _said(bounds: Bounds) -> str:
+def _bounds_text(bounds: Bounds) -> str:
     low, high = bounds
     return f"{low:g}" if low == high else f"{low:g} to {high:g}"

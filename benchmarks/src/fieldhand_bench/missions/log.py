@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from fieldhand.errors import CaseError
-from fieldhand_bench.missions.ground import Ground, Points
+from fieldhand_bench.missions.case_site import CaseSite, Points
 
 #: Maximum distance between two captures that belong to one stop, metres.
 _ONE_STOP_M = 0.5
@@ -53,7 +53,7 @@ class Log:
     end: Points | None
 
 
-def read_log(lines: Iterable[str], ground: Ground) -> Log:
+def read_log(lines: Iterable[str], site: CaseSite) -> Log:
     """Parse an event log, one JSON object per line, and assign its actions to trees.
 
     Raises:
@@ -70,12 +70,12 @@ def read_log(lines: Iterable[str], ground: Ground) -> Log:
             travelled = max(travelled, float(event.get("travelled_m", 0.0)))
             match event.get("event"), event.get("status"):
                 case "action", "success":
-                    at = _at(event, ground)
-                    _add(done, str(event["action"]), int(event.get("count", 1)), *ground.nearest(at))
+                    at = _at(event, site)
+                    _add(done, str(event["action"]), int(event.get("count", 1)), *site.nearest(at))
                     if not stops or math.dist(at, stops[-1]) > _ONE_STOP_M:
                         stops.append(at)
                 case "mission", ended:
-                    status, end = str(ended), _at(event, ground)
+                    status, end = str(ended), _at(event, site)
         except (ValueError, KeyError, TypeError, AttributeError) as error:
             raise CaseError(
                 f"is not an event that can be judged: {error}",
@@ -85,11 +85,11 @@ def read_log(lines: Iterable[str], ground: Ground) -> Log:
     return Log(done=tuple(done), stops=np.array(stops).reshape(-1, 2), travelled_m=travelled, status=status, end=end)
 
 
-def _at(event: Mapping[str, Any], ground: Ground) -> Points:
+def _at(event: Mapping[str, Any], site: CaseSite) -> Points:
     degrees = np.array([float(event["lat"]), float(event["lon"])])
     if not np.isfinite(degrees).all():
         raise ValueError("latitude and longitude are no numbers")
-    return ground.metres(degrees)
+    return site.metres(degrees)
 
 
 def _add(done: list[Done], action: str, captures: int, tree: int, off_m: float) -> None:

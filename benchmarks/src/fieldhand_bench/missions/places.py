@@ -9,11 +9,11 @@ from typing import Any, Literal, Protocol
 
 import numpy as np
 
-from fieldhand_bench.missions.ground import CornerName, Ground, Points
+from fieldhand_bench.missions.case_site import CaseSite, CornerName, Points
 
 Side = Literal["north", "south", "east", "west"]
 #: Trees of the labelled steps, by label, as indices in the file.
-Labels = Mapping[str, int]
+StepLabels = Mapping[str, int]
 
 _WAYS: Mapping[Side, tuple[float, float]] = {
     "north": (0.0, 1.0),
@@ -33,12 +33,12 @@ _AT_MARKER = 2
 
 
 @dataclass(frozen=True, kw_only=True)
-class Candidate:
+class TestedTree:
     """A tree to be tested, with the trees of the steps before it."""
 
-    ground: Ground
+    site: CaseSite
     tree: int
-    labels: Labels
+    labels: StepLabels
 
 
 class Demand(Protocol):
@@ -49,13 +49,13 @@ class Demand(Protocol):
         """Labels of the steps whose trees the condition depends on."""
         ...
 
-    def holds(self, it: Candidate) -> bool:
+    def holds(self, it: TestedTree) -> bool:
         """Return True if the tree meets the condition."""
         ...
 
 
 @dataclass(frozen=True, kw_only=True)
-class Place:
+class CasePlace:
     """A place: the trees that meet every condition; without conditions, any tree.
 
     Attributes:
@@ -71,13 +71,13 @@ class Place:
         """Labels of the steps whose trees the place depends on."""
         return frozenset(label for demand in self.demands for label in demand.labels)
 
-    def holds(self, ground: Ground, tree: int, labels: Labels) -> bool:
+    def holds(self, site: CaseSite, tree: int, labels: StepLabels) -> bool:
         """Return True if a tree is such a place."""
-        it = Candidate(ground=ground, tree=tree, labels=labels)
+        it = TestedTree(site=site, tree=tree, labels=labels)
         return all(demand.holds(it) for demand in self.demands)
 
 
-ANYWHERE = Place()
+ANYWHERE = CasePlace()
 
 
 class _Alone:
@@ -94,9 +94,9 @@ class Corner(_Alone):
 
     name: CornerName | None
 
-    def holds(self, it: Candidate) -> bool:
-        names = it.ground.corners if self.name is None else (self.name,)
-        return any(it.tree in it.ground.corners[name] for name in names)
+    def holds(self, it: TestedTree) -> bool:
+        names = it.site.corners if self.name is None else (self.name,)
+        return any(it.tree in it.site.corners[name] for name in names)
 
 
 @dataclass(frozen=True)
@@ -108,9 +108,9 @@ class Beyond(_Alone):
 
     sides: tuple[Side, ...]
 
-    def holds(self, it: Candidate) -> bool:
-        out = it.ground.xy[it.tree] - it.ground.middle
-        return all(_along(out, side) >= -it.ground.spacing_m / 2 for side in self.sides)
+    def holds(self, it: TestedTree) -> bool:
+        out = it.site.xy[it.tree] - it.site.middle
+        return all(_along(out, side) >= -it.site.spacing_m / 2 for side in self.sides)
 
 
 @dataclass(frozen=True)
@@ -120,7 +120,7 @@ class Most(_Alone):
     side: Side
     within_m: float
 
-    def holds(self, it: Candidate) -> bool:
+    def holds(self, it: TestedTree) -> bool:
         return _to_edge(it, self.side) <= self.within_m
 
 
@@ -130,10 +130,10 @@ class Central(_Alone):
 
     part: float
 
-    def holds(self, it: Candidate) -> bool:
-        reach = self.part * float(np.hypot(*(it.ground.high - it.ground.low))) / 2
-        away = float(np.hypot(*(it.ground.xy[it.tree] - it.ground.middle)))
-        return away <= max(reach, _BESIDE * it.ground.spacing_m)
+    def holds(self, it: TestedTree) -> bool:
+        reach = self.part * float(np.hypot(*(it.site.high - it.site.low))) / 2
+        away = float(np.hypot(*(it.site.xy[it.tree] - it.site.middle)))
+        return away <= max(reach, _BESIDE * it.site.spacing_m)
 
 
 @dataclass(frozen=True)
@@ -142,12 +142,12 @@ class MidEdge(_Alone):
 
     side: Side
 
-    def holds(self, it: Candidate) -> bool:
-        if _to_edge(it, self.side) > max(_EDGE_M, _BESIDE * it.ground.spacing_m):
+    def holds(self, it: TestedTree) -> bool:
+        if _to_edge(it, self.side) > max(_EDGE_M, _BESIDE * it.site.spacing_m):
             return False
         axis = 0 if self.side in ("north", "south") else 1
-        off = abs(float(it.ground.xy[it.tree][axis] - it.ground.middle[axis]))
-        return off <= float(it.ground.high[axis] - it.ground.low[axis]) / 6
+        off = abs(float(it.site.xy[it.tree][axis] - it.site.middle[axis]))
+        return off <= float(it.site.high[axis] - it.site.low[axis]) / 6
 
 
 @dataclass(frozen=True)
@@ -160,7 +160,7 @@ class Same:
     def labels(self) -> tuple[str, ...]:
         return (self.label,)
 
-    def holds(self, it: Candidate) -> bool:
+    def holds(self, it: TestedTree) -> bool:
         return it.tree == it.labels[self.label]
 
 
@@ -170,7 +170,7 @@ class OtherThan:
 
     labels: tuple[str, ...]
 
-    def holds(self, it: Candidate) -> bool:
+    def holds(self, it: TestedTree) -> bool:
         return all(it.tree != it.labels[label] for label in self.labels)
 
 
@@ -186,12 +186,12 @@ class Near:
     def labels(self) -> tuple[str, ...]:
         return (self.label,)
 
-    def holds(self, it: Candidate) -> bool:
+    def holds(self, it: TestedTree) -> bool:
         of = it.labels[self.label]
-        others = it.ground.ranked(it.ground.xy[of], self.rank + 1)[1:]
+        others = it.site.ranked(it.site.xy[of], self.rank + 1)[1:]
         if it.tree == of or it.tree not in others:
             return False
-        return not self.adjacent or float(it.ground.distances(of)[it.tree]) <= _NEIGHBOUR * it.ground.spacing_m
+        return not self.adjacent or float(it.site.distances(of)[it.tree]) <= _NEIGHBOUR * it.site.spacing_m
 
 
 @dataclass(frozen=True)
@@ -205,8 +205,8 @@ class Far:
     def labels(self) -> tuple[str, ...]:
         return (self.label,)
 
-    def holds(self, it: Candidate) -> bool:
-        away = it.ground.distances(it.labels[self.label])
+    def holds(self, it: TestedTree) -> bool:
+        away = it.site.distances(it.labels[self.label])
         return float(away[it.tree]) >= self.fraction * float(away.max())
 
 
@@ -225,11 +225,11 @@ class Offset:
     def labels(self) -> tuple[str, ...]:
         return (self.label,)
 
-    def holds(self, it: Candidate) -> bool:
-        leg = it.ground.xy[it.tree] - it.ground.xy[it.labels[self.label]]
+    def holds(self, it: TestedTree) -> bool:
+        leg = it.site.xy[it.tree] - it.site.xy[it.labels[self.label]]
         away = math.hypot(*leg)
-        wanted = self.trees * it.ground.spacing_m
-        if abs(away - wanted) > max(1.5 * it.ground.spacing_m, 0.3 * wanted):
+        wanted = self.trees * it.site.spacing_m
+        if abs(away - wanted) > max(1.5 * it.site.spacing_m, 0.3 * wanted):
             return False
         return self.toward is None or _along(leg, self.toward) > _TOWARD * away
 
@@ -240,21 +240,21 @@ class Positions(_Alone):
 
     positions: frozenset[int]
 
-    def holds(self, it: Candidate) -> bool:
+    def holds(self, it: TestedTree) -> bool:
         return it.tree in self.positions
 
 
 @dataclass(frozen=True)
-class Terminal(_Alone):
+class EndTree(_Alone):
     """The first or last tree: that of the file, or one of the two nearest to the marker."""
 
     marker: Literal["start", "end"]
 
-    def holds(self, it: Candidate) -> bool:
-        if it.tree == (0 if self.marker == "start" else len(it.ground.xy) - 1):
+    def holds(self, it: TestedTree) -> bool:
+        if it.tree == (0 if self.marker == "start" else len(it.site.xy) - 1):
             return True
-        at = it.ground.markers.get(self.marker)
-        return at is not None and it.tree in it.ground.ranked(at, _AT_MARKER)
+        at = it.site.markers.get(self.marker)
+        return at is not None and it.tree in it.site.ranked(at, _AT_MARKER)
 
 
 @dataclass(frozen=True)
@@ -263,8 +263,8 @@ class Attributes(_Alone):
 
     values: Mapping[str, Any]
 
-    def holds(self, it: Candidate) -> bool:
-        return all(it.ground.properties[it.tree].get(key) == value for key, value in self.values.items())
+    def holds(self, it: TestedTree) -> bool:
+        return all(it.site.properties[it.tree].get(key) == value for key, value in self.values.items())
 
 
 def _along(leg: Points, side: Side) -> float:
@@ -272,7 +272,7 @@ def _along(leg: Points, side: Side) -> float:
     return float(leg @ np.array(_WAYS[side]))
 
 
-def _to_edge(it: Candidate, side: Side) -> float:
+def _to_edge(it: TestedTree, side: Side) -> float:
     """Return the distance from a tree to the line through the farthest tree on that side, metres."""
-    edge = it.ground.high if side in ("north", "east") else it.ground.low
-    return _along(edge - it.ground.xy[it.tree], side)
+    edge = it.site.high if side in ("north", "east") else it.site.low
+    return _along(edge - it.site.xy[it.tree], side)

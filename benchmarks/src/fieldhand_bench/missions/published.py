@@ -10,11 +10,11 @@ from typing import Literal
 
 import yaml
 
-from fieldhand_bench.missions.trial import Trial
+from fieldhand_bench.missions.trial import CaseTrial
 
 
 @dataclass(frozen=True, kw_only=True)
-class Row:
+class PublishedRow:
     """A row of the published table.
 
     Attributes:
@@ -41,24 +41,24 @@ class Tally:
 
 
 @cache
-def published() -> tuple[Row, ...]:
+def published() -> tuple[PublishedRow, ...]:
     """Return the rows in the order in which they were published."""
     text = (resources.files("fieldhand_bench.missions") / "published.yaml").read_text(encoding="utf-8")
-    return tuple(Row(**row) for row in yaml.safe_load(text))
+    return tuple(PublishedRow(**row) for row in yaml.safe_load(text))
 
 
-def row_of(case: str) -> Row | None:
+def row_of(case: str) -> PublishedRow | None:
     """Return the row that a case reproduces; None if it reproduces none."""
     return next((row for row in published() if row.case == case), None)
 
 
-def sorted_by_row(trials: Iterable[Trial]) -> tuple[Trial, ...]:
+def sorted_by_row(trials: Iterable[CaseTrial]) -> tuple[CaseTrial, ...]:
     """Sort trials: rows of the published table first, in its order, then all others in their own order."""
     place = {row.case: number for number, row in enumerate(published())}
     return tuple(sorted(trials, key=lambda trial: place.get(trial.id, len(place))))
 
 
-def tallies(trials: Iterable[Trial]) -> tuple[Tally, ...]:
+def tallies(trials: Iterable[CaseTrial]) -> tuple[Tally, ...]:
     """Count the rows that are not spatial, then those that are; kinds without trials are left out."""
     known = [(row, trial) for trial in trials if (row := row_of(trial.id)) is not None]
     return tuple(

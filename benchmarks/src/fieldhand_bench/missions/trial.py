@@ -21,14 +21,14 @@ from fieldhand.site.model import Site
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import walk
+from fieldhand_bench.missions.case_site import CaseSite, load_case_site
 from fieldhand_bench.missions.cases import Case, CaseWorld
-from fieldhand_bench.missions.ground import Ground, load_ground
 from fieldhand_bench.missions.judge import judge
 from fieldhand_bench.missions.log import read_log
 
 #: Result of planning a request: ``planned`` a mission, ``asked`` a question, ``refused``; ``failed`` without a usable
 #: answer of the model; ``not approved`` because a check forbids the Task.
-Answer = Literal["planned", "asked", "refused", "failed", "not approved"]
+TrialAnswer = Literal["planned", "asked", "refused", "failed", "not approved"]
 
 _APPROVED_AT = datetime(2026, 1, 1, tzinfo=UTC)
 _FIRST = "go to the first tree"
@@ -55,7 +55,7 @@ class Metered:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Trial:
+class CaseTrial:
     """The result of a case.
 
     Attributes:
@@ -74,7 +74,7 @@ class Trial:
     id: str
     request: str
     source: str
-    answer: Answer
+    answer: TrialAnswer
     as_asked: bool
     why: str = ""
     wrong: tuple[tuple[str, ...], ...] = ()
@@ -108,14 +108,14 @@ class TrialSetup:
     seed: int
     clock: Callable[[], float]
     keep: Callable[[Case, int, Sequence[str]], None] | None = None
-    _grounds: dict[Path, Ground] = field(default_factory=dict)
+    _case_sites: dict[Path, CaseSite] = field(default_factory=dict)
     _sites: dict[Path, Site] = field(default_factory=dict)
 
-    def ground(self, path: Path) -> Ground:
+    def case_site(self, path: Path) -> CaseSite:
         """Return a site as read by the judge."""
-        if path not in self._grounds:
-            self._grounds[path] = load_ground(path)
-        return self._grounds[path]
+        if path not in self._case_sites:
+            self._case_sites[path] = load_case_site(path)
+        return self._case_sites[path]
 
     def site(self, path: Path) -> Site:
         """Return a site as used by missions, with its rows computed so that no measured time includes them."""
@@ -125,7 +125,7 @@ class TrialSetup:
         return self._sites[path]
 
 
-def try_all(cases: Sequence[Case], setup: TrialSetup) -> Iterator[Trial]:
+def try_all(cases: Sequence[Case], setup: TrialSetup) -> Iterator[CaseTrial]:
     """Plan, simulate and judge each case; yield its trial.
 
     Raises:
@@ -142,7 +142,7 @@ def try_all(cases: Sequence[Case], setup: TrialSetup) -> Iterator[Trial]:
         yield _try(case, robots[case.robot], setup)
 
 
-def _try(case: Case, robot: RobotProfile, setup: TrialSetup) -> Trial:
+def _try(case: Case, robot: RobotProfile, setup: TrialSetup) -> CaseTrial:
     site = setup.site(case.site)
     tries, tokens = (0, 0) if setup.model is None else (setup.model.tries, setup.model.tokens)
     began = setup.clock()
@@ -160,7 +160,7 @@ def _try(case: Case, robot: RobotProfile, setup: TrialSetup) -> Trial:
             except NotApprovedError as error:
                 answer, why = "not approved", str(error)
     right = answer in ("asked", "refused") if case.asks else bool(wrong) and not any(wrong)
-    return Trial(
+    return CaseTrial(
         id=case.id,
         request=case.request,
         source=case.source,
@@ -185,7 +185,7 @@ def _plan(case: Case, site: Site, robot: RobotProfile, planner: Planner) -> Outc
         return error
 
 
-def _answer(outcome: Outcome | ModelError) -> tuple[Answer, str]:
+def _answer(outcome: Outcome | ModelError) -> tuple[TrialAnswer, str]:
     match outcome:
         case Planned():
             return "planned", ""
@@ -221,10 +221,11 @@ def _drive(approved: mission.ApprovedMission, world: CaseWorld, seed: int) -> tu
 
 def _judged(case: Case, logs: Sequence[Sequence[str]], setup: TrialSetup) -> list[tuple[str, ...]]:
     """Return the deviations in each world, judged from the lines of its event log alone."""
-    ground = setup.ground(case.site)
+    case_site = setup.case_site(case.site)
     if setup.keep is not None:
         for number, lines in enumerate(logs):
             setup.keep(case, number, lines)
     return [
-        judge(ground, world.expected, read_log(lines, ground)) for world, lines in zip(case.worlds, logs, strict=True)
+        judge(case_site, world.expected, read_log(lines, case_site))
+        for world, lines in zip(case.worlds, logs, strict=True)
     ]

@@ -8,13 +8,13 @@ from typing import Any, TypeVar
 from fieldhand.errors import ProblemError
 
 T = TypeVar("T")
-Work = Callable[[Any], T]
+TaskFunction = Callable[[Any], T]
 
 _DASK = "dask://"
 _CONNECT_S = 15
 
 
-def spread(work: Work[T], pieces: Sequence[Any], engine: str = "local", jobs: int = -1) -> list[T]:
+def spread(work: TaskFunction[T], pieces: Sequence[Any], engine: str = "local", jobs: int = -1) -> list[T]:
     """Call a function with each piece and return the results, in the order of the pieces.
 
     Args:

@@ -13,7 +13,7 @@ from fieldhand.orienteering.costs import CostModel
 from fieldhand.orienteering.problem import Limit, Problem
 
 
-class Graph(BaseModel):
+class BenchmarkGraph(BaseModel):
     """A graph file. Distances are straight lines, in the unit of the coordinates."""
 
     model_config = ConfigDict(frozen=True)
@@ -39,7 +39,7 @@ class Graph(BaseModel):
         )
 
 
-def load_graphs(folder: Path) -> tuple[Graph, ...]:
+def load_graphs(folder: Path) -> tuple[BenchmarkGraph, ...]:
     """Load a graph file, or every ``*.json`` file of a folder, in order of size.
 
     Raises:
@@ -51,9 +51,9 @@ def load_graphs(folder: Path) -> tuple[Graph, ...]:
     return tuple(sorted((_load(file) for file in files), key=lambda g: (len(g.xy), g.name)))
 
 
-def _load(file: Path) -> Graph:
+def _load(file: Path) -> BenchmarkGraph:
     try:
-        return Graph.model_validate(json.loads(file.read_text(encoding="utf-8")))
+        return BenchmarkGraph.model_validate(json.loads(file.read_text(encoding="utf-8")))
     except OSError as error:
         raise ProblemError(f"cannot be read: {error.strerror}", where=str(file)) from error
     except ValidationError as error:

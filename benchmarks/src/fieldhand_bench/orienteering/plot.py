@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 from fieldhand.errors import OutputError
 from fieldhand_bench.orienteering.published import published_for
-from fieldhand_bench.orienteering.run import Row
+from fieldhand_bench.orienteering.run import SolverResult
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-def plot(rows: Sequence[Row], file: Path) -> None:
+def plot(rows: Sequence[SolverResult], file: Path) -> None:
     """Plot the rows to a file; its suffix selects the format (png, svg, pdf).
 
     Raises:
@@ -45,7 +45,9 @@ def plot(rows: Sequence[Row], file: Path) -> None:
         raise OutputError(f"the plot cannot be written: {error}", where=str(file)) from error
 
 
-def _draw(panel: Axes, graph: str, setting: tuple[float, float], rows: Sequence[Row], solvers: Sequence[str]) -> None:
+def _draw(
+    panel: Axes, graph: str, setting: tuple[float, float], rows: Sequence[SolverResult], solvers: Sequence[str]
+) -> None:
     budget, chance = setting
     for row in rows:
         low, high = row.failures_interval

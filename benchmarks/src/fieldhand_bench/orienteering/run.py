@@ -16,7 +16,7 @@ from fieldhand.orienteering.problem import Problem
 from fieldhand.orienteering.simulated_mission import simulate_mission
 from fieldhand_bench.orienteering.bound import with_perfect_information
 from fieldhand_bench.orienteering.engine import spread
-from fieldhand_bench.orienteering.graphs import Graph
+from fieldhand_bench.orienteering.graphs import BenchmarkGraph
 from fieldhand_bench.orienteering.solvers import Options, prepare
 
 Floats = NDArray[np.float64]
@@ -26,7 +26,7 @@ _Z = 1.959964
 
 
 @dataclass(frozen=True, kw_only=True)
-class Row:
+class SolverResult:
     """The results of one solver on one graph.
 
     Attributes:
@@ -75,7 +75,7 @@ class _Driven:
 
 
 def run(
-    graphs: Sequence[Graph],
+    graphs: Sequence[BenchmarkGraph],
     *,
     budget: float,
     failure_probability: float,
@@ -84,7 +84,7 @@ def run(
     options: Options,
     engine: str = "local",
     jobs: int = -1,
-) -> Iterator[Row]:
+) -> Iterator[SolverResult]:
     """Yield one row per graph and solver, as they are computed. A seed gives the same rewards on any engine.
 
     Args:
@@ -165,14 +165,16 @@ def _timed(following: Callable[[State], int], seconds: list[float]) -> Callable[
     return timed
 
 
-def _row(graph: Graph, solver: str, problem: Problem, driven: Sequence[_Driven], plan_s: float) -> Row:
+def _row(
+    graph: BenchmarkGraph, solver: str, problem: Problem, driven: Sequence[_Driven], plan_s: float
+) -> SolverResult:
     rewards, kept = np.concatenate([d.rewards for d in driven]), np.concatenate([d.kept for d in driven])
     seconds = np.concatenate([d.seconds for d in driven])
     good = rewards[kept]
     mean = float(good.mean()) if len(good) else 0.0
     half = _Z * float(good.std(ddof=1)) / np.sqrt(len(good)) if len(good) > 1 else 0.0
     failures = float(1.0 - kept.mean())
-    return Row(
+    return SolverResult(
         graph=graph.name,
         solver=solver,
         budget=problem.limits[0].budget,

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from fieldhand.errors import ProblemError
 from fieldhand.orienteering.policy import Policy
-from fieldhand.orienteering.prepared_solver import Decide, PreparedSolver
+from fieldhand.orienteering.prepared_solver import NextVertex, PreparedSolver
 from fieldhand.orienteering.problem import Problem
 from fieldhand.orienteering.route import StoppingCriterion, solve
 from fieldhand.plugins import active
@@ -39,7 +39,7 @@ class Options:
 class _Online:
     policy: Policy
 
-    def mission(self, seed: int) -> Decide:
+    def mission(self, seed: int) -> NextVertex:
         return self.policy.again(seed, self.policy.price).next
 
 
@@ -47,7 +47,7 @@ class _Online:
 class _Fixed:
     vertices: tuple[int, ...]
 
-    def mission(self, seed: int) -> Decide:  # noqa: ARG002
+    def mission(self, seed: int) -> NextVertex:  # noqa: ARG002
         ahead = iter(self.vertices[1:])
         return lambda _: next(ahead)
 
@@ -56,7 +56,7 @@ class _Fixed:
 class _Greedy:
     problem: Problem
 
-    def mission(self, seed: int) -> Decide:  # noqa: ARG002
+    def mission(self, seed: int) -> NextVertex:  # noqa: ARG002
         from fieldhand_bench.orienteering.greedy import Greedy
 
         return Greedy(self.problem).next
@@ -67,7 +67,7 @@ class _TreeSearch:
     problem: Problem
     simulations: int
 
-    def mission(self, seed: int) -> Decide:
+    def mission(self, seed: int) -> NextVertex:
         from fieldhand_bench.orienteering.mcts import TreeSearch
 
         return TreeSearch(self.problem, seed, self.simulations).next

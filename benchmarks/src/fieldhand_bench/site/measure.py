@@ -25,7 +25,7 @@ from fieldhand_bench.site.memory import own_peak_bytes, peak_bytes
 from fieldhand_bench.site.orchard import benchmark_orchard
 from fieldhand_bench.site.samples import samples
 
-Clock = Callable[[], float]
+Stopwatch = Callable[[], float]
 
 _DRIVES = 200
 _VISITED = 50
@@ -40,14 +40,14 @@ class Timing:
         first_s: Duration of the first time, before anything is cached, seconds.
         median_s: Median duration of the repeats, seconds.
         worst_s: Maximum duration of the repeats, seconds.
-        found: Number of places that a selector found; 0 for other steps.
+        places: Number of places that a selector gave; 0 for other steps.
     """
 
     name: str
     first_s: float
     median_s: float
     worst_s: float
-    found: int = 0
+    places: int = 0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -96,7 +96,7 @@ def measure_site(
     repeats: int,
     clearance_m: float,
     standoff_m: float,
-    clock: Clock = time.perf_counter,
+    clock: Stopwatch = time.perf_counter,
 ) -> SiteBenchmark:
     """Measure an orchard of so many trees.
 
@@ -149,7 +149,7 @@ def _graph(site: Site, clearance_m: float, standoff_m: float) -> Drives:
     return drives
 
 
-def _steps(data: bytes, repeats: int, clearance_m: float, standoff_m: float, clock: Clock) -> tuple[Timing, ...]:
+def _steps(data: bytes, repeats: int, clearance_m: float, standoff_m: float, clock: Stopwatch) -> tuple[Timing, ...]:
     """Time reading, rows and graph on a fresh site each time."""
     taken: list[tuple[float, float, float]] = []
     for _ in range(repeats):
@@ -171,25 +171,25 @@ def _steps(data: bytes, repeats: int, clearance_m: float, standoff_m: float, clo
     )
 
 
-def _selectors(site: Site, repeats: int, clock: Clock) -> tuple[Timing, ...]:
+def _selectors(site: Site, repeats: int, clock: Stopwatch) -> tuple[Timing, ...]:
     middle = site.trees[len(site.trees) // 3].place
     visited = tuple(t.place.id for t in site.trees[:_VISITED])
     context = Context(here=middle, visited=visited, bound={EXAMPLE_LABEL: (middle,)})
     timings = []
     for name, selector in samples(site).items():
-        taken, found = [], 0
+        taken, places = [], 0
         for _ in range(repeats + 1):
             begun = clock()
             try:
-                found = len(resolve(selector, site, context))
+                places = len(resolve(selector, site, context))
             except PlaceError:
-                found = 0  # finding no place takes as long
+                places = 0  # finding no place takes as long
             taken.append(clock() - begun)
-        timings.append(_timing(name, taken[1:], first_s=taken[0], found=found))
+        timings.append(_timing(name, taken[1:], first_s=taken[0], places=places))
     return tuple(timings)
 
 
-def _drives(site: Site, drives: Drives, rng: np.random.Generator, clock: Clock) -> tuple[Timing, int]:
+def _drives(site: Site, drives: Drives, rng: np.random.Generator, clock: Stopwatch) -> tuple[Timing, int]:
     """Time drives between random trees on a graph that is already built; return unreachable pairs, too."""
     places: list[Place] = [site.trees[k].place for k in rng.integers(len(site.trees), size=2 * _DRIVES).tolist()]
     taken: list[float] = []
@@ -211,11 +211,11 @@ def _peak(data: bytes, clearance_m: float, standoff_m: float) -> int | None:
         return peak_bytes(file, clearance_m, standoff_m)
 
 
-def _timing(name: str, taken: Sequence[float], *, first_s: float | None = None, found: int = 0) -> Timing:
+def _timing(name: str, taken: Sequence[float], *, first_s: float | None = None, places: int = 0) -> Timing:
     return Timing(
         name=name,
         first_s=taken[0] if first_s is None else first_s,
         median_s=statistics.median(taken),
         worst_s=max(taken),
-        found=found,
+        places=places,
     )

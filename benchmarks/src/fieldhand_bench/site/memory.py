@@ -17,8 +17,8 @@ def peak_bytes(file: Path, clearance_m: float, standoff_m: float) -> int | None:
         text=True,
         check=False,
     )
-    said = done.stdout.strip()
-    return int(said) if done.returncode == 0 and said.isdigit() else None
+    text = done.stdout.strip()
+    return int(text) if done.returncode == 0 and text.isdigit() else None
 
 
 def own_peak_bytes() -> int | None:

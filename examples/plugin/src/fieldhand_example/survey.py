@@ -18,12 +18,12 @@ class SurveyPlanner:
     ) -> fh.Planned | fh.Clarify | fh.Refused:
         """Plan one request; see :class:`fieldhand.planning.planner.Planner`."""
         del answers  # it asks nothing
-        said = _REQUEST.fullmatch(request)
-        if said is None or int(said[1]) < 1:
+        match = _REQUEST.fullmatch(request)
+        if match is None or int(match[1]) < 1:
             reason = Reason(what="this planner knows surveys alone", advice="say: survey 5 trees")
             return fh.Refused(reasons=(reason,), planner="survey")
-        trees = fh.selectors.Spread(of=fh.selectors.Trees(), count=min(int(said[1]), len(site.trees)))
-        where = (said.span(),)  # every word of the request stands for this step
+        trees = fh.selectors.Spread(of=fh.selectors.Trees(), count=min(int(match[1]), len(site.trees)))
+        where = (match.span(),)  # every word of the request stands for this step
         body = fh.steps.Act(id="", action=robot.actions[0].name, said=where)
         plan = fh.steps.ForEach(id="", select=trees, body=body, said=where)
         return fh.Planned(task=fh.build_task(plan, site, robot, request=request), planner="survey")

@@ -50,8 +50,8 @@ def _file_name(text: str) -> str:
 
 
 Sha256 = Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")]
-Line = Annotated[str, Field(max_length=500), AfterValidator(_one_line)]
-Words = Annotated[str, Field(max_length=100_000), AfterValidator(_printable)]
+OneLine = Annotated[str, Field(max_length=500), AfterValidator(_one_line)]
+PrintableText = Annotated[str, Field(max_length=100_000), AfterValidator(_printable)]
 Moment = Annotated[str, Field(max_length=40), AfterValidator(_moment)]
 
 
@@ -67,21 +67,21 @@ class Approved(_FilePart):
         number: Sequence number among this signer's approvals, rising.
     """
 
-    by: Line
+    by: OneLine
     at: Moment
     until: Moment | None = None
     number: Annotated[int, Field(ge=1, le=10**12)] | None = None
-    confirmed: list[Words]
+    confirmed: list[PrintableText]
     language: Annotated[str, Field(pattern=r"^[a-z]{2,3}$")]
 
 
 class TaskPart(_FilePart):
     """The Task, stored as ``task.xml``."""
 
-    id: Line
+    id: OneLine
     sha256: Sha256
-    request: Words
-    planner: Line
+    request: PrintableText
+    planner: OneLine
 
 
 class SitePart(_FilePart):
@@ -104,7 +104,7 @@ class SitePart(_FilePart):
 class RobotPart(_FilePart):
     """The robot, whose profile is stored as ``robot.yaml``."""
 
-    name: Line
+    name: OneLine
     sha256: Sha256
 
 
@@ -117,7 +117,7 @@ class Manifest(_FilePart):
     """
 
     format: int
-    program: Line
+    program: OneLine
     approved: Approved
     task: TaskPart
     site: SitePart

@@ -166,15 +166,15 @@ class SigningKeys:
 
         data = read_guarded(key.file, private=True)
         at = str(key.file)
-        said = passphrase() if key.encrypted else None
-        if key.encrypted and not said:
+        secret = passphrase() if key.encrypted else None
+        if key.encrypted and not secret:
             raise KeyFileError(
                 "the key needs a passphrase",
                 where=at,
                 advice="type it when asked, or put it in FIELDHAND_KEY_PASSPHRASE",
             )
         try:
-            private = serialization.load_pem_private_key(data, said.encode() if said else None)
+            private = serialization.load_pem_private_key(data, secret.encode() if secret else None)
         except (ValueError, TypeError, UnsupportedAlgorithm):
             if key.encrypted:
                 raise KeyFileError("the passphrase is wrong, or the file is damaged", where=at) from None

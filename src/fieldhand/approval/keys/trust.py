@@ -20,7 +20,7 @@ from fieldhand.language import message
 
 #: File with the number of the list, in the folder of the keys.
 _LIST = "list.json"
-State = Literal["trusted", "revoked", "unknown"]
+KeyState = Literal["trusted", "revoked", "unknown"]
 
 
 def _moment(text: str) -> str:
@@ -62,7 +62,7 @@ class KnownKey:
     revoked: str | None = None
 
     @property
-    def state(self) -> State:
+    def state(self) -> KeyState:
         """Return the trust state, which decides about running what the key signed."""
         return "trusted" if self.revoked is None and self.public is not None else "revoked"
 

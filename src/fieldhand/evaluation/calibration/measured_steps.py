@@ -23,7 +23,7 @@ from fieldhand.task.results import (
     Visiting,
 )
 
-StepKind = Literal["leg", "capture", "rest"]
+MeasuredKind = Literal["leg", "capture", "rest"]
 
 #: A capture begins where one of these ends; behind a fault, a pause or a power cut nobody knows since when it took.
 _PROMPT = (Arrived, Acted, Decided, Visiting, Shed)
@@ -47,7 +47,7 @@ class MeasuredStep:
         done: True if the leg arrived or the capture succeeded.
     """
 
-    kind: StepKind
+    kind: MeasuredKind
     name: str = ""
     planned_m: float = 0.0
     metres: float = 0.0

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from fieldhand.evaluation.outcome import because, judge_end
+from fieldhand.evaluation.outcome import judge, judge_end
 from fieldhand.evaluation.report.incidents import FoldedLines, LeftOut, conditions, faults, left_out
 from fieldhand.evaluation.report.log_facts import branch_taken, captures, start_of, used
 from fieldhand.evaluation.report.place_names import PlaceNames
@@ -18,7 +18,7 @@ from fieldhand.task.authorization import Authorization
 from fieldhand.task.exceeded import say_status
 from fieldhand.task.frames import BudgetKind, Task
 from fieldhand.task.request_coverage import ROLE_NAMES, has_ranges, request_pieces
-from fieldhand.task.results import Event, GoalOutcome, Shed
+from fieldhand.task.results import Event, GoalOutcome
 
 _MARKS = {"success": "✓ met", "failure": "✗ not met", "indeterminate": "? not known"}
 
@@ -161,13 +161,13 @@ def _verdict(
     met = sum(o.outcome == "success" for o in outcomes)
     goals = f"{met} of {say_count(len(outcomes), 'goal')} met" if outcomes else "no goals"
     if status is None:
-        said = "".join(f"; {one.why}" for one in found)
-        return "cut off", f"Cut off: the log ends before the mission does; {goals} so far{said}."
+        text = "".join(f"; {one.why}" for one in found)
+        return "cut off", f"Cut off: the log ends before the mission does; {goals} so far{text}."
     if status in ("faulted", "aborted"):
         reason = "; ".join(filter(None, [reason, *(one.why for one in found)]))
     short_of = status == "completed" and met < len(outcomes)
-    said = f" ({reason})" if reason else ""
-    return "short" if short_of else status, f"{capitalised(say_status(status))}{said}: {goals}."
+    text = f" ({reason})" if reason else ""
+    return "short" if short_of else status, f"{capitalised(say_status(status))}{text}: {goals}."
 
 
 def _tiles(events: Sequence[Event]) -> tuple[tuple[str, str], ...]:
@@ -191,7 +191,8 @@ def _words(task: Task) -> tuple[tuple[str, str], ...]:
 
 
 def _goal_rows(task: Task, events: Sequence[Event], outcomes: Sequence[GoalOutcome]) -> Iterable[GoalRow]:
-    reasons = {because(e.reason) for e in events if isinstance(e, Shed) and e.reason}
+    # The section on work left out contains the reasons at length.
+    brief = {outcome.goal: outcome.why for outcome in judge(task, events, reasons=False)}
     goals = {goal.id: goal for goal in task.command.goals}
     for outcome in outcomes:
         goal = goals.get(outcome.goal)
@@ -204,15 +205,8 @@ def _goal_rows(task: Task, events: Sequence[Event], outcomes: Sequence[GoalOutco
             wanted=wanted,
             outcome=outcome.outcome,
             mark=_MARKS[outcome.outcome],
-            why=_without_reasons(outcome.why, reasons),
+            why=brief.get(outcome.goal, outcome.why),
         )
-
-
-def _without_reasons(why: str, reasons: Iterable[str]) -> str:
-    """Remove reasons that the section on work left out gives at length."""
-    for reason in reasons:
-        why = why.replace(reason, "")
-    return why
 
 
 def _bars(task: Task, events: Sequence[Event], estimate: Estimate | None) -> Iterable[Bar]:

@@ -42,20 +42,20 @@ class LeftOut:
 
     Attributes:
         mandatory: True if the work had to be done.
-        said: One sentence.
+        sentence: One sentence.
         details: Each decision of the guard as it was recorded.
     """
 
     mandatory: bool
-    said: str
+    sentence: str
     details: tuple[str, ...]
 
 
 @dataclass(frozen=True, kw_only=True)
 class FoldedLines:
-    """Lines, and if they are many a sentence that stands for them."""
+    """Lines, and a sentence shown in their place if they are many."""
 
-    said: str
+    summary: str
     lines: tuple[str, ...]
 
 
@@ -116,8 +116,8 @@ _ENDS: dict[MissionStatus, str] = {
 def _not_reached(ahead: Sequence[str], events: Sequence[Event], names: PlaceNames) -> LeftOut:
     ended = end_of(events)
     how = "the log ends before the mission does" if ended is None else f"the mission {_ENDS[ended.status]} before"
-    said = f"{say_count(len(ahead), 'place')} not reached because {how}: {names.many(ahead)}."
-    return LeftOut(mandatory=True, said=said, details=())
+    summary = f"{say_count(len(ahead), 'place')} not reached because {how}: {names.many(ahead)}."
+    return LeftOut(mandatory=True, sentence=summary, details=())
 
 
 def _given_up(group: Sequence[Shed], *, optional: bool, cut_off: bool, names: PlaceNames) -> LeftOut:
@@ -130,7 +130,7 @@ def _given_up(group: Sequence[Shed], *, optional: bool, cut_off: bool, names: Pl
     details = [f"{clock_time(event.t)}  {' '.join(event.reason.split())}" for event in group[:_MOST_DETAILS]]
     if len(group) > _MOST_DETAILS:
         details.append(f"and {len(group) - _MOST_DETAILS} more in the event log")
-    return LeftOut(mandatory=not optional, said=f"{what} {done} because {why}{where}.", details=tuple(details))
+    return LeftOut(mandatory=not optional, sentence=f"{what} {done} because {why}{where}.", details=tuple(details))
 
 
 def _chances(group: Sequence[Shed]) -> str:
@@ -142,8 +142,8 @@ def _chances(group: Sequence[Shed]) -> str:
     return f" ({spread} % chance of running short)"
 
 
-def _folded(lines: Sequence[str], said: str) -> FoldedLines:
+def _folded(lines: Sequence[str], summary: str) -> FoldedLines:
     """Return lines unfolded where they are few, and cut where they are too many."""
     more = len(lines) - _MOST_LINES
     kept = (*lines[:_MOST_LINES], f"and {more} more in the event log") if more > 0 else tuple(lines)
-    return FoldedLines(said=said if len(lines) > _FEW_LINES else "", lines=kept)
+    return FoldedLines(summary=summary if len(lines) > _FEW_LINES else "", lines=kept)

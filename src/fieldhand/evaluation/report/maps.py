@@ -126,7 +126,7 @@ def draw_map(
     if window is not None:
         _draw_whole(figure, site, events, window)
         show_detail(ax, window)
-    size = _ground(ax, site)
+    size = _draw_background(ax, site)
     labels = labels_on(ax, site)
     disc = disc_diameter(ax, np.array(work).reshape(-1, 2), float(np.clip(1.5 * math.sqrt(size), 5.0, 9.5)))
     legend = draw_drives(ax, site, events)
@@ -166,7 +166,7 @@ def _draw_whole(figure: Figure, site: Site, events: Sequence[Event], window: Win
     whole.set_xlim(limits[0])
     whole.set_ylim(limits[1])
     whole.set_axis_off()
-    _ground(whole, site)
+    _draw_background(whole, site)
     draw_drives(whole, site, events)
     draw_scale_and_north(whole)
     show_window(whole, window)
@@ -235,7 +235,7 @@ def _figure(site: Site) -> Figure:
     return figure
 
 
-def _ground(ax: Axes, site: Site) -> float:
+def _draw_background(ax: Axes, site: Site) -> float:
     """Draw zones, rows, trees and markers in muted colours; return the area of a tree's dot."""
     from matplotlib.collections import LineCollection
 

@@ -66,12 +66,12 @@ def _positions(slots: Sequence[int]) -> str:
             runs[-1].append(slot)
         else:
             runs.append([slot])
-    said = list(
+    names = list(
         itertools.chain.from_iterable(
             [f"{run[0]} to {run[-1]}"] if len(run) > 2 else [str(slot) for slot in run] for run in runs
         )
     )
-    more = len(said) - _MOST_NAMED
+    more = len(names) - _MOST_NAMED
     if more > 0:
-        said = [*said[:_MOST_NAMED], f"{more} more"]
-    return f"{'position' if len(slots) == 1 else 'positions'} {listed(said)}"
+        names = [*names[:_MOST_NAMED], f"{more} more"]
+    return f"{'position' if len(slots) == 1 else 'positions'} {listed(names)}"

@@ -114,17 +114,17 @@ def thresholds(task: Task, robot: RobotProfile) -> Mapping[tuple[str, str], tupl
 
 def relation(value: float, limits: Sequence[float], digits: int, unit: str) -> str:
     """Return how a reading relates to its thresholds: "1.4 °C above 34 °C"; empty if there are none."""
-    said = []
+    parts = []
     for limit in limits:
         apart = abs(value - limit)
         side = "above" if value > limit else "below"
         if apart == 0.0:
-            said.append(f"exactly {say_number(limit)}{unit}")
+            parts.append(f"exactly {say_number(limit)}{unit}")
         else:
             # Enough decimals that a reading near its threshold is never printed as equal to it.
             finer = max(digits, min(6, math.ceil(-math.log10(apart))))
-            said.append(f"{say_fixed(apart, finer)}{unit} {side} {say_number(limit)}{unit}")
-    return "; ".join(said)
+            parts.append(f"{say_fixed(apart, finer)}{unit} {side} {say_number(limit)}{unit}")
+    return "; ".join(parts)
 
 
 def decimals(values: Sequence[float]) -> int:
@@ -141,8 +141,8 @@ def say_fixed(value: float, digits: int) -> str:
 
 def _unit(unit: str) -> str:
     """Return a unit with a leading space, or nothing for none."""
-    said = say_unit(unit)
-    return f" {said}" if said else ""
+    unit_text = say_unit(unit)
+    return f" {unit_text}" if unit_text else ""
 
 
 def _tested(node: Node, robot: RobotProfile) -> Iterator[tuple[str, str, float]]:
@@ -200,6 +200,6 @@ def _rows_of(event: Acted | InDoubt, summary: Mapping[str, ReadingSummary], name
             relation=relation(value, limits, known.decimals, known.unit) if finite else "",
         )
     if not values:
-        said = capitalised(say_action(event.action))
+        title = capitalised(say_action(event.action))
         done = "in doubt" if isinstance(event, InDoubt) else "done"
-        yield ReadingRow(time=clock_time(event.t), where=where, place=place, what=said, value=done, relation="")
+        yield ReadingRow(time=clock_time(event.t), where=where, place=place, what=title, value=done, relation="")

@@ -92,8 +92,8 @@ class NodeReader:
             at = self.elements.parts(inside[0], "place", SELECTORS)
             self.elements.ports(inside[0], ("place", "label"))
             self.elements.ports(inside[1], self.elements.known[kinds[1]])
-            said = self.elements.spans(tag, "_at_said")
-            act = self._act(inside[1], beside | {"at": at, "at_said": said})
+            spans = self.elements.spans(tag, "_at_said")
+            act = self._act(inside[1], beside | {"at": at, "at_said": spans})
             label = inside[0].ports.get("label") or act.label
             return replace(act, label=label)
         steps = tuple(self.node(child.element) for child in inside if child.kind != "AlwaysSuccess")

@@ -106,8 +106,10 @@ def _trees(root: _Element, elements: Elements) -> tuple[_Element, dict[str, _Ele
             root, "is not a tree of BehaviorTree.CPP", 'its outermost element is <root BTCPP_format="4">'
         )
     if root.get("BTCPP_format") != "4":
-        said = root.get("BTCPP_format") or "no format, as version 3 did"
-        raise elements.error(root, f"names {said}; format 4 can be read", "convert it with convert_v3_to_v4.py first")
+        version = root.get("BTCPP_format") or "no format, as version 3 did"
+        raise elements.error(
+            root, f"names {version}; format 4 can be read", "convert it with convert_v3_to_v4.py first"
+        )
     trees: dict[str, _Element] = {}
     for child in root:
         if child.tag == "include":

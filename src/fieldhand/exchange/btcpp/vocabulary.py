@@ -33,7 +33,7 @@ IF_UNKNOWN = "if_unknown"
 #: Fields that are not ports: the id is the node's name, ranges of the request are separate attributes.
 _BESIDE = ("id", "said", "at_said")
 
-Direction = Literal["input", "output"]
+PortDirection = Literal["input", "output"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,7 +49,7 @@ class Port:
     name: str
     type: str
     default: str | None = None
-    direction: Direction = "input"
+    direction: PortDirection = "input"
     about: str = ""
 
 

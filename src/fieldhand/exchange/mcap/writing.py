@@ -304,8 +304,8 @@ def _blocked_features(event: Obstructed) -> list[dict[str, Any]]:
     closed = [ring if ring[0] == ring[-1] else [*ring, ring[0]] for ring in rings]
     features = [_feature({"type": "Polygon", "coordinates": [ring]}, {"style": style}) for ring in closed]
     if known((event.lat, event.lon)):
-        said = {"place": event.place, "what": event.what, "unreachable": list(event.unreachable), "free": event.free}
-        features.append(_feature({"type": "Point", "coordinates": [event.lon, event.lat]}, said))
+        fields = {"place": event.place, "what": event.what, "unreachable": list(event.unreachable), "free": event.free}
+        features.append(_feature({"type": "Point", "coordinates": [event.lon, event.lat]}, fields))
     return features
 
 

@@ -121,7 +121,7 @@ class _MovingScene:
         make_text_visible(figure)
         self._canvas = _canvas(figure)
         self._canvas.draw()
-        self._ground = self._canvas.copy_from_bbox(figure.bbox)
+        self._background = self._canvas.copy_from_bbox(figure.bbox)
 
     def at(self, t: float) -> NDArray[np.uint8]:
         """Return the image at a time, shape (height, width, 4)."""
@@ -141,12 +141,12 @@ class _MovingScene:
             # Draw signs beside the robot instead of under it.
             mine = [sign for sign in signs if sign.mark == mark]
             flag.set_data([s.x + (1 + s.beside) * self._aside for s in mine], [s.y for s in mine])
-        said = visible(signs[-1].words) if signs else ""
-        self._news.set_text(said if len(said) <= _LONGEST else f"{said[: _LONGEST - 1]}\u2026")
+        news = visible(signs[-1].words) if signs else ""
+        self._news.set_text(news if len(news) <= _LONGEST else f"{news[: _LONGEST - 1]}\u2026")
         made = sum(c.good and c.t <= t for c in film.captures)
-        said = f"{made} capture{'s' * (made != 1)}"
-        self._clock.set_text(f"{clock_time(t)}   battery {film.charge_at(t):.0f} %   {said}")
-        self._canvas.restore_region(self._ground)
+        count = f"{made} capture{'s' * (made != 1)}"
+        self._clock.set_text(f"{clock_time(t)}   battery {film.charge_at(t):.0f} %   {count}")
+        self._canvas.restore_region(self._background)
         for artist in self._moving:
             self._ax.draw_artist(artist)
         return np.array(self._canvas.buffer_rgba())

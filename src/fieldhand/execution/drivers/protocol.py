@@ -60,7 +60,7 @@ class Position:
         return (self.x, self.y)
 
     def is_at(self, place: Place) -> bool:
-        """Return True if the robot is where it stands to be at a place, within :data:`AT_M`."""
+        """Return True if the robot is at the stand of a place, within :data:`AT_M`."""
         return math.dist(self.xy, place.stand or place.xy) <= AT_M
 
     def as_place(self, name: str = "on the way") -> Place:

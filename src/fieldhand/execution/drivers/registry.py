@@ -17,7 +17,7 @@ from fieldhand.task.frames import Task
 
 #: Connects to a robot for the duration of a context. Takes the site, the profile, the Task, the connection, and the
 #: seconds of the wall clock within which the robot must respond.
-Connect = Callable[[Site, RobotProfile, Task, Connection, float], AbstractContextManager[Vehicle]]
+ConnectDriver = Callable[[Site, RobotProfile, Task, Connection, float], AbstractContextManager[Vehicle]]
 
 
 class Presence(Protocol):
@@ -44,7 +44,7 @@ class DriverKind:
         watch: Starts to watch a robot's presence, for a robot that waits for missions; None if that is not possible.
     """
 
-    connect: Connect
+    connect: ConnectDriver
     summary: str
     ros2: bool = False
     watch: Callable[[RobotProfile, Connection], Presence] | None = None
@@ -75,7 +75,7 @@ def driver_kind(name: str) -> DriverKind:
     return replace(kind, connect=_explained(kind.connect, plugins[name]))
 
 
-def _explained(connect: Connect, plugin: Plugin) -> Connect:
+def _explained(connect: ConnectDriver, plugin: Plugin) -> ConnectDriver:
     """Return a function that connects, and names the plugin if its code fails."""
 
     @contextmanager
@@ -89,6 +89,6 @@ def _explained(connect: Connect, plugin: Plugin) -> Connect:
                 raise
             except Exception as error:  # a plugin's code may raise anything
                 raise plugin.error(f"failed to connect: {type(error).__name__}: {error}".rstrip(": ")) from error
-            yield vehicle
+            yield replace(vehicle, robot=vehicle.robot or robot)
 
     return explained

@@ -130,10 +130,10 @@ def _latest(data: bytes) -> tuple[int, HighWaterMark | None]:
         sha256, _, body = slot.strip().partition(b" ")
         if hashlib.sha256(body).hexdigest().encode() != sha256:
             continue
-        said = json.loads(body)
+        document = json.loads(body)
         heads = {
-            table: ChainHead(rows=rows, sha256=bytes.fromhex(sum_)) for table, (rows, sum_) in said["heads"].items()
+            table: ChainHead(rows=rows, sha256=bytes.fromhex(sum_)) for table, (rows, sum_) in document["heads"].items()
         }
-        if found[1] is None or said["turn"] > found[0]:
-            found = said["turn"], HighWaterMark(epoch=said["epoch"], heads=heads)
+        if found[1] is None or document["turn"] > found[0]:
+            found = document["turn"], HighWaterMark(epoch=document["epoch"], heads=heads)
     return found

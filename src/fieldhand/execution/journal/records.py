@@ -140,12 +140,12 @@ def goal_record(goal: DriveGoal | ActionGoal) -> Record:
 
 def answer_record(kind: RecordKind, node: str, answer: Verdict | VisitChoice | FieldhandError) -> Record:
     """Return the record of the guard's answer about a node, or of the error that it raised."""
-    said: dict[str, Any]
+    fields: dict[str, Any]
     if isinstance(answer, FieldhandError):
-        said = {"error": [type(answer).__name__, answer.what, answer.where, answer.advice]}
+        fields = {"error": [type(answer).__name__, answer.what, answer.where, answer.advice]}
     else:
-        said = {"answer": dataclasses.asdict(answer)}
-    return Record(kind=kind, body=json.dumps({"node": node, **said}))
+        fields = {"answer": dataclasses.asdict(answer)}
+    return Record(kind=kind, body=json.dumps({"node": node, **fields}))
 
 
 def verdict_of(record: Record, node: str) -> Verdict:
@@ -170,9 +170,9 @@ def choice_of(record: Record, node: str) -> VisitChoice:
         raise invalid_record(error) from None
 
 
-def foresight_record(said: FailsafeForecast) -> Record:
+def foresight_record(forecast: FailsafeForecast) -> Record:
     """Return the record of an alarm of the failsafe."""
-    return Record(kind="foresee", body=json.dumps(dataclasses.asdict(said)))
+    return Record(kind="foresee", body=json.dumps(dataclasses.asdict(forecast)))
 
 
 def foresight_of(record: Record) -> FailsafeForecast:
@@ -202,8 +202,8 @@ def _answer(record: Record, node: str) -> Mapping[str, Any]:
     return answer
 
 
-def _error(said: Sequence[str]) -> FieldhandError:
-    name, what, where, advice = said
+def _error(parts: Sequence[str]) -> FieldhandError:
+    name, what, where, advice = parts
     kind = getattr(errors, name, FieldhandError) if name in errors.__all__ else FieldhandError
     made: FieldhandError = kind(what, where=where, advice=advice)
     return made

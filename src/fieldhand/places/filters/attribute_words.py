@@ -72,5 +72,5 @@ def say_of_tree(attribute: str, test: Test, value: Value) -> str:
 
 
 def _amount(value: Value, unit: str) -> str:
-    said = named(value, "value") if isinstance(value, str) else say_value(value)
-    return message("{value} {unit}", value=said, unit=unit)
+    text = named(value, "value") if isinstance(value, str) else say_value(value)
+    return message("{value} {unit}", value=text, unit=unit)

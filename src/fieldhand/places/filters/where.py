@@ -48,7 +48,7 @@ class Where(FromGroup):
         base = wording.phrase(self.of)
         if isinstance(self.value, str) and self.test == "eq" and _ADJECTIVAL.search(self.attribute):
             return base.keeping(before=self.value)
-        return base.keeping(after=say_whose(self.attribute, self.test, self.value))
+        return base.keeping(whose=say_whose(self.attribute, self.test, self.value))
 
     @property
     def size(self) -> CountRange:

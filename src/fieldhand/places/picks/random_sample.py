@@ -51,8 +51,8 @@ class RandomSample(Counted):
         group, seed = wording.phrase(self.of).group(), self.seed
         if self.count == 1:
             return one(message("one of {trees}, drawn at random (seed {seed})", trees=group, seed=seed))
-        said = message("{count} of {trees}, drawn at random (seed {seed})", count=self.count, trees=group, seed=seed)
-        return many(said)
+        text = message("{count} of {trees}, drawn at random (seed {seed})", count=self.count, trees=group, seed=seed)
+        return many(text)
 
     @property
     def keeps_order(self) -> bool:

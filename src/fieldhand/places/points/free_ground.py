@@ -65,10 +65,10 @@ def area_called(site: Site, name: str) -> BaseGeometry:
     block = find_block(site, name)
     if block is None:
         raise no_such_zone(site, name)
-    return ground_of(site.xy[np.concatenate([row.trees for row in block.rows])], site.spacing_m / 2)
+    return area_around(site.xy[np.concatenate([row.trees for row in block.rows])], site.spacing_m / 2)
 
 
-def ground_of(xy: Floats, around_m: float) -> BaseGeometry:
+def area_around(xy: Floats, around_m: float) -> BaseGeometry:
     """Return the convex hull of some trees, extended by ``around_m`` metres."""
     return MultiPoint(xy).convex_hull.buffer(around_m)
 

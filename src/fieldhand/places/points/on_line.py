@@ -20,10 +20,10 @@ from fieldhand.places.neighbours.distances import Origin, distance_to, nearest_o
 from fieldhand.places.place_group import PlaceGroup
 from fieldhand.places.points.free_ground import (
     MOST_POINTS,
+    area_around,
     area_called,
     free_part,
     free_points,
-    ground_of,
     segments,
     tree_index,
 )
@@ -216,7 +216,7 @@ def _course(site: Site, row: Row, u: Floats, v: Floats) -> tuple[float, float]:
 def _across_area(spots: PlaceGroup, zone: str, notes: ResolutionNotes) -> Iterator[_Line]:
     """Yield straight lines through a zone or the extent of the trees, clear of trees and near the middle first."""
     site = spots.site
-    area = area_called(site, zone) if zone else ground_of(spots.xy, site.spacing_m / 2)
+    area = area_called(site, zone) if zone else area_around(spots.xy, site.spacing_m / 2)
     u = _long_way(site, area)
     v = np.array([-u[1], u[0]])
     middle = np.array(area.centroid.coords[0])

@@ -81,7 +81,7 @@ class Spaced(FromGroup):
         if self.zone:
             return message("on a line inside {zone}", zone=say_zone(self.zone))
         if group.bare and group.one_row:
-            return message("beside {row}", row=group.whose)
+            return message("beside {row}", row=group.rows_and_block)
         if group.plain:
             return message("beside the nearest row")
         return message("beside the nearest row of {trees}", trees=group.group())

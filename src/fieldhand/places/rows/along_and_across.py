@@ -66,19 +66,19 @@ def along_row(origin: PlaceGroup, selector: AlongRow, notes: ResolutionNotes) ->
     notes.candidates = left
     found = int(row.trees[at + way * min(selector.trees, left)])
     if left < selector.trees:
-        said, tree_id = row_words(site, row), site.trees[found].place.id
+        row_name, tree_id = row_words(site, row), site.trees[found].place.id
         if left:
             notes.remark(
                 language.counted(
                     "{row} ends after {count} tree; its last tree in that direction is {id}",
                     "{row} ends after {count} trees; its last tree in that direction is {id}",
                     left,
-                    row=said,
+                    row=row_name,
                     id=tree_id,
                 )
             )
         else:
-            notes.remark(message("{row} ends here; its last tree in that direction is {id}", row=said, id=tree_id))
+            notes.remark(message("{row} ends here; its last tree in that direction is {id}", row=row_name, id=tree_id))
     return PlaceGroup(site=site, index=np.array([found], dtype=np.intp))
 
 
@@ -179,10 +179,10 @@ def _beside(site: Site, row: Row, side: Side, *, along: bool) -> PlaceError:
     """Return the error for a side across the row where one along it is needed, or vice versa."""
     block = site.planting.blocks[row.block]
     axis = counting.along(block) if along else counting.across(block)
-    said = {"side": COMPASS[side], "row": row_words(site, row), "way": counting.way_of(block)}
+    fills = {"side": COMPASS[side], "row": row_words(site, row), "way": counting.way_of(block)}
     ways = {"one": COMPASS[wind(-axis)], "other": COMPASS[wind(axis)]}
     if along:
-        what = message("{side} is not a direction along {row}, which runs {way}", **said)
+        what = message("{side} is not a direction along {row}, which runs {way}", **fills)
         return PlaceError(what, where=site.name, advice=message("say {one} or {other}, down or up", **ways))
-    what = message("{side} is not a side of {row}, which runs {way}", **said)
+    what = message("{side} is not a side of {row}, which runs {way}", **fills)
     return PlaceError(what, where=site.name, advice=message("say {one} or {other}", **ways))

@@ -45,10 +45,10 @@ class AlongRow(Selector):
     def phrase(self, wording: SelectorWording) -> NounPhrase:
         start, way = self.origin.from_it(wording), _say_way(self.towards)
         if self.trees == 1:
-            said = message("the next tree {down_the_row}", down_the_row=way)
+            text = message("the next tree {down_the_row}", down_the_row=way)
         else:
-            said = message("the tree {count} trees further {down_the_row}", count=self.trees, down_the_row=way)
-        return one(message("{tree} from {place}", tree=said, place=start) if start else said)
+            text = message("the tree {count} trees further {down_the_row}", count=self.trees, down_the_row=way)
+        return one(message("{tree} from {place}", tree=text, place=start) if start else text)
 
     @property
     def single(self) -> bool:

@@ -155,17 +155,17 @@ def _by_own_numbers(spots: PlaceGroup, kept: Mask, ends: tuple[int, int]) -> tup
 def _no_such_tree_in_row(spots: PlaceGroup, selector: InRow, count: Indices) -> PlaceError:
     site = spots.site
     rows = np.unique(spots.row[spots.row >= 0]).tolist()
-    said = message("trees {first} to {last}", first=selector.first, last=selector.last)
+    text = message("trees {first} to {last}", first=selector.first, last=selector.last)
     if selector.first == selector.last:
-        said = message("tree {id}", id=str(selector.first))
+        text = message("tree {id}", id=str(selector.first))
     if len(rows) == 1:
         return PlaceError(
-            message("{row} has no {trees}", row=row_words(site, site.planting.rows[rows[0]]), trees=said),
+            message("{row} has no {trees}", row=row_words(site, site.planting.rows[rows[0]]), trees=text),
             where=site.name,
             advice=counted("{count} tree can be chosen there", "{count} trees can be chosen there", int(count.max())),
         )
     return PlaceError(
-        message("none of the {count} rows has {trees}", count=len(rows), trees=said),
+        message("none of the {count} rows has {trees}", count=len(rows), trees=text),
         where=site.name,
         advice=message("the longest has {count} to choose from", count=int(count.max())),
     )

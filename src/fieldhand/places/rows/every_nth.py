@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from fieldhand.language import joined, message
@@ -45,10 +45,10 @@ class EveryNth(FromGroup):
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:
         group = wording.phrase(self.of)
-        said = self._of_rows(group) if group.bare else self._of_trees(group.group())
+        text = self._of_rows(group) if group.bare else self._of_trees(group.group())
         if self.start != 1:
-            said = message("{trees}, from the {ordinal} on", trees=said, ordinal=say_ordinal(self.start, "one"))
-        return many_from(said, self.counted_from)
+            text = message("{trees}, from the {ordinal} on", trees=text, ordinal=say_ordinal(self.start, "one"))
+        return replace(many_from(text, self.counted_from), every=True)
 
     def _of_rows(self, group: NounPhrase) -> str:
         each = "" if group.row else message("of each row")

@@ -58,8 +58,8 @@ class InRow(FromGroup):
             of = message("of {part}", part=group.block) if group.block else ""
             return message("{numbered} of each row {of_block}", numbered=numbered, of_block=of)
         if group.one_row or not group.row.startswith(("rows", "the rows")):
-            return message("{numbered} of {rows}", numbered=numbered, rows=group.whose)
-        return message("{numbered} of each of {rows}", numbered=numbered, rows=group.whose)
+            return message("{numbered} of {rows}", numbered=numbered, rows=group.rows_and_block)
+        return message("{numbered} of each of {rows}", numbered=numbered, rows=group.rows_and_block)
 
     def _numbers(self) -> str:
         """Return the trees of a row in words: "trees 4 to 9", "tree 4", "the last 3 trees"."""

@@ -126,17 +126,17 @@ def _no_such_range(site: Site, blocks: Sequence[Block], selector: Rows) -> Place
     """Return the error for a range whose ends do not exist or are in different blocks."""
     by_number = selector.counted_from != "usual"
     where: dict[str, list[str]] = {}
-    for said in dict.fromkeys(s for s in (selector.first, selector.last) if s):
-        has = [b for b in blocks if find_row(rows_from(site, b, selector.counted_from)[0], said, by_number=by_number)
+    for name in dict.fromkeys(s for s in (selector.first, selector.last) if s):
+        has = [b for b in blocks if find_row(rows_from(site, b, selector.counted_from)[0], name, by_number=by_number)
                is not None]  # fmt: skip
         if not has:
-            return no_such_row(site, blocks, said)
-        where[said] = [block_words(b) for b in has]
-    told = words.listed(
-        [message("row {name} is in {blocks}", name=short(said), blocks=listed(names)) for said, names in where.items()]
+            return no_such_row(site, blocks, name)
+        where[name] = [block_words(b) for b in has]
+    text = words.listed(
+        [message("row {name} is in {blocks}", name=short(name), blocks=listed(names)) for name, names in where.items()]
     )
     return PlaceError(
-        message("{told}, so they do not form a range", told=told),
+        message("{told}, so they do not form a range", told=text),
         where=site.name,
         advice=message("ask for rows of one block at a time"),
     )

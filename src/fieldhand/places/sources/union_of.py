@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from fieldhand.language import message
@@ -44,8 +44,8 @@ class UnionOf(Selector):
             return wording.phrase(self.parts[0])
         if trees and len(trees) == len(self.parts):
             return many(message("trees {ids}", ids=listed(trees)))
-        said = listed([wording.phrase(part).say() for part in self.parts])
-        return many(said or message("no place at all"))
+        text = listed([wording.phrase(part).say() for part in self.parts])
+        return replace(many(text or message("no place at all")), listed=True)
 
     @property
     def keeps_order(self) -> bool:

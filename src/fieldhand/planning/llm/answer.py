@@ -15,7 +15,7 @@ from fieldhand.planning.llm.chat import Reply
 from fieldhand.planning.llm.display_text import visible_line
 
 #: The root elements of the three kinds of answer.
-Kind = Literal["task", "question", "refusal"]
+AnswerKind = Literal["task", "question", "refusal"]
 
 #: Maximum length of an answer in characters; longer ones come from a model that repeats itself.
 LONGEST_ANSWER = 60_000
@@ -63,10 +63,10 @@ class Unusable:
     truncated: bool = False
 
 
-Answer = TaskAnswer | QuestionAnswer | RefusalAnswer | Unusable
+ModelAnswer = TaskAnswer | QuestionAnswer | RefusalAnswer | Unusable
 
 
-def read_answer(reply: Reply) -> Answer:
+def read_answer(reply: Reply) -> ModelAnswer:
     """Parse a reply; an unreadable one returns :class:`Unusable`, so that no exception is raised."""
     if len(reply.text) > LONGEST_ANSWER:
         return Unusable(reason=f"The answer was longer than {LONGEST_ANSWER} characters.")
@@ -94,12 +94,12 @@ def _without_comments(text: str) -> str:
     return _COMMENT.sub(lambda m: "\n" * m[0].count("\n"), before + end) + after
 
 
-def _documents(text: str) -> tuple[list[tuple[Kind, str]], bool]:
+def _documents(text: str) -> tuple[list[tuple[AnswerKind, str]], bool]:
     """Return every complete document of the text, and True if the last one is incomplete."""
-    found: list[tuple[Kind, str]] = []
+    found: list[tuple[AnswerKind, str]] = []
     position = 0
     while opening := _OPENING.search(text, position):
-        name: Kind = opening[1]  # type: ignore[assignment]  # the pattern knows no other names
+        name: AnswerKind = opening[1]  # type: ignore[assignment]  # the pattern knows no other names
         if opening[0].endswith("/>"):
             found.append((name, opening[0]))
             position = opening.end()
@@ -115,7 +115,7 @@ def _documents(text: str) -> tuple[list[tuple[Kind, str]], bool]:
     return found, False
 
 
-def _understand(kind: Kind, document: str) -> Answer:
+def _understand(kind: AnswerKind, document: str) -> ModelAnswer:
     match kind:
         case "task":
             return TaskAnswer(document=document)

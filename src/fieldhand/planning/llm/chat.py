@@ -6,14 +6,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
-Role = Literal["system", "user", "assistant"]
+ChatRole = Literal["system", "user", "assistant"]
 
 
 @dataclass(frozen=True, kw_only=True)
 class ChatMessage:
     """One message of the conversation with the model."""
 
-    role: Role
+    role: ChatRole
     text: str
 
 

@@ -64,8 +64,8 @@ def _parts(node: Node) -> Iterator[Any]:
 
 
 def _of_column(attribute: str, value: Value, request: str, where: str) -> Iterator[AnswerProblem]:
-    said = {float(text) for text in re.findall(r"[-+]?\d+(?:\.\d+)?", request)}
-    if isinstance(value, bool) or (isinstance(value, float | int) and value in said):
+    numbers = {float(text) for text in re.findall(r"[-+]?\d+(?:\.\d+)?", request)}
+    if isinstance(value, bool) or (isinstance(value, float | int) and value in numbers):
         return
     if isinstance(value, str) and value.lower() in request.lower():
         return

@@ -116,13 +116,13 @@ class LlmPlanner:
             reply = self._chat.ask(talk)
             understood = self._understand(reply, request, site, robot, answers)
             outcome, problems = understood.outcome, understood.problems
-            said = [str(problem) for problem in problems[:MOST_PROBLEMS]]
-            self._transcript.exchange(list(new), reply, said)
+            reported = problems[:MOST_PROBLEMS]
+            self._transcript.exchange(list(new), reply, [str(problem) for problem in reported])
             if outcome is not None and (not problems or doubted is not None or not tries_left):
                 return outcome
             doubted = outcome or doubted
             if tries_left:
-                new = (repair(said, tries_left),)
+                new = (repair(reported, tries_left),)
                 # Endpoints reject an assistant message without text.
                 talk += [ChatMessage(role="assistant", text=reply.text.strip() or "(nothing)"), *new]
         if doubted is not None:
@@ -213,10 +213,10 @@ def _planned(
         constraints=draft.constraints,
         nominal=nominal,
         faulted=draft.faulted or faulted_exits(nominal),
-        assumptions=(*map(str, answers), *(visible_line(said, LONGEST_ASSUMPTION) for said in draft.assumptions)),
+        assumptions=(*map(str, answers), *(visible_line(text, LONGEST_ASSUMPTION) for text in draft.assumptions)),
         nominal_said=draft.nominal_said,
         no_part=draft.no_part,
         read_as="\n".join([f"{request}.", *(f"{answer.answer}." for answer in answers)]) if answers else "",
-        warnings=tuple(visible_line(said, LONGEST_ASSUMPTION) for said in draft.warnings),
+        warnings=tuple(visible_line(text, LONGEST_ASSUMPTION) for text in draft.warnings),
     )
     return Planned(task=task if asked else with_assumed_exit(task, site, robot), planner=name)

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 #: Advice addressed to the author of the request, on which a model must not act.
 _TO_A_PERSON = re.compile(r"(?:ask|say|name|give|add|count from)\b")
 
-Kind = Literal["answer", "schema", "words", "reference", "site", "coordinate", "request"]
+ProblemKind = Literal["answer", "schema", "words", "reference", "site", "coordinate", "request"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,7 +52,7 @@ class AnswerProblem:
         truncated: True if the answer ended before its document did.
     """
 
-    kind: Kind
+    kind: ProblemKind
     message: str
     where: str = ""
     truncated: bool = False
@@ -84,7 +84,7 @@ def read_draft(document: str, capabilities: Capabilities, request: str = "") -> 
     try:
         return decode_draft(_with_lines(root))
     except TaskError as error:
-        return (AnswerProblem(kind="schema", message=_said(error), where=error.where),)
+        return (AnswerProblem(kind="schema", message=_error_text(error), where=error.where),)
 
 
 def review(draft: TaskDraft, site: Site, capabilities: Capabilities) -> tuple[AnswerProblem, ...]:
@@ -139,7 +139,7 @@ def _unresolved(selector: Selector, site: Site, where: str) -> Iterator[AnswerPr
         try:
             _resolve(part, site)
         except PlaceError as error:
-            yield AnswerProblem(kind="site", message=_said(error), where=where)
+            yield AnswerProblem(kind="site", message=_error_text(error), where=where)
 
 
 def _more_than_one(selector: Selector, site: Site, where: str) -> Iterator[AnswerProblem]:
@@ -174,6 +174,6 @@ def _no_attribute(name: str, site: Site, where: str) -> AnswerProblem:
     return AnswerProblem(kind="site", message=f"the trees have no attribute {name!r}; they have: {known}", where=where)
 
 
-def _said(error: TaskError | PlaceError) -> str:
+def _error_text(error: TaskError | PlaceError) -> str:
     """Return the fault and the alternatives, without advice that only a person may follow."""
     return f"{error.what}; {error.advice}" if error.advice and not _TO_A_PERSON.match(error.advice) else error.what

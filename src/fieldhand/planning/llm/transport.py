@@ -207,27 +207,30 @@ def explain(error: Exception, settings: LlmSettings, *, attempts: int) -> NoRetu
 
 def _about_status(status: int, body: str, settings: LlmSettings) -> tuple[str, str]:
     """Return the meaning of an HTTP status and the advice."""
-    said = f": {body}" if body else ""
+    detail = f": {body}" if body else ""
     key = " or ".join(("FIELDHAND_API_KEY", *KEY_VARIABLES[settings.provider]))
     match status:
         case 401 | 403:
-            return f"the endpoint refused the key (HTTP {status}){said}", f"check {key}"
+            return f"the endpoint refused the key (HTTP {status}){detail}", f"check {key}"
         case 404:
             return (
-                f"there is no model {settings.model!r} or no chat endpoint at this address (HTTP 404){said}",
+                f"there is no model {settings.model!r} or no chat endpoint at this address (HTTP 404){detail}",
                 "check the name in FIELDHAND_MODEL and FIELDHAND_BASE_URL, which usually ends in /v1",
             )
         case 402 | 429:
-            return f"too many requests, or the account has no credit left (HTTP {status}){said}", "wait, or use another"
+            return (
+                f"too many requests, or the account has no credit left (HTTP {status}){detail}",
+                "wait, or use another",
+            )
         case 400 | 413 | 422:
             return (
-                f"the endpoint rejected the request (HTTP {status}){said}",
+                f"the endpoint rejected the request (HTTP {status}){detail}",
                 "check that the model's context holds 8,000 tokens and that it is a chat model",
             )
         case _ if status >= 500:
-            return f"the endpoint failed (HTTP {status}){said}", "try again later, or look into its log"
+            return f"the endpoint failed (HTTP {status}){detail}", "try again later, or look into its log"
         case _:
-            return f"the endpoint answered with HTTP {status}{said}", "check FIELDHAND_BASE_URL"
+            return f"the endpoint answered with HTTP {status}{detail}", "check FIELDHAND_BASE_URL"
 
 
 def _causes(error: BaseException) -> list[BaseException]:

@@ -19,7 +19,7 @@ from fieldhand.site.model import Site
 from fieldhand.task.plan import walk
 
 #: Plans a request as the English planner does, without help where it is refused.
-Plan = Callable[[str], Outcome]
+PlanRequest = Callable[[str], Outcome]
 
 #: Maximum number of requests that are planned to find one that can be suggested.
 _MOST_TRIES = 8
@@ -33,7 +33,7 @@ _AREA = re.compile(
 _NO_PROPERTIES = frozenset({"id", "row", "block"})
 
 
-def first_planned(candidates: Iterable[str], plan: Plan) -> str:
+def first_planned(candidates: Iterable[str], plan: PlanRequest) -> str:
     """Return the first request that can be planned without a question or a warning; empty if none of the first can."""
     for text in islice(filter(None, dict.fromkeys(candidates)), _MOST_TRIES):
         outcome = plan(text)

@@ -1,4 +1,4 @@
-"""Make a refusal helpful: say what its words ask for, what was understood, and what can be planned instead."""
+"""Make a refusal helpful: list what cannot be planned, what was understood, and what can be planned instead."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.english.wishes import Wish, wishes
 from fieldhand.planning.grammar.refusals import PLAINLY
 from fieldhand.planning.planner import Reason, Refused
-from fieldhand.planning.refusals.examples import Plan, examples, first_planned, tidy
+from fieldhand.planning.refusals.examples import PlanRequest, examples, first_planned, tidy
 from fieldhand.planning.refusals.offers import say_offers
 from fieldhand.planning.refusals.understood import ParsedRequest, say_understood, understood_parts
 from fieldhand.planning.refusals.unknown_words import UnknownWords, corrected, reasons_of_unknown
@@ -32,8 +32,8 @@ _LOOSE = (
 _COMMANDS = frozenset({"TAKE", "MEASURE", "ACTV", "GO", "VISIT", "RETURN", "GOHOME"})
 
 
-def helpful(refused: Refused, parsed: ParsedRequest, plan: Plan) -> Refused:
-    """Return a refusal that says what the request asks for in vain, what was understood, and what can be planned.
+def helpful(refused: Refused, parsed: ParsedRequest, plan: PlanRequest) -> Refused:
+    """Return a refusal that lists what cannot be planned, what was understood, and what can be planned instead.
 
     Args:
         refused: Refusal of the request.
@@ -94,7 +94,7 @@ def _not_together(reasons: Sequence[Reason]) -> Reason:
     return Reason(what=message("each word is known, but not what they say together"), said=said, advice=PLAINLY)
 
 
-def _reasons_besides(early: Sequence[Wish], parsed: ParsedRequest, plan: Plan) -> tuple[Reason, ...]:
+def _reasons_besides(early: Sequence[Wish], parsed: ParsedRequest, plan: PlanRequest) -> tuple[Reason, ...]:
     """Return the reasons for which a request would be refused without its early wishes."""
     outcome = plan(_besides(early, parsed))
     reasons = outcome.reasons if isinstance(outcome, Refused) else ()
@@ -112,7 +112,7 @@ def _besides(wished: Sequence[Wish], parsed: ParsedRequest) -> str:
     return text
 
 
-def _with_reserve(example: str, wished: Sequence[Wish], plan: Plan) -> str:
+def _with_reserve(example: str, wished: Sequence[Wish], plan: PlanRequest) -> str:
     """Return an example in the form that a wish suggests: "with at least 50 % battery left, ..."."""
     form = next((wish.kind.example for wish in wished if wish.kind.example), "")
     if not form or not example:
@@ -164,7 +164,7 @@ def _owned(wish: Wish, words: Sequence[Word], commands: Collection[int]) -> set[
 
 
 def _blocked(wished: Sequence[Wish], words: Sequence[Word]) -> Iterator[int]:
-    """Yield the numbers of the words of which nothing can be understood by itself."""
+    """Yield the numbers of the words that have no reading by themselves."""
     for wish in wished:
         yield from range(wish.first, _end_of_clause(wish.last, words) if wish.kind.rest else wish.last)
 
@@ -183,7 +183,7 @@ def _words_in(reason: Reason, words: Sequence[Word]) -> Iterator[int]:
 
 
 def _stands(reason: Reason, wished: bool, owned: Collection[int], words: Sequence[Word]) -> bool:
-    """Return True if a reason is not another view of a wish: its words are others, and no wording would help."""
+    """Return True if a reason is independent of the wishes: it concerns other words, and no wording would help."""
     return not wished or (reason.final and not any(k in owned for k in _words_in(reason, words)))
 
 

@@ -1,4 +1,4 @@
-"""What a robot can do, and what a site contains, as lists in words: what is possible in place of what was asked for."""
+"""Lists of what a robot can do and what a site contains, to offer in place of what was requested."""
 
 from __future__ import annotations
 
@@ -48,9 +48,9 @@ def _properties(site: Site) -> Iterator[Message]:
     for name, values in site.attributes.items():
         if name in ("id", "row") or len(values) < 2:
             continue
-        said = _say_values(values)
-        if said:
-            yield message("{name} ({values})", name=name, values=said)
+        text = _say_values(values)
+        if text:
+            yield message("{name} ({values})", name=name, values=text)
 
 
 def _say_values(values: tuple[Value, ...]) -> str:

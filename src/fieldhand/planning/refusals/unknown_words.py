@@ -12,7 +12,7 @@ from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.english.wishes import Offers
 from fieldhand.planning.grammar.refusals import not_understood
 from fieldhand.planning.planner import Clarify, Planned, Reason
-from fieldhand.planning.refusals.examples import Plan
+from fieldhand.planning.refusals.examples import PlanRequest
 from fieldhand.planning.refusals.offers import say_offers
 from fieldhand.planning.refusals.spelling import likely_meant
 from fieldhand.planning.refusals.understood import ParsedRequest
@@ -62,7 +62,7 @@ class SpellingCorrection:
     example: str
 
 
-def corrected(unknown: UnknownWords, plan: Plan) -> SpellingCorrection | None:
+def corrected(unknown: UnknownWords, plan: PlanRequest) -> SpellingCorrection | None:
     """Return the words that were meant, if all unknown words are misspelt and the request is understood with others."""
     words = unknown.words
     if not 0 < len(words) <= _MOST_MISSPELT:
@@ -92,7 +92,7 @@ def reasons_of_unknown(unknown: UnknownWords, correction: SpellingCorrection | N
     """Yield what is known of the unknown words: misspelt, lacking on the site, or not understood."""
     site, robot = unknown.parsed.site, unknown.parsed.robot
     if correction is not None:
-        near = [message("'{near}' for '{said}'", near=known, said=said) for said, known in correction.meant]
+        near = [message("'{near}' for '{said}'", near=known, said=typed) for typed, known in correction.meant]
         advice = message("did you mean {near}?", near=joined(", ", near))
         yield replace(not_understood(unknown.words, advice), final=True)
         return

@@ -11,7 +11,7 @@ import numpy as np
 from fieldhand.hidden_characters import visible
 from fieldhand.site.counting import rows_from
 from fieldhand.site.model import Site
-from fieldhand.site.planting import Block, Known, Row
+from fieldhand.site.planting import Block, Row, RowSource
 
 _LONGEST = 40
 _OPPOSITE = {"north": "south", "south": "north", "west": "east", "east": "west"}
@@ -41,7 +41,7 @@ class RowSummary:
     length_m: float
     first: str
     last: str
-    known: Known
+    known: RowSource
     confidence: float
 
 
@@ -73,7 +73,7 @@ class BlockSummary:
     missing: int
     shortest: RowSummary
     longest: RowSummary
-    known: Known
+    known: RowSource
     confidence: float
 
 
@@ -199,7 +199,7 @@ def _missing(row: Row) -> int:
     return int(taken[-1] - taken[0] + 1 - len(taken))
 
 
-def _known_words(known: Known, confidence: float) -> str:
+def _known_words(known: RowSource, confidence: float) -> str:
     if known == "file":
         return "named in the file"
     return f"detected from the tree positions, confidence {confidence:.2f}"

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from fieldhand.site.driving.stands import Candidate, Lane
+from fieldhand.site.driving.stands import Candidate, LaneKey
 
 #: Cost of a choice: number of lanes to drive through, then metres from the robot to the stands.
 Cost = tuple[int, float]
@@ -16,25 +16,25 @@ Cost = tuple[int, float]
 class RowVisits:
     """The visits of one row: for each the reachable stands by lane, with the metres to them."""
 
-    below: Lane
-    above: Lane
-    visits: list[Mapping[Lane, tuple[Candidate, float]]] = field(default_factory=list)
+    below: LaneKey
+    above: LaneKey
+    visits: list[Mapping[LaneKey, tuple[Candidate, float]]] = field(default_factory=list)
 
 
-def choose_lanes(rows: Mapping[tuple[int, int], RowVisits], used: frozenset[Lane]) -> dict[tuple[int, int], Lane]:
+def choose_lanes(rows: Mapping[tuple[int, int], RowVisits], used: frozenset[LaneKey]) -> dict[tuple[int, int], LaneKey]:
     """Return the preferred lane of each row, by (group, line).
 
     Dynamic programming over the rows of a group; the state is whether the lane above the last row is driven through.
     Lanes that are used anyway cost nothing.
     """
-    chosen: dict[tuple[int, int], Lane] = {}
+    chosen: dict[tuple[int, int], LaneKey] = {}
     for group in sorted({group for group, _ in rows}):
         lines = sorted(line for g, line in rows if g == group)
         # Cost and chosen lanes so far, by the lanes above the last row that are driven through.
-        best: dict[frozenset[Lane], tuple[Cost, tuple[Lane, ...]]] = {frozenset(): ((0, 0.0), ())}
+        best: dict[frozenset[LaneKey], tuple[Cost, tuple[LaneKey, ...]]] = {frozenset(): ((0, 0.0), ())}
         for line in lines:
             row = rows[group, line]
-            following: dict[frozenset[Lane], tuple[Cost, tuple[Lane, ...]]] = {}
+            following: dict[frozenset[LaneKey], tuple[Cost, tuple[LaneKey, ...]]] = {}
             for open_, ((count, metres), before) in best.items():
                 for lane in (row.below, row.above):
                     lanes, far = _taken(row, lane)
@@ -49,7 +49,7 @@ def choose_lanes(rows: Mapping[tuple[int, int], RowVisits], used: frozenset[Lane
     return chosen
 
 
-def _taken(row: RowVisits, lane: Lane) -> tuple[frozenset[Lane], float]:
+def _taken(row: RowVisits, lane: LaneKey) -> tuple[frozenset[LaneKey], float]:
     """Return the lanes that the visits of a row use if this lane is preferred, and the metres to their stands."""
     lanes, metres = set(), 0.0
     for visit in row.visits:
@@ -60,7 +60,7 @@ def _taken(row: RowVisits, lane: Lane) -> tuple[frozenset[Lane], float]:
     return frozenset(lanes), metres
 
 
-def pick_candidate(candidates: Sequence[Candidate], lane: Lane | None, metres: Sequence[float]) -> Candidate:
+def pick_candidate(candidates: Sequence[Candidate], lane: LaneKey | None, metres: Sequence[float]) -> Candidate:
     """Return the candidate in the preferred lane, else the nearest reachable one, else the first."""
     able = [k for k, m in enumerate(metres) if math.isfinite(m)]
     if not able:

@@ -19,7 +19,7 @@ from fieldhand.site.point_index import PointIndex
 
 #: Lane of a stand: (group, line, line) of the aisle that it lies in; on the outer side of an outer row one line is -1
 #: or one past the last.
-Lane = tuple[int, int, int]
+LaneKey = tuple[int, int, int]
 
 #: The direction of a bent row at a tree is measured between the trees this many places before and after it.
 _ALONG = 3
@@ -46,7 +46,7 @@ class Candidate:
     """
 
     xy: XY
-    lane: Lane | None = None
+    lane: LaneKey | None = None
     why_not: str = ""
     aisle_m: float | None = None
 
@@ -65,7 +65,7 @@ class StandCandidates:
         self._site, self._layout = site, layout
         self._clearance_m = clearance_m
         self._standoff_m = max(standoff_m, clearance_m)
-        self._found: dict[int, tuple[Candidate, ...]] = {}
+        self._candidates: dict[int, tuple[Candidate, ...]] = {}
 
     def of(self, place: Place) -> tuple[Candidate, ...]:
         """Return a candidate on either side of a tree in a row, or the position of any other place.
@@ -78,13 +78,14 @@ class StandCandidates:
     def of_all(self, places: Sequence[Place]) -> list[tuple[Candidate, ...]]:
         """Return the candidates of each of the places, cached."""
         trees = [self._open_tree(p) for p in places]
-        new = np.array([k for k in dict.fromkeys(trees) if k is not None and k not in self._found], dtype=np.intp)
+        new = np.array([k for k in dict.fromkeys(trees) if k is not None and k not in self._candidates], dtype=np.intp)
         rows = self._site.planting.row_of[new]
-        self._found.update(zip(new[rows < 0].tolist(), self._open_sides(new[rows < 0]), strict=True))
+        self._candidates.update(zip(new[rows < 0].tolist(), self._open_sides(new[rows < 0]), strict=True))
         for row in np.unique(rows[rows >= 0]).tolist():
             self._find(new[rows == row], *self._line_of[row])
         return [
-            (self._candidate(p),) if tree is None else self._found[tree] for p, tree in zip(places, trees, strict=True)
+            (self._candidate(p),) if tree is None else self._candidates[tree]
+            for p, tree in zip(places, trees, strict=True)
         ]
 
     def _candidate(self, place: Place) -> Candidate:
@@ -112,7 +113,7 @@ class StandCandidates:
     def _find(self, trees: Indices, group: int, line: int) -> None:
         """Compute the candidates of trees of one row, below and above it."""
         sides = [self._beside(trees, group, line, side) for side in (-1, 1)]
-        self._found.update(zip(trees.tolist(), zip(*sides, strict=True), strict=True))
+        self._candidates.update(zip(trees.tolist(), zip(*sides, strict=True), strict=True))
 
     @cached_property
     def _line_of(self) -> dict[int, tuple[int, int]]:
@@ -149,13 +150,13 @@ class StandCandidates:
             for k in range(len(trees))
         ]
 
-    def _stand(self, beside: Points, clear: NDArray[np.bool_], lane: Lane) -> Candidate:
+    def _stand(self, beside: Points, clear: NDArray[np.bool_], lane: LaneKey) -> Candidate:
         """Return a candidate at the first clear point, else one with the reason why there is none."""
         if clear.any():
             return Candidate(_xy(beside[int(np.argmax(clear))]), lane)
         return Candidate(_xy(beside[0]), lane, self._in_the_way(beside[0]))
 
-    def _in_aisle(self, trees: Indices, aisle: Aisle, side: int, lane: Lane) -> list[Candidate]:
+    def _in_aisle(self, trees: Indices, aisle: Aisle, side: int, lane: LaneKey) -> list[Candidate]:
         frame, at = aisle.frame, self._site.xy[trees]
         u, v = frame.local(at).T
         across = self._across(trees, lane[0], bent=not aisle.is_straight)

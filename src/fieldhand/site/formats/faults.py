@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from fieldhand.errors import SiteError
-from fieldhand.site.formats.records import Unit
+from fieldhand.site.formats.records import RecordUnit
 
 MOST_REASONS = 10
 _MOST_NUMBERS = 5
@@ -33,16 +33,16 @@ class Faults:
         lenient: Skip unusable features, except those that keep a robot out of an area.
     """
 
-    def __init__(self, source: str, unit: Unit = "feature", *, lenient: bool = False) -> None:
+    def __init__(self, source: str, unit: RecordUnit = "feature", *, lenient: bool = False) -> None:
         self.source = source
         self.unit = unit
         self.lenient = lenient
-        self._found: dict[tuple[str, str], list[int]] = {}
+        self._faults: dict[tuple[str, str], list[int]] = {}
         self._needed: dict[tuple[str, str], list[int]] = {}
 
     def add(self, number: int, what: str, advice: str, *, needed: bool = False) -> None:
         """Record an unusable feature; ``needed`` if the site must not be used without it."""
-        for faults in (self._found, self._needed) if needed else (self._found,):
+        for faults in (self._faults, self._needed) if needed else (self._faults,):
             numbers = faults.setdefault((what, advice), [])
             if number not in numbers[-1:]:
                 numbers.append(number)
@@ -53,7 +53,7 @@ class Faults:
         Raises:
             SiteError: The file is rejected; the message lists the first faults with their features.
         """
-        faults = self._needed if self.lenient else self._found
+        faults = self._needed if self.lenient else self._faults
         if not faults:
             return
         (what, advice), numbers = next(iter(faults.items()))
@@ -79,9 +79,9 @@ class Faults:
         """Return a sentence for each of the first few reasons for which features were left out."""
         texts = [
             f"left out {numbered(self.unit, numbers)}: {what}"
-            for (what, _), numbers in list(self._found.items())[:MOST_REASONS]
+            for (what, _), numbers in list(self._faults.items())[:MOST_REASONS]
         ]
-        more = sum(len(numbers) for numbers in list(self._found.values())[MOST_REASONS:])
+        more = sum(len(numbers) for numbers in list(self._faults.values())[MOST_REASONS:])
         return [*texts, f"left out {more} more {self.unit}s that cannot be used"] if more else texts
 
     def _way_out(self) -> str:
@@ -90,7 +90,7 @@ class Faults:
         return "correct or remove them, or leave them out with --lenient"
 
 
-def numbered(unit: Unit, numbers: Sequence[int]) -> str:
+def numbered(unit: RecordUnit, numbers: Sequence[int]) -> str:
     """Return feature numbers as text: ``features 3, 4, 9, 12, 14 and 8 more``."""
     if len(numbers) == 1:
         return f"{unit} {numbers[0]}"

@@ -128,7 +128,7 @@ def _line(site: Site, points: ArrayLike, properties: dict[str, Any]) -> Feature:
 def _positions(site: Site, points: ArrayLike | Sequence[Any]) -> list[list[float]]:
     """Return longitude and latitude of points in metres."""
     xy = np.asarray(points, dtype=np.float64)[:, :2]
-    return [[lon, lat] for lat, lon in site.projection.degrees(xy).tolist()]
+    return site.projection.positions(xy)
 
 
 def _point(lon: float, lat: float, properties: dict[str, Any]) -> Feature:

@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 from fieldhand.errors import SiteError
 
-Unit = Literal["feature", "line"]
+RecordUnit = Literal["feature", "line"]
 Format = Literal["geojson", "table", "shapefile", "geopackage", "kml", "zip"]
 
 #: Parts of a Shapefile, the main one first.
@@ -31,7 +31,7 @@ class SiteRecords:
 
     features: Sequence[Any]
     numbers: Sequence[int] | None = None
-    unit: Unit = "feature"
+    unit: RecordUnit = "feature"
     name: str = ""
     notes: tuple[str, ...] = ()
 

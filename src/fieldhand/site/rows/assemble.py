@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.site.planting import Block, Indices, Known, Planting, Row
+from fieldhand.site.planting import Block, Indices, Planting, Row, RowSource
 from fieldhand.site.rows.labels import groups
 
 Floats = NDArray[np.float64]
@@ -39,10 +39,10 @@ class FoundRows:
     row_of: Indices
     block_of: Indices
     names: Sequence[str]
-    known: Sequence[Known]
+    known: Sequence[RowSource]
     sure: Sequence[float]
     block_names: Sequence[str]
-    block_known: Sequence[Known]
+    block_known: Sequence[RowSource]
     block_sure: Sequence[float]
     positions: Floats
     why: str = ""

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.language import counted, message
-from fieldhand.site.planting import Known
+from fieldhand.site.planting import RowSource
 from fieldhand.site.rows.assemble import FoundRows, along_of, bearing
 from fieldhand.site.rows.grouping import group_rows, row_spacing, traced_rows
 from fieldhand.site.rows.labels import groups
@@ -66,11 +66,11 @@ def _by_tree(count: int, seen: Sequence[InferredBlock]) -> tuple[Indices, list[i
 
 def _rows(
     named: NamedRows, seen_row: Indices, sure: Sequence[float]
-) -> tuple[Indices, list[str], list[Known], list[float]]:
+) -> tuple[Indices, list[str], list[RowSource], list[float]]:
     """Return the rows of the file, then the inferred rows that contain no tree of these."""
     row_of = named.row_of.copy()
     names: list[str] = list(named.names)
-    known: list[Known] = ["file"] * len(names)
+    known: list[RowSource] = ["file"] * len(names)
     confidence = [1.0] * len(names)
     for k, trees in enumerate(groups(seen_row, len(sure))):
         without = trees[named.row_of[trees] < 0]
@@ -190,7 +190,7 @@ def _by_direction(ways: Floats) -> list[Indices]:
 def _block_sure(
     blocks: Sequence[Hashable],
     block_key: Sequence[Hashable],
-    known: Sequence[Known],
+    known: Sequence[RowSource],
     members: Sequence[Indices],
     seen_row: Indices,
     seen_block: Sequence[int],

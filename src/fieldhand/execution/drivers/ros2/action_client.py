@@ -29,7 +29,7 @@ from fieldhand.execution.drivers.ros2.action_outcome import (
     GoalRecord,
 )
 from fieldhand.execution.drivers.ros2.message_fields import value_at
-from fieldhand.execution.drivers.ros2.transport import STATUS_QOS, Client, Message, QosProfile, Transport
+from fieldhand.execution.drivers.ros2.transport import STATUS_QOS, Client, QosProfile, RosMessage, Transport
 
 #: Seconds without a sign of life, or since the end was reported, after which the result is requested again.
 RESULT_AGAIN_S = 3.0
@@ -70,7 +70,7 @@ class ActionClient:
         new_id: Callable[[], bytes] = lambda: uuid.uuid4().bytes,
     ) -> None:
         self.name, self.type = name, type_name
-        self.feedback: Message = {}
+        self.feedback: RosMessage = {}
         self._steady, self._accept_s, self._quiet_s, self._new_id = steady, accept_s, quiet_s, new_id
         self._send = transport.client(f"{name}/_action/send_goal", f"{type_name}_SendGoal")
         self._result = transport.client(f"{name}/_action/get_result", f"{type_name}_GetResult")
@@ -96,7 +96,7 @@ class ActionClient:
         """Return the number of servers that offer all services a goal needs."""
         return min(client.servers() for client in self._clients)
 
-    def start(self, goal: Message, *, sending: Callable[[], None] = lambda: None) -> None:
+    def start(self, goal: RosMessage, *, sending: Callable[[], None] = lambda: None) -> None:
         """Start a goal with these fields; the previous goal must have ended.
 
         Args:
@@ -179,7 +179,7 @@ class ActionClient:
             if number in self._cancel_all_requests:
                 self._receive_cancel_all_reply(reply)
 
-    def _mark_active(self, goal_id: bytes, now: float, feedback: Message | None = None) -> None:
+    def _mark_active(self, goal_id: bytes, now: float, feedback: RosMessage | None = None) -> None:
         """Record that the robot is executing a goal."""
         goal = self._goal
         if goal is not None and goal_id == goal.id and self._outcome is None:
@@ -191,7 +191,7 @@ class ActionClient:
             self._abandoned[goal_id] = now
             self._request_cancel(goal_id, settled=True)
 
-    def _receive_status(self, message: Message, now: float) -> None:
+    def _receive_status(self, message: RosMessage, now: float) -> None:
         listed = message.get("status_list")
         self._statuses = {
             _id(value_at(entry, "goal_info.goal_id.uuid")): entry["status"]
@@ -207,13 +207,13 @@ class ActionClient:
                 if goal is not None and goal_id == goal.id and goal.ended is None:
                     goal.accepted, goal.ended, goal.ended_s = True, status, now
 
-    def _receive_acceptance(self, goal_id: bytes, reply: Message, now: float) -> None:
+    def _receive_acceptance(self, goal_id: bytes, reply: RosMessage, now: float) -> None:
         if reply.get("accepted"):
             self._mark_active(goal_id, now)
         elif self._goal is not None and goal_id == self._goal.id and not self._goal.accepted:
             self._goal.rejected = True
 
-    def _receive_result(self, goal_id: bytes, reply: Message, now: float) -> None:
+    def _receive_result(self, goal_id: bytes, reply: RosMessage, now: float) -> None:
         goal, status = self._goal, reply.get("status")
         if goal is None or goal_id != goal.id or not isinstance(status, int):
             return
@@ -224,7 +224,7 @@ class ActionClient:
         else:
             goal.forgotten = True
 
-    def _receive_cancel_reply(self, goal_id: bytes, settled: bool, reply: Message) -> None:
+    def _receive_cancel_reply(self, goal_id: bytes, settled: bool, reply: RosMessage) -> None:
         goal, code = self._goal, reply.get("return_code")
         if code == CANCEL_TERMINATED:
             self._abandoned.pop(goal_id, None)
@@ -234,7 +234,7 @@ class ActionClient:
         # A goal request still in transit was unknown to the server when it answered.
         goal.forgotten = goal.forgotten or code == CANCEL_TERMINATED or (code == CANCEL_UNKNOWN_GOAL and settled)
 
-    def _receive_cancel_all_reply(self, reply: Message) -> None:
+    def _receive_cancel_all_reply(self, reply: RosMessage) -> None:
         """Record the goals that a cancel-all request ends; a rejected request is repeated."""
         listed = reply.get("goals_canceling")
         self._all_cancelled = self._all_cancelled or reply.get("return_code") != CANCEL_REJECTED
@@ -310,7 +310,7 @@ class ActionClient:
         self._cancel_requests[number] = goal_id, settled
 
     @staticmethod
-    def _send_request(client: Client, request: Message) -> int:
+    def _send_request(client: Client, request: RosMessage) -> int:
         """Send a request and return its number; a failed send is treated as a lost request and repeated."""
         try:
             return client.ask(request)
@@ -324,9 +324,9 @@ class ActionClient:
         if goal.forgotten and goal.asked_cancel_s is not None:
             return ActionOutcome(how="cancelled", what=goal.why)
         if now - cancel_asked_s > CANCEL_S:
-            said = "refuses to be cancelled" if goal.refused else "does not confirm that it was cancelled"
+            fault = "refuses to be cancelled" if goal.refused else "does not confirm that it was cancelled"
             begun = f"{goal.why}; then " if goal.why else ""
-            return ActionOutcome(how="untold", what=f"{begun}{self.name} {said}", moving=True)
+            return ActionOutcome(how="untold", what=f"{begun}{self.name} {fault}", moving=True)
         if goal.asked_cancel_s is None or now - goal.asked_cancel_s >= CANCEL_AGAIN_S:
             goal.asked_cancel_s = now
             self._request_cancel(goal.id, settled=goal.accepted or now - sent_s > self._accept_s)

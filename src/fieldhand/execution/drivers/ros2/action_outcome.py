@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from fieldhand.execution.drivers.protocol import GoalFault, GoalState
-from fieldhand.execution.drivers.ros2.transport import Message
+from fieldhand.execution.drivers.ros2.transport import RosMessage
 
 #: Seconds without any server after which it counts as gone; shorter gaps occur in discovery.
 GONE_S = 2.0
@@ -39,7 +39,7 @@ class ActionOutcome:
     """
 
     how: OutcomeKind
-    result: Message = field(default_factory=dict)
+    result: RosMessage = field(default_factory=dict)
     what: str = ""
     moving: bool = False
 
@@ -68,7 +68,7 @@ class GoalRecord:
     """
 
     id: bytes
-    message: Message
+    message: RosMessage
     begun_s: float
     sending: Callable[[], None]
     sent_s: float | None = None
@@ -84,4 +84,4 @@ class GoalRecord:
     forgotten: bool = False
     ended: int | None = None
     ended_s: float = 0.0
-    result: Message | None = None
+    result: RosMessage | None = None

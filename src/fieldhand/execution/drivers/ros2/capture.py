@@ -20,7 +20,7 @@ from fieldhand.execution.drivers.ros2.action_client import ActionClient
 from fieldhand.execution.drivers.ros2.action_outcome import ActionOutcome, GoalEnd
 from fieldhand.execution.drivers.ros2.message_fields import message_of, number_at, value_at
 from fieldhand.execution.drivers.ros2.service_call import TimeLimit, call_service
-from fieldhand.execution.drivers.ros2.transport import Client, Message, QosProfile, Subscription, Transport
+from fieldhand.execution.drivers.ros2.transport import Client, QosProfile, RosMessage, Subscription, Transport
 from fieldhand.robot.bindings import ActionBinding, CallBinding, NextMessage, RequestValue, Ros2Bindings
 
 #: Seconds to find an action server, and to get a goal accepted.
@@ -29,7 +29,7 @@ ACCEPT_S = 5.0
 #: Messages of a topic that are kept between two polls.
 _DEPTH = 10
 
-Steps = Generator[None, None, GoalEnd]
+GoalSteps = Generator[None, None, GoalEnd]
 Readings = dict[str, float]
 
 
@@ -124,7 +124,7 @@ class _LatestMessages:
 
     def __init__(self, topics: Mapping[str, tuple[str, Subscription]]) -> None:
         self._topics = topics
-        self.last: dict[str, Message] = {}
+        self.last: dict[str, RosMessage] = {}
 
     def forget(self) -> None:
         """Discard everything received so far."""
@@ -162,7 +162,7 @@ class RunningCapture:
         """Request cancellation; :meth:`step` reports the end. A service that was already called is not interrupted."""
         self._cancelled = True
 
-    def _carry_out(self) -> Steps:
+    def _carry_out(self) -> GoalSteps:
         bound = self._captures.bound.get(self._goal.action)
         if bound is None:
             return _failed(f"the profile does not define how {self._goal.action} is done over ROS 2")
@@ -199,7 +199,9 @@ class RunningCapture:
     def _limit(self, seconds: float) -> TimeLimit:
         return TimeLimit(seconds, self._captures.clock, self._captures.steady)
 
-    def _call_action(self, client: ActionClient, call: CallBinding, request: Message, latest: _LatestMessages) -> Steps:
+    def _call_action(
+        self, client: ActionClient, call: CallBinding, request: RosMessage, latest: _LatestMessages
+    ) -> GoalSteps:
         limit = self._limit(call.within_s)
         client.start(request, sending=latest.forget)
         while (outcome := client.step()) is None:
@@ -222,7 +224,9 @@ class RunningCapture:
             return _failed(f"{name} failed{_failure_message(outcome.result, call)}")
         return _failed(outcome.what or f"another client cancelled {name}")
 
-    def _call_service(self, client: Client, call: CallBinding, request: Message, latest: _LatestMessages) -> Steps:
+    def _call_service(
+        self, client: Client, call: CallBinding, request: RosMessage, latest: _LatestMessages
+    ) -> GoalSteps:
         name, limit = self._captures.whole_name(call.name), self._limit(call.within_s)
         asking = call_service(client, name, [request], limit, self._captures.steady, sending=latest.forget)
         while not self._cancelled:
@@ -234,7 +238,7 @@ class RunningCapture:
             latest.listen()
         return GoalEnd(state="cancelled")
 
-    def _wait_for_topics(self, bound: BoundAction, latest: _LatestMessages, readings: Readings) -> Steps:
+    def _wait_for_topics(self, bound: BoundAction, latest: _LatestMessages, readings: Readings) -> GoalSteps:
         """Wait for the next message of each topic; after the time limit, use the last one since the call was sent."""
         latest.listen()
         before = dict(latest.last)
@@ -258,7 +262,7 @@ class RunningCapture:
         return GoalEnd(state="cancelled")
 
 
-def capture_end(result: Message, call: CallBinding, name: str) -> GoalEnd:
+def capture_end(result: RosMessage, call: CallBinding, name: str) -> GoalEnd:
     """Return the end of a capture from the reply of its call: its readings, or a failure that the reply reports."""
     if call.success and not value_at(result, call.success):
         return _failed(f"{name} did not succeed{_failure_message(result, call)}")
@@ -271,7 +275,7 @@ def _reading(quantity: str, value: float | None) -> Readings:
     return {} if value is None else {quantity: value}
 
 
-def _failure_message(result: Message, call: CallBinding) -> str:
+def _failure_message(result: RosMessage, call: CallBinding) -> str:
     """Return the failure message of a reply, with a leading colon; empty if it has none."""
     words = value_at(result, call.message) if call.message else None
     return f": {words.strip()}" if isinstance(words, str) and words.strip() else ""

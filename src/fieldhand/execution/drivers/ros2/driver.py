@@ -294,8 +294,8 @@ class Ros2Driver:
     def _is_lost(self) -> str | None:
         why = self._telemetry.lost() or self._far_from(self._site)
         if why is None and self._lost is not None:
-            since, said = self._lost
-            return said if self._steady() - since < LOST_S else None
+            since, reason = self._lost
+            return reason if self._steady() - since < LOST_S else None
         return why
 
     def _far_from(self, site: Site) -> str | None:

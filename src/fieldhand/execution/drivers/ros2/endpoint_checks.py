@@ -18,16 +18,16 @@ from fieldhand.execution.drivers.ros2.plausibility import ImplausibleMessage, Me
 from fieldhand.execution.drivers.ros2.transport import (
     STATUS_QOS,
     Client,
-    Message,
     Peer,
     Publisher,
     QosProfile,
     Rmw,
+    RosMessage,
     Subscription,
     Transport,
 )
 
-Kind = Literal["action", "service", "topic"]
+EndpointKind = Literal["action", "service", "topic"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,7 +39,7 @@ class EndpointBinding:
     """
 
     part: str
-    kind: Kind
+    kind: EndpointKind
     name: str
     type: str
 
@@ -89,7 +89,7 @@ class TopicCheck:
     qos: QosProfile
     check_message: MessageCheck
     rare: bool = False
-    message: Message | None = field(default=None, init=False)
+    message: RosMessage | None = field(default=None, init=False)
 
     def __post_init__(self) -> None:
         self._subscription: Subscription = self.transport.subscribe(self.binding.name, self.binding.type, self.qos)
@@ -127,7 +127,7 @@ class ServiceCheck:
     binding: EndpointBinding
     transport: Transport
     interfaces: Interfaces
-    question: Callable[[], Message | None] | None = None
+    question: Callable[[], RosMessage | None] | None = None
 
     def __post_init__(self) -> None:
         self._client = self.transport.client(self.binding.name, self.binding.type)

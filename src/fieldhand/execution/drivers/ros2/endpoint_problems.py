@@ -150,7 +150,7 @@ def _less(offered: QosProfile, wanted: QosProfile) -> EndpointProblem | None:
 
 def _other_definition(theirs: list[str], ours: str, shown: str) -> EndpointProblem | None:
     """Return a mismatch of type definitions. Endpoints would match and misread messages; detectable from Iron on."""
-    if all(said and said != ours for said in theirs):
+    if all(type_hash and type_hash != ours for type_hash in theirs):
         return EndpointProblem(
             what=f"the robot has another definition of {shown} than is known here",
             advice="set the robot's distro in the profile, or give its definition under ros2: interfaces",
@@ -158,5 +158,5 @@ def _other_definition(theirs: list[str], ours: str, shown: str) -> EndpointProbl
     return None
 
 
-def _part(part: str, found: EndpointProblem) -> EndpointProblem:
-    return EndpointProblem(what=f"its {part}: {found.what}", advice=found.advice)
+def _part(part: str, problem: EndpointProblem) -> EndpointProblem:
+    return EndpointProblem(what=f"its {part}: {problem.what}", advice=problem.advice)

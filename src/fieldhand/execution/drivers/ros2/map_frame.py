@@ -13,7 +13,7 @@ from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.protocol import DriveGoal
 from fieldhand.execution.drivers.ros2.message_fields import number_at
 from fieldhand.execution.drivers.ros2.service_call import TimeLimit, call_service
-from fieldhand.execution.drivers.ros2.transport import Client, Message
+from fieldhand.execution.drivers.ros2.transport import Client, RosMessage
 from fieldhand.robot.bindings import Datum, FieldBinding
 from fieldhand.site.projection import Projection
 
@@ -108,12 +108,12 @@ def yaw_of(here: Point, there: Point) -> float:
     return math.atan2(there[1] - here[1], there[0] - here[0])
 
 
-def orientation(yaw: float) -> Message:
+def orientation(yaw: float) -> RosMessage:
     """Return a ``geometry_msgs/msg/Quaternion`` for a yaw in radians."""
     return {"x": 0.0, "y": 0.0, "z": math.sin(yaw / 2.0), "w": math.cos(yaw / 2.0)}
 
 
-def pose(frame: str, here: Point, there: Point) -> Message:
+def pose(frame: str, here: Point, there: Point) -> RosMessage:
     """Return a ``geometry_msgs/msg/PoseStamped`` at the end of a leg, facing along it.
 
     Its stamp stays 0, which selects the newest transform: the clocks of robot and computer need not agree.
@@ -125,7 +125,7 @@ def pose(frame: str, here: Point, there: Point) -> Message:
     }
 
 
-def geographic_pose(degrees: Point, yaw: float) -> Message:
+def geographic_pose(degrees: Point, yaw: float) -> RosMessage:
     """Return a ``geographic_msgs/msg/GeoPose``."""
     position = {"latitude": degrees[0], "longitude": degrees[1], "altitude": 0.0}
     return {"position": position, "orientation": orientation(yaw)}

@@ -12,22 +12,22 @@ from functools import lru_cache
 from typing import Any
 
 from fieldhand.errors import Ros2Error
-from fieldhand.execution.drivers.ros2.transport import Message
+from fieldhand.execution.drivers.ros2.transport import RosMessage
 from fieldhand.robot.bindings import FieldBinding
 
-Step = str | int
+PathStep = str | int
 
 _STEP = re.compile(r"([A-Za-z]\w*)((?:\[\d{1,6}\])*)")
 
 
 @lru_cache(maxsize=1024)
-def steps_of(path: str) -> tuple[Step, ...]:
+def steps_of(path: str) -> tuple[PathStep, ...]:
     """Parse a path into its field names and array indices.
 
     Raises:
         Ros2Error: The text is not a path.
     """
-    steps: list[Step] = []
+    steps: list[PathStep] = []
     for part in path.split("."):
         match = _STEP.fullmatch(part)
         if match is None:
@@ -40,7 +40,7 @@ def steps_of(path: str) -> tuple[Step, ...]:
     return tuple(steps)
 
 
-def value_at(message: Message, path: str) -> object:
+def value_at(message: RosMessage, path: str) -> object:
     """Return the value at a path; None if there is none."""
     value: object = message
     for step in steps_of(path):
@@ -51,7 +51,7 @@ def value_at(message: Message, path: str) -> object:
     return value
 
 
-def number_at(message: Message, binding: FieldBinding) -> float | None:
+def number_at(message: RosMessage, binding: FieldBinding) -> float | None:
     """Return the number at a binding's path, scaled to its unit; None if it is missing or not finite."""
     value = value_at(message, binding.path)
     if not isinstance(value, (bool, int, float)):
@@ -60,7 +60,7 @@ def number_at(message: Message, binding: FieldBinding) -> float | None:
     return number if math.isfinite(number) else None
 
 
-def seconds_at(message: Message, path: str) -> float | None:
+def seconds_at(message: RosMessage, path: str) -> float | None:
     """Return the seconds of the ``builtin_interfaces/msg/Time`` at a path; None if it is missing or 0."""
     stamp = value_at(message, path)
     if not isinstance(stamp, Mapping):
@@ -71,13 +71,13 @@ def seconds_at(message: Message, path: str) -> float | None:
     return seconds + 1e-9 * nanoseconds or None
 
 
-def message_of(values: Mapping[str, object]) -> Message:
+def message_of(values: Mapping[str, object]) -> RosMessage:
     """Build a message from values by path. Of an array, all elements up to the last one named must be given.
 
     Raises:
         Ros2Error: Paths contradict each other, or leave out array elements.
     """
-    root: dict[Step, Any] = {}
+    root: dict[PathStep, Any] = {}
     for path, value in values.items():
         here, steps = root, steps_of(path)
         for step in steps[:-1]:

@@ -31,7 +31,7 @@ from fieldhand.execution.drivers.ros2.map_frame import (
 from fieldhand.execution.drivers.ros2.message_fields import number_at, seconds_at, value_at
 from fieldhand.execution.drivers.ros2.nav2_codes import CODES, MISSED_WAYPOINT
 from fieldhand.execution.drivers.ros2.service_call import TimeLimit
-from fieldhand.execution.drivers.ros2.transport import Client, Message, Publisher, Transport
+from fieldhand.execution.drivers.ros2.transport import Client, Publisher, RosMessage, Transport
 from fieldhand.robot.bindings import FieldBinding, NavigationBinding, NavigationFault, Ros2Bindings
 
 FROM_LL, SPEED_LIMIT = "robot_localization/srv/FromLL", "nav2_msgs/msg/SpeedLimit"
@@ -45,7 +45,7 @@ _X, _Y = (FieldBinding(path=f"current_pose.pose.position.{axis}") for axis in "x
 #: Length in metres below which a leg has no direction.
 _NO_LEG_M = 0.01
 
-Steps = Generator[None, None, GoalEnd]
+GoalSteps = Generator[None, None, GoalEnd]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,7 +57,7 @@ class NavigationGoals:
         site_to_map: Transformation from site to map coordinates; None if it is unknown.
     """
 
-    goals: Sequence[tuple[Message, Point]]
+    goals: Sequence[tuple[RosMessage, Point]]
     site_to_map: Callable[[Point], Point] | None = None
 
 
@@ -135,12 +135,12 @@ class NavigationClient:
         poses = [pose(binding.frame, points[i], points[j]) for i, j in _legs(goal.path_m)]
         if binding.type == "nav2_msgs/action/NavigateThroughPoses":
             # Kilted uses nav_msgs/Goals: a header, then the poses.
-            header: Message = {"frame_id": binding.frame}
+            header: RosMessage = {"frame_id": binding.frame}
             listed = {"header": header, "goals": tuple(poses)} if self.distro == "kilted" else tuple(poses)
-            goal_message: Message = {"poses": listed, "behavior_tree": binding.behavior_tree}
+            goal_message: RosMessage = {"poses": listed, "behavior_tree": binding.behavior_tree}
             return NavigationGoals(goals=[(goal_message, goal.path_m[-1])], site_to_map=placed)
         ends = [goal.path_m[j] for _, j in _legs(goal.path_m)]
-        each: list[Message] = [{"pose": p, "behavior_tree": binding.behavior_tree} for p in poses]
+        each: list[RosMessage] = [{"pose": p, "behavior_tree": binding.behavior_tree} for p in poses]
         return NavigationGoals(goals=list(zip(each, ends, strict=True)), site_to_map=placed)
 
     def limit_speed(self, speed_m_s: float) -> None:
@@ -180,7 +180,7 @@ class RunningDrive:
             binding.slower * goal.length_m / goal.speed_m_s + binding.extra_s, navigation.clock, navigation.steady
         )
         self._cancelled = False
-        self._judged: Message = {}
+        self._judged: RosMessage = {}
         self._steps = self._carry_out()
         self._ending: GoalEnd | None = None
 
@@ -199,7 +199,7 @@ class RunningDrive:
         """Request cancellation; :meth:`step` reports the end."""
         self._cancelled = True
 
-    def _carry_out(self) -> Steps:
+    def _carry_out(self) -> GoalSteps:
         self._navigation.limit_speed(self._goal.speed_m_s)
         planning = self._navigation.plan(self._goal)
         while True:
@@ -217,7 +217,7 @@ class RunningDrive:
                 return ending
         return GoalEnd(state="succeeded")
 
-    def _drive(self, message: Message, there: Point, plan: NavigationGoals) -> Steps:
+    def _drive(self, message: RosMessage, there: Point, plan: NavigationGoals) -> GoalSteps:
         """Carry out one goal of Nav2."""
         client = self._navigation.client
         client.start(message)
@@ -257,15 +257,15 @@ class RunningDrive:
             " check whether datum, its heading and frame are those of its map"
         )
 
-    def _driven_between_m(self, feedback: Message) -> float:
+    def _driven_between_m(self, feedback: RosMessage) -> float:
         """Return the distance in metres that the robot may have driven between its fix and this feedback, by their
         stamps.
         """
         navigation = self._navigation
-        fixed_s, told_s = navigation.stamp_s(), seconds_at(feedback, _STAMP)
-        return 0.0 if fixed_s is None or told_s is None else navigation.speed_m_s * abs(told_s - fixed_s)
+        fixed_s, feedback_s = navigation.stamp_s(), seconds_at(feedback, _STAMP)
+        return 0.0 if fixed_s is None or feedback_s is None else navigation.speed_m_s * abs(feedback_s - fixed_s)
 
-    def _arrive(self, there: Point) -> Steps:
+    def _arrive(self, there: Point) -> GoalSteps:
         """Wait until the robot's own position is within tolerance of the target."""
         navigation = self._navigation
         tolerance, until = navigation.binding.tolerance_m, navigation.steady() + SETTLE_S
@@ -304,7 +304,7 @@ def end_of(outcome: ActionOutcome, binding: NavigationBinding, *, cancelled: boo
     return GoalEnd(state="failed", fault="failed", what=f"{what}{advice}")
 
 
-def _failed(result: Message, binding: NavigationBinding) -> GoalEnd:
+def _failed(result: RosMessage, binding: NavigationBinding) -> GoalEnd:
     """Return a failure described by the error code of Nav2, if it has one."""
     code, words = _code(result), _message_of_nav2(result)
     fault: NavigationFault
@@ -318,7 +318,7 @@ def _failed(result: Message, binding: NavigationBinding) -> GoalEnd:
     return GoalEnd(state="failed", fault=fault, what=f"{meaning}: {words}" if words else meaning)
 
 
-def _code(result: Message) -> int:
+def _code(result: RosMessage) -> int:
     """Return the error code; that of the first missed waypoint is more specific than the overall code."""
     missed = result.get("missed_waypoints")
     for entry in missed if isinstance(missed, Sequence) else ():
@@ -328,7 +328,7 @@ def _code(result: Message) -> int:
     return code if isinstance(code, int) else 0
 
 
-def _message_of_nav2(result: Message) -> str:
+def _message_of_nav2(result: RosMessage) -> str:
     text = result.get("error_msg")
     return text.strip() if isinstance(text, str) else ""
 
@@ -342,7 +342,7 @@ def _legs(path: Sequence[Point]) -> list[tuple[int, int]]:
     return list(itertools.pairwise(corners)) or [(0, len(path) - 1)]
 
 
-def _by_degrees(goal: DriveGoal) -> Message:
+def _by_degrees(goal: DriveGoal) -> RosMessage:
     # Nav2 interprets the orientation in its map frame, whose axes point east and north here (REP 105).
     legs = [(goal.path_degrees[j], yaw_of(goal.path_m[i], goal.path_m[j])) for i, j in _legs(goal.path_m)]
     poses = [geographic_pose(degrees, yaw) for degrees, yaw in legs]

@@ -10,11 +10,11 @@ from collections.abc import Callable
 
 from fieldhand.execution.drivers.ros2.message_fields import number_at, value_at
 from fieldhand.execution.drivers.ros2.telemetry import MOST_PERCENT, fix_problem
-from fieldhand.execution.drivers.ros2.transport import Message
+from fieldhand.execution.drivers.ros2.transport import RosMessage
 from fieldhand.robot.bindings import BatteryBinding, FieldBinding, PositionBinding, StopBinding
 from fieldhand.robot.model import Quantity
 
-MessageCheck = Callable[[Message], str]
+MessageCheck = Callable[[RosMessage], str]
 
 
 class ImplausibleMessage(Exception):
@@ -33,7 +33,7 @@ class ImplausibleMessage(Exception):
 def position(binding: PositionBinding) -> MessageCheck:
     """Return a check of ``sensor_msgs/msg/NavSatFix`` messages."""
 
-    def check_message(fix: Message) -> str:
+    def check_message(fix: RosMessage) -> str:
         doubt = fix_problem(fix, binding)
         if doubt is not None:
             raise ImplausibleMessage(doubt, "wait for a better fix, or allow more with most_sigma_m in the profile")
@@ -45,7 +45,7 @@ def position(binding: PositionBinding) -> MessageCheck:
 def battery(binding: BatteryBinding) -> MessageCheck:
     """Return a check of the charge in percent."""
 
-    def check_message(message: Message) -> str:
+    def check_message(message: RosMessage) -> str:
         charge = _number(message, binding.value)
         if not 0.0 <= charge <= MOST_PERCENT:
             raise ImplausibleMessage(
@@ -58,7 +58,7 @@ def battery(binding: BatteryBinding) -> MessageCheck:
     return check_message
 
 
-def odometry(message: Message) -> str:
+def odometry(message: RosMessage) -> str:
     """Check a ``nav_msgs/msg/Odometry`` message."""
     x, y = (_number(message, FieldBinding(path=f"pose.pose.position.{axis}")) for axis in "xy")
     return f"{x:.2f}, {y:.2f} m"
@@ -67,7 +67,7 @@ def odometry(message: Message) -> str:
 def stop(binding: StopBinding) -> MessageCheck:
     """Return a check of emergency stop messages."""
 
-    def check_message(message: Message) -> str:
+    def check_message(message: RosMessage) -> str:
         value = value_at(message, binding.path)
         if not isinstance(value, bool):
             raise ImplausibleMessage(
@@ -80,7 +80,7 @@ def stop(binding: StopBinding) -> MessageCheck:
     return check_message
 
 
-def clock(message: Message) -> str:
+def clock(message: RosMessage) -> str:
     """Check a ``/clock`` message."""
     seconds = value_at(message, "clock.sec")
     return f"{seconds} s"
@@ -89,7 +89,7 @@ def clock(message: Message) -> str:
 def reading(binding: FieldBinding, quantity: Quantity) -> MessageCheck:
     """Return a check of the readings of a quantity."""
 
-    def check_message(message: Message) -> str:
+    def check_message(message: RosMessage) -> str:
         value = _number(message, binding)
         if not quantity.minimum <= value <= quantity.maximum:
             raise ImplausibleMessage(
@@ -101,7 +101,7 @@ def reading(binding: FieldBinding, quantity: Quantity) -> MessageCheck:
     return check_message
 
 
-def _number(message: Message, binding: FieldBinding) -> float:
+def _number(message: RosMessage, binding: FieldBinding) -> float:
     number = number_at(message, binding)
     if number is None or not math.isfinite(number):
         raise ImplausibleMessage(

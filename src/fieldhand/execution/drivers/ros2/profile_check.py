@@ -27,7 +27,7 @@ from fieldhand.execution.drivers.ros2.message_fields import message_of
 from fieldhand.execution.drivers.ros2.navigation import FROM_LL, SPEED_LIMIT
 from fieldhand.execution.drivers.ros2.plausibility import MessageCheck
 from fieldhand.execution.drivers.ros2.telemetry import fix_problem
-from fieldhand.execution.drivers.ros2.transport import Message, QosProfile, Rmw, Transport
+from fieldhand.execution.drivers.ros2.transport import QosProfile, Rmw, RosMessage, Transport
 from fieldhand.robot.bindings import CallBinding, RequestValue, Ros2Bindings, TopicBinding
 from fieldhand.robot.model import Action, RobotProfile
 
@@ -195,7 +195,7 @@ class _Bindings:
 
         return _Bound(binding=bound.binding, wrong=bound.wrong, make=make)
 
-    def _here(self) -> Message | None:
+    def _here(self) -> RosMessage | None:
         """Return a request with the robot's position for the map service; None without a valid fix."""
         fix = self._fix.message if self._fix is not None else None
         if fix is None or fix_problem(fix, self._ros2.position) is not None:
@@ -240,7 +240,7 @@ class _Bindings:
         name: str,
         type_name: str,
         wrong: tuple[str, ...] = (),
-        question: Callable[[], Message | None] | None = None,
+        question: Callable[[], RosMessage | None] | None = None,
     ) -> _Bound:
         whole = self._ros2.whole_name(name)
         binding = EndpointBinding(part=part, kind=kind, name=whole, type=type_name)

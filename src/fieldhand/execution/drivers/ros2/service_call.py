@@ -6,7 +6,7 @@ from collections.abc import Callable, Generator, Sequence
 
 from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.ros2.action_outcome import GONE_S, TWO_S
-from fieldhand.execution.drivers.ros2.transport import Client, Message
+from fieldhand.execution.drivers.ros2.transport import Client, RosMessage
 
 #: Requests in flight at once: services keep ten.
 _AT_ONCE = 8
@@ -43,12 +43,12 @@ class TimeLimit:
 def call_service(
     client: Client,
     name: str,
-    requests: Sequence[Message],
+    requests: Sequence[RosMessage],
     limit: TimeLimit,
     steady: Callable[[], float],
     *,
     sending: Callable[[], None] = lambda: None,
-) -> Generator[None, None, tuple[Message, ...]]:
+) -> Generator[None, None, tuple[RosMessage, ...]]:
     """Call a service once for each request, in steps that yield while waiting.
 
     Args:
@@ -62,7 +62,7 @@ def call_service(
         Ros2Error: No server or several servers answer, a reply is late, or a request does not fit the type.
     """
     client.replies()  # discards late replies to earlier calls
-    answers: dict[int, Message] = {}
+    answers: dict[int, RosMessage] = {}
     asked: dict[int, int] = {}
     absent_s = two_s = None
     while len(answers) < len(requests):

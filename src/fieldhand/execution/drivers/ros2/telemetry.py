@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 from fieldhand.execution.drivers.protocol import Position
 from fieldhand.execution.drivers.ros2.message_fields import number_at, seconds_at, value_at
-from fieldhand.execution.drivers.ros2.transport import Message, QosProfile, Subscription, Transport
+from fieldhand.execution.drivers.ros2.transport import QosProfile, RosMessage, Subscription, Transport
 from fieldhand.robot.bindings import FieldBinding, PositionBinding, Ros2Bindings, TopicBinding
 from fieldhand.site.projection import Projection
 
@@ -65,7 +65,7 @@ class TelemetryTopic:
         kept = self.binding.transient and not self.received
         return self.at_s is not None or (kept and self.subscription.publishers() > 0)
 
-    def take(self) -> tuple[Message, ...]:
+    def take(self) -> tuple[RosMessage, ...]:
         """Return the messages received since the last call."""
         messages = self.subscription.take()
         self.received = self.received or bool(messages)
@@ -88,7 +88,7 @@ class _Odometer:
         self._last: tuple[float, float, tuple[float, float]] | None = None
         self.received = 0
 
-    def add(self, xy: tuple[float, float], message: Message) -> None:
+    def add(self, xy: tuple[float, float], message: RosMessage) -> None:
         """Add the next point, from a message with a header."""
         self.received += 1
         now, stamp = self._clock(), _stamp_of(message)
@@ -123,7 +123,7 @@ class _JumpDetector:
         self._last: _Point | None = None
         self._elsewhere: tuple[float, _Point] | None = None
 
-    def jumped_m(self, xy: tuple[float, float], message: Message) -> float:
+    def jumped_m(self, xy: tuple[float, float], message: RosMessage) -> float:
         """Return the distance in metres of a fix from the accepted ones; 0 if it follows them."""
         point = _Point(self._clock(), _stamp_of(message), xy)
         if self._last is None or self._follows(self._last, point):
@@ -263,7 +263,7 @@ class Telemetry:
         for topic in self.all:
             topic.subscription.close()
 
-    def _receive_fix(self, message: Message, now: float) -> None:
+    def _receive_fix(self, message: RosMessage, now: float) -> None:
         problem = fix_problem(message, self._position_binding)
         self._fix.problem = problem or ""
         if problem is not None:
@@ -281,7 +281,7 @@ class Telemetry:
         if self._odometry is None:
             self._odometer.add((x, y), message)
 
-    def _receive_battery(self, message: Message, now: float) -> None:
+    def _receive_battery(self, message: RosMessage, now: float) -> None:
         charge = number_at(message, self._battery_value)
         if charge is None:
             # Batteries report NaN for values they do not measure.
@@ -292,14 +292,14 @@ class Telemetry:
         else:
             self._charge, self._battery.at_s = charge, now
 
-    def _receive_odometry(self, message: Message, now: float) -> None:
+    def _receive_odometry(self, message: RosMessage, now: float) -> None:
         assert self._odometry is not None  # noqa: S101  asked for by who has one
         x, y = number_at(message, _ODOMETRY_X), number_at(message, _ODOMETRY_Y)
         if x is not None and y is not None:
             self._odometry.at_s = now
             self._odometer.add((x, y), message)
 
-    def _receive_stop(self, message: Message, now: float) -> None:
+    def _receive_stop(self, message: RosMessage, now: float) -> None:
         assert self._stop is not None  # noqa: S101  asked for by who has one
         assert self._stop_binding is not None  # noqa: S101
         value = value_at(message, self._stop_binding.path)
@@ -312,12 +312,12 @@ class Telemetry:
             self._stopped = f"the emergency stop was pressed ({self._stop.name})"
 
 
-def _stamp_of(message: Message) -> float:
+def _stamp_of(message: RosMessage) -> float:
     """Return the stamp of a message's header in seconds; 0 if it has none."""
     return seconds_at(message, "header.stamp") or 0.0
 
 
-def fix_problem(fix: Message, binding: PositionBinding) -> str | None:
+def fix_problem(fix: RosMessage, binding: PositionBinding) -> str | None:
     """Return why a ``sensor_msgs/msg/NavSatFix`` gives no usable position; None if it does."""
     lat, lon, status = fix.get("latitude"), fix.get("longitude"), value_at(fix, "status.status")
     if status == _NO_FIX or not isinstance(lat, float) or not isinstance(lon, float):

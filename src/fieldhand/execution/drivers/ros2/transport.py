@@ -19,7 +19,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
-Message = Mapping[str, object]
+RosMessage = Mapping[str, object]
 
 #: Size limit in bytes of a received message. No mission needs larger ones, and decoded they grow a hundredfold.
 MOST_BYTES = 4 * 1024 * 1024
@@ -78,7 +78,7 @@ class Peer:
 class Subscription(Protocol):
     """Reader of a topic."""
 
-    def take(self) -> tuple[Message, ...]:
+    def take(self) -> tuple[RosMessage, ...]:
         """Return the messages received since the last call, oldest first; at most as many as the depth of its QoS."""
         ...
 
@@ -94,7 +94,7 @@ class Subscription(Protocol):
 class Publisher(Protocol):
     """Writer of a topic."""
 
-    def send(self, message: Message) -> None:
+    def send(self, message: RosMessage) -> None:
         """Send one message.
 
         Raises:
@@ -118,7 +118,7 @@ class Client(Protocol):
         """Return the number of servers matched in **both** directions; otherwise replies would be lost."""
         ...
 
-    def ask(self, request: Message) -> int:
+    def ask(self, request: RosMessage) -> int:
         """Send a request.
 
         Returns:
@@ -129,7 +129,7 @@ class Client(Protocol):
         """
         ...
 
-    def replies(self) -> tuple[tuple[int, Message], ...]:
+    def replies(self) -> tuple[tuple[int, RosMessage], ...]:
         """Return the replies received since the last call, each with the number of its request."""
         ...
 
@@ -141,11 +141,11 @@ class Client(Protocol):
 class Server(Protocol):
     """Server of a service."""
 
-    def requests(self) -> tuple[tuple[object, Message], ...]:
+    def requests(self) -> tuple[tuple[object, RosMessage], ...]:
         """Return the requests received since the last call, each with the handle that :meth:`reply` needs."""
         ...
 
-    def reply(self, to: object, response: Message) -> None:
+    def reply(self, to: object, response: RosMessage) -> None:
         """Reply to a request."""
         ...
 

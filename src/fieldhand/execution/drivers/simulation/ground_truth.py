@@ -198,10 +198,10 @@ class GroundTruth:
                     return fault.value
                 case _:
                     pass
-        told = self._values.get(quantity.name, {}).get(place.id) if place.kind == "tree" else None
-        if told is None:
-            told = self._defaults.get(quantity.name)
-        return self._drawn(quantity, place) if told is None else told
+        reading = self._values.get(quantity.name, {}).get(place.id) if place.kind == "tree" else None
+        if reading is None:
+            reading = self._defaults.get(quantity.name)
+        return self._drawn(quantity, place) if reading is None else reading
 
     def _drawn(self, quantity: Quantity, place: Place) -> float:
         times = self._captures[quantity.name, place.id]

@@ -39,6 +39,7 @@ def simulation(site: Site, robot: RobotProfile, world: World, *, seed: int, spee
         charge_percent=world.charge_percent,
         wall=_wall_clock_of(world, clock),
         disk=lambda write: _writing_in(world, write),
+        robot=robot,
     )
 
 

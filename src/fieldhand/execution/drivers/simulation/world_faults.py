@@ -23,8 +23,8 @@ from fieldhand.execution.drivers.simulation.world import (
 
 Second = Annotated[float, Field(ge=0, allow_inf_nan=False)]
 #: Larger than any site.
-Metres = Annotated[float, Field(gt=0, le=100_000, allow_inf_nan=False)]
-Times = Annotated[StrictInt, Field(ge=1)] | None
+FaultDistance = Annotated[float, Field(gt=0, le=100_000, allow_inf_nan=False)]
+FaultCount = Annotated[StrictInt, Field(ge=1)] | None
 
 
 class Strict(BaseModel):
@@ -55,7 +55,7 @@ class TreeRefModel(Strict):
 
 
 class _AtModel(Strict):
-    times: Times = None
+    times: FaultCount = None
     at: TreeRefModel | None = None
 
     @property
@@ -113,8 +113,8 @@ class BlockedModel(Strict):
     fault: Literal["blocked"]
     at: TreeRefModel | None = None
     between: tuple[TreeRefModel, TreeRefModel] | None = None
-    within_m: Metres = 1.0
-    times: Times = None
+    within_m: FaultDistance = 1.0
+    times: FaultCount = None
     from_s: Second = 0.0
     until_s: Second | None = None
 
@@ -144,9 +144,9 @@ class LocalisationLostModel(Strict):
     fault: Literal["localisation_lost"]
     at_s: Second | None = None
     at: TreeRefModel | None = None
-    within_m: Metres = 5.0
+    within_m: FaultDistance = 5.0
     for_s: Second | None = None
-    times: Times = 1
+    times: FaultCount = 1
 
     @model_validator(mode="after")
     def _sometime(self) -> LocalisationLostModel:

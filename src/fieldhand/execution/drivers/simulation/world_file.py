@@ -172,13 +172,13 @@ def _explained(error: ValidationError, source: str) -> WorldError:
     if len(mistakes) == 1:
         where, what, advice = mistakes[0]
         return WorldError(what, where=": ".join([source, *where]), advice=advice)
-    said, hints = [], {""}
+    texts, hints = [], {""}
     for where, what, advice in mistakes[:_MOST_NAMED]:
         hint = _hint(advice)
-        said.append(": ".join([*where, what]) + ("" if hint in hints else hint))
+        texts.append(": ".join([*where, what]) + ("" if hint in hints else hint))
         hints.add(hint)
     more = f"; and {len(mistakes) - _MOST_NAMED} more" if len(mistakes) > _MOST_NAMED else ""
-    return WorldError(f"{len(mistakes)} mistakes: {'; '.join(said)}{more}", where=source, advice=GUIDE)
+    return WorldError(f"{len(mistakes)} mistakes: {'; '.join(texts)}{more}", where=source, advice=GUIDE)
 
 
 def _meant(problems: Sequence[ErrorDetails]) -> list[ErrorDetails]:

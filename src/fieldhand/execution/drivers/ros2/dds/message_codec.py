@@ -10,7 +10,7 @@ from cyclonedds.idl import make_idl_struct, types
 
 from fieldhand.execution.drivers.ros2.dds.names import wire_type
 from fieldhand.execution.drivers.ros2.interfaces import FieldType, Interfaces
-from fieldhand.execution.drivers.ros2.transport import MOST_BYTES, Message
+from fieldhand.execution.drivers.ros2.transport import MOST_BYTES, RosMessage
 
 #: Suffix that no ROS field name has; avoids Python keywords and attributes such as ``from`` and ``serialize``.
 _END = "_"
@@ -72,7 +72,7 @@ class MessageCodec:
             self._outer[message, with_header] = made
         return self._outer[message, with_header]
 
-    def encode(self, message: str, given: Message, header: Header | None = None) -> Any:
+    def encode(self, message: str, given: RosMessage, header: Header | None = None) -> Any:
         """Encode a message as a DDS sample.
 
         Raises:

@@ -9,7 +9,7 @@ from typing import Literal
 from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.ros2.transport import Rmw
 
-Half = Literal["Request", "Response"]
+ServiceHalf = Literal["Request", "Response"]
 
 #: Middlewares whose services match ours but do not interoperate: they identify the request of a reply differently.
 INCOMPATIBLE_SERVICES: tuple[Rmw, ...] = ("fastrtps", "connext")

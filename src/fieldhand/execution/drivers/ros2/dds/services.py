@@ -14,7 +14,7 @@ from fieldhand.execution.drivers.ros2.dds.message_codec import Header, MessageCo
 from fieldhand.execution.drivers.ros2.dds.names import INCOMPATIBLE_SERVICES, rmw_of
 from fieldhand.execution.drivers.ros2.dds.qos import user_data_of
 from fieldhand.execution.drivers.ros2.dds.topics import close, samples, write
-from fieldhand.execution.drivers.ros2.transport import Message, QosProfile
+from fieldhand.execution.drivers.ros2.transport import QosProfile, RosMessage
 
 #: For both topics: reliable, volatile, depth 10, as measured.
 SERVICE_QOS = QosProfile()
@@ -50,14 +50,14 @@ class DdsClient:
     def servers(self) -> int:
         return len(self._request_readers.ids() & self._reply_writers.ids()) if self.open else 0
 
-    def ask(self, request: Message) -> int:
+    def ask(self, request: RosMessage) -> int:
         self._number += 1
         sample = self._codec.encode(f"{self._type}_Request", request, Header(self._client, self._number))
         if self.open:
             write(self._writer, sample)
         return self._number
 
-    def replies(self) -> tuple[tuple[int, Message], ...]:
+    def replies(self) -> tuple[tuple[int, RosMessage], ...]:
         if not self.open:
             return ()
         return tuple(
@@ -102,7 +102,7 @@ class DdsServer:
         self._waiting: deque[_PendingReply] = deque(maxlen=_MOST_WAITING)
         self.open = True
 
-    def requests(self) -> tuple[tuple[object, Message], ...]:
+    def requests(self) -> tuple[tuple[object, RosMessage], ...]:
         if not self.open:
             return ()
         self._send_waiting()
@@ -114,7 +114,7 @@ class DdsServer:
             for sample in samples(self._reader, SERVICE_QOS.depth)
         )
 
-    def reply(self, to: object, response: Message) -> None:
+    def reply(self, to: object, response: RosMessage) -> None:
         if not isinstance(to, _Request):
             raise TypeError("answer what requests() gave")
         sample = self._codec.encode(f"{self._type}_Response", response, to.header)
@@ -131,12 +131,12 @@ class DdsServer:
         for _ in range(len(self._waiting)):
             reply = self._waiting.popleft()
             reply.tries += 1
-            if self._found(reply.request.writer):
+            if self._has_reader(reply.request.writer):
                 write(self._writer, reply.sample)
             elif reply.tries < _TRIES:
                 self._waiting.append(reply)
 
-    def _found(self, asker: int) -> bool:
+    def _has_reader(self, asker: int) -> bool:
         """Return True if the client's reader is matched, or cannot be identified."""
         client = _id_of(self._reader.get_matched_publication_data(asker), "clientid")
         return client is None or client in self._clients.ids()

@@ -10,7 +10,7 @@ from cyclonedds.sub import DataReader
 
 from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.ros2.dds.message_codec import MessageCodec, Unreadable
-from fieldhand.execution.drivers.ros2.transport import Message
+from fieldhand.execution.drivers.ros2.transport import RosMessage
 
 
 def samples(reader: Any, most: int) -> list[Any]:
@@ -44,7 +44,7 @@ class DdsSubscription:
         self._codec, self._message, self._reader, self._depth = codec, message, reader, depth
         self.open = True
 
-    def take(self) -> tuple[Message, ...]:
+    def take(self) -> tuple[RosMessage, ...]:
         if not self.open:
             return ()
         taken = samples(self._reader, self._depth)
@@ -66,7 +66,7 @@ class DdsPublisher:
         self._codec, self._message, self._writer = codec, message, writer
         self.open = True
 
-    def send(self, message: Message) -> None:
+    def send(self, message: RosMessage) -> None:
         sample = self._codec.encode(self._message, message)
         if self.open:
             write(self._writer, sample)

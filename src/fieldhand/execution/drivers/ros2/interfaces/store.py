@@ -18,7 +18,7 @@ from fieldhand.execution.drivers.ros2.interfaces.definitions import (
     to_rosbags,
 )
 from fieldhand.execution.drivers.ros2.message_fields import steps_of
-from fieldhand.execution.drivers.ros2.transport import Message
+from fieldhand.execution.drivers.ros2.transport import RosMessage
 from fieldhand.robot.bindings import Distro
 
 #: Limit of values in a message with empty sequences: a definition could demand more than memory holds.
@@ -126,7 +126,7 @@ class Interfaces:
         """Return a message with every field at its default."""
         return self.complete(message, {})
 
-    def complete(self, message: str, given: Message) -> dict[str, object]:
+    def complete(self, message: str, given: RosMessage) -> dict[str, object]:
         """Return a message with all fields, validated, as it is sent.
 
         Raises:

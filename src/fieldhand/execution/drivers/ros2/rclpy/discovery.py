@@ -25,8 +25,8 @@ class RclpyDiscovery:
 
     def __init__(self, node: Any) -> None:
         self._node = node
-        said = get_rmw_implementation_identifier()
-        self.rmw: Rmw = next((rmw for rmw in _NAMED if rmw in said), "unknown")
+        name = get_rmw_implementation_identifier()
+        self.rmw: Rmw = next((rmw for rmw in _NAMED if rmw in name), "unknown")
         self._zenoh = self.rmw == "zenoh"
 
     def writers_of(self, topic: str) -> tuple[Peer, ...]:
@@ -63,11 +63,11 @@ class RclpyDiscovery:
     def _peer(self, endpoint: Any) -> Peer:
         key = bytes(endpoint.endpoint_gid)
         rmw: Rmw = "zenoh" if self._zenoh else rmw_of(key)
-        said = str(getattr(endpoint, "topic_type_hash", ""))
+        type_hash = str(getattr(endpoint, "topic_type_hash", ""))
         return Peer(
             participant=key[:_PARTICIPANT].hex(),
             rmw=rmw,
             type=ros_type(endpoint.topic_type),
             qos=from_rclpy_qos(endpoint.qos_profile),
-            type_hash=said if said.startswith("RIHS01_") else "",
+            type_hash=type_hash if type_hash.startswith("RIHS01_") else "",
         )

@@ -19,7 +19,7 @@ from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.ros2.interfaces import Definition, FieldType
 from fieldhand.execution.drivers.ros2.interfaces.definitions import INTERFACE_NAME, PRIMITIVES
 from fieldhand.execution.drivers.ros2.interfaces.validation import complete
-from fieldhand.execution.drivers.ros2.transport import Message
+from fieldhand.execution.drivers.ros2.transport import RosMessage
 
 #: Parts of services and actions, as suffixes of their names.
 _PART = re.compile(r"(?P<whole>\w+?)_(?P<part>(?:(?:SendGoal|GetResult)_)?(?:Request|Response)|Goal|Result|Feedback)")
@@ -55,7 +55,7 @@ def class_of(name: str) -> Any:
     return found
 
 
-def to_ros(message: str, given: Message) -> Any:
+def to_ros(message: str, given: RosMessage) -> Any:
     """Convert a mapping to a ROS message.
 
     Raises:

@@ -8,7 +8,7 @@ from rclpy.impl.implementation_singleton import rclpy_implementation
 
 from fieldhand.execution.drivers.ros2.rclpy import message_types
 from fieldhand.execution.drivers.ros2.rclpy.discovery import RclpyDiscovery
-from fieldhand.execution.drivers.ros2.transport import Message, QosProfile, services_interoperate
+from fieldhand.execution.drivers.ros2.transport import QosProfile, RosMessage, services_interoperate
 
 RCLError = rclpy_implementation.RCLError
 
@@ -39,15 +39,15 @@ class RclpyClient:
             for p in self._discovery.servers_of(self._service)
         )
 
-    def ask(self, request: Message) -> int:
+    def ask(self, request: RosMessage) -> int:
         sample = message_types.to_ros(f"{self._type}_Request", request)
         if self.open:
             with self._client.handle:
                 self._last = int(self._client.handle.send_request(sample))
         return self._last
 
-    def replies(self) -> tuple[tuple[int, Message], ...]:
-        taken: list[tuple[int, Message]] = []
+    def replies(self) -> tuple[tuple[int, RosMessage], ...]:
+        taken: list[tuple[int, RosMessage]] = []
         for _ in range(SERVICE_QOS.depth if self.open else 0):
             try:
                 with self._client.handle:
@@ -73,8 +73,8 @@ class RclpyServer:
         self._node, self._type, self._server = node, service_type, service
         self.open = True
 
-    def requests(self) -> tuple[tuple[object, Message], ...]:
-        taken: list[tuple[object, Message]] = []
+    def requests(self) -> tuple[tuple[object, RosMessage], ...]:
+        taken: list[tuple[object, RosMessage]] = []
         for _ in range(SERVICE_QOS.depth if self.open else 0):
             try:
                 with self._server.handle:
@@ -86,7 +86,7 @@ class RclpyServer:
                 continue  # a message that does not fit its type is dropped
         return tuple(taken)
 
-    def reply(self, to: object, response: Message) -> None:
+    def reply(self, to: object, response: RosMessage) -> None:
         sample = message_types.to_ros(f"{self._type}_Response", response)
         if self.open:
             self._server.send_response(sample, to)

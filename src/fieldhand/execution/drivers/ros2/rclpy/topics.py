@@ -9,7 +9,7 @@ from rclpy.serialization import deserialize_message
 
 from fieldhand.execution.drivers.ros2.rclpy import message_types
 from fieldhand.execution.drivers.ros2.rclpy.discovery import RclpyDiscovery
-from fieldhand.execution.drivers.ros2.transport import MOST_BYTES, Message
+from fieldhand.execution.drivers.ros2.transport import MOST_BYTES, RosMessage
 
 RCLError = rclpy_implementation.RCLError
 
@@ -25,8 +25,8 @@ class RclpySubscription:
         self.unreadable = ""
         self.unread = 0
 
-    def take(self) -> tuple[Message, ...]:
-        taken: list[Message] = []
+    def take(self) -> tuple[RosMessage, ...]:
+        taken: list[RosMessage] = []
         for _ in range(self._subscription.qos_profile.depth if self.open else 0):
             with self._subscription.handle:
                 found = self._subscription.handle.take_message(self._subscription.msg_type, True)
@@ -46,7 +46,7 @@ class RclpySubscription:
             self.open = False
             self._node.destroy_subscription(self._subscription)
 
-    def _read(self, data: bytes) -> Message | None:
+    def _read(self, data: bytes) -> RosMessage | None:
         if len(data) > MOST_BYTES:
             why = f"it has {len(data)} bytes, more than {MOST_BYTES}"
         else:
@@ -65,7 +65,7 @@ class RclpyPublisher:
         self._node, self._message, self._publisher = node, message, publisher
         self.open = True
 
-    def send(self, message: Message) -> None:
+    def send(self, message: RosMessage) -> None:
         sample = message_types.to_ros(self._message, message)
         if self.open:
             self._publisher.publish(sample)

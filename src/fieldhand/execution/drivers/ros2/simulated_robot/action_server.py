@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 from fieldhand.execution.drivers.ros2.action_outcome import ABORTED, ACCEPTED, CANCELED, CANCELING, EXECUTING, SUCCEEDED
-from fieldhand.execution.drivers.ros2.transport import STATUS_QOS, Message, Transport
+from fieldhand.execution.drivers.ros2.transport import STATUS_QOS, RosMessage, Transport
 
 #: Return codes of ``action_msgs/srv/CancelGoal``.
 NO_ERROR, UNKNOWN_GOAL, TERMINATED = 0, 2, 3
@@ -22,7 +22,7 @@ _NO_ID = bytes(16)
 class GoalHandler(Protocol):
     """Carries out the goals of an action server."""
 
-    def rejection_reason(self, goal: Message) -> str | None:
+    def rejection_reason(self, goal: RosMessage) -> str | None:
         """Return why a goal is rejected; None to accept it."""
         ...
 
@@ -46,11 +46,11 @@ class ServerGoal:
     """
 
     id: bytes
-    goal_message: Message
+    goal_message: RosMessage
     since: Mapping[str, int]
     server: ActionServer
     status: int = ACCEPTED
-    result: Message = field(default_factory=dict)
+    result: RosMessage = field(default_factory=dict)
     waiting: list[object] = field(default_factory=list)
 
     @property
@@ -58,19 +58,19 @@ class ServerGoal:
         """True once the goal has ended."""
         return self.status in _OVER
 
-    def feedback(self, message: Message) -> None:
+    def feedback(self, message: RosMessage) -> None:
         """Publish feedback."""
         self.server.send_feedback(self, message)
 
-    def succeeded(self, result: Message) -> None:
+    def succeeded(self, result: RosMessage) -> None:
         """End the goal as succeeded."""
         self.server.end(self, SUCCEEDED, result)
 
-    def aborted(self, result: Message) -> None:
+    def aborted(self, result: RosMessage) -> None:
         """End the goal as aborted."""
         self.server.end(self, ABORTED, result)
 
-    def cancelled(self, result: Message) -> None:
+    def cancelled(self, result: RosMessage) -> None:
         """End the goal as cancelled."""
         self.server.end(self, CANCELED, result)
 
@@ -123,11 +123,11 @@ class ActionServer:
             else:
                 goal.waiting.append(to)
 
-    def send_feedback(self, goal: ServerGoal, message: Message) -> None:
+    def send_feedback(self, goal: ServerGoal, message: RosMessage) -> None:
         """Publish feedback of a goal."""
         self._feedback.send({"goal_id": {"uuid": goal.id}, "feedback": message})
 
-    def end(self, goal: ServerGoal, status: int, result: Message) -> None:
+    def end(self, goal: ServerGoal, status: int, result: RosMessage) -> None:
         """Record the end of a goal and send its result."""
         if goal.over:
             return
@@ -140,7 +140,7 @@ class ActionServer:
             del self._goals[old.id]
         self._publish()
 
-    def _accept(self, to: object, request: Message) -> None:
+    def _accept(self, to: object, request: RosMessage) -> None:
         identity, goal_message = _id(request.get("goal_id")), _part(request, "goal")
         stamp = self._stamp()
         why = "its id is taken" if identity in self._goals else self._handler.rejection_reason(goal_message)
@@ -154,7 +154,7 @@ class ActionServer:
         self._publish()
         self._handler.begin(goal)
 
-    def _cancelling(self, info: Message) -> Message:
+    def _cancelling(self, info: RosMessage) -> RosMessage:
         """Cancel one goal, those accepted up to a time, or all, by the rules of ``action_msgs/srv/CancelGoal``."""
         identity, until = _id(info.get("goal_id")), _nanoseconds(info.get("stamp"))
         named = self._goals.get(identity)
@@ -189,7 +189,7 @@ class ActionServer:
         )
 
 
-def _part(message: Message, name: str) -> Message:
+def _part(message: RosMessage, name: str) -> RosMessage:
     part = message.get(name)
     return part if isinstance(part, Mapping) else {}
 

@@ -12,7 +12,7 @@ from fieldhand.execution.drivers.ros2.simulated_robot.action_server import Actio
 from fieldhand.execution.drivers.ros2.simulated_robot.field_values import field_value
 from fieldhand.execution.drivers.ros2.simulated_robot.place_lookup import PlaceLookup
 from fieldhand.execution.drivers.ros2.simulated_robot.robot_platform import SimulatedPlatform
-from fieldhand.execution.drivers.ros2.transport import Message, Server, Transport
+from fieldhand.execution.drivers.ros2.transport import RosMessage, Server, Transport
 from fieldhand.robot.bindings import CallBinding
 from fieldhand.robot.model import Action
 from fieldhand.site.model import Place
@@ -54,7 +54,7 @@ class CaptureCall:
         for path in filter(None, (call.success, call.message)):
             interfaces.field_at(self._answer, path)
 
-    def begin(self, request: Message, over: Callable[[Message, bool], None]) -> None:
+    def begin(self, request: RosMessage, over: Callable[[RosMessage, bool], None]) -> None:
         """Start the capture that a request asks for.
 
         Args:
@@ -68,7 +68,7 @@ class CaptureCall:
 
         self.platform.capture(self.action.name, place, self._parameters(request), done)
 
-    def answer(self, progress: Progress) -> tuple[Message, bool]:
+    def answer(self, progress: Progress) -> tuple[RosMessage, bool]:
         """Return the reply for the end of a capture, and True if it succeeded."""
         if progress.state != "succeeded":
             return self.failure(progress.what or progress.state), False
@@ -79,18 +79,18 @@ class CaptureCall:
                 return self.failure(f"there is no reading of {name}"), False
         return message_of(values), True
 
-    def failure(self, why: str) -> Message:
+    def failure(self, why: str) -> RosMessage:
         """Return a reply that reports a failure, as far as its type has fields for it."""
-        said = ((self.call.success, False), (self.call.message, why))
-        return message_of({path: value for path, value in said if path})
+        fields = ((self.call.success, False), (self.call.message, why))
+        return message_of({path: value for path, value in fields if path})
 
-    def _place(self, request: Message) -> Place:
+    def _place(self, request: RosMessage) -> Place:
         named = {value: path for path, value in self.call.request.items() if isinstance(value, str)}
         at = self.platform.position
         identity, kind = (_text(request, named.get(reference)) for reference in ("$place", "$kind"))
         return self._places.named(identity, kind, at.xy)
 
-    def _parameters(self, request: Message) -> Parameters:
+    def _parameters(self, request: RosMessage) -> Parameters:
         found: Parameters = {parameter.name: parameter.default for parameter in self.action.parameters}
         for path, value in self.call.request.items():
             name = value.removeprefix("$") if isinstance(value, str) and value.startswith("$") else ""
@@ -107,7 +107,7 @@ class CaptureActionHandler:
         self._call = capture_call
         self._goal: ServerGoal | None = None
 
-    def rejection_reason(self, goal: Message) -> str | None:  # noqa: ARG002  any that its type allows is one
+    def rejection_reason(self, goal: RosMessage) -> str | None:  # noqa: ARG002  any that its type allows is one
         activity = self._call.platform.activity
         return f"the robot is {activity}" if activity else None
 
@@ -121,7 +121,7 @@ class CaptureActionHandler:
             self._call.platform.stop_now()
             goal.cancelled(self._call.failure("cancelled"))
 
-    def _over(self, result: Message, succeeded: bool) -> None:
+    def _over(self, result: RosMessage, succeeded: bool) -> None:
         goal, self._goal = self._goal, None
         if goal is not None:
             (goal.succeeded if succeeded else goal.aborted)(result)
@@ -145,7 +145,7 @@ class CaptureServiceServer:
             else:
                 self._call.begin(request, partial(self._reply, to))
 
-    def _reply(self, to: object, answer: Message, succeeded: bool) -> None:
+    def _reply(self, to: object, answer: RosMessage, succeeded: bool) -> None:
         if succeeded or self._call.call.success:
             self._server.reply(to, answer)
 
@@ -172,7 +172,7 @@ def capture_server(
     return ActionServer(transport, name, capture_call.call.type, handler, stamp=stamp, refused=refused)
 
 
-def _text(request: Message, path: str | None) -> str:
+def _text(request: RosMessage, path: str | None) -> str:
     """Return the value at a path as text."""
     value = None if path is None else value_at(request, path)
     return "" if value is None else str(value)

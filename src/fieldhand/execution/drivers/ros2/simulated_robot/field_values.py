@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
-from fieldhand.execution.drivers.ros2.transport import Message
+from fieldhand.execution.drivers.ros2.transport import RosMessage
 from fieldhand.robot.bindings import FieldBinding
 
 #: Larger magnitudes than any integer type of ROS are no reading.
@@ -36,13 +36,13 @@ def field_value(
     return bool(round(value)) if kind == "bool" else round(value)
 
 
-def with_header(interfaces: Interfaces, type_name: str, message: Message, header: Message) -> Message:
+def with_header(interfaces: Interfaces, type_name: str, message: RosMessage, header: RosMessage) -> RosMessage:
     """Add a header to a message whose type has one."""
     head = interfaces.fields(type_name).get("header")
     return message if head is None or head.base != "std_msgs/msg/Header" else {**message, "header": header}
 
 
-def submessage(message: Message, name: str) -> Message:
+def submessage(message: RosMessage, name: str) -> RosMessage:
     """Return a nested message; empty if there is none."""
     part = message.get(name)
     return part if isinstance(part, Mapping) else {}

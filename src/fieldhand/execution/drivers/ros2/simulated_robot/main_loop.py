@@ -21,7 +21,7 @@ def run_robot(
     save: Callable[[SimulationState], None] = lambda _: None,
     steady: Callable[[], float] = time.monotonic,
 ) -> str:
-    """Step a robot until it is told to end.
+    """Step a robot until the end is requested.
 
     Args:
         clock: Clock of the robot.

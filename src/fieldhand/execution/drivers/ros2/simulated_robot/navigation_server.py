@@ -15,7 +15,7 @@ from fieldhand.execution.drivers.ros2.map_frame import degrees_to_map, map_to_de
 from fieldhand.execution.drivers.ros2.simulated_robot.action_server import ServerGoal
 from fieldhand.execution.drivers.ros2.simulated_robot.place_lookup import PlaceLookup
 from fieldhand.execution.drivers.ros2.simulated_robot.robot_platform import Point, SimulatedPlatform, length_m
-from fieldhand.execution.drivers.ros2.transport import Message
+from fieldhand.execution.drivers.ros2.transport import RosMessage
 from fieldhand.robot.bindings import Datum, Ros2Bindings
 from fieldhand.site.model import Site
 
@@ -55,7 +55,7 @@ class NavigationServer:
         *,
         speed: Callable[[], float],
         now: Callable[[], float],
-        stamped: Callable[[str], Message],
+        stamped: Callable[[str], RosMessage],
         report: Callable[[str, Progress], None],
     ) -> None:
         self._binding, self._interfaces = bindings.navigation, interfaces
@@ -66,9 +66,9 @@ class NavigationServer:
         self._through: tuple[Point, ...] = ()
         self._legs: tuple[tuple[Point, Point], ...] = ()
         self._leg = 0
-        self._begun_s = self._told_s = 0.0
+        self._begun_s = self._feedback_s = 0.0
 
-    def rejection_reason(self, goal: Message) -> str | None:
+    def rejection_reason(self, goal: RosMessage) -> str | None:
         if self._platform.activity and not self._platform.driving:
             return f"the robot is {self._platform.activity}"
         try:
@@ -85,7 +85,7 @@ class NavigationServer:
             before.aborted({})
         corners = self._corners(goal.goal_message)
         here = self._platform.position
-        self._goal, self._begun_s, self._told_s = goal, self._now(), -math.inf
+        self._goal, self._begun_s, self._feedback_s = goal, self._now(), -math.inf
         if any(math.dist(here.xy, corner) > _REACH_M for corner in corners):
             self._end(Progress(state="failed", what="the goal lies outside of the map"), _OUTSIDE)
             return
@@ -102,11 +102,11 @@ class NavigationServer:
     def step(self) -> None:
         """Publish feedback on the current goal."""
         now = self._now()
-        if self._goal is not None and now - self._told_s >= _FEEDBACK_S:
-            self._told_s = now
+        if self._goal is not None and now - self._feedback_s >= _FEEDBACK_S:
+            self._feedback_s = now
             self._goal.feedback(self._feedback(self._goal, now))
 
-    def _corners(self, goal: Message) -> tuple[Point, ...]:
+    def _corners(self, goal: RosMessage) -> tuple[Point, ...]:
         """Return the corners of a goal in local metres.
 
         Raises:
@@ -150,7 +150,7 @@ class NavigationServer:
         else:
             goal.aborted(self._failure(goal.goal_message, progress, code))
 
-    def _failure(self, goal_message: Message, progress: Progress, code: int) -> Message:
+    def _failure(self, goal_message: RosMessage, progress: Progress, code: int) -> RosMessage:
         """Return a result that describes a failure: empty in Humble, with a code from Iron on, with a text from Kilted
         on.
         """
@@ -169,7 +169,7 @@ class NavigationServer:
             result["error_code"] = code_of_all
         return result
 
-    def _feedback(self, goal: ServerGoal, now: float) -> Message:
+    def _feedback(self, goal: ServerGoal, now: float) -> RosMessage:
         if self._binding.type.endswith("/FollowGPSWaypoints"):
             return {"current_waypoint": _first(goal.goal_message) + self._index_ahead()}
         at = self._platform.position
@@ -210,7 +210,7 @@ def _away(point: Point, a: Point, b: Point) -> float:
     return math.dist(point, (a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1])))
 
 
-def _first(goal: Message) -> int:
+def _first(goal: RosMessage) -> int:
     """Return the index of the first waypoint of a goal."""
     first = goal.get("goal_index", 0)
     return first if isinstance(first, int) else 0
@@ -224,21 +224,21 @@ def _geographic(pose: object) -> tuple[float, float]:
     return lat, lon
 
 
-def _upright(orientation: Message) -> None:
+def _upright(orientation: RosMessage) -> None:
     """Raise an error unless the quaternion has length 1; one that was never filled in is all zeros."""
     length = math.hypot(*_numbers(orientation, "x", "y", "z", "w"))
     if not abs(length - 1.0) <= _OFF:
         raise Ros2Error(f"the orientation is not a unit quaternion: its length is {length:g}")
 
 
-def _numbers(message: Message, *names: str) -> tuple[float, ...]:
+def _numbers(message: RosMessage, *names: str) -> tuple[float, ...]:
     values = tuple(message.get(name) for name in names)
     if not all(isinstance(value, (int, float)) and math.isfinite(value) for value in values):
         raise Ros2Error(f"{', '.join(names)} are not all numbers")
     return tuple(float(value) for value in values if isinstance(value, (int, float)))
 
 
-def _part(message: object, name: str) -> Message:
+def _part(message: object, name: str) -> RosMessage:
     part = message.get(name) if isinstance(message, Mapping) else None
     return part if isinstance(part, Mapping) else {}
 
@@ -247,5 +247,5 @@ def _listed(value: object) -> Sequence[object]:
     return value if isinstance(value, (tuple, list)) else ()
 
 
-def _duration(seconds: float) -> Message:
+def _duration(seconds: float) -> RosMessage:
     return {"sec": int(seconds), "nanosec": int(seconds % 1.0 * 1e9)}

@@ -23,7 +23,7 @@ from fieldhand.execution.drivers.ros2.simulated_robot.robot_platform import Simu
 from fieldhand.execution.drivers.ros2.simulated_robot.sensor_topics import SensorTopics
 from fieldhand.execution.drivers.ros2.simulated_robot.speed_limit import SpeedLimit
 from fieldhand.execution.drivers.ros2.simulated_robot.telemetry_topics import TelemetryTopics
-from fieldhand.execution.drivers.ros2.transport import Message, QosProfile, Server, Transport
+from fieldhand.execution.drivers.ros2.transport import QosProfile, RosMessage, Server, Transport
 from fieldhand.execution.drivers.simulation.driver import SimulatedDriver
 from fieldhand.execution.drivers.simulation.state import SimulationState
 from fieldhand.execution.drivers.simulation.world import World
@@ -261,7 +261,7 @@ class SimulatedRobot:
         at = self.platform.position
         return self._places.nearest(at.xy)
 
-    def _locate(self, to: object, request: Message) -> None:
+    def _locate(self, to: object, request: RosMessage) -> None:
         """Answer ``fromLL`` like robot_localization: convert degrees to the map frame."""
         assert self._from_ll is not None  # noqa: S101  asked for by who serves it
         point = submessage(request, "ll_point")
@@ -273,7 +273,7 @@ class SimulatedRobot:
         seconds = self.seconds if self._sim_time else self._clock.wall_s
         return {"sec": int(seconds), "nanosec": int(seconds % 1.0 * 1e9)}
 
-    def _stamped(self, frame: str) -> Message:
+    def _stamped(self, frame: str) -> RosMessage:
         return {"stamp": self._stamp(), "frame_id": frame}
 
 

@@ -14,7 +14,7 @@ from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.message_fields import message_of
 from fieldhand.execution.drivers.ros2.simulated_robot.field_values import field_value, with_header
-from fieldhand.execution.drivers.ros2.transport import Message, Publisher, QosProfile, Transport
+from fieldhand.execution.drivers.ros2.transport import Publisher, QosProfile, RosMessage, Transport
 from fieldhand.robot.bindings import NextMessage, Ros2Bindings
 
 #: Seconds between two messages; duration of a sensor's silence as a multiple of the client's time limit.
@@ -53,7 +53,7 @@ class SensorTopics:
         *,
         taken: frozenset[str],
         measure: Callable[[str], Mapping[str, float]],
-        header: Callable[[], Message],
+        header: Callable[[], RosMessage],
     ) -> None:
         self._interfaces, self._bindings, self._measure, self._header = interfaces, bindings, measure, header
         self._sensors: dict[str, _SensorTopic] = {}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fieldhand.execution.drivers.ros2.transport import Message, QosProfile, Transport
+from fieldhand.execution.drivers.ros2.transport import QosProfile, RosMessage, Transport
 from fieldhand.robot.bindings import Ros2Bindings
 
 _TYPE = "nav2_msgs/msg/SpeedLimit"
@@ -31,7 +31,7 @@ class SpeedLimit:
             self._limit_m_s = min(self._own_m_s, self._limit_in(message) or self._own_m_s)
         return self._limit_m_s
 
-    def _limit_in(self, message: Message) -> float:
+    def _limit_in(self, message: RosMessage) -> float:
         limit = message.get("speed_limit")
         limit = float(limit) if isinstance(limit, (int, float)) and limit > 0 else 0.0
         return limit / 100.0 * self._own_m_s if message.get("percentage") else limit

@@ -11,7 +11,7 @@ from fieldhand.execution.drivers.ros2.map_frame import orientation
 from fieldhand.execution.drivers.ros2.message_fields import message_of
 from fieldhand.execution.drivers.ros2.simulated_robot.field_values import field_value, with_header
 from fieldhand.execution.drivers.ros2.simulated_robot.robot_platform import SimulatedPlatform
-from fieldhand.execution.drivers.ros2.transport import Message, Publisher, QosProfile, Transport
+from fieldhand.execution.drivers.ros2.transport import Publisher, QosProfile, RosMessage, Transport
 from fieldhand.robot.bindings import Ros2Bindings, TopicBinding
 
 #: Seconds between two messages of each topic.
@@ -35,7 +35,7 @@ class _Sent:
     publisher: Publisher
     transient: bool
     every_s: float
-    message: Callable[[], Message]
+    message: Callable[[], RosMessage]
     sent_s: float = -math.inf
 
 
@@ -59,11 +59,11 @@ class TelemetryTopics:
         bindings: Ros2Bindings,
         platform: SimulatedPlatform,
         *,
-        stamped: Callable[[str], Message],
+        stamped: Callable[[str], RosMessage],
     ) -> None:
         self._interfaces, self._bindings, self._platform, self._stamped = interfaces, bindings, platform, stamped
 
-        def sent(topic: TopicBinding, every_s: float, message: Callable[[], Message]) -> _Sent:
+        def sent(topic: TopicBinding, every_s: float, message: Callable[[], RosMessage]) -> _Sent:
             qos = QosProfile(reliable=True, transient=topic.transient)
             publisher = transport.publish(bindings.whole_name(topic.topic), topic.type, qos)
             return _Sent(publisher, topic.transient, every_s, message)
@@ -94,7 +94,7 @@ class TelemetryTopics:
                 if topic.transient or topic.publisher.subscribers():
                     topic.publisher.send(topic.message())
 
-    def _fix(self) -> Message:
+    def _fix(self) -> RosMessage:
         at, lost = self._platform.position, self._platform.lost
         variances = [0.0] * 9
         if not lost:
@@ -109,9 +109,9 @@ class TelemetryTopics:
             "position_covariance_type": _UNKNOWN if lost else _DIAGONAL,
         }
 
-    def _battery(self) -> Message:
+    def _battery(self) -> RosMessage:
         binding = self._bindings.battery
-        message: Message = {}
+        message: RosMessage = {}
         if binding.topic.type == "sensor_msgs/msg/BatteryState":
             unmeasured = ("voltage", "temperature", "current", "charge", "capacity", "design_capacity")
             message = {"power_supply_status": _DISCHARGING, "present": True, **dict.fromkeys(unmeasured, math.nan)}
@@ -119,7 +119,7 @@ class TelemetryTopics:
         message = {**message, **message_of({binding.value.path: charge})}
         return with_header(self._interfaces, binding.topic.type, message, self._stamped("base_link"))
 
-    def _odometry(self) -> Message:
+    def _odometry(self) -> RosMessage:
         east, north = self._platform.odometry
         yaw = math.radians(90.0 - self._platform.heading_deg)
         return {
@@ -134,7 +134,7 @@ class TelemetryTopics:
             "twist": {"twist": {"linear": {"x": self._platform.speed_m_s, "y": 0.0, "z": 0.0}}},
         }
 
-    def _stop(self) -> Message:
+    def _stop(self) -> RosMessage:
         binding = self._bindings.stop
         assert binding is not None  # noqa: S101  sent only where there is one
         pressed = self._platform.stopped is not None

@@ -30,7 +30,7 @@ _TOWARD: Mapping[CornerName, tuple[float, float]] = {
 Points = NDArray[np.float64]
 
 
-class Ground:
+class CaseSite:
     """Trees and markers in metres east and north of the first tree.
 
     The length of a degree is that of the ellipsoid at that tree, accurate to a few parts in 10,000 within a farm.
@@ -116,7 +116,7 @@ class Ground:
         return found
 
 
-def load_ground(path: Path) -> Ground:
+def load_case_site(path: Path) -> CaseSite:
     """Return the trees and markers of a GeoJSON file.
 
     Points are trees if their ``marker-symbol`` or ``kind`` says so or if they have neither; ``start`` and ``end`` are
@@ -128,18 +128,18 @@ def load_ground(path: Path) -> Ground:
     trees: list[tuple[float, float]] = []
     properties: list[Mapping[str, Any]] = []
     markers: dict[str, tuple[float, float]] = {}
-    for said, at in _points(path):
-        kind = str(said.get("marker-symbol") or said.get("kind") or "tree")
+    for named, at in _points(path):
+        kind = str(named.get("marker-symbol") or named.get("kind") or "tree")
         if kind in ("start", "end"):
             markers[kind] = at
         elif "tree" in kind or "vine" in kind:
             trees.append(at)
-            properties.append(said)
+            properties.append(named)
     if len(trees) < 2:
         raise CaseError(
             f"the judge finds {len(trees)} trees in it", where=str(path), advice="give a site with two trees or more"
         )
-    return Ground(np.array(trees), tuple(properties), markers)
+    return CaseSite(np.array(trees), tuple(properties), markers)
 
 
 def _points(path: Path) -> list[tuple[Mapping[str, Any], tuple[float, float]]]:

@@ -57,7 +57,7 @@ class SiteAndRobotFiles:
 
 
 @cache
-def ground() -> SiteAndRobotFiles:
+def small_orchard() -> SiteAndRobotFiles:
     """Return an orchard of 3 rows of 5 trees with a pond and a fence, and the husky."""
     files = SiteFiles(parts={"orchard.geojson": orchard()}, source="orchard.geojson")
     profile, source = profile_bytes("husky")
@@ -98,7 +98,7 @@ def orchard() -> bytes:
 @cache
 def tasks() -> tuple[Task, ...]:
     """Return a Task for each request that can be planned without a question."""
-    here, planner = ground(), EnglishPlanner()
+    here, planner = small_orchard(), EnglishPlanner()
     outcomes = (planner.plan(request, here.site, here.robot) for request in REQUESTS)
     return tuple(outcome.task for outcome in outcomes if isinstance(outcome, Planned))
 
@@ -106,13 +106,13 @@ def tasks() -> tuple[Task, ...]:
 @cache
 def approved() -> AuthorizedTask:
     """Return the first Task, approved."""
-    here = ground()
+    here = small_orchard()
     return approve(examine(tasks()[0], here.site, here.robot), by="Ada", at=WHEN, confirmed=EveryWarning())
 
 
 def flown(world: World, *, approved_mission: mission.ApprovedMission | None = None) -> tuple[Event, ...]:
     """Return the events of a mission simulated in a world."""
-    here = ground()
+    here = small_orchard()
     given = mission.ApprovedMission(authorized=approved(), site=here.site, robot=here.robot)
     return mission.simulate(approved_mission or given, world=world).events
 
@@ -120,7 +120,7 @@ def flown(world: World, *, approved_mission: mission.ApprovedMission | None = No
 @cache
 def log() -> bytes:
     """Return the event log of a mission that tests a condition."""
-    here = ground()
+    here = small_orchard()
     review = mission.review(tasks()[2], here.site, here.robot)
     given = mission.authorize(review, by="Ada", at=NOW, confirmed=EveryWarning())
     return b"".join(to_json(event).encode() + b"\n" for event in flown(World(), approved_mission=given))
@@ -143,7 +143,7 @@ def known() -> dict[str, KnownKey]:
 @cache
 def bundle() -> bytes:
     """Return the approved mission as a signed bundle."""
-    here = ground()
+    here = small_orchard()
     return pack(
         approved(),
         here.site,
