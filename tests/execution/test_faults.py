@@ -26,7 +26,6 @@ from fieldhand.execution.drivers.simulation.world import (
     WorldFault,
 )
 from fieldhand.execution.drivers.simulation.world_file import parse_world
-from fieldhand.execution.obstacles import restore_blockages
 from fieldhand.places.selectors import TreeIs, Trees, UnionOf
 from fieldhand.robot.model import Patience
 from fieldhand.site.model import Site
@@ -218,25 +217,6 @@ def test_an_otherwise_stands_in_for_work_out_of_reach() -> None:
     assert captured(result.events) == [(CO2, ids[0])]
     fault = of_type(result.events, Faulted)[-1]
     assert (fault.fault, fault.handled) == ("blocked", True)
-
-
-def test_what_was_found_blocked_can_be_taken_up_again_from_the_log() -> None:
-    from fieldhand.forecast.visit_order import drives_for
-
-    site = upright(4, 8)
-    ids = [t.place.id for t in site.trees]
-    rig = Rig(
-        site=site,
-        world=world(Blocked(between=(TreeRef(id=ids[8 + 4]), TreeRef(id=ids[16 + 4])), within_m=2.0)),
-    )
-    events = rig.fly(each(*ids[8:24])).events
-    assert of_type(events, Obstructed)
-    again = Rig(site=site)
-    attempt = again.attempt(task_for(act()))
-    restore_blockages(attempt, events)
-    assert len(attempt.blockages.stretches) == len(of_type(events, Obstructed)[-1].blocked)
-    two = (site.trees[8 + 2].place, site.trees[8 + 6].place)
-    assert attempt.drives.between(*two).length_m >= drives_for(site, again.robot).between(*two).length_m
 
 
 # --- localisation --------------------------------------------------------------------------------------------------

@@ -9,19 +9,21 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
-from shapely.affinity import rotate
+from shapely.affinity import rotate, translate
 from shapely.geometry import LineString, Point, box
 
 from fieldhand.errors import DriveFault
 from fieldhand.forecast.distances import Distances
 from fieldhand.forecast.visit_order import reachable
 from fieldhand.site.drives import Drives
-from fieldhand.site.driving.free_space import Area
+from fieldhand.site.driving.free_space import TOUCH_M, Area
 from fieldhand.site.driving.roadmap import Roadmap
+from fieldhand.site.driving.row_obstacles import RowObstacle
 from fieldhand.site.driving.visibility_graph import VisibilityGraph
 from fieldhand.site.model import Site
 from fieldhand.testing.generated.orchards import orchard_sites
 from support.arrays import assert_near
+from support.examples import examples
 from support.sites.planted import generated, planted, scattered, upright
 from support.sites.points import place_at
 
@@ -223,6 +225,43 @@ def test_the_corners_linked_to_a_point_are_those_at_which_a_path_may_turn(world)
     shortest = visibility.graph.lengths(visibility.links(at))
     everything = VisibilityGraph(ground, np.empty((0, 2, 2)))
     assert_near(shortest, everything.graph.lengths(everything.links(at)), within=1e-9)
+
+
+@st.composite
+def rows_on_ground(draw):
+    """Draw obstacles around straight and bent rows, which may overlap, and the ground without them."""
+    rng = np.random.default_rng(draw(st.integers(0, 10**6)))
+    obstacles = []
+    for _ in range(draw(st.integers(0, 12))):
+        along = np.cumsum(rng.uniform(4.0, 30.0, draw(st.integers(2, 4))))
+        axis = LineString(np.column_stack([along, rng.uniform(-1.5, 1.5, len(along))]))
+        placed = translate(rotate(axis, rng.uniform(0.0, 360.0)), *rng.uniform(-10.0, 90.0, 2))
+        obstacles.append(RowObstacle(shapely.get_coordinates(placed), rng.uniform(0.01, 2.0)))
+    taken = shapely.union_all([body.polygon for body in obstacles])
+    return obstacles, box(0.0, 0.0, 100.0, 100.0), taken, rng
+
+
+@settings(max_examples=60, deadline=None)
+@given(rows_on_ground())
+def test_a_line_crosses_a_row_if_it_meets_its_axis_or_one_of_its_ends(drawn):
+    obstacles, outer, taken, rng = drawn
+    ground = outer.difference(taken)
+    rows = [LineString(line) for body in obstacles for line in body.barriers]
+    barriers = shapely.multilinestrings(np.array([outer.buffer(TOUCH_M, join_style="mitre").exterior, *rows]))
+    corners = shapely.get_coordinates(ground)
+    at = np.concatenate([rng.uniform(0.0, 100.0, (40, 2)), corners])
+    at = at[Area(ground).holds(at)]
+    i, j = np.triu_indices(len(at), k=1)
+    assert Area(ground, barriers).sees(at[i], at[j]).tolist() == Area(ground).sees(at[i], at[j]).tolist()
+
+
+@settings(max_examples=examples(15, thorough=200), deadline=None)
+@given(any_site)
+def test_the_corners_that_see_each_other_are_those_between_which_the_ground_is_free(site):
+    layout = drives_on(site).layout
+    axes = [np.stack([body.axis[:-1], body.axis[1:]], axis=1) for body in layout.aisles.obstacles]
+    by_edges = VisibilityGraph(layout.soft, np.concatenate([np.empty((0, 2, 2)), *axes]))
+    assert [part.tolist() for part in layout.graph.ways(0)] == [part.tolist() for part in by_edges.graph.ways(0)]
 
 
 def pairs_of(batches) -> set[tuple[int, int]]:

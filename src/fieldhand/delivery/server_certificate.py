@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import ssl
 from dataclasses import dataclass
-from pathlib import Path
 from urllib.parse import urlsplit
 
 from fieldhand.errors import DeliveryError, InputError, UnreachableError
@@ -89,20 +88,6 @@ def context_for(url: str, trust: ServerTrust) -> ssl.SSLContext:
             where=trust.ca,
             advice="give a PEM file with --ca",
         ) from None
-
-
-def pin_of(certificate: Path) -> str:
-    """Return the pin of a certificate in a PEM file.
-
-    Raises:
-        InputError: The file cannot be read.
-    """
-    try:
-        text = certificate.read_text(encoding="ascii")
-        end = text.index(ssl.PEM_FOOTER) + len(ssl.PEM_FOOTER)
-        return hashlib.sha256(ssl.PEM_cert_to_DER_cert(text[text.index(ssl.PEM_HEADER) : end])).hexdigest()
-    except (OSError, ValueError) as error:
-        raise InputError(f"the certificate cannot be read: {error}", where=str(certificate)) from None
 
 
 def _pinned(url: str, pin: str) -> ssl.SSLContext:

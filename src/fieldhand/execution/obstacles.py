@@ -6,18 +6,17 @@ order of visits. Only if no other way is left, the robot waits and then tries a 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
-import numpy as np
-from shapely.geometry import LineString, Point, Polygon
+from shapely.geometry import LineString, Point
 
 from fieldhand.errors import BlockedFault, DriveFault
 from fieldhand.execution.active_mission import ActiveMission
 from fieldhand.execution.waiting import wait
 from fieldhand.language import message
 from fieldhand.site.model import Place
-from fieldhand.task.results import Event, Obstructed, Waited
+from fieldhand.task.results import Obstructed, Waited
 from fieldhand.task.run import Steps
 
 #: Distance in metres ahead of a stopped robot within which the obstacle is assumed.
@@ -81,16 +80,6 @@ def cut_off_places(mission: ActiveMission, places: Sequence[Place]) -> tuple[boo
         return (False,) * len(places)
     anywhere = [replace(place, stand=None) if place.kind == "tree" else place for place in places]
     return tuple(not linked for linked in mission.drives.reachable(anywhere, mission.standing))
-
-
-def restore_blockages(mission: ActiveMission, events: Iterable[Event]) -> None:
-    """Restore the blocked stretches found by an earlier part of the same mission, from its events."""
-    last = next((e for e in reversed(list(events)) if isinstance(e, Obstructed)), None)
-    if last is None:
-        return
-    projection = mission.site.projection
-    mission.blockages.replace([Polygon(projection.metres(*np.array(area).T)) for area in last.blocked])
-    mission.guard.update_drives(mission.drives)
 
 
 def _emit_obstructed(

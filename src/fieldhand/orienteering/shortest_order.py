@@ -34,7 +34,6 @@ _EFFORT_COMPILED = (5.0, 100)
 #: Capacity of the undo log of one kick, in flips; 15 are typical.
 _FLIPS = 200
 _GAIN = 1e-9
-_MAX_PASSES = 60
 
 
 def shortest_order(distances: Lengths, start: int, end: int | None = None) -> tuple[int, ...]:

@@ -182,16 +182,6 @@ def landmark_of(one: s.Selector, other: s.Selector) -> s.Selector | None:
     return landmark if refers and not landmark.relative else None
 
 
-def says_how_many(selector: s.Selector) -> bool:
-    """Return True if a selection states a number of trees ("the 4 oldest", "the corners")."""
-    return isinstance(selector, s.Take | s.Top | s.Extreme | s.Nearest | s.Adjacent | s.Corners | s.UnionOf)
-
-
-def may_be_listed(selector: s.Selector) -> bool:
-    """Return True if a list of its places may follow ("at the corners: first the south-west one, then ...")."""
-    return isinstance(selector, s.Corners) or selector.any_of is not None
-
-
 def are_meant_each(selector: s.Selector) -> bool:
     """Return True if "the tree at" several such places means one tree at each ("the tree at the corners")."""
     return isinstance(selector, s.Corners)
@@ -204,11 +194,6 @@ def named_places(selector: s.Selector) -> tuple[s.Selector, ...]:
     return selector.members if isinstance(selector, s.UnionOf) else ()
 
 
-def names_here(selector: s.Selector) -> bool:
-    """Return True if the current place is named together with others ("it and the one beside it")."""
-    return selector != s.Here() and s.Here() in selector.members
-
-
 def starts_here(selector: s.Selector) -> bool:
     """Return True if the selector leads along or across rows from the current place."""
     return isinstance(selector, s.RowOf | s.AlongRow | s.Across) and selector.origin == s.Here()
@@ -219,49 +204,14 @@ def measures_from_here(selector: s.Selector) -> bool:
     return any(isinstance(part, s.Nearest | s.Farthest) and s.Here() in part.inner for part in selector.walk())
 
 
-def may_be_near(selector: s.Selector) -> bool:
-    """Return True if the place depends on the position of the robot, which may be there or close by."""
-    return any(isinstance(part, s.Here | s.Take | s.NotVisited | s.RowOf | s.Nearest) for part in selector.walk())
-
-
-def so_many_nearby(selector: s.Selector | None, count: int) -> s.Selector | None:
-    """Return a number of nearby trees if the request states none ("nearby trees"); None for other places."""
-    return replace(selector, count=count) if isinstance(selector, s.Nearest) and selector.count == 1 else None
-
-
 def is_spot(place: s.Selector) -> bool:
     """Return True for a point such as a corner or a middle, whose nearest tree is the one meant."""
     return place.single and (place.central or isinstance(place, s.Corners))
 
 
-def zone_of_points(selector: s.Selector) -> str:
-    """Return the zone over which free points can be spread, if the selector is all trees in or near it; else None.
-
-    Points of the zone itself are near it, too.
-    """
-    if isinstance(selector, s.InZone) and selector == s.InZone(zone=selector.zone, margin_m=selector.margin_m):
-        return selector.zone
-    return ""
-
-
 def all_but(place: s.Selector) -> s.Selector:
     """Return the trees outside of a zone, or all trees but those of other places."""
     return replace(place, outside=True) if isinstance(place, s.InZone) else s.Excluding(places=place)
-
-
-def is_about_rows(selector: s.Selector) -> bool:
-    """Return True if it contains a named row, or one counted from a place."""
-    return any(part.row_of is not None or isinstance(part, s.Rows) for part in selector.walk())
-
-
-def skips_rows(selector: s.Selector) -> bool:
-    """Return True if it selects every n-th row ("every third row")."""
-    return isinstance(selector, s.Rows) and selector.every > 1
-
-
-def names_several_rows(rows: s.Selector) -> bool:
-    """Return True if several rows or blocks are named one by one or as a range ("rows 2 and 4", "rows 2 to 5")."""
-    return isinstance(rows, s.UnionOf) or (isinstance(rows, s.Rows) and rows.first != rows.last)
 
 
 def is_end_of_site(selector: s.Selector) -> bool:
@@ -362,11 +312,6 @@ def is_in_block(selector: s.Selector) -> bool:
     return any(isinstance(part, s.InBlock) for part in selector.walk())
 
 
-def refers_to_here(selector: s.Selector) -> bool:
-    """Return True if the current place is part of it."""
-    return any(isinstance(part, s.Here) for part in selector.walk())
-
-
 def is_row_of_place(selector: s.Selector) -> bool:
     """Return True for the row of a place, or one counted from it."""
     return isinstance(selector, s.RowOf)
@@ -409,8 +354,3 @@ def is_description(selector: s.Selector) -> bool:
     """Return True if trees are chosen by attributes and areas alone ("yellow trees of row 3"), and not all are."""
     parts = list(selector.walk())
     return len(parts) > 1 and all(isinstance(part, (s.Where, s.Trees, *AREAS)) for part in parts)
-
-
-def as_where(selector: s.Selector) -> s.Where | None:
-    """Return the selector if it tests an attribute, None otherwise."""
-    return selector if isinstance(selector, s.Where) else None

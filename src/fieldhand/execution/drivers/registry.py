@@ -50,11 +50,6 @@ class DriverKind:
     watch: Callable[[RobotProfile, Connection], Presence] | None = None
 
 
-def driver_names() -> tuple[str, ...]:
-    """Return the names of all drivers, without importing any."""
-    return tuple(active("fieldhand.drivers"))
-
-
 def driver_kind(name: str) -> DriverKind:
     """Return the driver of a name; its ``connect`` raises a PluginError if the plugin's own code fails.
 

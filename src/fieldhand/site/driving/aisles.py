@@ -138,7 +138,8 @@ class Aisle:
         u = u[(u >= first) & (u <= last)]
         low, high = np.interp(u, below.u, below.high), np.interp(u, above.u, above.low)
         ring = np.vstack([np.column_stack([u, low]), np.column_stack([u, np.maximum(low, high)])[::-1]])
-        return Polygon(self.frame.world(ring)).buffer(0.0)
+        strip = Polygon(self.frame.world(ring))
+        return strip if strip.is_valid else strip.buffer(0.0)
 
 
 class Aisles:
@@ -270,10 +271,15 @@ def _in_order(frame: Frame, lines: Sequence[RowLine], trees: shapely.STRtree) ->
         sides = [np.column_stack([below.u, below.high]), np.column_stack([above.u, above.low])[::-1]]
         ring = np.vstack(sides)
         if len(ring) > 2:
-            strips.append(Polygon(frame.world(ring)))
-    if not all(strip.is_valid for strip in strips):
+            strips.append((Polygon(frame.world(ring)), {*below.rows, *above.rows}))
+    if not all(strip.is_valid for strip, _ in strips):
         return [[line] for line in lines]
-    inner = [strip.buffer(-1e-3) for strip in strips]
-    if inner and trees.query(inner, predicate="intersects").size:
+    which, rows = trees.query([strip for strip, _ in strips], predicate="intersects")
+    between: dict[int, list[int]] = {}
+    for k, row in zip(which.tolist(), rows.tolist(), strict=True):
+        if row not in strips[k][1]:
+            between.setdefault(k, []).append(row)
+    # Rows may touch the strip.
+    if any(strips[k][0].buffer(-1e-3).intersects(trees.geometries[others]).any() for k, others in between.items()):
         return [[line] for line in lines]
     return [lines]

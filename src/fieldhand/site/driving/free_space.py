@@ -91,13 +91,19 @@ class FreeSpace:
 
 
 class Area:
-    """Ground prepared for many spatial queries. Shapes that touch its edge from inside are on it despite rounding."""
+    """Ground prepared for many spatial queries. Shapes that touch its edge from inside are on it despite rounding.
 
-    def __init__(self, ground: BaseGeometry) -> None:
+    Args:
+        ground: The ground.
+        barriers: Lines off the ground. A straight line between two points of the ground leaves it only across one of
+            them. Without barriers the edge of the ground is used.
+    """
+
+    def __init__(self, ground: BaseGeometry, barriers: BaseGeometry | None = None) -> None:
         self.edged = ground.buffer(TOUCH_M, join_style="mitre")
-        self._edge = self.edged.boundary
+        self._barriers = self.edged.boundary if barriers is None else barriers
         shapely.prepare(self.edged)
-        shapely.prepare(self._edge)
+        shapely.prepare(self._barriers)
 
     def covers(self, shapes: BaseGeometry | NDArray[np.object_]) -> NDArray[np.bool_]:
         """Return which of the shapes lie on the ground."""
@@ -110,15 +116,16 @@ class Area:
     def sees(self, one: Points, two: Points) -> NDArray[np.bool_]:
         """Return which straight lines, from points (n, 2) to points (n, 2), lie on the ground.
 
-        These lines begin on the ground and do not meet its edge, which is much faster to test than coverage.
+        Both of their ends are on the ground and they cross no barrier, which is much faster to test than coverage.
         """
         clear = self.clear(one, two)
         clear[clear] = self.holds(one[clear])
+        clear[clear] = self.holds(two[clear])
         return clear
 
     def clear(self, one: Points, two: Points) -> NDArray[np.bool_]:
-        """Return which straight lines, from points (n, 2) to points (n, 2), do not meet the edge of the ground."""
-        return ~np.asarray(shapely.intersects(self._edge, shapely.linestrings(np.stack([one, two], axis=1))))
+        """Return which straight lines, from points (n, 2) to points (n, 2), both on the ground, do not leave it."""
+        return ~np.asarray(shapely.intersects(self._barriers, shapely.linestrings(np.stack([one, two], axis=1))))
 
 
 def free_space(site: Site, clearance_m: float) -> FreeSpace:

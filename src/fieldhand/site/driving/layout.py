@@ -10,11 +10,11 @@ from functools import cached_property
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from shapely.geometry import Point
-from shapely.ops import unary_union
+from shapely.geometry import MultiLineString, MultiPolygon, Point, Polygon
+from shapely.geometry.base import BaseGeometry
 
 from fieldhand.site.driving.aisles import Aisle, Aisles
-from fieldhand.site.driving.free_space import Area, free_space
+from fieldhand.site.driving.free_space import TOUCH_M, Area, free_space
 from fieldhand.site.driving.graph import Indices, Links, Points, ShortestWays, chain
 from fieldhand.site.driving.visibility_graph import VisibilityGraph
 from fieldhand.site.model import Site
@@ -72,14 +72,21 @@ class Layout:
         self.aisles = Aisles(site, self.free, max(standoff_m, clearance_m))
         obstacles = self.aisles.obstacles
         self.open = bool(self.free.bounded or obstacles)
-        taken = unary_union([body.polygon for body in obstacles])
-        self.soft = self.free.soft.difference(taken) if obstacles else self.free.soft
+        self.soft = self.free.soft.difference(_union([body.polygon for body in obstacles]))
         axes = [np.stack([body.axis[:-1], body.axis[1:]], axis=1) for body in obstacles]
-        self.visibility = VisibilityGraph(self.soft, np.concatenate([np.empty((0, 2, 2)), *axes]))
+        self.visibility = VisibilityGraph(self.soft, np.concatenate([np.empty((0, 2, 2)), *axes]), self._barriers())
         self.graph = self.visibility.graph
         self._spots: dict[XY, Spot] = {}
         self._links: dict[XY, Links] = {}
         self._remembered: dict[XY, ShortestWays] = {}
+
+    def _barriers(self) -> BaseGeometry:
+        """Return the lines that a straight line off the drivable ground crosses: its outer edge, and through rows."""
+        rows = [line for body in self.aisles.obstacles for line in body.barriers]
+        numbers = np.repeat(np.arange(len(rows)), [len(line) for line in rows])
+        lines = np.array(shapely.linestrings(np.concatenate([np.empty((0, 2)), *rows]), indices=numbers))
+        edge = self.free.soft.buffer(TOUCH_M, join_style="mitre").boundary
+        return MultiLineString([*shapely.get_parts(edge), *lines])
 
     # --- points -----------------------------------------------------------------------------------------------
 
@@ -127,7 +134,8 @@ class Layout:
 
     @cached_property
     def _parts(self) -> list[Area]:
-        return [Area(shape) for shape in getattr(self.soft, "geoms", [self.soft]) if not shape.is_empty]
+        shapes = [shape for shape in getattr(self.soft, "geoms", [self.soft]) if not shape.is_empty]
+        return [self.visibility.area] if len(shapes) == 1 else [Area(shape) for shape in shapes]
 
     def _locate(self, places: Sequence[XY]) -> Iterator[Spot]:
         at = np.array(places)
@@ -294,6 +302,12 @@ class _Feet:
         at = np.array([s.xy for s in spots]).reshape(-1, 2)
         part = np.array([s.part for s in spots], dtype=np.intp)
         return _Feet(at, foot, np.array([s.spur for s in spots]), part)
+
+
+def _union(shapes: Sequence[Polygon]) -> BaseGeometry:
+    """Return the union of shapes, which are mostly disjoint: that is much faster to check than to compute the union."""
+    together = MultiPolygon(shapes)
+    return together if together.is_valid else shapely.union_all(shapes)
 
 
 def _beside(one: _Feet, two: _Feet) -> tuple[Indices, Indices]:

@@ -16,6 +16,12 @@ _ENDS_M = 1e-3
 #: Number of nearest rows examined for each point.
 _NEAREST = 8
 
+#: Number of cells along the longer side of the raster of rows.
+_CELLS = 64
+
+#: Rows at these fractions of the line between two points are examined.
+_SHARES = (0.5, 0.25, 0.75)
+
 #: Pairs of points processed together, which bounds the memory.
 _BATCH = 100_000
 
@@ -51,6 +57,7 @@ class RowAxes:
         self._start = start + _ENDS_M * along
         self._turn = along.conj()
         self._length = length - 2.0 * _ENDS_M
+        self._raster = _Raster(start, end) if len(ends) else None
 
     def locate(self, at: Points) -> Located:
         """Return the points with the rows nearest to each."""
@@ -63,7 +70,7 @@ class RowAxes:
         for first in range(0, len(at), step):
             some = slice(first, first + step)
             seen = (places[some, None] - self._start) * self._turn
-            away = np.hypot(seen.imag, seen.real - np.clip(seen.real, 0.0, self._length))
+            away = seen.imag**2 + (seen.real - np.clip(seen.real, 0.0, self._length)) ** 2
             near = np.argpartition(away, count - 1, axis=1)[:, :count]
             order = np.argsort(np.take_along_axis(away, near, axis=1), axis=1, kind="stable")
             nearest[some] = np.take_along_axis(near, order, axis=1)
@@ -72,7 +79,8 @@ class RowAxes:
     def unseparated_pairs(
         self, one: Located, two: Located | None = None, among: Among | None = None
     ) -> Iterator[tuple[Indices, Indices]]:
-        """Yield the indices of all pairs of points that none of their nearest rows separates, in ordered batches.
+        """Yield the indices of all pairs of points that no row nearest to them, or near a few points between them,
+        separates, in ordered batches.
 
         Pairs consist of a point of ``one`` and a point of ``two``; without ``two`` of two points of ``one``, each once.
         """
@@ -94,6 +102,11 @@ class RowAxes:
                     near = points.near[(i, j)[which], ranks].T
                     clear = ~self._separates(near, one.at[i], to.at[j]).any(axis=0)
                     i, j = i[clear], j[clear]
+            if self._raster is not None:  # whole blocks may be between the points
+                for share in _SHARES:
+                    axes = self._raster.at(one.at[i] + share * (to.at[j] - one.at[i]))
+                    clear = (axes < 0) | ~self._separates(axes, one.at[i], to.at[j])
+                    i, j = i[clear], j[clear]
             yield i, j
 
     def _separates(self, axes: Indices, one: Complex, two: Complex) -> NDArray[np.bool_]:
@@ -105,6 +118,35 @@ class RowAxes:
         crossing = one.real * far_two + two.real * far_one
         between = (crossing > 0.0) & (crossing < self._length[axes] * (far_one + far_two))
         return np.asarray(between & ((one.imag > 0.0) != (two.imag > 0.0)))
+
+
+class _Raster:
+    """Square cells that cover all rows, with one of the rows that pass through each.
+
+    Args:
+        start, end: End points of each row, shape (m,), at least one.
+    """
+
+    def __init__(self, start: Complex, end: Complex) -> None:
+        ends = np.concatenate([start, end])
+        self._corner = complex(ends.real.min(), ends.imag.min())
+        self._side = max(float(np.ptp(ends.real)), float(np.ptp(ends.imag))) / _CELLS
+        self._rows = np.full((_CELLS + 3, _CELLS + 3), -1, dtype=np.intp)
+        along = start[:, None] + (end - start)[:, None] * np.linspace(0.0, 1.0, 2 * _CELLS)
+        self._rows[self._cells(along)] = np.arange(len(start))[:, None]
+
+    def at(self, points: Complex) -> Indices:
+        """Return a row near each of the points; -1 if none passes through its cell."""
+        return self._rows[self._cells(points)]
+
+    def _cells(self, points: Complex) -> tuple[Indices, Indices]:
+        """Return the indices of the cells of points, which have a margin of empty ones around them."""
+        seen = (points - self._corner) / self._side + (1.0 + 1.0j)
+        return _clipped(seen.real), _clipped(seen.imag)
+
+
+def _clipped(cells: Points) -> Indices:
+    return np.clip(cells, 0.0, _CELLS + 2.0).astype(np.intp)
 
 
 def _complex(at: Points) -> Complex:

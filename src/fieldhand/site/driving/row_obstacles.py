@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import shapely
 from shapely.geometry import LineString, Polygon
 
-from fieldhand.site.driving.free_space import FreeSpace
+from fieldhand.site.driving.free_space import TOUCH_M, FreeSpace
 from fieldhand.site.driving.graph import Points
 from fieldhand.site.driving.rowlines import Frame
 from fieldhand.site.planting import Block
@@ -43,19 +45,43 @@ class RowObstacle:
     half_m: float
 
     @property
-    def polygon(self) -> Polygon:
-        """Return its outline."""
-        return LineString(self.axis).buffer(self.half_m, cap_style="flat", join_style="mitre")
+    def is_straight(self) -> bool:
+        """Return True if it is a rectangle."""
+        return len(self.axis) == 2
 
     @property
+    def polygon(self) -> Polygon:
+        """Return its outline."""
+        if self.is_straight:
+            return Polygon(np.concatenate(self.ends))
+        return LineString(self.axis).buffer(self.half_m, cap_style="flat", join_style="mitre")
+
+    @cached_property
     def ends(self) -> tuple[Points, Points]:
         """Return the corners of its first and of its last end, shape (2, 2) each."""
-        found = []
-        for end, inner in ((0, 1), (-1, -2)):
-            along = self.axis[end] - self.axis[inner]
-            beside = self.half_m * np.array([-along[1], along[0]]) / np.hypot(*along)
-            found.append(np.array([self.axis[end] - beside, self.axis[end] + beside]))
-        return found[0], found[1]
+        (first_x, first_y), (last_x, last_y) = self._ahead(0, 1), self._ahead(-1, -2)
+        first = self.half_m * np.array([(first_y, -first_x), (-first_y, first_x)])
+        last = self.half_m * np.array([(last_y, -last_x), (-last_y, last_x)])
+        return self.axis[0] + first, self.axis[-1] + last
+
+    @property
+    def barriers(self) -> list[Points]:
+        """Return lines inside it, shape (n, 2) each, one of which every straight line across it meets.
+
+        A line across a rectangle that meets neither of its ends meets its axis.
+        """
+        if not self.is_straight:
+            shrunk = self.polygon.buffer(-TOUCH_M, join_style="mitre")
+            return [shapely.get_coordinates(ring) for ring in shapely.get_rings(shapely.get_parts(shrunk))]
+        ahead = np.array(self._ahead(-1, -2))
+        inner = RowObstacle(self.axis + TOUCH_M * np.array([ahead, -ahead]), self.half_m - TOUCH_M)
+        return [inner.axis, *inner.ends]
+
+    def _ahead(self, end: int, inner: int) -> tuple[float, float]:
+        """Return the direction in which an end points, as a unit vector."""
+        x, y = (self.axis[end] - self.axis[inner]).tolist()
+        length = math.hypot(x, y)
+        return x / length, y / length
 
 
 def row_obstacles(

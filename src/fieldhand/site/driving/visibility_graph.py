@@ -27,10 +27,11 @@ class VisibilityGraph:
     Args:
         ground: Ground that paths stay on.
         axes: Lines through obstacles, from end to end, shape (m, 2, 2), which no path crosses.
+        barriers: Lines off the ground, as in :class:`Area`.
     """
 
-    def __init__(self, ground: BaseGeometry, axes: Points) -> None:
-        self.area = Area(ground)
+    def __init__(self, ground: BaseGeometry, axes: Points, barriers: BaseGeometry | None = None) -> None:
+        self.area = Area(ground, barriers)
         self._axes = RowAxes(axes)
         self.corners, self._before, self._after = _corners(ground)
         self._located = self._axes.locate(self.corners)
@@ -41,7 +42,7 @@ class VisibilityGraph:
         """Return the corners at which a path from each of these points can turn first, with the metres to them."""
 
         def turns(i: Indices, j: Indices) -> NDArray[np.bool_]:
-            return self._touched(j, self.corners[j] - at[i])
+            return self._touched(j, *np.moveaxis(self.corners[j] - at[i], -1, 0))
 
         i, j = self._seen(at, self.corners, self._axes.unseparated_pairs(self._axes.locate(at), self._located, turns))
         metres = np.hypot(*(at[i] - self.corners[j]).T)
@@ -59,10 +60,11 @@ class VisibilityGraph:
     def _edges(self) -> tuple[Indices, Indices]:
         """Return the pairs of corners that see each other and at both of which a path can turn."""
         at = self.corners
+        x, y = at.T.copy()
 
         def turns(i: Indices, j: Indices) -> NDArray[np.bool_]:
-            towards = at[j] - at[i]
-            return self._touched(i, towards) & self._touched(j, towards)
+            east, north = x[j] - x[i], y[j] - y[i]
+            return self._touched(i, east, north) & self._touched(j, east, north)
 
         return self._seen(at, at, self._axes.unseparated_pairs(self._located, among=turns))
 
@@ -76,15 +78,17 @@ class VisibilityGraph:
         i, j = (np.concatenate(part) for part in zip(*found, strict=True))
         return i, j
 
-    def _touched(self, which: Indices, towards: Points) -> NDArray[np.bool_]:
+    def _touched(self, which: Indices, east: Points, north: Points) -> NDArray[np.bool_]:
         """Return a mask of the directions whose line through a corner only touches the obstacle there; shortest paths
         turn only on such lines."""
-        before, after = -self._before[which], self._after[which]
-        return np.asarray(_cross(towards, before) * _cross(towards, after) >= -1e-9)
+        # Contiguous coordinates: this is computed for all pairs of corners.
+        (b_east, b_north), (a_east, a_north) = self._before[:, which], self._after[:, which]
+        before, after = east * b_north - north * b_east, east * a_north - north * a_east
+        return np.asarray(before * after <= 1e-9)
 
 
 def _corners(ground: BaseGeometry) -> tuple[Points, Points, Points]:
-    """Return the vertices at which a path can turn, and the edges before and after them; shape (n, 2) each.
+    """Return the vertices at which a path can turn, shape (n, 2), and the edges before and after them, shape (2, n).
 
     A path can turn where the ground takes up more than half a turn.
     """
@@ -94,7 +98,7 @@ def _corners(ground: BaseGeometry) -> tuple[Points, Points, Points]:
         before, after = at - np.roll(at, 1, axis=0), np.roll(at, -1, axis=0) - at
         found.append(np.stack([at, before, after])[:, _cross(before, after) < 0.0])
     at, before, after = np.concatenate(found, axis=1)
-    return at, before, after
+    return at, before.T.copy(), after.T.copy()
 
 
 def _rings(ground: BaseGeometry) -> Iterator[BaseGeometry]:
