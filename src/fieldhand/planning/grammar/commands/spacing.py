@@ -21,22 +21,16 @@ def every_so_far(far: Amount) -> float | None:
 
 
 @construction(
-    "apart: far=amount APART",
-    "apart: SPACEDBY far=amount APART",
-    "apart: SPACEDBY every=every",
-    "apart: SPACEDBY far=amount",
-    "apart: AT far=amount INTERVAL",
-    "apart: far=amount INTERVAL",
-    "apart: EACH far=amount APART",
-    "apart: EACH ONE far=amount APART",
-    "apart: WITH far=amount APART",
+    "apart: [WITH] far=amount APART",
     "apart: ABOUT far=amount APART",
-    "apart: WITH far=amount BETWEEN ONE READING AND [DET] NEXTONE",
-    "apart: [WITH] far=amount BETWEEN [DET] POINT",
-    "apart: [WITH] far=amount BETWEEN [DET] READING",
+    "apart: SPACEDBY every=every",
+    "apart: SPACEDBY far=amount [APART]",
+    "apart: [AT] far=amount INTERVAL",
     "apart: AT [DET] INTERVAL OF far=amount",
-    "apart: WITH [DET] INTERVAL OF far=amount",
-    "apart: INTERVAL [COMMA] far=amount",
+    "apart: [WITH] [DET] INTERVAL [OF] [COMMA] far=amount",
+    "apart: EACH [ONE] far=amount APART",
+    "apart: [WITH] far=amount BETWEEN [DET] POINT",
+    "apart: [WITH] far=amount BETWEEN [ONE] READING [AND] [DET] [NEXTONE]",
     cost=0.1,
 )
 def apart(far: Amount | None = None, every: float | None = None) -> float | None:
@@ -142,13 +136,10 @@ def at_spacing(
 @construction(
     "capture: act=capture [COMMA] dist=at_stops",
     "capture: act=capture FULLSTOP dist=own_stops",
-    "capture: dist=at_stops [COMMA] act=capture",
-    "capture: dist=at_stops AND act=capture",
+    "capture: dist=at_stops [COMMA] [AND] [each=here] [COMMA] act=capture",
     "capture: dist=at_stops INORDERTO act=capture",
     "capture: dist=at_stops FOR things=things",
     "capture: dist=own_stops FULLSTOP [each=here] [COMMA] act=capture",
-    "capture: dist=at_stops COMMA each=here [COMMA] act=capture",
-    "capture: dist=at_stops AND each=here [COMMA] act=capture",
     "capture: dist=at_stops relation place=place [COMMA] act=capture",
     "capture: relation place=place [COMMA] dist=at_stops [COMMA] act=capture",
     "capture: place=place COMMA dist=at_stops [COMMA] act=capture",
@@ -177,22 +168,13 @@ def capture_at_stops(
     return at_spacing(dist, used, act.things, place or own)
 
 
-@construction(
-    "capture: SEPARATE things=things BY far=amount [COMMA] [AND] [verb] n=count [LIMIT]",
-    "capture: SEPARATE things=things dist=apart [COMMA] [AND] [verb] n=count [LIMIT]",
-    "capture: SEPARATE things=things BY far=amount",
-    "capture: SEPARATE things=things dist=apart",
-    cost=0.2,
-)
-def separate(
-    things: tuple[Thing, ...], used: int, far: Amount | None = None, dist: float | None = None, n: int | None = None
-) -> CaptureCommand | None:
+@construction("capture: SEPARATE things=things BY far=amount [COMMA] [AND] [verb] [n=count] [LIMIT]", cost=0.2)
+def separate(things: tuple[Thing, ...], used: int, far: Amount, n: int | None = None) -> CaptureCommand | None:
     """Compose "separate your measurements by 12 m, and carry out four in all"."""
-    metres = dist if far is None else far.number if far.unit == "metres" else None
-    if metres is None or (n is not None and any(one.count is not None for one in things)):
+    if far.unit != "metres" or (n is not None and any(one.count is not None for one in things)):
         return None
     counted = things if n is None else tuple(replace(one, count=n, plural=True) for one in things)
-    return CaptureCommand(counted, None, used, spacing=metres)
+    return CaptureCommand(counted, None, used, spacing=far.number)
 
 
 @construction(
