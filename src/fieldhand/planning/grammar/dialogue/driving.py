@@ -46,6 +46,9 @@ from fieldhand.site.model import Site
 from fieldhand.task import plan as p
 from fieldhand.terms import Side
 
+#: Sides from which trees are counted if nothing else is said.
+_USUAL_SIDES = frozenset({"north", "west"})
+
 
 def drive(setting: Setting, state: DialogueState, command: DriveCommand) -> DialogueState:
     """Return the state after a drive to one or several places, or into an area of which more is said."""
@@ -340,10 +343,15 @@ def _counted_from(setting: Setting, select: s.Selector, command: InAnOrder) -> s
                     message("it is not clear whether the trees are counted or visited from there", context="fault")
                 )
             select = swapped(select, every, replace(every, counted_from=cast(Side, side)))
-        elif along and some is not None and some.counted_from == "usual" and 1 == some.first < some.last:
+        elif some is not None and along and side not in _USUAL_SIDES and _are_foremost(some):
             ways = (replace(some, counted_from=cast(Side, side)), some)
             select = swapped(select, some, setting.either("counted from there?", command.used, ways))
     return select
+
+
+def _are_foremost(some: s.InRow) -> bool:
+    """Return True for the first few trees of rows, which the phrase counts from no side."""
+    return some.counted_from == "usual" and 1 == some.first < some.last
 
 
 def _reversed(select: s.Selector, site: Site) -> s.Selector:
