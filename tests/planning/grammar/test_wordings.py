@@ -78,7 +78,7 @@ ENDS = {
         "Photograph tree 9. Terminate at the start marker.",
         "Photograph tree 9, then toddle on back to where you set off.",
         "Photograph tree 9, then home, nothing else.",
-        "Photograph tree 9. Afterwards go back to where you came from.",
+        "Photograph tree 9. Afterwards go back to where you started from.",
         "Photograph tree 9 and be parked at the start. Done.",
     ],
     "picture @ TreeIs(9); go Marker(charger) | stay": [

@@ -1432,8 +1432,8 @@ REFUSED = [
     ),
     (
         "husky",
-        "Photograph every third tree, from south to north, of row 3.",
-        "'from south to north': it is not clear whether the trees are counted or visited from there",
+        "Photograph every third tree, from west to east, of row 3.",
+        "'from west to east': it is not clear whether the trees are counted or visited from there",
     ),
     (
         "husky",

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import get_args
 
 from fieldhand.places import selectors as s
-from fieldhand.places.picks.ordered import Order
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import (
     Again,
@@ -140,7 +138,8 @@ def order_of_attribute(attribute: Lex) -> list[tuple[str, str, bool]]:
 
 
 @construction(
-    "an_end: [DET] side=DIR [FINISH] [OF] [DET] [ROW]",
+    "an_end: [DET] side=DIR [FINISH]",
+    "an_end: [DET] side=DIR FINISH OF [DET] [ROW]",
     "an_end: [DET] side=DIR SIDE",
     "an_end: ITS side=DIR FINISH",
     "an_end: [DET] side=MOST [TREE]",
@@ -158,6 +157,7 @@ def an_end(side: Lex) -> str | None:
     "ordered: side=an_end FIRSTONE",
     "ordered: side=an_end BEGINSTHERE",
     "ordered: STARTING side=an_end [COMMA] [AND] ENDING last=an_end",
+    "ordered: [GOING] FROM side=an_end AT last=an_end",
     cost=0.1,
 )
 def from_an_end(side: Side, last: Side | None = None) -> tuple[str, str, bool] | None:
@@ -175,19 +175,6 @@ def from_best_to_worst(first: tuple[str, bool], last: tuple[str, bool]) -> tuple
     if not first[0] or first[0] != last[0] or first[1] == last[1]:
         return None
     return ("attribute", first[0], not first[1])
-
-
-@construction(
-    "ordered: [GOING] FROM [DET] first=DIR FINISH AT [DET] last=DIR",
-    "ordered: [GOING] FROM [DET] first=DIR FINISH AT [DET] last=DIR FINISH",
-    "ordered: [GOING] FROM [DET] first=DIR SIDE AT [DET] last=DIR [SIDE]",
-    "ordered: [GOING] FROM [DET] first=MOST AT [DET] last=MOST",
-    cost=0.1,
-)
-def from_side_to_side(first: Lex, last: Lex) -> tuple[str, str, bool] | None:
-    """Compose "from the most northerly to the most southerly"."""
-    by = f"{first.value}_to_{last.value}"
-    return (by, "", False) if by in get_args(Order) else None
 
 
 @construction("ordered: [DET] rank=ranking FIRSTONE", "ordered: STARTING [DET] rank=ranking [ONE]", cost=0.1)

@@ -21,14 +21,7 @@ def less(word: Lex) -> str | None:
     return "less" if word.value in (None, "UPTO") or word.value[0] in ("lt", "le") else None
 
 
-@construction(
-    "of_what: OF BATTERY",
-    "of_what: BATTERY",
-    "of_what: LIMIT",
-    "of_what: OF [DET] BATTERY",
-    "of_what: AT LIMIT",
-    cost=0.1,
-)
+@construction("of_what: [OF] [DET] BATTERY", "of_what: [AT] LIMIT", cost=0.1)
 def of_what() -> str:
     """Compose "of battery" and "of driving"."""
     return "of"
@@ -54,30 +47,23 @@ def so_much(most: Amount) -> Amount | None:
 
 @construction(
     "limit: INSIDE most=so_much",
-    "limit: INSIDE most=so_much OF GO",
     "limit: [subject] [MUST] USE most=so_much",
     "limit: USE most=so_much ON",
     "limit: [subject] [MUST] GO most=at_most",
     "limit: [subject] [MUST] TAKES most=at_most",
     "limit: most=amount [COMMA] EARLIEST",
     "limit: HAVE most=so_much",
-    "limit: AT most=at_most",
+    "limit: at most=at_most",
     "limit: FOR most=at_most",
-    "limit: WITH most=at_most",
     "limit: WITH most=amount AS UPPERLIMIT",
     "limit: most=amount [of_what] TOPS",
     "limit: most=amount [of_what] CLOCK",
     "limit: most=amount [of_what] [COMMA] [AND] NOTMORE",
     "limit: CAPAT subject [AT] most=so_much",
     "limit: subject COMMA most=at_most",
-    "limit: [WITH] subject [IS] LIMITEDTO most=amount",
-    "limit: [subject] LIMITEDTO most=amount GO",
-    "limit: [WITH] [DET] UPPERLIMIT [IS] [OF] [COMMA] most=so_much",
-    "limit: [AT] [DET] UPPERLIMIT OF most=so_much",
-    "limit: INSIDE [DET] most=amount UPPERLIMIT",
-    "limit: AT [DET] most=amount UPPERLIMIT",
-    "limit: CMP [DET] most=amount UPPERLIMIT",
-    "limit: [DET] most=amount UPPERLIMIT",
+    "limit: [WITH] [subject] [IS] LIMITEDTO most=amount [GO]",
+    "limit: [at] [DET] UPPERLIMIT [IS] [OF] [COMMA] most=so_much",
+    "limit: [at] [DET] most=amount UPPERLIMIT",
     "limit: BEFORE most=amount OVERDUE",
     "limit: AT [DET] most=amount LIMIT",
     cost=0.3,
@@ -159,22 +145,32 @@ def at_least(check: Lex, least: Amount) -> Amount | None:
 
 
 @construction(
-    "limit: KEEP least=reserve [LEFT]",
-    "limit: KEEP least=reserve [LEFT] word=THEN",
+    "low_battery: [DET] BATTERY [IS] least=amount",
+    "low_battery: [DET] BATTERY [IS] AT least=amount",
+    "low_battery: [DET] BATTERY [IS] check=CMP least=amount",
+    "low_battery: [DET] BATTERY REACHES least=amount",
+    "low_battery: [DET] BATTERY GOUNDER least=amount",
+    cost=0.1,
+)
+def low_battery(least: Amount, check: Lex | None = None) -> Amount | None:
+    """Compose "the battery is down to 30 %"."""
+    return least if least.unit == "percent" and (check is None or check.value[0] in ("lt", "le")) else None
+
+
+@construction(
+    "limit: KEEP least=reserve [LEFT] [word=THEN]",
     "limit: WITH least=reserve LEFT [word=THEN]",
     "limit: WANT least=reserve LEFT [word=THEN]",
     "limit: least=reserve KEPT [word=THEN]",
-    "limit: BEFORE [DET] BATTERY [IS] [at] least=amount [LEFT]",
-    "limit: UNTIL [DET] BATTERY [IS] at least=amount [LEFT]",
-    "limit: UNTIL [DET] BATTERY REACHES least=amount",
-    "limit: STOP in_case [DET] BATTERY REACHES least=amount",
-    "limit: STOP in_case [DET] BATTERY [IS] at least=amount",
-    "limit: [DET] BATTERY STAYSOVER least=amount",
-    "limit: NEVERLET [DET] BATTERY GOUNDER least=amount",
-    "limit: WITHOUT [DET] BATTERY GOUNDER least=amount",
-    "limit: STOP at least=reserve",
     "limit: least=at_least LEFT [word=THEN]",
     "limit: least=battery_at_least [LEFT] [word=THEN]",
+    "limit: BEFORE least=low_battery [LEFT]",
+    "limit: UNTIL least=low_battery [LEFT]",
+    "limit: STOP in_case least=low_battery",
+    "limit: STOP AT least=reserve",
+    "limit: [DET] BATTERY STAYSOVER least=amount",
+    "limit: NEVERLET least=low_battery",
+    "limit: WITHOUT least=low_battery",
     "limit: WITHOUT GOUNDER least=reserve",
     cost=0.3,
 )
@@ -197,26 +193,19 @@ def home_with(back: Home, least: Amount, used: int) -> LimitClause | None:
     return LimitClause(least, True, used, back=True) if back.then != "return_to_end" and not back.to_it else None
 
 
-@construction("limit: RETURN BEFORE [DET] BATTERY [IS] [at] least=amount [LEFT]", cost=0.2)
+@construction("limit: RETURN BEFORE least=low_battery [LEFT]", cost=0.2)
 def back_before(least: Amount, used: int) -> LimitClause | None:
     """Compose "be back before the battery is at 30 %"."""
     return LimitClause(least, True, used, back=True) if least.unit == "percent" else None
 
 
 @construction(
-    "limit: home in_case [DET] BATTERY [IS] check=CMP least=amount",
-    "limit: in_case [DET] BATTERY [IS] check=CMP least=amount [COMMA] home",
-    "limit: home in_case [DET] BATTERY REACHES least=amount",
-    "limit: home in_case [DET] BATTERY GOUNDER least=amount",
-    "limit: in_case [DET] BATTERY GOUNDER least=amount [COMMA] [STOP] [AND] home",
-    "limit: in_case [DET] BATTERY REACHES least=amount [COMMA] [STOP] [AND] home",
-    "limit: in_case [DET] BATTERY [IS] check=CMP least=amount [COMMA] STOP [AND] home",
+    "limit: home in_case least=low_battery",
+    "limit: in_case least=low_battery [COMMA] [STOP] [AND] home",
     cost=0.2,
 )
-def home_below(least: Amount, used: int, check: Lex | None = None) -> LimitClause | None:
+def home_below(least: Amount, used: int) -> LimitClause:
     """Compose "return if the battery drops below 25 %"."""
-    if (check is not None and check.value[0] not in ("lt", "le")) or least.unit != "percent":
-        return None
     return LimitClause(least, True, used, back=True)
 
 
@@ -238,9 +227,9 @@ def in_case() -> str:
     return "if"
 
 
-@construction("at: AT", "at: CMP", cost=0.0)
+@construction("at: AT", "at: CMP", "at: INSIDE", "at: WITH", cost=0.0)
 def at_word() -> str:
-    """Compose "at"."""
+    """Compose "at" before a limit."""
     return "at"
 
 

@@ -126,10 +126,8 @@ def thing_of(
 
 
 @construction(
-    "thing: other=ONE OF how=parameter",
-    "thing: n=count OF how=parameter",
     "thing: ANOTHER [ONE] OF how=parameter",
-    "thing: DET other=ONE OF how=parameter",
+    "thing: [DET] other=ONE OF how=parameter",
     cost=0.6,
     given=("robot",),
 )

@@ -17,22 +17,16 @@ def every_so_far(far: Amount) -> float | None:
 
 
 @construction(
-    "apart: far=amount APART",
-    "apart: SPACEDBY far=amount APART",
-    "apart: SPACEDBY every=every",
-    "apart: SPACEDBY far=amount",
-    "apart: AT far=amount INTERVAL",
-    "apart: far=amount INTERVAL",
-    "apart: EACH far=amount APART",
-    "apart: EACH ONE far=amount APART",
-    "apart: WITH far=amount APART",
+    "apart: [WITH] far=amount APART",
     "apart: ABOUT far=amount APART",
-    "apart: WITH far=amount BETWEEN ONE READING AND [DET] NEXTONE",
-    "apart: [WITH] far=amount BETWEEN [DET] POINT",
-    "apart: [WITH] far=amount BETWEEN [DET] READING",
+    "apart: SPACEDBY every=every",
+    "apart: SPACEDBY far=amount [APART]",
+    "apart: [AT] far=amount INTERVAL",
     "apart: AT [DET] INTERVAL OF far=amount",
-    "apart: WITH [DET] INTERVAL OF far=amount",
-    "apart: INTERVAL [COMMA] far=amount",
+    "apart: [WITH] [DET] INTERVAL [OF] [COMMA] far=amount",
+    "apart: EACH [ONE] far=amount APART",
+    "apart: [WITH] far=amount BETWEEN [DET] POINT",
+    "apart: [WITH] far=amount BETWEEN [ONE] READING [AND] [DET] [NEXTONE]",
     cost=0.1,
 )
 def apart(far: Amount | None = None, every: float | None = None) -> float | None:

@@ -8,7 +8,7 @@ from typing import cast
 from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.places.picks.ordered import Order
-from fieldhand.planning.grammar.dialogue.fitting import in_area
+from fieldhand.planning.grammar.dialogue.fitting import in_area, of_each_row
 from fieldhand.planning.grammar.dialogue.plans import (
     EMPTY,
     as_for_each,
@@ -46,6 +46,9 @@ from fieldhand.site.model import Site
 from fieldhand.task import plan as p
 from fieldhand.terms import Side
 
+#: Sides from which trees are counted if nothing else is said.
+_USUAL_SIDES = frozenset({"north", "west"})
+
 
 def drive(setting: Setting, state: DialogueState, command: DriveCommand) -> DialogueState:
     """Return the state after a drive to one or several places, or into an area of which more is said."""
@@ -76,9 +79,15 @@ def drive(setting: Setting, state: DialogueState, command: DriveCommand) -> Dial
     if area is not None and place.shape == "several" and chooses_from_trees(place.selector):
         state, place = replace(state, area=None), in_area(setting, area, place)  # "drive down row 3, visit every tree"
         said = (*setting.spans_of(area.used), *said)
+    lead = state.lead
+    if lead is not None and lead.place.shape == "area" and place.shape in ("one", "several"):
+        state, place = replace(state, lead=None), in_area(setting, lead, place)  # "in row 3, visit every tree"
+        said = (*setting.spans_of(lead.used), *said)
     require_known(setting, state, place, command.used)
     if state.awaits_command:
         raise NotComposed(message("it is not clear at which of two places this is done", context="fault"))
+    if place.shape == "several" and place.per is not None:
+        place = of_each_row(setting, place)
     if not leads and _stands_idle(state) and not place.selector.relative and not command.returns:
         raise NotComposed(message("it does not say what to do at the place before", context="fault"))
     if place.shape in ("one", "step"):
@@ -340,10 +349,15 @@ def _counted_from(setting: Setting, select: s.Selector, command: InAnOrder) -> s
                     message("it is not clear whether the trees are counted or visited from there", context="fault")
                 )
             select = swapped(select, every, replace(every, counted_from=cast(Side, side)))
-        elif along and some is not None and some.counted_from == "usual" and 1 == some.first < some.last:
+        elif some is not None and along and side not in _USUAL_SIDES and _are_foremost(some):
             ways = (replace(some, counted_from=cast(Side, side)), some)
             select = swapped(select, some, setting.either("counted from there?", command.used, ways))
     return select
+
+
+def _are_foremost(some: s.InRow) -> bool:
+    """Return True for the first few trees of rows, which the phrase counts from no side."""
+    return some.counted_from == "usual" and 1 == some.first < some.last
 
 
 def _reversed(select: s.Selector, site: Site) -> s.Selector:

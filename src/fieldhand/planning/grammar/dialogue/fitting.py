@@ -270,11 +270,21 @@ def _of_rows(
         return PlaceMeaning(rows, "several")
     if place.shape == "area" and relation in _OPEN and setting.either("every tree, or how many?", used, (True, False)):
         return PlaceMeaning(rows, "several")
+    return of_each_row(setting, place, count or 1)
+
+
+def of_each_row(setting: Setting, place: PlaceMeaning, count: int = 1) -> PlaceMeaning:
+    """Return what is said of each of several rows, one row after the other; of an area so many trees of each.
+
+    Raises:
+        NotComposed: The rows cannot be named one by one.
+    """
+    rows = place.per or s.Rows()
     counted = are_rows(rows) or rows_kept(rows) is not None
     single = one_by_one(rows, setting.site) if counted else rows.members
     if not single or len(single) > MOST_ONE_BY_ONE:
         raise NotComposed(message("rows are visited one after the other here only if they are named", context="fault"))
-    selector = s.Take(count=count or 1, of=s.Trees()) if place.shape == "area" else place.selector
+    selector = s.Take(count=count, of=s.Trees()) if place.shape == "area" else place.selector
     parts = tuple(over(selector, row) for row in single)
     return PlaceMeaning(parts[0] if len(parts) == 1 else s.UnionOf(parts=parts), "several")
 

@@ -19,7 +19,16 @@ from fieldhand.planning.grammar.dialogue.plans import (
 )
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, done_at, with_step
 from fieldhand.planning.grammar.meaning import Again, DriveCommand, PlaceMeaning
-from fieldhand.planning.selections import is_one_row, moves_on, replaceable_area, swapped
+from fieldhand.planning.selections import (
+    are_rows,
+    blocks_of,
+    is_in_block,
+    is_one_row,
+    moves_on,
+    over,
+    replaceable_area,
+    swapped,
+)
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
 
@@ -131,6 +140,7 @@ def repeated_in(setting: Setting, state: DialogueState, area: s.Selector, used: 
         NotComposed: What is repeated is unclear.
     """
     steps = state.plan.steps
+    area = _of_same_block(area, steps)
     places = [_place_in(step, area) for step in steps]
     if state.scope or not steps or state.awaits_command:
         raise NotComposed(message("it is not clear what is repeated, and where", context="fault"))
@@ -156,6 +166,20 @@ def repeated_in(setting: Setting, state: DialogueState, area: s.Selector, used: 
         where=None if visits is None else PlaceMeaning(visits.select, "several"),
         commands_in_sentence=state.commands_in_sentence + 1,
     )  # fmt: skip
+
+
+def _of_same_block(area: s.Selector, steps: Sequence[p.Node]) -> s.Selector:
+    """Return rows without a block as those of the only block of some steps ("vines of row 3 of block 2 ... row 4")."""
+    if not are_rows(area) or is_in_block(area):
+        return area
+    blocks = {
+        block
+        for step in steps
+        for node in p.walk(step)
+        if node.selector is not None
+        for block in blocks_of(node.selector)
+    }
+    return over(area, blocks.pop()) if len(blocks) == 1 else area
 
 
 def _selects(step: p.Node) -> bool:

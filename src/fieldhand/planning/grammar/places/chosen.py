@@ -461,7 +461,7 @@ def evenly_along(rows: s.Selector) -> Choice:
     return Choice("evenly", rows)
 
 
-@construction("chosen_as: [WHICH] WITH DET rank=ranking", cost=0.1)
+@construction("chosen_as: [WHICH] WITH [DET] rank=ranking", "chosen_as: OF [DET] rank=ranking", cost=0.1)
 def with_the_most(rank: tuple[str, bool]) -> Choice | None:
     """Compose "with the highest yield"."""
     return Choice("best", rank) if rank[0] else None

@@ -218,12 +218,19 @@ def range_word(word: Lex | None = None) -> str | None:
     return "to" if word is None or "range" in word.features else None
 
 
-@construction("place: [DET] trees=tree_ids", "place: EACH [DET] trees=tree_ids", cost=0.1)
+@construction("place: [DET] trees=tree_ids", cost=0.1)
 def named_trees(trees: tuple[str, ...]) -> PlaceMeaning:
     """Compose "the trees 12 and 15"."""
     if len(trees) == 1:
         return PlaceMeaning(s.TreeIs(tree=trees[0]), "one")
     return PlaceMeaning(s.UnionOf(parts=tuple(s.TreeIs(tree=t) for t in trees)), "several", count=len(trees))
+
+
+@construction("place: EACH [DET] trees=tree_ids", cost=0.1)
+def each_named_tree(trees: tuple[str, ...]) -> PlaceMeaning:
+    """Compose "each of trees 12 and 15"."""
+    named = named_trees(trees)
+    return replace(named, each=True) if named.shape == "several" else named
 
 
 @construction(

@@ -399,6 +399,16 @@ def each_row(noun: Lex) -> s.Selector | None:
     return None if noun.plural else s.Rows()
 
 
+@construction(
+    "each_row: EACH ROW FROM first=row_name range_to [ROW] last=row_name",
+    "each_row: EACH ROW first=row_name range_to [ROW] last=row_name",
+    cost=0.1,
+)
+def each_row_from_to(first: Lex, last: Lex) -> s.Selector:
+    """Compose "each row from 3 to 5"."""
+    return rows_from_to(first, last)
+
+
 @construction("per_row: PER noun=ROW", cost=0.1)
 def per_row(noun: Lex) -> s.Selector | None:
     """Compose "per row"."""
@@ -421,10 +431,13 @@ def each_row_of_area(rows: s.Selector, where: s.Selector) -> s.Selector | None:
     return inside if are_rows(inside) else None
 
 
-@construction("all_rows: DET noun=ROW", "all_rows: EACH [DET] noun=ROW", cost=0.0)
-def every_row(noun: Lex) -> s.Selector | None:
-    """Compose "all rows"."""
-    return s.Rows() if noun.plural else None
+@construction(
+    "all_rows: DET noun=ROW", "all_rows: EACH [DET] noun=ROW", "all_rows: EACH [DET] n=count noun=ROW",
+    cost=0.0, given=("site",),
+)  # fmt: skip
+def every_row(noun: Lex, site: Site, n: int | None = None) -> s.Selector | None:
+    """Compose "all rows" and "all ten rows" of a site that has ten."""
+    return s.Rows() if noun.plural and n in (None, len(site.planting.rows)) else None
 
 
 @construction("region: rows=all_rows", cost=0.5)

@@ -244,7 +244,7 @@ def at_distance(of: s.Selector, at: Distance) -> s.Selector | None:
 
 
 @construction(
-    "place: [EACH] [DET] inner=nominal [which_is] at=distance",
+    "place: [EACH] [DET] [OTHER] inner=nominal [which_is] at=distance",
     "place: [ANY] n=count inner=nominal at=distance",
     cost=0.2,
 )
