@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections import deque
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 from fieldhand.planning.english.naming import NameEntry, Phrase, parameter_entries, robot_entries, site_entries, split
@@ -27,11 +27,13 @@ class Lexicon:
         own: Phrases of this robot and this site, which come before the shared ones.
         trees: Ids of trees that are not plain numbers, as the lexicon knows words.
         site: Whose rows and blocks may have names; they are looked for only where a row or a block is spoken of.
+        attributes: Attributes of the site that a word of the robot calls as well ("leaves" of a leaf sampler).
     """
 
     own: Mapping[Phrase, NameEntry]
     trees: Mapping[str, str]
     site: Site
+    attributes: Mapping[Phrase, NameEntry] = field(default_factory=dict)
 
     @cached_property
     def longest(self) -> int:
@@ -96,6 +98,7 @@ def lexicon_for(robot: RobotProfile, site: Site) -> Lexicon:
 
 def _lexicon_of(robot: RobotProfile, site: Site) -> Lexicon:
     own: dict[Phrase, NameEntry] = {}
+    attributes: dict[Phrase, NameEntry] = {}
     for phrase, entry in site_entries(site):
         if phrase not in shared_vocabulary():
             own.setdefault(phrase, entry)
@@ -105,6 +108,8 @@ def _lexicon_of(robot: RobotProfile, site: Site) -> Lexicon:
     for phrase, entry in robot_entries(robot):
         shared = shared_vocabulary().get(phrase)
         if shared is None or shared.kind in _REPLACEABLE or (shared.kind == "TAKE" and entry.kind == "ACTV"):
+            if phrase in own and own[phrase].kind == "ATTR":
+                attributes[phrase] = own[phrase]
             own[phrase] = entry
     odd = {"".join(split(tree)): tree for tree in site.by_id if not tree.isdigit()}
     lexicon = Lexicon(own=own, trees=odd, site=site)
@@ -114,7 +119,7 @@ def _lexicon_of(robot: RobotProfile, site: Site) -> Lexicon:
         if lexicon.entry((word,)) is None and len(site.attributes[value[0]]) > 1
     }
     own |= {phrase: NameEntry(kind="ATTRVAL", value=(value,)) for phrase, value in short.items()}
-    return Lexicon(own=own, trees=odd, site=site)
+    return Lexicon(own=own, trees=odd, site=site, attributes=attributes)
 
 
 def _spelt(name: str) -> str:

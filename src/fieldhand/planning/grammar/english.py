@@ -73,6 +73,8 @@ class EnglishPhrases:
             known = None
         if known is not None:
             yield known
+            if (attribute := self.lexicon.attributes.get(phrase)) is not None:
+                yield attribute
         else:
             spelt_out = _asked_by_adjective().get(phrase) or tuple(_SPELT_OUT.get(word, word) for word in phrase)
             full = self.lexicon.entry(spelt_out)
