@@ -187,6 +187,8 @@ def _amount(tokens: Sequence[Token], number: _Number, nouns: dict[int, Noun], un
         return replace(made, kind="times")
     if after in w.ROWS:
         return replace(made, kind="rows")
+    if after == "of" and [w.is_number(t.text) for t in tokens[k + 2 : k + 3]] == [True]:
+        return made  # "two of tree 9", of what was said to be captured
     name = _name(tokens[max(0, number.start - 3) : number.start])
     counted = _counted(tokens, k, nouns)
     spelt = not w.is_number(tokens[number.start].text)

@@ -1073,8 +1073,8 @@ ASKED = [
     ),
     (
         "husky",
-        "Take a picture of tree 4. If it is low, take a CO2 reading. If it is high, take a temperature reading.",
-        "'If it is high': which is meant?",
+        "Take a picture of tree 4. If it is low, take a CO2 reading. If it is low, take a temperature reading.",
+        "'If it is low': which is meant?",
     ),
     ("husky", "Take a picture of all 12 trees.", "'Take a picture of all 12 trees': which is meant?"),
     ("husky", "Survey the orchard.", "'Survey the orchard': which is meant?"),
@@ -1250,11 +1250,6 @@ REFUSED = [
         "husky",
         "Read co2 at 10 trees, then pictures at 5 of them.",
         "'pictures at 5 of them': it is not clear which of them",
-    ),
-    (
-        "husky",
-        "Photograph 3 yellow trees and read co2 at the last of them.",
-        "'at the last of' does not fit at this point in 'Photograph 3 yellow trees and read co2 at the last of them'",
     ),
     ("husky", "Take a picture of trees 4, 5 and, if the battery allows, 6.", "'6': it does not say what to do with it"),
     (

@@ -1390,11 +1390,6 @@ REFUSED = [
     ("husky", "photograph the row ends", "'row ends': of which rows?"),
     (
         "husky",
-        "go to tree 30, photograph it and the two trees on either side",
-        "'and the two trees' does not fit at this point in 'go to tree 30, photograph it and the two trees on either side'",
-    ),
-    (
-        "husky",
         "take a soil sample at the start of row 3",
         "'take a soil sample' asks for work that husky has no tool for",
     ),

@@ -121,6 +121,12 @@ def verb_part() -> Clause:
     return _part("v")
 
 
+@construction("part: REPEAT", cost=0.6)
+def repeat_part() -> Clause:
+    """Compose "repeat" before what is captured again."""
+    return _part("v")
+
+
 @construction("part: verb=ACTV", cost=0.1)
 def act_part(verb: Lex) -> Clause:
     """Compose "photograph"."""
@@ -367,7 +373,9 @@ def _topic(clause: Clause, used: int) -> CaptureCommand | None:
         return CaptureCommand(things, place, used) if place.each else None  # "with a picture at every tree"
     if clause.order in ("tp", "tsp"):
         refers = clause.relation == "of" and any(one.action == LAST_THING for one in things)
-        return None if refers else CaptureCommand(things, place, used, relation=clause.relation)
+        return (
+            None if refers and place.shape != "one" else CaptureCommand(things, place, used, relation=clause.relation)
+        )
     if place.shape not in ("one", "several", "area") or any(one.action == LAST_THING for one in things):
         return None
     several = tuple(replace(one, plural=True) for one in things) if place.shape == "area" else things

@@ -263,6 +263,14 @@ def lead(place: PlaceMeaning, used: int, word: str) -> Lead | None:
     return Lead(place, used, word) if place.shape in ("one", "several", "area") else None
 
 
+@construction("lead: word=relation place=place [COMMA] AND relation second=place", cost=1.9)
+def lead_to_both(place: PlaceMeaning, second: PlaceMeaning, used: int, word: str) -> list[Lead] | None:
+    """Compose "at tree 4 and at tree 9, ..."."""
+    found = both(place, second)
+    places = found if isinstance(found, list) else [] if found is None else [found]
+    return [Lead(replace(one, in_order=True), used, word) for one in places] or None
+
+
 @construction("lead: word=THEN place=place", cost=0.5)
 def after_the_last(place: PlaceMeaning, word: Lex, used: int) -> Lead | None:
     """Compose "after the last one, ..." of what is done there as well."""

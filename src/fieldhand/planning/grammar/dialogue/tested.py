@@ -73,26 +73,42 @@ def of_several(state: DialogueState, tests: AllTests, robot: RobotProfile) -> tu
 def _last_readings(state: DialogueState, test: Test, robot: RobotProfile) -> tuple[DialogueState, list[Path]]:
     """Return the paths of the last captures of what is tested; a for-each over named places becomes one each."""
     steps = state.block.steps
-    loop = as_for_each(steps[-1]) if steps else None
-    if loop is not None:
-        acts, places = captures_at_last_place(steps), named_places(loop.select)
-        if loop.optional or loop.at_most is not None or not acts or not all(place.single for place in places):
-            raise NotComposed(message("it is not clear which readings are tested", context="fault"))
-        each = [
-            replace(act, at=place, at_said=loop.said) if number == 0 else act
-            for place in places
-            for number, act in enumerate(acts)
-        ]
-        block = replace(state.block, steps=(*steps[:-1], *each))
-        state = replace(state, plan=with_node(state.plan, state.scope, block), loop=None)
-        steps = block.steps
+    if steps and as_for_each(steps[-1]) is not None:
+        state = _one_by_one(state, len(steps) - 1)
     found: list[Path] = []
-    for number, step in enumerate(steps):
+    for number, step in enumerate(state.block.steps):
         if step.act is None:
             found = []
         elif _fits(step, test, robot):
             found.append((*state.scope, number))
     return state, found
+
+
+def _one_by_one(state: DialogueState, number: int) -> DialogueState:
+    """Return the state with the captures at each of the named places of a for-each, in place of that step of the block.
+
+    Raises:
+        NotComposed: The places are not named one by one, or something else is done there.
+    """
+    steps = state.block.steps
+    loop, acts = as_for_each(steps[number]), captures_at_last_place(steps[: number + 1])
+    places = () if loop is None else named_places(loop.select)
+    if (
+        loop is None
+        or loop.optional
+        or loop.at_most is not None
+        or not acts
+        or not places
+        or not all(one.single for one in places)
+    ):
+        raise NotComposed(message("it is not clear which readings are tested", context="fault"))
+    each = [
+        replace(act, at=place, at_said=loop.said) if first == 0 else act
+        for place in places
+        for first, act in enumerate(acts)
+    ]
+    block = replace(state.block, steps=(*steps[:number], *each, *steps[number + 1 :]))
+    return replace(state, plan=with_node(state.plan, state.scope, block), loop=None)
 
 
 def _of_tree(state: DialogueState, test: Test) -> c.Condition:
@@ -200,9 +216,9 @@ def readings_at(
 
     A for-each over that place and others becomes one capture each.
     """
-    steps = state.plan.steps
-    if steps and as_for_each(steps[-1]) is not None and place in named_places(steps[-1].selector or place):
-        state, _ = _last_readings(replace(state, scope=()), test, robot)
+    loops = [number for number, step in enumerate(state.plan.steps) if step.visits_each and step.selector is not None]
+    if not state.scope and loops and place in named_places(state.plan.steps[loops[-1]].selector or place):
+        state = replace(_one_by_one(state, loops[-1]), choice=None)
     found: dict[str, Path] = {}
     where: s.Selector | None = None
     for number, step in enumerate(state.plan.steps):
