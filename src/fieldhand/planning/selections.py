@@ -354,3 +354,8 @@ def is_description(selector: s.Selector) -> bool:
     """Return True if trees are chosen by attributes and areas alone ("yellow trees of row 3"), and not all are."""
     parts = list(selector.walk())
     return len(parts) > 1 and all(isinstance(part, (s.Where, s.Trees, *AREAS)) for part in parts)
+
+
+def as_where(selector: s.Selector) -> s.Where | None:
+    """Return the selector if it tests an attribute, None otherwise."""
+    return selector if isinstance(selector, s.Where) else None

@@ -79,14 +79,15 @@ class Likewise:
 
     Attributes:
         kind: Half, quarter or corner, ``ranked``, ``rest`` for the others of those, ``nth`` for one of several
-            that were named, or ``those`` for others of that description; empty if it is of the kind of the one before.
+            that were named, ``those`` for others of that description, or ``value`` for those with another value
+            ("the green ones"); empty if it is of the kind of the one before.
         number: Which one of several, from 1 on; -1 for the last.
         side: Side of the compass; empty for the opposite side.
         holds: True if the places are inside it.
         of_number: Number of those of which it is one, if the phrase says it ("the last of the four").
     """
 
-    kind: Literal["", "half", "quarter", "corner", "ranked", "rest", "nth", "those"]
+    kind: Literal["", "half", "quarter", "corner", "ranked", "rest", "nth", "those", "value"]
     side: str = ""
     holds: bool = False
     number: int = 0

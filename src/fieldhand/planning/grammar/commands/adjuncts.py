@@ -120,7 +120,10 @@ def _free_choice(command: CaptureCommand, count: int | None) -> CaptureCommand |
 
 
 def _at_random(command: CaptureCommand, _: None) -> CaptureCommand | None:
-    place = command.place
+    place, count = command.place, _only_count(command)
+    if place is not None and place.shape == "area" and place.per is None and count is not None:
+        drawn_there = PlaceMeaning(s.RandomSample(count=count, of=place.selector), "several", count=count)
+        return replace(command, things=once(command.things), place=drawn_there)
     if place is None or place.shape not in ("one", "several") or place.per is not None:
         return None
     some = [as_some(part) for part in place.selector.members]
@@ -173,7 +176,7 @@ def whichever_it_is(n: int | None = None) -> Adjunct:
     return Adjunct(_free_choice, n, is_sentence=True)
 
 
-@construction("adjunct: RANDOM", cost=0.2)
+@construction("adjunct: RANDOM", "adjunct: AT RANDOM POINT", cost=0.2)
 def chosen_at_random() -> Adjunct:
     """Compose "chosen at random"."""
     return Adjunct(_at_random)

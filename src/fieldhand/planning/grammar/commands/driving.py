@@ -263,7 +263,7 @@ def lead(place: PlaceMeaning, used: int, word: str) -> Lead | None:
     return Lead(place, used, word) if place.shape in ("one", "several", "area") else None
 
 
-@construction("lead: word=relation place=place [COMMA] AND relation second=place", cost=1.9)
+@construction("lead: word=relation place=place [COMMA] AND relation second=place", cost=3.0)
 def lead_to_both(place: PlaceMeaning, second: PlaceMeaning, used: int, word: str) -> list[Lead] | None:
     """Compose "at tree 4 and at tree 9, ..."."""
     found = both(place, second)

@@ -22,6 +22,7 @@ from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.selections import (
     as_in_row,
     as_some,
+    as_where,
     as_zone,
     counts_in_row,
     is_by_attribute,
@@ -58,7 +59,28 @@ def with_known_place(setting: Setting, state: DialogueState, command: Command) -
     if place.like is not None and place.like.kind == "nth":
         one = _nth(state, place.like) if place.like.number else _described(state, place.selector)
         return replace(command, place=replace(place, selector=one, like=None))
+    if place.like is not None and place.like.kind == "value":
+        other = _of_another_value(state, place.selector)
+        return replace(command, place=replace(place, selector=other, like=None))
     return command if place.like is None else replace(command, place=_likewise(state, place, place.like))
+
+
+def _of_another_value(state: DialogueState, described: s.Selector) -> s.Selector:
+    """Return the trees named last with another value of their attribute ("the green ones" behind "the yellow trees").
+
+    Raises:
+        NotComposed: Their description does not have that attribute.
+    """
+    new, before = as_where(described), None if state.where is None else state.where.selector
+    parts = () if before is None or before.relative else tuple(before.walk())
+    old = [
+        part
+        for part in map(as_where, parts)
+        if part is not None and new is not None and part.attribute == new.attribute and part.value != new.value
+    ]
+    if len(old) != 1 or new is None or before is None or old[0].test != "eq":
+        raise NotComposed(message("it is not clear which trees are meant", context="fault"))
+    return swapped(before, old[0], replace(new, of=old[0].of))
 
 
 def _beside(setting: Setting, state: DialogueState, place: PlaceMeaning, used: int) -> PlaceMeaning:

@@ -9,11 +9,12 @@ from fieldhand.planning.grammar.places.compass import CORNERS
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.places.numbers import VAGUE_NUMBERS, name_of
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import chooses_from_trees, is_by_attribute, is_description, is_one_row
+from fieldhand.planning.selections import are_rows, chooses_from_trees, is_by_attribute, is_description, is_one_row
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
+_ANYWHERE = s.Trees()
 
 
 @construction("nominal: inner=nominal FREECHOICE", cost=0.2)
@@ -83,12 +84,18 @@ def one_number_or_the_other(first: tuple[str, ...], n: Lex) -> list[PlaceMeaning
     return [PlaceMeaning(s.TreeIs(tree=name), "one") for name in (*first, name_of(n))]
 
 
-@construction("place: word=DET noun=CORNER [tree=TREE]", cost=0.4)
-def some_corner(word: Lex, noun: Lex, tree: Lex | None = None) -> list[PlaceMeaning] | None:
-    """Compose "the corner"."""
+@construction(
+    "place: word=DET noun=CORNER [tree=TREE]", "place: word=DET noun=CORNER [tree=TREE] in_ where=region", cost=0.4
+)
+def some_corner(
+    word: Lex, noun: Lex, tree: Lex | None = None, where: s.Selector = _ANYWHERE
+) -> list[PlaceMeaning] | None:
+    """Compose "the corner" and "the corner of the north block"."""
     if noun.plural or (tree is not None and tree.plural) or "definite" not in word.features:
         return None
-    return [PlaceMeaning(s.Corners(which=(corner,)), "one") for corner in CORNERS]
+    if are_rows(where) or not chooses_from_trees(where):
+        return None
+    return [PlaceMeaning(s.Corners(which=(corner,), of=where), "one") for corner in CORNERS]
 
 
 @construction(

@@ -51,6 +51,17 @@ def likewise(like: Likewise) -> list[PlaceMeaning]:
     return [one, area] if not like.kind else [one] if like.kind == "corner" else [area]
 
 
+@construction("place: [DET] value=ATTRVAL noun=ONE", cost=0.4)
+def those_of_another_value(value: Lex, noun: Lex) -> list[PlaceMeaning] | None:
+    """Compose "the green ones" behind "the yellow trees"."""
+    if not noun.plural and "plural" not in noun.features:
+        return None
+    like = Likewise("value")
+    return [
+        PlaceMeaning(s.Where(attribute=name, test="eq", value=text), "several", like=like) for name, text in value.value
+    ]
+
+
 @construction("place: OTHERS", cost=4.0)
 @construction("place: DET OTHER noun=TREE", cost=0.5)
 def the_rest(noun: Lex | None = None) -> PlaceMeaning | None:

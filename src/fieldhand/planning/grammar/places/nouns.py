@@ -21,7 +21,7 @@ GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
 #: Attribute, test and value: a pair for "between", alternatives for "any".
-AttributeTest = tuple[str, Test | Literal["between", "any"], Any]
+AttributeTest = tuple[str, Test | Literal["between", "any", "none"], Any]
 
 #: Word in the name of the attribute that an amount is about, by its unit.
 _ATTRIBUTE_BY_UNIT = {"years": "age", "kg": "yield"}
@@ -122,6 +122,17 @@ def longer_value_list(first: Lex, rest: tuple[tuple[str, str], ...]) -> list[tup
     return [(one, *rest) for one in first.value if one[0] == rest[0][0] and one not in rest]
 
 
+@construction("attribute_test: NEITHER first=ATTRVAL NOR second=ATTRVAL", cost=0.1)
+def neither_value(first: Lex, second: Lex) -> list[AttributeTest]:
+    """Compose "neither yellow nor green"."""
+    return [
+        (one[0], "none", (one[1], other[1]))
+        for one in first.value
+        for other in second.value
+        if one[0] == other[0] and one != other
+    ]
+
+
 @construction("nominal: values=value_list inner=nominal", cost=0.2)
 def of_several_kinds(values: tuple[tuple[str, str], ...], inner: Nominal) -> Nominal | None:
     """Compose "yellow or pale green trees"."""
@@ -174,6 +185,10 @@ def _that_pass(test: AttributeTest, of: s.Selector) -> s.Selector:
     name, check, value = test
     if check == "any":
         return s.UnionOf(parts=tuple(s.Where(attribute=name, test="eq", value=text, of=of) for text in value))
+    if check == "none":
+        for text in value:
+            of = s.Where(attribute=name, test="ne", value=text, of=of)
+        return of
     if check == "between":
         low, high = value
         return s.Where(attribute=name, test="le", value=high, of=s.Where(attribute=name, test="ge", value=low, of=of))

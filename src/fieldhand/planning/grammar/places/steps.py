@@ -8,6 +8,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Amount, Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import SIDES
+from fieldhand.planning.grammar.places.rows import rows_towards
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_zone, chooses_from_trees, over
 from fieldhand.site.model import Site
@@ -305,6 +306,15 @@ def next_trees(n: int, inner: Nominal, way: Towards = "down", rows: s.Selector |
     return PlaceMeaning(
         s.UnionOf(parts=tuple(s.AlongRow(trees=k, towards=way) for k in range(1, n + 1))), "several", count=n
     )
+
+
+@construction("place: DET TREE n=count noun=ROW way=way OF to=place", cost=0.1, given=("site",))
+def tree_rows_away(n: int, noun: Lex, way: Towards, to: PlaceMeaning, site: Site) -> PlaceMeaning | None:
+    """Compose "the tree two rows east of tree 50"."""
+    rows = rows_towards(n, way, site) if noun.plural == (n > 1) and to.shape in ("one", "here") else None
+    if rows is None:
+        return None
+    return PlaceMeaning(s.Nearest(to=to.selector, of=replace(rows, origin=to.selector)), "one")
 
 
 def beyond(metres: float, of: s.Selector) -> s.Selector:
