@@ -281,6 +281,12 @@ def at_level(level: Lex) -> Test:
     return Test("", "level", level.value, _unit_said(level))
 
 
+@construction("predicate: DET noun=NOUN [OF] test=predicate", cost=0.4)
+def with_a_quantity(noun: Lex, test: Test) -> list[Test] | None:
+    """Compose "a canopy temperature above 36 degC" behind "has"."""
+    return [replace(test, quantity=name) for name in measured_by(noun)] if not test.quantity else None
+
+
 @construction("predicate: NOT test=predicate", cost=0.1)
 def negated(test: Test) -> Test:
     """Compose "not above 30 degC"."""
@@ -574,10 +580,11 @@ def whenever_one_is(inner: Nominal, test: Test, act: CaptureCommand, used: int, 
     """Compose "whenever a tree of row 4 is above 38 degC in the thermal picture, measure its CO2"."""
     if inner.single or inner.complete or inner.plural or inner.selector == s.Trees():
         return None
-    if act.place is not None and act.place.shape != "here":
+    if act.place is not None and act.place.shape != "here" and not act.place.beside:
         return None
     area = PlaceMeaning(inner.selector, "several", each=True)
-    return CaptureWhere(AllTests((replace(test, quantity=by),)), replace(act, place=None), used, area)
+    there = act if act.place is not None and act.place.beside else replace(act, place=None)
+    return CaptureWhere(AllTests((replace(test, quantity=by),)), there, used, area)
 
 
 @construction(
