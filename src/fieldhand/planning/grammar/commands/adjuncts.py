@@ -408,6 +408,25 @@ def instead() -> Adjunct:
     return Adjunct(_instead)
 
 
+@construction("adjunct: INSTEADOF things", cost=0.2)
+def instead_of_things() -> Adjunct:
+    """Compose "instead of CO2", in another case."""
+    return Adjunct(_instead)
+
+
+@construction("adjunct: [COMMA] place=here", cost=0.5)
+def at_each_of_those(place: PlaceMeaning) -> Adjunct | None:
+    """Compose "at each" behind places that were named with what is done there."""
+    return Adjunct(_at_each_place, of_place=True) if place.shape == "those" and place.each else None
+
+
+def _at_each_place(command: CaptureCommand, _: None) -> CaptureCommand | None:
+    place = command.place
+    if place is None or place.shape not in ("several", "area") or place.per is not None:
+        return None
+    return replace(command, place=replace(place, shape="several", each=True))
+
+
 @construction("adjunct: BYGOING", cost=0.1)
 def by_going_there() -> Adjunct:
     """Compose "by going to them"."""

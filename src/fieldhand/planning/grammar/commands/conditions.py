@@ -584,7 +584,7 @@ def whenever_one_is(inner: Nominal, test: Test, act: CaptureCommand, used: int, 
         return None
     area = PlaceMeaning(inner.selector, "several", each=True)
     there = act if act.place is not None and act.place.beside else replace(act, place=None)
-    return CaptureWhere(AllTests((replace(test, quantity=by),)), there, used, area)
+    return CaptureWhere(AllTests((replace(test, quantity=by or test.quantity),)), there, used, area)
 
 
 @construction(

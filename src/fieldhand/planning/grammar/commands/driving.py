@@ -201,6 +201,12 @@ def in_an_order(order: tuple[str, str, bool], used: int) -> InAnOrder:
     return InAnOrder(order[0], order[1], order[2], used)
 
 
+@construction("order: VISIT one=order", cost=0.2)
+def visited_in_order(one: InAnOrder, used: int) -> InAnOrder:
+    """Compose "visited in the shortest order"."""
+    return replace(one, used=used)
+
+
 @construction("order: ONEBYONE", cost=0.2)
 def one_by_one(used: int) -> InAnOrder:
     """Compose "go along row 3 tree by tree"."""

@@ -508,8 +508,10 @@ def without_joint(before: Said, one: Command) -> Said | None:
     """Compose "take a picture if it is high"."""
     last = before.clauses[-1].command
     match one:
-        case Again() | InTurn() | Reordered() | CaptureWhere() | ReadingQuestion() | Failing() | RankCommand():
+        case InTurn() | Reordered() | CaptureWhere() | ReadingQuestion() | Failing() | RankCommand():
             return None
+        case Again():
+            follows = isinstance(last, When | Otherwise)
         case Otherwise():
             follows = any(isinstance(clause.command, When) for clause in before.clauses)
         case Lead():

@@ -219,6 +219,7 @@ def captured_where(setting: Setting, state: DialogueState, command: CaptureWhere
     if state.ended_by is not None or state.order is not None:
         raise NotComposed(message("it is not clear which of those", context="fault"))
     command = replace(command, tests=_of_quantity(setting, command.tests))
+    command = replace(command, tests=_named_quantity(setting, command))
     of_trees = all(test.attribute for test in command.tests.tests)
     state = state if of_trees else _measured_at_each(setting, state, command)
     known = state.captured is not None and is_inside(state.captured, state.loop or ())
@@ -235,6 +236,21 @@ def captured_where(setting: Setting, state: DialogueState, command: CaptureWhere
     state = capture(setting, state, command.capture)
     done = state.commands_in_sentence + 1
     return replace(state, scope=scope, loop=loop, commands_in_sentence=done)
+
+
+def _named_quantity(setting: Setting, command: CaptureWhere) -> AllTests:
+    """Return a test of trees that are measured first with what is measured, which may be each quantity of its unit."""
+    tests = command.tests.tests
+    if command.area is None or len(tests) != 1 or tests[0].quantity or tests[0].attribute or not tests[0].unit:
+        return command.tests
+    if tests[0].check == "level":
+        return command.tests  # "hot" of the air, or of the canopy?
+    measured = dict.fromkeys(name for action in setting.robot.actions for name in action.measures)
+    names = [name for name in measured if setting.robot.quantity[name].unit == tests[0].unit]
+    if not names:
+        return command.tests
+    name = setting.either("what is measured?", command.used, names)
+    return replace(command.tests, tests=(replace(tests[0], quantity=name),))
 
 
 def _chosen_by(state: DialogueState, attributes: set[str]) -> bool:

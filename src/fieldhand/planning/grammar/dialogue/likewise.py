@@ -20,6 +20,7 @@ from fieldhand.planning.grammar.meaning import (
 )
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.selections import (
+    are_rows,
     as_in_row,
     as_some,
     as_where,
@@ -47,7 +48,8 @@ def with_known_place(setting: Setting, state: DialogueState, command: Command) -
     """
     if not isinstance(command, _WithPlace) or command.place is None:
         return command
-    place = command.place
+    place = _in_row_spoken_of(state, command.place)
+    command = replace(command, place=place)
     if place.beside:
         return replace(command, place=_beside(setting, state, place, command.used))
     if isinstance(place.selector, s.Top) and place.like is not None:
@@ -63,6 +65,19 @@ def with_known_place(setting: Setting, state: DialogueState, command: Command) -
         other = _of_another_value(state, place.selector)
         return replace(command, place=replace(place, selector=other, like=None))
     return command if place.like is None else replace(command, place=_likewise(state, place, place.like))
+
+
+def _in_row_spoken_of(state: DialogueState, place: PlaceMeaning) -> PlaceMeaning:
+    """Return a place in "that row" as one in the only row of the trees named last, if several were named."""
+    before = state.where
+    if s.RowOf() not in place.selector.walk() or before is None or before.shape != "several" or state.area is not None:
+        return place
+    if state.loop is not None and is_inside(state.scope, state.loop):
+        return place  # the row of the tree that is visited
+    rows = {part for part in before.selector.walk() if are_rows(part)}
+    if len(rows) != 1 or before.selector.relative or not is_one_row(next(iter(rows))):
+        return place
+    return replace(place, selector=swapped(place.selector, s.RowOf(), rows.pop()))
 
 
 def _of_another_value(state: DialogueState, described: s.Selector) -> s.Selector:
@@ -130,7 +145,10 @@ def _rest(state: DialogueState, area: s.Selector) -> s.Selector:
     Raises:
         NotComposed: The group is unclear.
     """
-    last = None if state.where is None or state.where.shape != "several" else state.where.selector
+    where = state.where
+    if where is not None and where.shape == "one" and not where.selector.relative and area != s.Trees():
+        return s.Excluding(places=where.selector, of=area)  # "tree 1 ..., all the other trees of row 1"
+    last = None if where is None or where.shape != "several" else where.selector
     if any(node.tested is not None for node in p.walk(state.plan)):
         last = None  # "those above 35 degrees ..., the others ...": those that did not pass
     group = getattr(last, "of", None) if area == s.Trees() else area

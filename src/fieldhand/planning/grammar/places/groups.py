@@ -171,6 +171,14 @@ def as_many(inner: Nominal) -> PlaceMeaning | None:
     return PlaceMeaning(inner.selector, "several", optional=True)
 
 
+@construction("place: EACH [OF] word=DET noun=TREE", cost=0.3)
+def each_of_those_named(word: Lex, noun: Lex) -> PlaceMeaning | None:
+    """Compose "each of those trees"."""
+    if "those" not in word.features or not noun.plural:
+        return None
+    return PlaceMeaning(s.Trees(), "those", each=True)
+
+
 @construction("place: EACH [OF] DET n=count TREE", cost=0.8)
 def each_of_those_trees(n: int) -> PlaceMeaning | None:
     """Compose "each of the five trees", of places that were named before; the check of the plan compares the number."""

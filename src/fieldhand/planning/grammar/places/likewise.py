@@ -51,10 +51,10 @@ def likewise(like: Likewise) -> list[PlaceMeaning]:
     return [one, area] if not like.kind else [one] if like.kind == "corner" else [area]
 
 
-@construction("place: [DET] value=ATTRVAL noun=ONE", cost=0.4)
-def those_of_another_value(value: Lex, noun: Lex) -> list[PlaceMeaning] | None:
-    """Compose "the green ones" behind "the yellow trees"."""
-    if not noun.plural and "plural" not in noun.features:
+@construction("place: [DET] value=ATTRVAL noun=ONE", "place: each=EACH value=ATTRVAL noun=ONE", cost=0.4)
+def those_of_another_value(value: Lex, noun: Lex, each: Lex | None = None) -> list[PlaceMeaning] | None:
+    """Compose "the green ones" and "every green one" behind "the yellow trees"."""
+    if each is None and not noun.plural and "plural" not in noun.features:
         return None
     like = Likewise("value")
     return [
@@ -71,7 +71,12 @@ def the_rest(noun: Lex | None = None) -> PlaceMeaning | None:
     return PlaceMeaning(s.Trees(), "several", like=Likewise("rest"))
 
 
-@construction("place: OTHERS OF where=region", "place: DET OTHER noun=TREE in_ where=region", cost=0.3)
+@construction(
+    "place: OTHERS OF where=region",
+    "place: DET OTHER noun=TREE in_ where=region",
+    "place: EACH [DET] OTHER noun=TREE in_ where=region",
+    cost=0.3,
+)
 def rest_of_area(where: s.Selector, noun: Lex | None = None) -> PlaceMeaning | None:
     """Compose "the rest of row 4"."""
     if noun is not None and not noun.plural:

@@ -432,6 +432,11 @@ def beginning_of_row(rows: s.Selector) -> PlaceMeaning:
     "start: STARTING [DET] side=DIR",
     "start: STARTING [DET] side=DIR FINISH",
     "start: STARTING [DET] side=DIR SIDE",
+    "start: STARTING [DET] side=MOST [TREE]",
+    "start: STARTING [DET] side=MOST ONE",
+    "start: STARTING ITS side=MOST [TREE]",
+    "start: STARTING [DET] TREE AT [DET] side=DIR FINISH [in_] [any_rows]",
+    "start: STARTING [DET] side=DIR FINISH in_ any_rows",
     cost=0.1,
 )
 def from_side(side: Lex) -> Side | None:
