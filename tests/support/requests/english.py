@@ -8,6 +8,16 @@ Longer than other files because it is a table.
 PLANNED = [
     (
         "husky",
+        "Take a picture of tree 4. If it is low, take a CO2 reading. If it is high, take a temperature reading.",
+        "picture @ TreeIs(4) = r1; if r1 low: [co2]; if r1 high: [air]",
+    ),
+    (
+        "husky",
+        "Photograph 3 yellow trees and read co2 at the last of them.",
+        "for Take(3, of Where(leaf_color, eq, yellow)): [picture]; co2 @ Here",
+    ),
+    (
+        "husky",
         "Go to trees 3, 9 and 12. Read the CO2 at each, then photograph the last one.",
         "for UnionOf(TreeIs(3)+TreeIs(9)+TreeIs(12)): [co2]; picture @ TreeIs(12)",
     ),
@@ -1071,11 +1081,6 @@ ASKED = [
         "Take a picture and a CO2 reading at tree 4. If it is low, go to tree 5.",
         "'If it is low': which is meant?",
     ),
-    (
-        "husky",
-        "Take a picture of tree 4. If it is low, take a CO2 reading. If it is high, take a temperature reading.",
-        "'If it is high': which is meant?",
-    ),
     ("husky", "Take a picture of all 12 trees.", "'Take a picture of all 12 trees': which is meant?"),
     ("husky", "Survey the orchard.", "'Survey the orchard': which is meant?"),
     ("husky", "Photograph the western edge.", "'Photograph the western edge': which is meant?"),
@@ -1250,11 +1255,6 @@ REFUSED = [
         "husky",
         "Read co2 at 10 trees, then pictures at 5 of them.",
         "'pictures at 5 of them': it is not clear which of them",
-    ),
-    (
-        "husky",
-        "Photograph 3 yellow trees and read co2 at the last of them.",
-        "'at the last of' does not fit at this point in 'Photograph 3 yellow trees and read co2 at the last of them'",
     ),
     ("husky", "Take a picture of trees 4, 5 and, if the battery allows, 6.", "'6': it does not say what to do with it"),
     (

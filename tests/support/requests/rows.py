@@ -6,6 +6,11 @@
 # ruff: noqa: E501 - a request and its plan stand on one line each
 
 PLANNED = [
+    (
+        "husky",
+        "go to tree 30, photograph it and the two trees on either side",
+        "go TreeIs(30); picture; for UnionOf(AlongRow(1)+AlongRow(1, up)): [picture]",
+    ),
     ("husky", "Photograph row 2 from end to end.", "for Rows(2, 2): [picture]"),
     (
         "husky",
@@ -1388,11 +1393,6 @@ REFUSED = [
         "'2 rows east': it is not clear which tree of that row",
     ),
     ("husky", "photograph the row ends", "'row ends': of which rows?"),
-    (
-        "husky",
-        "go to tree 30, photograph it and the two trees on either side",
-        "'and the two trees' does not fit at this point in 'go to tree 30, photograph it and the two trees on either side'",
-    ),
     (
         "husky",
         "take a soil sample at the start of row 3",
