@@ -91,6 +91,8 @@ ENDS = {
     "picture @ TreeIs(9)": [
         "Photograph tree 9 and be done with it.",
         "Photograph tree 9, and that'll do.",
+        "Photograph tree 9, and that'll do nicely.",
+        "Photograph tree 9. You may rest now.",
         "Photograph tree 9. Nothing else.",
         "Photograph tree 9. Done.",
         "Photograph tree 9 and call it a day.",

@@ -5,6 +5,8 @@
 from __future__ import annotations
 
 PLANNED: list[tuple[str, str]] = [
+    ("Fotografía el árbol más cercano.", "picture @ Nearest(Here)"),
+    ("Fotografía el segundo árbol más viejo.", "picture @ Top(age_years, 1, of Excluding(Top(age_years, 1)))"),
     ("Fotografía cada tercer árbol de la fila 2", "for EveryNth(3, of Rows(2, 2)): [picture]"),
     ("Toma una foto de cada tres árboles de la fila 5.", "for EveryNth(3, of Rows(5, 5)): [picture]"),
     ("Mide el CO2 en los árboles 4, 9 y 12.", "for UnionOf(TreeIs(4)+TreeIs(9)+TreeIs(12)): [co2]"),
@@ -243,7 +245,6 @@ NOT_PLANNED: list[str] = [
     "Fotografía los árboles con menos de 3 metros de altura.",
     "Fotografía los árboles de 3 metros.",
     "Fotografía dos veces por semana el árbol 4.",
-    "Fotografía el árbol más cercano.",
     "Toma fotos del primer árbol al último.",
     "Mide el CO2 en el árbol 4. Si no, toma una foto.",
     "Toma tres fotos de los árboles de la fila 2.",
@@ -267,7 +268,6 @@ NOT_PLANNED: list[str] = [
     "Fotografía el árbol doscientos cincuenta.",
     "Ve 5 árboles más adelante y toma una foto.",
     "Toma una foto del árbol 5 y repite tres veces.",
-    "Fotografía el segundo árbol más viejo.",
     "Fotografía el árbol 1 2.",
     "Fotografía el árbol 1 200.",
 ]

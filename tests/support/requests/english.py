@@ -8,6 +8,16 @@ Longer than other files because it is a table.
 PLANNED = [
     (
         "husky",
+        "Take a picture of tree 4. If it is low, take a CO2 reading. If it is high, take a temperature reading.",
+        "picture @ TreeIs(4) = r1; if r1 low: [co2]; if r1 high: [air]",
+    ),
+    (
+        "husky",
+        "Photograph 3 yellow trees and read co2 at the last of them.",
+        "for Take(3, of Where(leaf_color, eq, yellow)): [picture]; co2 @ Here",
+    ),
+    (
+        "husky",
         "Go to trees 3, 9 and 12. Read the CO2 at each, then photograph the last one.",
         "for UnionOf(TreeIs(3)+TreeIs(9)+TreeIs(12)): [co2]; picture @ TreeIs(12)",
     ),

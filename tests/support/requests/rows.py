@@ -6,6 +6,11 @@
 # ruff: noqa: E501 - a request and its plan stand on one line each
 
 PLANNED = [
+    (
+        "husky",
+        "go to tree 30, photograph it and the two trees on either side",
+        "go TreeIs(30); picture; for UnionOf(AlongRow(1)+AlongRow(1, up)): [picture]",
+    ),
     ("husky", "Photograph row 2 from end to end.", "for Rows(2, 2): [picture]"),
     (
         "husky",

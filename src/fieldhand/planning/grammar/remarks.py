@@ -217,9 +217,8 @@ def _heading(words: Sequence[Word], sentence: Sequence[int], kinds: Sequence[set
     """Return the heading with which a sentence begins ("Systematic design: ..."); empty if there is none."""
     end = next((at for at, k in enumerate(sentence[:6]) if words[k].text == ":"), 0)
     said = sentence[:end]
-    if not any("HEADING" in kinds[k] for k in said) or any(
-        kinds[k] - _IN_ASIDES - {"ASIDE", "HEADING"} for k in said[:-1]
-    ):
+    of_heading = [k for k in said if "HEADING" in kinds[k]]
+    if not of_heading or any(kinds[k] - _IN_ASIDES - {"ASIDE"} for k in said if k not in of_heading):
         return ()
     return sentence[: end + 1]
 

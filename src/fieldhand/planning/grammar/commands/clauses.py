@@ -266,7 +266,7 @@ def with_adjunct(clause: Clause, adjunct: Adjunct) -> Clause | None:
 )
 def adjunct_first(adjunct: Adjunct, clause: Clause) -> Clause | None:
     """Compose "every 10 m take a picture"."""
-    if not adjunct.may_lead or (clause.order == "t" and any(one.action == LAST_THING for one in clause.things)):
+    if not adjunct.may_lead or (clause.verb is None and any(one.action == LAST_THING for one in clause.things)):
         return None  # "(readings along row 5,) 15 m apart, four of them"
     return replace(clause, adjuncts=(adjunct, *clause.adjuncts))
 

@@ -77,7 +77,7 @@ def _corrected(
         other, edits = _other_part(setting, command.place, correction.old, correction, used)
         return replace(last, command=replace(command, place=other, used=command.used | used)), edits
     old, place = command.place, _other_place(command.place, new)
-    if place is None or not old.tokens:
+    if place is None or not old.tokens or s.Here() in new.selector.walk():  # "tree 4, I mean its neighbour"
         raise _unclear(correction)
     used = correction.used | (clause.before.used if clause.before is not None else 0)
     words, start, end = setting.quoted(new.tokens), *_range(setting, old.tokens)
