@@ -106,7 +106,6 @@ Skip the ones you did yesterday and take pictures of the rest of row 5 in the no
 Sample 5 vines per variety.
 Take pictures of the Merlot but avoid the pond and drive around the south block.
 Take pictures of 5 vines. Do not drive through row 10.
-If any vine in row 4 of the north block is hotter than 36 degrees, photograph its two neighbours.
 Measure CO2 at the two vines closest to vine N250 on the east side.
 Take as many pictures as you can of the south block with 30 % battery.
 Patrol the property line.

@@ -176,4 +176,5 @@ def test_the_ones_of_a_kind_are_among_those_visited(request_: str, plan: str) ->
 
 
 def test_the_ones_of_another_kind_are_not_among_those_visited() -> None:
-    assert plan_of("Photograph the yellow trees. Measure CO2 at the green ones.") is None
+    plan = plan_of("Photograph the yellow trees. Measure CO2 at the green ones.")
+    assert plan == "for Where(leaf_color, eq, yellow): [picture]; for Where(leaf_color, eq, green): [co2]"

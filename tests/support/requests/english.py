@@ -1129,7 +1129,7 @@ REFUSED = [
     (
         "husky",
         "Take a picture of two trees at each corner.",
-        "'at each corner' does not fit at this point in 'Take a picture of two trees at each corner'",
+        "'corner' does not fit at this point in 'Take a picture of two trees at each corner'",
     ),
     ("husky", "take a picture at tree 4 instead of tree 5", "'instead of' is not possible yet"),
     (

@@ -408,7 +408,7 @@ def instead() -> Adjunct:
     return Adjunct(_instead)
 
 
-@construction("adjunct: INSTEADOF things", cost=0.2)
+@construction("adjunct: INSTEAD OF things", cost=0.2)
 def instead_of_things() -> Adjunct:
     """Compose "instead of CO2", in another case."""
     return Adjunct(_instead)

@@ -402,15 +402,6 @@ def beside(to: PlaceMeaning, side: Side | None = None) -> Choice:
     return Choice("beside", side, to)
 
 
-@construction("chosen: chosen=chosen [which_is] EITHERSIDE to=place", cost=0.1)
-def on_either_side(chosen: Chosen, to: PlaceMeaning) -> Chosen | None:
-    """Compose "tree on each side of it"."""
-    if chosen.count not in (None, 2):
-        return None
-    made = _with_choice(chosen, Choice("beside", None, to))
-    return None if made is None else replace(made, count=2, inner=replace(made.inner, plural=True))
-
-
 @construction("chosen_as: [which_is] FARFROM to=place as_can", cost=0.1)
 def as_far_as_possible_from(to: PlaceMeaning) -> Choice:
     """Compose "as far away from it as possible"."""
@@ -633,7 +624,7 @@ def _place(chosen: Chosen, choice: Choice, n: int | None) -> PlaceMeaning | None
         return PlaceMeaning(selector, "several", each=True, in_order=choice.value.visited_from is not None)
     if choice.by == "of every" and n == 1:
         return PlaceMeaning(selector, "several", each=True)
-    beside = choice.to is not None and choice.to.shape == "here"
+    beside = chosen.neighbours if choice.to is None else choice.to.shape == "here"
     return PlaceMeaning(selector, "one" if n == 1 else "several", count=n if n > 1 else None, beside=beside)
 
 

@@ -74,7 +74,7 @@ def outer_rows(noun: Lex, n: int = 2) -> s.Selector | None:
 @construction(
     "rows: DET noun=ROW NEXTTO row=rows",
     "rows: DET noun=ROW BESIDE row=rows",
-    "rows: DET noun=ROW EITHERSIDE row=rows",
+    "rows: DET noun=ROW EACHSIDE OF row=rows",
     "rows: DET noun=ROW side=on_side OF row=rows",
     cost=0.2,
     given=("site",),
