@@ -56,10 +56,10 @@ _SAYING_LITTLE = _words(
     """
     actually after again any apart approximately around basically block certain confirm consider content distance
     each entire estate even every exactly farm field finally finished first firstly focus following full given
-    good grove how itself just least level lies limit limited many max maximum meaning minimum more most namely
+    good grove how itself just least level lies limit limited many max maximum meaning merely minimum more most namely
     next now once one ones only orchard order own particular place places plant plantation plants plot point
     points possible precisely really rectangle rectangular regarded respective result roughly seen simply single
-    site some somewhere spaced spot spots stands still such time tops total treat treating tree trees up upper
+    site solely some somewhere spaced spot spots stands still such time tops total treat treating tree trees up upper
     value very viewed viewing vine vines vineyard when where while whole
     """
 )

@@ -5,6 +5,7 @@ from __future__ import annotations
 _PLURALS = {"half": "halves", "leaf": "leaves", "bush": "bushes"}
 _PAST = {
     "take": "took taken",
+    "draw": "drew drawn",
     "get": "got",
     "make": "made",
     "do": "did done",

@@ -205,9 +205,11 @@ def _numbers_from(words: Sequence[Word], kinds: Sequence[set[str]], start: int, 
 
 
 def _wish(sentence: Sequence[int], kinds: Sequence[set[str]]) -> Sequence[int]:
-    """Return the words that say who wants it ("My professor wants ..."); empty if there are none."""
+    """Return the words that say who wants it ("My professor wants ...", "Boss wants ..."); empty if there are none."""
     begin = next((at for at, k in enumerate(sentence) if "WANTS" in kinds[k]), 0)
-    if begin != 2 or "DET" not in kinds[sentence[0]] or kinds[sentence[1]]:
+    person = kinds[sentence[begin - 1]]
+    described = begin == 2 and "DET" in kinds[sentence[0]] and not person - {"PAPERWORK"}
+    if not described and not (begin == 1 and person == {"PAPERWORK"}):
         return ()
     end = next((at for at in range(begin, len(sentence)) if "WANTS" not in kinds[sentence[at]]), 0)
     return sentence[:end]

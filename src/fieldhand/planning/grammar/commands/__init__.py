@@ -9,6 +9,7 @@ from fieldhand.planning.grammar.commands import (
     clauses,
     conditions,
     driving,
+    exclusions,
     limits,
     parameters,
     requests,
@@ -18,7 +19,10 @@ from fieldhand.planning.grammar.commands import (
 
 #: The constructions of all themes. Of readings that cost the same, the one composed first is kept, so the order counts.
 GRAMMAR = Grammar()
-for _theme in (things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, requests):
+_THEMES = (
+    things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, requests, exclusions,
+)  # fmt: skip
+for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)
 
 __all__ = ["GRAMMAR"]

@@ -76,9 +76,15 @@ def once_more() -> Adjunct:
     return Adjunct(_again)
 
 
-@construction("adjunct: EACH [OFTHEM]", "adjunct: times=often EACH", "adjunct: number=things EACH", cost=0.2)
+@construction(
+    "adjunct: EACH [OFTHEM]",
+    "adjunct: times=often EACH",
+    "adjunct: times=count EACH",
+    "adjunct: number=things EACH",
+    cost=0.2,
+)
 def of_each(times: int | None = None, number: tuple[Thing, ...] | None = None) -> Adjunct:
-    """Compose "each" behind "two pictures", "twice each" and "two pictures each"."""
+    """Compose "each" behind "two pictures", "twice each", "one each" and "two pictures each"."""
     return Adjunct(_each, times or number)
 
 

@@ -24,8 +24,9 @@ construction = GRAMMAR.construction
 #: Kinds of parts: ``v`` a verb for any capture, ``a`` the verb of one action, ``g`` a drive to a place, ``u`` "use",
 #: ``t`` captures, ``w`` captures behind "with", ``f`` captures behind "for", ``m`` "as many" before captures, ``z`` the
 #: ground, ``p`` a place behind a preposition, ``b`` a place by itself, ``h`` "there" and other adverbs, ``o`` a place
-#: that owns what follows, ``s`` "should be", ``i`` "is", ``c`` "I want".
-Kind = Literal["v", "a", "g", "u", "t", "w", "f", "m", "z", "p", "b", "h", "o", "s", "i", "c"]
+#: that owns what follows, ``s`` "should be", ``i`` "is", ``c`` "have" and "let",
+#: ``d`` "I want" behind what is wanted, ``e`` "to be".
+Kind = Literal["v", "a", "g", "u", "t", "w", "f", "m", "z", "p", "b", "h", "o", "s", "i", "c", "d", "e"]
 #: How a complete clause is composed: with a verb, as a topic and what is done there, or as captures alone.
 Form = Literal["verb", "act", "topic", "bare"]
 
@@ -42,12 +43,21 @@ _ORDERS: dict[str, Form] = {
     "pvt": "verb", "bvt": "verb", "pa": "act", "ba": "act", "f": "bare", "vbt": "topic",
     # photograph tree 4 (with two pictures); clip a leaf from tree 4
     "a": "act", "ab": "act", "ap": "act", "ah": "act", "abw": "act", "at": "act", "atp": "act",
+    # tree 4 (should be) checked for CO2; have tree 4 looked at with the camera; have the soil tested for nitrate
+    "bvf": "verb", "bvw": "verb", "bsvf": "verb", "bsvw": "verb", "cbvf": "verb", "cbvw": "verb", "vzpf": "verb",
+    "zpvf": "verb", "zpsvf": "verb", "zsvfp": "verb", "czpvf": "verb", "czvf": "verb", "czvfp": "verb",
     # a picture should be taken at tree 4; CO2 at tree 4 should be measured; a picture taken at tree 4
     "tsv": "verb", "tsvp": "verb", "tsvh": "verb", "tpsv": "verb", "tivp": "verb", "tvp": "verb", "tvh": "verb",
     # tree 4 should be photographed; I want tree 4 photographed
     "bsa": "act", "bia": "act", "cba": "act",
-    # I want a picture taken of tree 4
-    "ctv": "verb", "ctvp": "verb", "ctvh": "verb",
+    # I want a picture taken of tree 4; let a picture be taken at tree 4; let tree 4 be photographed
+    "ctv": "verb", "ctvp": "verb", "ctvh": "verb", "ctiv": "verb", "ctivp": "verb", "ctivh": "verb", "ctpiv": "verb",
+    "cbia": "act",
+    # to be photographed: trees 4 and 5; to be measured: CO2 at tree 4; a picture to be taken at tree 4
+    "eab": "act", "eap": "act", "evt": "verb", "evtp": "verb", "evth": "verb", "bea": "act", "bevf": "verb",
+    "tevp": "verb", "tpev": "verb", "tevh": "verb",
+    # their temperature I want; the temperature at tree 4 I would know; of tree 4 a picture I want
+    "td": "verb", "tpd": "verb", "thd": "verb", "otd": "verb", "ptd": "verb", "btd": "topic",
     # tree 4 needs a picture (taken)
     "bst": "topic", "bstv": "topic",
     # tree 4: a picture; at tree 4 a picture; a picture of tree 4; a picture: tree 4
@@ -58,11 +68,11 @@ _ORDERS: dict[str, Form] = {
 }  # fmt: skip
 _BEGINNINGS = {order[:length] for order in _ORDERS for length in range(1, len(order) + 1)}
 #: Orders whose last part a comma may set off ("tree 4, a picture").
-_SET_OFF = {"bt", "pt", "tb", "tp", "tv", "bst", "vbt"}
+_SET_OFF = {"bt", "pt", "tb", "tp", "tv", "bst", "vbt", "eab", "evt"}
 
 
 #: Orders that begin with the place of stops ("along row 3, every 10 m, take a picture").
-_STOPS_FIRST = {"pv", "bv", "pa", "ba"}
+_STOPS_FIRST = {"pvt", "bvt", "pa", "ba"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -219,6 +229,18 @@ def cause_part() -> Clause:
     return _part("c")
 
 
+@construction("part: DESIRED", cost=0.0)
+def desired_part() -> Clause:
+    """Compose "I would know" behind what is to be known."""
+    return _part("d")
+
+
+@construction("part: TOBE", cost=0.2)
+def to_be_part() -> Clause:
+    """Compose "to be" of "to be photographed"."""
+    return _part("e")
+
+
 @construction("clause: part=part", cost=0.0)
 def first_part(part: Clause) -> Clause | None:
     """Compose the first part of a clause."""
@@ -231,7 +253,8 @@ def next_part(clause: Clause, part: Clause) -> Clause | None:
     order = clause.order + part.order
     if order not in _BEGINNINGS or (clause.place is not None and part.place is not None):
         return None
-    if order in _STOPS_FIRST and not clause.adjuncts:
+    is_done = order == "ba" and part.verb is not None and "participle" in part.verb.features  # "tree 4 photographed"
+    if order in _STOPS_FIRST and not clause.adjuncts and not is_done:
         return None  # "at tree 4 take a picture" is a place, and a command that is done there
     return Clause(
         order,

@@ -473,10 +473,16 @@ def first_command(one: Command) -> Said:
     return Said((LinkedCommand(None, one),))
 
 
-@construction("command: WHODOES one=capture", "command: WHODOES one=drive", "command: WHODOES one=home", cost=0.3)
-def who_does(one: CaptureCommand | DriveCommand | Home) -> Command:
+@construction(
+    "command: WHODOES one=capture",
+    "command: WHODOES one=drive",
+    "command: WHODOES one=home",
+    "command: WHODOES one=halt",
+    cost=0.3,
+)
+def who_does(one: CaptureCommand | DriveCommand | Home | StopCommand, used: int) -> Command:
     """Compose "it measures CO2", of the robot."""
-    return one
+    return replace(one, used=used)
 
 
 @construction("said: before=said joint=joint one=command", cost=0.3)

@@ -89,7 +89,18 @@ def one_tree_number(number: Lex, word: Lex | None = None) -> tuple[str, ...] | N
     """Compose "12" and "number 12", of trees."""
     if whole(number.value) is None or (word is not None and "by_id" in word.features):
         return None
-    return (name_of(number),)
+    return None if word is None and _may_be_a_person(number) else (name_of(number),)
+
+
+@construction("number_item: number=NUM", cost=1.2)
+def tree_one(number: Lex) -> tuple[str, ...] | None:
+    """Compose "one" of "tree one", where it cannot be the robot or a person."""
+    return (name_of(number),) if _may_be_a_person(number) else None
+
+
+def _may_be_a_person(number: Lex) -> bool:
+    """Return True for the number one as a word ("at tree 12 one takes CO2")."""
+    return number.value == 1 and not number.text.isdigit()
 
 
 @construction("number_item: first=number_item range_to [TREE] last=number_item", cost=0.1)
@@ -165,13 +176,21 @@ def except_tree_with_id(whole: PlaceMeaning, word: Lex, number: Lex) -> PlaceMea
 
 
 @construction(
-    "tree_ids: first=tree_ids [COMMA] [AND] [TREE] item=number_item",
+    "tree_ids: first=tree_ids [COMMA] AND [TREE] item=number_item",
+    "tree_ids: first=tree_ids COMMA [TREE] item=number_item",
+    "tree_ids: first=tree_ids TREE item=number_item",
     "tree_ids: first=tree_ids [COMMA] [AND] [TREE] item=code_item",
     cost=0.2,
 )
 def longer_tree_list(first: tuple[str, ...], item: tuple[str, ...]) -> tuple[str, ...]:
     """Compose "trees 12, 15 and 20 to 25"."""
     return (*first, *item)
+
+
+@construction("tree_ids: first=tree_ids number=NUM", cost=0.3)
+def unmarked_tree_list(first: tuple[str, ...], number: Lex) -> tuple[str, ...] | None:
+    """Compose "trees 12 15 20"; in "at tree 12 one takes" the second number is none."""
+    return (*first, name_of(number)) if number.text.isdigit() else None
 
 
 @construction(

@@ -29,6 +29,7 @@ _ENGLISH = (
     nouns.those_with_attribute,
     groups.each_of_group,
     numbers.longer_tree_list,
+    numbers.unmarked_tree_list,
     rows.longer_row_list,
     limits.limited_to,
     conditions.if_it_fits,

@@ -1,0 +1,207 @@
+"""Constructions of exclusions that are clauses of their own: "leave out the yellow ones", "don't do row 3"."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.english.naming import Naming
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.meaning import CaptureCommand, Command, Connective, Lead, Likewise, PlaceMeaning, Said
+from fieldhand.planning.grammar.places.groups import except_for, except_positions
+from fieldhand.planning.grammar.places.numbered import ids_of
+from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.selections import named_places, swapped
+from fieldhand.site.model import Site
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+
+@dataclass(frozen=True, slots=True)
+class Excluded:
+    """Places that other commands leave out.
+
+    Attributes:
+        place: The places; None if they are counted in the row of the command.
+        positions: Ranges of trees of that row.
+        actions: Actions that the phrase forbids there; empty if it forbids any.
+        used: Tokens of the phrase.
+    """
+
+    place: PlaceMeaning | None = None
+    positions: tuple[tuple[int, int], ...] = ()
+    actions: tuple[str, ...] = ()
+    used: int = 0
+
+
+@construction("kept_out: place=place", cost=0.0)
+def place_kept_out(place: PlaceMeaning) -> Excluded | None:
+    """Compose "the yellow trees" of "skip the yellow trees"."""
+    known = place.shape in ("one", "several", "area") and place.per is None and not place.optional
+    return Excluded(place) if known and (place.like is None or place.like.kind == "those") else None
+
+
+@construction("kept_out: [DET] value=ATTRVAL ONE", cost=0.2)
+def kind_kept_out(value: Lex) -> list[Excluded]:
+    """Compose "the yellow ones" of "skip the yellow ones"."""
+    return [
+        Excluded(PlaceMeaning(s.Where(attribute=name, test="eq", value=text), "several")) for name, text in value.value
+    ]
+
+
+@construction("kept_out: out=left_out", cost=0.2)
+def positions_kept_out(out: tuple[tuple[int, int], ...]) -> Excluded:
+    """Compose "the first one" of "not the first one"."""
+    return Excluded(positions=out)
+
+
+@construction(
+    "kept_out: ANY which_is [in_] where=region",
+    "kept_out: ANY in_ where=region",
+    "kept_out: word=DET which_is in_ where=region",
+    cost=0.2,
+)
+def any_there_kept_out(where: s.Selector, word: Lex | None = None) -> Excluded | None:
+    """Compose "any that lie in the wet corner" and "those lying in the wet corner"."""
+    return Excluded(PlaceMeaning(where, "area")) if word is None or "those" in word.features else None
+
+
+@construction(
+    "excluded: LEAVEOUT out=kept_out [ATALL]",
+    "excluded: EXCEPT out=kept_out",
+    "excluded: LEAVE out=kept_out ALONE",
+    "excluded: out=kept_out LEFTOUT",
+    "excluded: NOT out=kept_out",
+    "excluded: THOUGH NOT out=kept_out",
+    "excluded: NOT out=kept_out [COMMA] THOUGH",
+    "excluded: WITHOUT verb=ACTV out=kept_out",
+    cost=0.2,
+)
+def excluded(out: Excluded, used: int, verb: Lex | None = None) -> Excluded | None:
+    """Compose "skip the yellow trees", "leave the Carmels be" and "tree 4 can be left out"."""
+    if verb is None:
+        return replace(out, used=used)
+    naming: Naming = verb.value
+    return replace(out, used=used, actions=naming.actions)
+
+
+@construction("excluded: WITHOUT one=capture", cost=0.3)
+def not_captured(one: CaptureCommand, used: int) -> Excluded | None:
+    """Compose "do not take pictures in row 3"."""
+    out = None if one.place is None or one.times > 1 or one.spacing is not None else place_kept_out(one.place)
+    return None if out is None else replace(out, used=used, actions=tuple(thing.action for thing in one.things))
+
+
+@construction("said: before=said [joint] out=excluded", cost=0.4, given=("site",))
+def left_out_behind(before: Said, out: Excluded, site: Site) -> list[Said]:
+    """Compose "photograph row 3. Skip the yellow ones.": of each command that has some, or of the last one?"""
+    without = _each_without(before, out, site)
+    having = [number for number, one in enumerate(without) if one is not None]
+    if any(isinstance(clause.command, CaptureCommand) and clause.command.place is None for clause in before.clauses):
+        having = having[-1:] if having == [0] else having
+    ways = {tuple(having), tuple(having[-1:])} if having else set()
+    return [_with(before, without, numbers) for numbers in sorted(ways)]
+
+
+@construction("said: out=excluded joint=joint rest=said", cost=0.4, given=("site",))
+def left_out_before(out: Excluded, joint: Connective, rest: Said, site: Site) -> Said | None:
+    """Compose "skip the yellow trees. Photograph row 3.", of all commands that have some."""
+    if joint.then or joint.first or any(_is_every_second(clause.command) for clause in rest.clauses):
+        return None  # "skip row 3. Photograph every other row.": each of those that are left, or every second one?
+    without = _each_without(rest, out, site, first=True)
+    having = [number for number, one in enumerate(without) if one is not None]
+    return _with(rest, without, having) if having else None
+
+
+def _is_every_second(command: Command) -> bool:
+    """Return True for a command at "every other" row or tree."""
+    if not isinstance(command, CaptureCommand | Lead) or command.place is None:
+        return False
+    parts = (*command.place.selector.walk(), *(() if command.place.per is None else command.place.per.walk()))
+    return any(getattr(one, "every", getattr(one, "nth", 1)) == 2 for one in parts)
+
+
+def _each_without(said: Said, out: Excluded, site: Site, *, first: bool = False) -> list[CaptureCommand | Lead | None]:
+    """Return commands without the places that are left out; None for those that have none of them.
+
+    Where no command has such places, those of a description are left out of all of them.
+    """
+    found = [_without(clause.command, out, site, first=first) for clause in said.clauses]
+    named = out.place is None or any(isinstance(one, s.TreeIs | s.Rows) for one in out.place.selector.walk())
+    if named or any(one is not None for one in found):
+        return found
+    return [_without(clause.command, out, site, first=first, some=False) for clause in said.clauses]
+
+
+def _with(said: Said, other: Sequence[CaptureCommand | Lead | None], numbers: Sequence[int]) -> Said:
+    """Return commands with others for those of some numbers."""
+    clauses = tuple(
+        replace(clause, command=made) if number in numbers and made is not None else clause
+        for number, (clause, made) in enumerate(zip(said.clauses, other, strict=True))
+    )
+    return Said(clauses)
+
+
+def _without(
+    command: object, out: Excluded, site: Site, *, first: bool = False, some: bool = True
+) -> CaptureCommand | Lead | None:
+    """Return a command at its places but those that are left out; None if it has none of them, or no others.
+
+    Args:
+        command: Command.
+        out: What is left out.
+        site: Site.
+        first: True if this was said before the command, which then may choose among the others.
+        some: False to leave them out even if there are none.
+    """
+    if not isinstance(command, CaptureCommand | Lead) or command.place is None:
+        return None
+    things = command.things
+    if out.actions and not (things and all(one.action in out.actions for one in things)):
+        return None
+    whole, used = command.place, command.used | out.used
+    if first and (rest := _others(whole, out, site)) is not None:
+        return replace(command, place=rest, used=used)
+    if out.place is None:
+        left = except_positions(whole, out.positions)
+        return None if left is None else replace(command, place=left, used=used)
+    among, left_out = ids_of(whole.selector, site), ids_of(out.place.selector, site)
+    if among is None or left_out is None or (some and not among & left_out):
+        return None
+    if first and whole.count is not None and (chosen := getattr(whole.selector, "of", None)) is not None:
+        others = s.Excluding(places=out.place.selector, of=chosen)  # "the three oldest trees" of those that are left
+        return replace(command, place=replace(whole, selector=swapped(whole.selector, chosen, others)), used=used)
+    if named_places(whole.selector):
+        whole = replace(whole, count=None)
+    left = except_for(whole, out.place, site) if not among <= left_out else None
+    if left is None:
+        return None
+    shape = (
+        "several" if left.shape == "area" and left.per is None else left.shape
+    )  # all but those, not one of the others
+    return replace(command, place=replace(left, shape=shape), used=used)
+
+
+def _others(whole: PlaceMeaning, out: Excluded, site: Site) -> PlaceMeaning | None:
+    """Return "the other trees" and "the other block" as those that are not left out; None for other places."""
+    if out.place is not None and isinstance(whole.selector, s.NotVisited):
+        return replace(whole, selector=s.Excluding(places=out.place.selector, of=whole.selector.of))
+    if whole.like is None or out.place is None or whole.like.side or whole.like.kind not in ("", "rest", "half"):
+        return None
+    part = out.place.selector
+    if whole.like.kind == "rest":
+        return replace(whole, like=None, selector=s.Excluding(places=part, of=whole.selector))
+    if whole.shape != "area":
+        return None
+    if isinstance(part, s.InBlock) and part.of == s.Trees():
+        others = [block.name for block in site.planting.blocks if block.name != part.block]
+        return replace(whole, like=None, selector=replace(part, block=others[0])) if len(others) == 1 else None
+    return replace(whole, like=None, selector=s.Excluding(places=part)) if isinstance(part, s.Half) else None
+
+
+@construction("place: DET OTHER noun=ONE", cost=0.6)
+def the_other_one(noun: Lex) -> PlaceMeaning | None:
+    """Compose "the other one", of an area."""
+    return None if "plural" in noun.features else PlaceMeaning(s.Trees(), "area", like=Likewise(""))
