@@ -48,6 +48,8 @@ _ORDERS: dict[str, Form] = {
     "zpvf": "verb", "zpsvf": "verb", "zsvfp": "verb", "czpvf": "verb", "czvf": "verb", "czvfp": "verb",
     # a picture should be taken at tree 4; CO2 at tree 4 should be measured; a picture taken at tree 4
     "tsv": "verb", "tsvp": "verb", "tsvh": "verb", "tpsv": "verb", "tivp": "verb", "tvp": "verb", "tvh": "verb",
+    # there take a picture; at each one photograph
+    "hvt": "verb", "ha": "act",
     # tree 4 should be photographed; I want tree 4 photographed
     "bsa": "act", "bia": "act", "cba": "act",
     # I want a picture taken of tree 4; let a picture be taken at tree 4; let tree 4 be photographed
@@ -68,7 +70,7 @@ _ORDERS: dict[str, Form] = {
 }  # fmt: skip
 _BEGINNINGS = {order[:length] for order in _ORDERS for length in range(1, len(order) + 1)}
 #: Orders whose last part a comma may set off ("tree 4, a picture").
-_SET_OFF = {"bt", "pt", "tb", "tp", "tv", "bst", "vbt", "eab", "evt"}
+_SET_OFF = {"hv", "ha", "bt", "pt", "tb", "tp", "tv", "bst", "vbt", "eab", "evt"}
 
 
 #: Orders that begin with the place of stops ("along row 3, every 10 m, take a picture").
