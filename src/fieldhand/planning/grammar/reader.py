@@ -155,22 +155,26 @@ def _read_words(
     faults: list[NotComposed] = []
     sides = [(words[one.start].start, words[one.end - 1].end) for one in chart.of_category("DIR")]
     whole = chart.whole("request")
-    for edge in whole:
-        states, stopped = read_in_each_way(setting, edge.meaning)
-        if edge.cost < whole[0].cost + _MARGIN:
-            faults += stopped
-        found += [
-            RequestReading(
-                state=state,
-                cost=edge.cost,
-                skipped=_skipped(words, edge),
-                remarks=remarks.spans,
-                labels=remarks.labels,
-                corrected=remarks.corrected,
-                assumed=(*assumed_ways(state.plan, request, sides, site), *assumed_wholes(state.plan, request)),
-            )
-            for state in states
-        ]
+    for in_fragments in (False, True):
+        for edge in whole:
+            states, stopped = read_in_each_way(setting, edge.meaning, in_fragments=in_fragments)
+            if edge.cost < whole[0].cost + _MARGIN and not in_fragments:
+                faults += stopped
+            readings = [
+                RequestReading(
+                    state=state,
+                    cost=edge.cost,
+                    skipped=_skipped(words, edge),
+                    remarks=remarks.spans,
+                    labels=remarks.labels,
+                    corrected=remarks.corrected,
+                    assumed=(*assumed_ways(state.plan, request, sides, site), *assumed_wholes(state.plan, request)),
+                )
+                for state in states
+            ]
+            found += [one for one in readings if not in_fragments or _can_be_planned(one, request, site, robot)]
+        if found:
+            break
     unread: tuple[Reason, ...] = ()
     if not found:
         chart = _parsed(_with_impossible(language), words, edges, phrases, site, robot)
@@ -400,6 +404,17 @@ def planned_clauses(
     meant = _meant(RequestReading(state=state, cost=phrase.cost, skipped=()), request)
     outcome = _outcome_of(meant, request, site, robot)
     return outcome if isinstance(outcome, Planned) else None
+
+
+def _can_be_planned(reading: RequestReading, request: str, site: Site, robot: RobotProfile) -> bool:
+    """Return True if a reading has a plan or a question."""
+    meant = _meant(reading, request)
+    plans = in_each_block(meant.plan, site).values()
+    outcomes = (_outcome_of(replace(meant, plan=plan), request, site, robot) for plan in plans)
+    return any(
+        isinstance(outcome, Clarify) or (isinstance(outcome, Planned) and not mismatches(outcome.task, site, robot))
+        for outcome in outcomes
+    )
 
 
 def _outcome_of(meant: Meant, request: str, site: Site, robot: RobotProfile) -> Outcome:

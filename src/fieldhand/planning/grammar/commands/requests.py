@@ -543,6 +543,18 @@ def so_often_first(times: Lex, rest: Said, used: int) -> Said:
     return Said((LinkedCommand(None, again), *rest.clauses))
 
 
+@construction("lead: WHOLETHING", cost=0.5)
+def all_of_it(used: int) -> Lead:
+    """Compose "the whole thing", of an area that is named beside it."""
+    return Lead(PlaceMeaning(s.Trees(), "several", each=True, there=True, tokens=used), used, relation="")
+
+
+@construction("lead: place=place AGAIN", cost=0.8)
+def there_again(place: PlaceMeaning, used: int) -> Lead | None:
+    """Compose "(tree 4, then tree 9, then) tree 4 again"."""
+    return Lead(place, used, relation="") if place.shape == "one" else None
+
+
 @construction("stops_at_end: FULLSTOP [FULLSTOP]", cost=0.0)
 def stops_at_end() -> str:
     """Compose "."."""
@@ -566,6 +578,20 @@ def request(said: Said) -> Said:
 def closing(used: int) -> StopCommand:
     """Compose "and that's it", which says that nothing follows."""
     return StopCommand(used)
+
+
+@construction(
+    "closing: [COMMA] [AND] INBETWEEN [COMMA] PASSON", "closing: FULLSTOP [AND] INBETWEEN [COMMA] PASSON", cost=0.2
+)
+def nothing_between(used: int) -> StopCommand:
+    """Compose ". In between, nothing", behind two places."""
+    return StopCommand(used)
+
+
+@construction("said: before=said end=closing joint=joint last=home", cost=0.3)
+def closed_then_home(before: Said, end: StopCommand, joint: Connective, last: Home) -> Said:
+    """Compose "..., nothing else, then back to the start"."""
+    return Said((*before.clauses, LinkedCommand(replace(joint, used=joint.used | end.used), last)))
 
 
 @construction("request: [FULLSTOP] said=said end=closing [stops_at_end]", cost=0.2)

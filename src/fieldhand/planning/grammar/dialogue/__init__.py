@@ -10,7 +10,8 @@ The rules:
 
 ``clauses`` reads clause by clause (:func:`read_clauses`) and leaves each kind of command to ``capturing``, ``driving``,
 ``conditions`` or ``allowances``. ``state`` and ``plans`` have the state and what is done with the plan in it;
-``turns`` makes corrections and puts steps told out of order in their order; ``fitting`` decides how many visits and
+``turns`` makes corrections and puts steps told out of order in their order, ``fragments`` makes commands of parts
+that name only places or only captures; ``fitting`` decides how many visits and
 captures a place means, and ``tested`` which reading a test is about.
 
 Where a request leaves open what is meant ("a picture of row 3": of each tree, or of one?), a function takes the way

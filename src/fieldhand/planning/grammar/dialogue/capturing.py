@@ -60,6 +60,8 @@ from fieldhand.planning.selections import (
     AREAS,
     are_rows,
     as_every_nth,
+    as_in_row,
+    as_some,
     counts_in_row,
     from_nearest_row,
     is_end_of_site,
@@ -68,6 +70,7 @@ from fieldhand.planning.selections import (
     landmark_of,
     over,
     some_of,
+    specifies_part,
     swapped,
 )
 from fieldhand.task import plan as p
@@ -283,6 +286,7 @@ def _place_of(
             raise NotComposed(message("it is not clear where that is", context="fault"))
         place = replace(place, there=False)
     if before is None:
+        place = _contrasted(setting, state, place, command.used)
         return within_area(place, state.within), state, ()
     state, said = replace(state, lead=None, area=None), setting.spans_of(before.used)
     first = before.place
@@ -307,6 +311,26 @@ def _place_of(
     if place is not None and every is not None and every.of == s.Trees() and first.shape == "several":
         return replace(place, selector=over(every, first.selector)), state, said
     raise NotComposed(message("it is not clear at which of two places this is done", context="fault"))
+
+
+def _contrasted(setting: Setting, state: DialogueState, place: PlaceMeaning | None, used: int) -> PlaceMeaning | None:
+    """Return "the last tree" behind one of a row as that of this row, and "the oldest" behind one of an area."""
+    last = None if state.where is None else state.where.selector
+    if place is None or last is None or place.per is not None:
+        return place
+    row = as_in_row(last)
+    if row is not None and is_one_row(row.of) and is_end_of_site(place.selector):
+        number = 1 if isinstance(place.selector, s.First) else -1
+        of_row = replace(place, selector=replace(row, first=number, last=number))
+        contrasts = abs(row.first) == 1
+        return of_row if contrasts else setting.either("of that row, or of the site?", used, (of_row, place))
+    area = getattr(last, "of", None)
+    alike = type(last) is type(place.selector) and specifies_part(place.selector)
+    open_area = alike and state.within is None and getattr(place.selector, "of", None) == s.Trees()
+    if not open_area or not isinstance(area, AREAS):
+        return place
+    of_area = replace(place, selector=over(place.selector, area))
+    return setting.either("of that area, or of the site?", used, (of_area, place))
 
 
 def _some_of_them(whole: PlaceMeaning, place: PlaceMeaning | None) -> PlaceMeaning:
@@ -416,6 +440,10 @@ def capture_elided(setting: Setting, state: DialogueState) -> DialogueState:
         return state
     if lead.relation == "" and lead.place.selector.named_marker:
         raise NotComposed(message("it is not clear from which place that is measured", context="fault"))
+    if lead.relation == "" and specifies_part(lead.place.selector) and _is_some_of_area(state.where):
+        raise NotComposed(
+            message("it is not clear whether these are some of the places before, or others", context="fault")
+        )  # "take CO2 in row 9. Every other tree."
     if state.where is not None and is_end_of_site(state.where.selector) and counts_in_row(lead.place.selector):
         raise NotComposed(message("the first or last of which trees?", context="fault"))
     if state.where is not None and (mark := landmark_of(state.where.selector, lead.place.selector)) is not None:
@@ -430,6 +458,12 @@ def capture_elided(setting: Setting, state: DialogueState) -> DialogueState:
     of_each = lead.place.shape == "area" and state.where is not None and state.where.shape == "several"
     again = CaptureCommand(things, lead.place, lead.used, relation="of" if of_each else lead.relation)
     return capture(setting, replace(state, lead=None), again)
+
+
+def _is_some_of_area(place: PlaceMeaning | None) -> bool:
+    """Return True for so many trees of an area, whichever these are."""
+    some = None if place is None else as_some(place.selector)
+    return some is not None and isinstance(some.of, AREAS)
 
 
 def _is_area(place: PlaceMeaning | None) -> bool:

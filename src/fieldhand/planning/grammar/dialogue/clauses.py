@@ -31,6 +31,7 @@ from fieldhand.planning.grammar.dialogue.driving import (
 )
 from fieldhand.planning.grammar.dialogue.faults import Fork
 from fieldhand.planning.grammar.dialogue.fitting import in_area, is_spoken_of
+from fieldhand.planning.grammar.dialogue.fragments import assembled
 from fieldhand.planning.grammar.dialogue.likewise import with_known_place
 from fieldhand.planning.grammar.dialogue.plans import (
     EMPTY,
@@ -96,15 +97,23 @@ _IDLE = message("it does not say what to do there", context="fault")
 _WHAT_THERE = message("say what to take or measure there")
 
 
-def read_in_each_way(setting: Setting, said: Said) -> tuple[list[DialogueState], list[NotComposed]]:
-    """Return the state after all clauses for each way to continue them, and the faults of ways that lead nowhere."""
+def read_in_each_way(
+    setting: Setting, said: Said, *, in_fragments: bool = False
+) -> tuple[list[DialogueState], list[NotComposed]]:
+    """Return the state after all clauses for each way to continue them, and the faults of ways that lead nowhere.
+
+    Args:
+        setting: Robot and site that the clauses are read for.
+        said: Clauses.
+        in_fragments: True to read fragments ("Row 6. Thermal.") as the commands that they make up together.
+    """
     states: list[DialogueState] = []
     faults: list[NotComposed] = []
     waiting: list[Mapping[Hashable, int]] = [{}]
     while waiting:
         chosen = waiting.pop(0)
         try:
-            states.append(read_clauses(replace(setting, chosen=chosen), said))
+            states.append(read_clauses(replace(setting, chosen=chosen), said, in_fragments=in_fragments))
         except Fork as fork:
             waiting += [{**chosen, fork.key: way} for way in range(fork.count)]
             if len(states) + len(waiting) > _MOST_WAYS:
@@ -114,7 +123,7 @@ def read_in_each_way(setting: Setting, said: Said) -> tuple[list[DialogueState],
     return states, faults
 
 
-def read_clauses(setting: Setting, said: Said) -> DialogueState:
+def read_clauses(setting: Setting, said: Said, *, in_fragments: bool = False) -> DialogueState:
     """Return the state after all clauses.
 
     Raises:
@@ -122,6 +131,10 @@ def read_clauses(setting: Setting, said: Said) -> DialogueState:
         Fork: They can be continued in several ways, and ``setting`` does not say in which.
     """
     clauses, edits = as_meant(setting, said.clauses)
+    if in_fragments and (whole := assembled(setting, clauses)) != clauses:
+        clauses = whole
+    elif in_fragments:
+        raise NotComposed(_IDLE, advice=_WHAT_THERE)
     state = DialogueState(edits=edits)
     for k, clause in enumerate(clauses):
         try:

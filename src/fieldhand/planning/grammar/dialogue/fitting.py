@@ -61,7 +61,7 @@ def in_area(setting: Setting, before: Lead | DriveCommand, place: PlaceMeaning |
     if place is None or place.shape in ("here", "those"):
         if place is None or not place.each:
             return PlaceMeaning(area, "area")
-        if are_rows(area) and place.selector != s.Trees():
+        if are_rows(area) and not is_one_row(area) and place.selector != s.Trees():
             return PlaceMeaning(s.Trees(), "area", each=True, per=area)
         return PlaceMeaning(area, "several", each=True)
     if place.per is None and place.shape in ("one", "several") and chooses_from_trees(place.selector):

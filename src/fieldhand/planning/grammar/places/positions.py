@@ -171,12 +171,23 @@ def trees_of_row(where: tuple[int, int], rows: s.Selector, inner: Nominal = _TRE
     return PlaceMeaning(s.InRow(first=where[0], last=where[1], of=over(inner.selector, rows)), "several", count=count)
 
 
-@construction("place: [DET] rank=ORD inner=nominal", "place: DET rank=ORD", cost=0.6)
-def tree_of_row_named_before(rank: Lex, inner: Nominal | None = None) -> PlaceMeaning | None:
-    """Compose "the third tree", of a row that was named before it."""
-    if rank.value < 2 or (inner is not None and (inner.plural or inner.selector != s.Trees() or inner.kind != "tree")):
+@construction(
+    "place: [DET] rank=ORD inner=nominal",
+    "place: DET rank=ORD",
+    "place: [DET] rank=ORD inner=nominal [COMMA] FROM [DET] side=DIR",
+    "place: [DET] rank=ORD FROM [DET] side=DIR",
+    cost=0.6,
+)
+def tree_of_row_named_before(rank: Lex, inner: Nominal | None = None, side: Lex | None = None) -> PlaceMeaning | None:
+    """Compose "the third tree" and "the third from the north", of a row that was named before it."""
+    if side is not None and side.value not in SIDES:
         return None
-    return PlaceMeaning(s.InRow(first=rank.value, last=rank.value, of=s.Trees()), "one")
+    if (rank.value < 2 and side is None) or (
+        inner is not None and (inner.plural or inner.selector != s.Trees() or inner.kind != "tree")
+    ):
+        return None
+    counted_from = "usual" if side is None else side.value
+    return PlaceMeaning(s.InRow(first=rank.value, last=rank.value, counted_from=counted_from, of=s.Trees()), "one")
 
 
 @construction(
