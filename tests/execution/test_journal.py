@@ -111,9 +111,10 @@ def test_a_mission_of_a_version_whose_events_lacked_a_field_goes_on(
         return to_json(event).replace(', "names_places": false', "")
 
     field = Field(tmp_path)
-    with monkeypatch.context() as earlier, pytest.raises(PowerCut):
+    with monkeypatch.context() as earlier:
         earlier.setattr(recorded_inputs, "to_json", as_before)
-        field.fly(cut=2, guard=BudgetOf(0))
+        with pytest.raises(PowerCut):
+            field.fly(cut=2, guard=BudgetOf(0))
     before = field.lines
     assert any('"shed"' in line and "names_places" not in line for line in before)
     result = field.fly(guard=BudgetOf(0))
