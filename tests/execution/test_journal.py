@@ -15,14 +15,14 @@ from fieldhand.clock import SimulatedClock
 from fieldhand.errors import JournalError
 from fieldhand.evaluation.outcome import judge
 from fieldhand.evaluation.report.observations import observations_csv
-from fieldhand.execution import mission_clock
+from fieldhand.execution import mission_clock, recorded_inputs
 from fieldhand.execution.journal import store
 from fieldhand.execution.journal.store import Journal
 from fieldhand.execution.operator_commands import CommandFile, OperatorCommand
 from fieldhand.places.selectors import TreeIs
 from fieldhand.task.event_lines import from_json, to_json
 from fieldhand.task.plan import Act
-from fieldhand.task.results import Acted, Continued, Ended, Exited, InDoubt, Paused, Resumed, Shed
+from fieldhand.task.results import Acted, Continued, Ended, Event, Exited, InDoubt, Paused, Resumed, Shed
 from support.missions.rig import BudgetOf, captured, husky, of_type, orchard, task_for
 
 
@@ -102,6 +102,24 @@ def test_what_the_guard_said_holds(tmp_path: Path) -> None:
     assert [to_json(e) for e in result.events][: len(before)] == before
     assert not any('"shed"' in line for line in before)
     assert of_type(result.events, Shed)
+
+
+def test_a_mission_of_a_version_whose_events_lacked_a_field_goes_on(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def as_before(event: Event) -> str:
+        return to_json(event).replace(', "names_places": false', "")
+
+    field = Field(tmp_path)
+    with monkeypatch.context() as earlier:
+        earlier.setattr(recorded_inputs, "to_json", as_before)
+        with pytest.raises(PowerCut):
+            field.fly(cut=2, guard=BudgetOf(0))
+    before = field.lines
+    assert any('"shed"' in line and "names_places" not in line for line in before)
+    result = field.fly(guard=BudgetOf(0))
+    assert result.status == Field(tmp_path / "whole").fly(guard=BudgetOf(0)).status
+    assert field.lines[: len(before)] == before
 
 
 def test_another_task_or_journal_is_refused(tmp_path: Path) -> None:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 
 import pytest
 from hypothesis import given, settings
 
 from fieldhand.errors import TaskError
-from fieldhand.task.event_lines import from_json, to_json
+from fieldhand.task.event_lines import from_json, is_same, to_json
 from fieldhand.task.results import Event, Shed
 from fieldhand.testing.generated.events import events
 
@@ -17,6 +18,18 @@ from fieldhand.testing.generated.events import events
 @settings(deadline=None, max_examples=30)
 def test_events_come_back(log: tuple[Event, ...]) -> None:
     assert tuple(from_json(to_json(event)) for event in log) == log
+
+
+def test_a_line_is_the_same_but_for_defaults_of_fields_that_it_lacked() -> None:
+    event = Shed(t=1.0, node="n1", places=("4",), optional=True, reason="far")
+    line = to_json(event)
+    lacking = json.dumps({key: value for key, value in json.loads(line).items() if key != "names_places"})
+    assert is_same(line, line)
+    assert is_same(line, lacking)
+    assert not is_same(to_json(replace(event, names_places=True)), lacking)
+    assert not is_same(to_json(replace(event, reason="near")), lacking)
+    assert not is_same(line, json.dumps({"event": "shed"}))
+    assert not is_same(line, "garbage")
 
 
 @pytest.mark.parametrize(

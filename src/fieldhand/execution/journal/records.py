@@ -41,7 +41,7 @@ class InputLog(Protocol):
         ...
 
     def event(self, line: str) -> None:
-        """Append an event. During a replay it must equal the recorded one.
+        """Append an event. During a replay it must equal the recorded one, but for defaults of fields added since.
 
         Raises:
             JournalError: It differs.

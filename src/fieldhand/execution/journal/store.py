@@ -28,6 +28,7 @@ from fieldhand.execution.journal.high_water_mark import (
 )
 from fieldhand.execution.journal.records import Record, divergence
 from fieldhand.folders import FolderLock, FolderTaken, Unguarded, require_own_file
+from fieldhand.task.event_lines import is_same
 
 #: Format of the file; a program with another format rejects it. Rows of format 1 have no checksums: a journal of that
 #: format can be read, and gets checksums when it is continued.
@@ -131,7 +132,7 @@ class Journal:
         self._event_count += 1
         if self._event_count > len(self.before):
             self._events.append((datetime.now(UTC).isoformat(timespec="milliseconds"), line))
-        elif line != self.before[self._event_count - 1]:
+        elif not is_same(line, self.before[self._event_count - 1]):
             raise divergence(
                 f"event {self._event_count} was {self.before[self._event_count - 1]}, now it would be {line}"
             )

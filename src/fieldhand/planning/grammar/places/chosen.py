@@ -30,7 +30,7 @@ from fieldhand.planning.selections import (
     swapped,
 )
 from fieldhand.site.model import Site
-from fieldhand.terms import CountedFrom, Side
+from fieldhand.terms import AnySide, CountedFrom, Side
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -38,7 +38,7 @@ construction = GRAMMAR.construction
 #: Ways to choose among trees.
 By = Literal[
     "extreme", "best", "nearest", "beside", "around", "farthest", "nearby", "random", "spread", "evenly", "in a run",
-    "adjacent", "apart", "of every",
+    "adjacent", "apart", "of every", "nth",
 ]  # fmt: skip
 #: Choices of which the k-th is one: "the second oldest".
 _RANKED = ("extreme", "best", "nearest", "farthest")
@@ -651,7 +651,7 @@ def _selector(choice: Choice, n: int, of: s.Selector) -> s.Selector | None:
         case "around":
             return s.Nearest(to=to, count=n, adjacent=not zone, of=of)
         case "beside":
-            side = value or "any"
+            side: AnySide = value or "any"
             if side != "any" and (n > 1 or of != s.Trees()):
                 return None
             return s.Nearest(to=to, count=n, adjacent=not zone, side=side, of=of)
