@@ -51,6 +51,13 @@ IN_ORCHARD = [
     ("Tree 4: CO2. Tree 9: CO2. In between, nothing.", "co2 @ TreeIs(4); co2 @ TreeIs(9)"),
     ("Row 6: first tree CO2. Last tree CO2.", "co2 @ InRow(1, 1, of Rows(6, 6)); co2 @ InRow(-1, -1, of Rows(6, 6))"),
     ("Wet corner. Row 9. CO2 at every tree.", "for UnionOf(InZone(wet corner)+Rows(9, 9)): [co2]"),
+    ("Begin at the south end of row 9 and photograph every other tree", "for Ordered(south_to_north, of EveryNth(2, south, of Rows(9, 9))) given: [picture]"),
+    ("Start at the south end of row 9. Photograph every tree.", "for Ordered(south_to_north, of Rows(9, 9)) given: [picture]"),
+    ("Nonpareils, southern half. CO2 each.", "for Where(variety, eq, Nonpareil, of Half(south)): [co2]"),
+    ("Trees 3, 6 and 9. Thermal photo each.", "for UnionOf(TreeIs(3)+TreeIs(6)+TreeIs(9)): [picture]"),
+    ("Photograph trees 4 and 5. CO2 each.", "for UnionOf(TreeIs(4)+TreeIs(5)): [picture; co2]"),
+    ("CO2 at every tree of row 9, minus any that lie inside the wet corner", "for Excluding(InZone(wet corner), of Rows(9, 9)): [co2]"),
+    ("Rows 1 to 10, but the odd-numbered ones only: CO2 at every tree", "for Rows(1, 10, 2): [co2]"),
 ]  # fmt: skip
 BY_AMIGA = [
     ("Soil moisture, forty centimetres down, row 5, every other tree", "for EveryNth(2, of Rows(5, 5)): [moisture(depth_cm 40)]"),
@@ -64,6 +71,9 @@ IN_VINEYARD = [
     ("Row 13 of block North, please. Oh, sorry, I meant row 10 of block North! And just vines 20 to 22, a picture of each", "for InRow(20, 22, of Rows(10, 10, of InBlock(North))): [picture] | return_to_start"),
     ("South block, row 13: first vine CO2, last vine CO2, nothing else, then back to where you started from", "co2 @ InRow(1, 1, of Rows(13, 13, of InBlock(South))); co2 @ InRow(-1, -1, of Rows(13, 13, of InBlock(South))) | return_to_start"),
     ("North. Row 11. Every vine. Thermal.", "for Rows(11, 11, of InBlock(North)): [picture] | return_to_start"),
+    ("South block, row 13, vines 1 to 5, only the odd-numbered ones: infrared image.", "for UnionOf(InRow(1, 1, of Rows(13, 13, of InBlock(South)))+InRow(3, 3, of Rows(13, 13, of InBlock(South)))+InRow(5, 5, of Rows(13, 13, of InBlock(South)))): [picture] | return_to_start"),
+    ("Merlot. Block North. Five vines. Thermal each.", "for Take(5, of Where(variety, eq, Merlot, of InBlock(North))): [picture] | return_to_start"),
+    ("Row 13 of block North, please. Oh, sorry, I meant row 10! And just vines 20 to 22, a picture of each", "for InRow(20, 22, of Rows(10, 10, of InBlock(North))): [picture] | return_to_start"),
 ]  # fmt: skip
 #: What leaves open which of the places is meant, or what is captured at which.
 OPEN = [
@@ -84,6 +94,10 @@ OPEN = [
     "Tree 4. CO2. Thermal of every tree.",
     "CO2. All of it.",
     "CO2 at tree 4. Row 5.",
+    "Row 9: CO2 at every tree. Then every other tree: thermal.",
+    "Go to the last tree of row 3 and take CO2 at every third tree.",
+    "CO2 each.",
+    "Take a picture of tree 4. CO2 each.",
 ]  # fmt: skip
 OPEN_IN_VINEYARD = [
     "CO2, row 10, fifth vine from the north. Just that.",

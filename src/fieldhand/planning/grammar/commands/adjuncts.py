@@ -53,6 +53,8 @@ def _each(command: CaptureCommand, things: tuple[Thing, ...] | int | None) -> Ca
         same = {one.action for one in command.things} == {one.action for one in things}
         command = replace(command, things=things if same and _is_uncounted(command) else ())
     place = command.place
+    if place is None and command.relation == "bare" and things is None:
+        return replace(command, place=PlaceMeaning(s.Here(), "those", each=True))  # "(five vines.) A picture each."
     if place is None or place.shape != "several" or not command.things or not all(one.count for one in command.things):
         return None
     return replace(command, place=replace(place, each=True))

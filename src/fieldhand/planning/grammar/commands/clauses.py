@@ -317,7 +317,10 @@ def _commands(clause: Clause, used: int, *forms: Form) -> list[CaptureCommand] |
 
 def _placed(command: CaptureCommand) -> CaptureCommand:
     """Return captures to which an adjunct gave a place as captures at it."""
-    given = command.relation == "bare" and (command.place is not None or command.spacing is not None)
+    place = command.place
+    given = command.relation == "bare" and (place is not None or command.spacing is not None)
+    if given and place is not None and place.shape == "those":
+        return replace(command, relation="plain")  # "a picture each", of the places spoken of
     return replace(command, relation="at") if given else command
 
 

@@ -7,7 +7,14 @@ from dataclasses import replace
 from fieldhand.language import message
 from fieldhand.language.words import say_action
 from fieldhand.places import selectors as s
-from fieldhand.planning.grammar.dialogue.driving import drive, enter, may_be_left_out, ordered, require_known, visits
+from fieldhand.planning.grammar.dialogue.driving import (
+    drive,
+    enter,
+    may_be_left_out,
+    ordered,
+    require_known,
+    visits,
+)
 from fieldhand.planning.grammar.dialogue.fitting import (
     along_row,
     fitted,
@@ -52,10 +59,12 @@ from fieldhand.planning.grammar.meaning import (
     Again,
     CaptureCommand,
     DriveCommand,
+    InAnOrder,
     Lead,
     PlaceMeaning,
     Thing,
 )
+from fieldhand.planning.grammar.places.compass import AWAY_FROM
 from fieldhand.planning.selections import (
     AREAS,
     are_rows,
@@ -89,12 +98,14 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
         and is_one_row(state.area.place.selector)
     ):
         state = enter(setting, state, state.area)  # "move two rows over and take another"
+    state, begun = _along_from_its_end(state, command)
     same = any(one.action == LAST_THING and one.count is None for one in command.things)
     if same and command.place is not None and command.place.shape == "area":
         raise NotComposed(message("at every tree, or at how many?", context="fault"))
     state, command = _with_unsaid_again(setting, state, command)
     things = meant_things(state, said_things(setting, command))
     place, state, before = _place_of(setting, state, command)
+    before = (*begun, *before)
     tokens = 0 if command.place is None else command.place.tokens & command.used
     at_said = (*before, *setting.spans_of(tokens or command.used))
     said = setting.spans_of(command.used & ~tokens or command.used)
@@ -125,6 +136,27 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
         return capture_once(state, replace(command, things=things), place, said, at_said)
     state = replace(state, loop=None)
     return _capture_at_each(setting, state, replace(command, things=things), place, said, at_said)
+
+
+def _along_from_its_end(state: DialogueState, command: CaptureCommand) -> tuple[DialogueState, Spans]:
+    """Return the state for captures along a row from the end to which the robot was sent, and the spans of that.
+
+    Raises:
+        NotComposed: The end was named without its side.
+    """
+    end = None if state.where is None else as_in_row(state.where.selector)
+    steps, place = state.plan.steps, command.place
+    if end is None or place is None or len(steps) != 1 or not steps[0].only_drives or not is_one_row(end.of):
+        return state, ()
+    of_trees = place.selector == s.Trees() and place.shape == "several"
+    along = of_trees or ((every := as_every_nth(place.selector)) is not None and every.of == s.Trees())
+    if not along or end.first != end.last or abs(end.first) != 1 or place.per is not None or state.awaits_command:
+        return state, ()
+    if end.counted_from == "usual" or end.first == -1:
+        raise NotComposed(message("it is not clear at which of two places this is done", context="fault"))
+    order = InAnOrder(AWAY_FROM[end.counted_from], "", False, command.used)
+    begun = replace(state, plan=EMPTY, where=None, loop=None, captured=None, order=order)
+    return replace(begun, lead=Lead(PlaceMeaning(end.of, "area"), 0)), steps[0].said
 
 
 def _is_one_more(command: CaptureCommand) -> bool:
@@ -324,9 +356,10 @@ def _contrasted(setting: Setting, state: DialogueState, place: PlaceMeaning | No
         of_row = replace(place, selector=replace(row, first=number, last=number))
         contrasts = abs(row.first) == 1
         return of_row if contrasts else setting.either("of that row, or of the site?", used, (of_row, place))
-    area = getattr(last, "of", None)
     alike = type(last) is type(place.selector) and specifies_part(place.selector)
-    open_area = alike and state.within is None and getattr(place.selector, "of", None) == s.Trees()
+    along = as_every_nth(place.selector) is not None and as_some(last) is None
+    area = getattr(last, "of", None) if alike else next((part for part in last.walk() if are_rows(part)), None)
+    open_area = (alike or along) and state.within is None and getattr(place.selector, "of", None) == s.Trees()
     if not open_area or not isinstance(area, AREAS):
         return place
     of_area = replace(place, selector=over(place.selector, area))

@@ -332,7 +332,7 @@ def _commands_of(step: _Step) -> Sequence[LinkedCommand]:
     each = bool(trees) or any(one.place is not None and one.place.each for one in step.captures)
     made: list[LinkedCommand] = []
     for place in _visited(step):
-        whole = replace(place, shape="several", each=True) if each and place.shape == "area" else place
+        whole = replace(place, shape="several", each=True) if each and place.shape in ("several", "area") else place
         relation = "of" if whole.shape == "area" else "at"
         joint = step.joint if not made else Connective(True, True, 0)
         made.append(LinkedCommand(joint, replace(first, things=things, place=whole, used=used, relation=relation)))

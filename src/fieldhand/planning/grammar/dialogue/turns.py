@@ -22,7 +22,15 @@ from fieldhand.planning.grammar.meaning import (
     PlaceMeaning,
     Reordered,
 )
-from fieldhand.planning.selections import named_places, replaceable_area, swapped
+from fieldhand.planning.selections import (
+    are_rows,
+    blocks_of,
+    is_in_block,
+    named_places,
+    over,
+    replaceable_area,
+    swapped,
+)
 from fieldhand.task.plan import Span
 
 
@@ -120,6 +128,9 @@ def _range(setting: Setting, used: int) -> Span:
 def _other_place(old: PlaceMeaning, new: PlaceMeaning) -> PlaceMeaning | None:
     """Return a place with another one in its stead, or with another area of the same kind; None if they are unlike."""
     if old.shape == new.shape and new.shape in ("one", "area") and old.per is None and new.per is None:
+        blocks = set(blocks_of(old.selector))
+        if len(blocks) == 1 and are_rows(new.selector) and not is_in_block(new.selector):
+            return replace(old, selector=over(new.selector, blocks.pop()), tokens=old.tokens | new.tokens)
         return replace(new, tokens=old.tokens | new.tokens)
     named = (*named_places(old.selector), *named_places(new.selector))
     if old.shape == new.shape == "several" and all(isinstance(one, s.TreeIs) for one in named):

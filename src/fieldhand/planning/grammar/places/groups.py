@@ -422,6 +422,8 @@ def except_numbers(inner: Nominal, trees: tuple[str, ...]) -> PlaceMeaning | Non
     "place: whole=place [COMMA] except part=place",
     "place: whole=place BUT part=place",
     "place: whole=place [COMMA] except in_ part=place",
+    "place: whole=place [COMMA] except those_in part=place",
+    "place: whole=place [COMMA] those_in part=place LEFTOUT",
     cost=0.3,
     given=("site",),
 )
@@ -451,6 +453,44 @@ def except_for(whole: PlaceMeaning, part: PlaceMeaning, site: Site) -> PlaceMean
     all_of_it = whole.shape == "area" and part.shape == "several"  # "row 6 except the yellow trees"
     selector = s.Excluding(places=part.selector, of=whole.selector)
     return replace(whole, selector=selector, shape="several" if all_of_it else whole.shape)
+
+
+@construction(
+    "those_in: ANY [TREE] [STANDS] in_", "those_in: DET [ONE] [STANDS] in_", "those_in: DET TREE [STANDS] in_", cost=0.1
+)
+def those_in() -> str:
+    """Compose "any that lie in" and "those standing in", behind what is left out of an area."""
+    return "in"
+
+
+@construction(
+    "parity: [COMMA] [and_or_but] [ONLY] [DET] odd=ODD [ONE] [ONLY]",
+    "parity: [COMMA] [and_or_but] [ONLY] [DET] EVEN [ONE] [ONLY]",
+    cost=0.1,
+)
+def parity(odd: Lex | None = None) -> str:
+    """Compose "but the odd-numbered ones only"."""
+    return "even" if odd is None else "odd"
+
+
+@construction("place: whole=place which=parity", cost=0.2)
+def those_of_parity(whole: PlaceMeaning, which: str) -> PlaceMeaning | None:
+    """Compose "rows 1 to 10, the odd ones" and "vines 1 to 21 of row 3, only the even ones"."""
+    remainder = 1 if which == "odd" else 0
+    selector, row = whole.selector, as_in_row(whole.selector)
+    if whole.per is not None or whole.optional or whole.at_most is not None:
+        return None
+    if row is not None and 0 < row.first < row.last:
+        numbers = [n for n in range(row.first, row.last + 1) if n % 2 == remainder]
+        parts: tuple[s.Selector, ...] = tuple(replace(row, first=n, last=n) for n in numbers)
+    elif isinstance(selector, s.Rows) and selector.every == 1 and selector.counted_from == "usual":
+        low, high = selector.first, selector.last
+        if not (low.isdigit() and high.isdigit() and int(low) < int(high)):
+            return None
+        return replace(whole, selector=replace(selector, first=str(int(low) + (int(low) % 2 != remainder)), every=2))
+    else:
+        return None
+    return replace(whole, selector=s.UnionOf(parts=parts), count=len(parts)) if len(parts) > 1 else None
 
 
 @construction("place: ANY inner=nominal EXCEPT part=place", "place: ANY inner=nominal CONTRAST part=place", cost=0.2)

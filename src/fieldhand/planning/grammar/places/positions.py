@@ -186,8 +186,8 @@ def tree_of_row_named_before(rank: Lex, inner: Nominal | None = None, side: Lex 
         inner is not None and (inner.plural or inner.selector != s.Trees() or inner.kind != "tree")
     ):
         return None
-    counted_from = "usual" if side is None else side.value
-    return PlaceMeaning(s.InRow(first=rank.value, last=rank.value, counted_from=counted_from, of=s.Trees()), "one")
+    tree = s.InRow(first=rank.value, last=rank.value, of=s.Trees())
+    return PlaceMeaning(tree if side is None else replace(tree, counted_from=side.value), "one")
 
 
 @construction(
