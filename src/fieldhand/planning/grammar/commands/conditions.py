@@ -167,6 +167,12 @@ def is_it_there(one: tuple[PlaceMeaning, Test], used: int) -> ReadingQuestion:
     return ReadingQuestion(AllTests((one[1],)), one[0], used)
 
 
+@construction("question: one=question MEASURE IT", "question: one=question FULLSTOP MEASURE IT", cost=0.1)
+def question_measured(one: ReadingQuestion, used: int) -> ReadingQuestion:
+    """Compose "is the air above 35 degC at tree 4? Measure it."."""
+    return replace(one, used=used)
+
+
 @construction(
     "subject: [DET] noun=NOUN",
     "subject: [DET] noun=NOUN READING",
@@ -414,7 +420,7 @@ def question_at(one: tuple[PlaceMeaning, Test], used: int) -> ReadingQuestion:
 
 @construction(
     "failing: TRY",
-    "failing: IF CANNOT",
+    "failing: IF [WHODOES] CANNOT",
     "failing: IF IT CANNOT",
     "failing: IF DOES CANNOT",
     "failing: IF [DET] reading=READING CANNOT",
@@ -426,6 +432,13 @@ def failing(used: int, things: tuple[Thing, ...] = (), reading: Lex | None = Non
     if len(things) > 1 or (reading is not None and reading.plural):
         return None
     return Failing(used, action=things[0].action if things else "" if reading is None else LAST_THING)
+
+
+@construction("failing: FAILINGTHAT", "failing: one=failing [COMMA] other=failing", cost=0.9)
+def failing_that(used: int, one: Failing | None = None, other: Failing | None = None) -> Failing | None:
+    """Compose "failing that", which may be another case of a condition as well."""
+    plain = all(way is None or not (way.action or way.at_one) for way in (one, other))
+    return Failing(used) if plain else None
 
 
 @construction(
@@ -440,9 +453,9 @@ def failing_at_one(one: Failing, used: int) -> Failing:
     return replace(one, used=used, at_one=True)
 
 
-@construction("when: IF test=predicate", cost=0.8)
+@construction("when: IF test=predicate", "when: WHERE test=predicate", cost=0.8)
 def when_so(test: Test, used: int) -> When:
-    """Compose "if hot"."""
+    """Compose "if hot" and "where low"."""
     return When(AllTests((test,)), used)
 
 
@@ -513,7 +526,10 @@ def level_explained(test: Test) -> Test:
 @construction(
     "tested: word=DET WHICH [IS] test=predicate",
     "tested: word=DET WHERE [IT] [IS] test=predicate",
-    "tested: ANY WHICH [IS] test=predicate",
+    "tested: ANY [WHICH] IS test=predicate",
+    "tested: ANY WHICH test=predicate",
+    "tested: WHATEVER IS test=predicate",
+    "tested: EACH ONE [WHICH] [IS] test=predicate",
     "tested: ANY [OF] IT WHICH [IS] test=predicate",
     "tested: EACH WHICH [IS] test=predicate",
     "tested: DET inner=nominal WHICH [IS] test=predicate",
@@ -523,7 +539,8 @@ def level_explained(test: Test) -> Test:
     "tested: EACH inner=nominal WHICH [IS] test=predicate",
     "tested: EACH inner=nominal WHERE [IT] [IS] test=predicate",
     "tested: DET test=predicate ONE",
-    "tested: word=DET test=predicate",
+    "tested: test=predicate noun=ONE",
+    "tested: word=DET [IS] test=predicate",
     "tested: [DET] noun=ONE [WHICH] [IS] test=predicate",
     "tested: ANY test=predicate",
     "tested: EACH word=DET test=predicate",
@@ -561,6 +578,33 @@ def those_of_kind(
     if word is not None and "those" not in word.features:
         return None
     return [(AllTests((test,)), None) for test in tree_is(value)]
+
+
+@construction(
+    "tested: ANY WHICH noun=NOUN [IS] test=predicate", "tested: word=DET WHICH noun=NOUN [IS] test=predicate", cost=0.2
+)
+def whose_reading_is(test: Test, noun: Lex, word: Lex | None = None) -> list[tuple[AllTests, None]] | None:
+    """Compose "any whose canopy turns out high"."""
+    if word is not None and "those" not in word.features:
+        return None
+    return [(AllTests((replace(test, quantity=name),)), None) for name in measured_by(noun)]
+
+
+@construction("tested: [DET] test=predicate noun=ONE in_ place=place", cost=0.3)
+def tested_among(test: Test, noun: Lex, place: PlaceMeaning) -> tuple[AllTests, PlaceMeaning] | None:
+    """Compose "hot ones among trees 57 to 74"."""
+    if "plural" not in noun.features or place.shape not in ("several", "area") or place.optional:
+        return None
+    return (AllTests((test,)), replace(place, shape="several", each=True))
+
+
+@construction("tested: [DET] test=predicate noun=ONE in_ trees=numbers", cost=0.4, given=("site",))
+def tested_among_numbers(
+    test: Test, noun: Lex, trees: tuple[str, ...], site: Site
+) -> tuple[AllTests, PlaceMeaning] | None:
+    """Compose "hot ones among 57 to 74", on a site whose trees have numbers."""
+    known = len(trees) > 1 and all(name in site.by_id for name in trees)
+    return tested_among(test, noun, named_trees(trees)) if known else None
 
 
 @construction("tested: those=tested by=measured_by", cost=0.2)
@@ -607,7 +651,7 @@ def measured_there(place: PlaceMeaning, test: Test, by: str) -> tuple[PlaceMeani
 @construction(
     "capture_where: verb things=things relation tests=tested",
     "capture_where: verb things=things FOR tests=tested",
-    "capture_where: things=things relation tests=tested",
+    "capture_where: [WITH] things=things relation tests=tested",
     "capture_where: relation tests=tested [COMMA] verb things=things",
     "capture_where: FOR tests=tested [COMMA] verb things=things",
     "capture_where: relation tests=tested [COMMA] things=things",
@@ -640,14 +684,18 @@ def those_get(things: tuple[Thing, ...], tests: tuple[AllTests, PlaceMeaning | N
 
 @construction(
     "until: UNTIL tests=tests",
-    "until: ASSOONAS tests=tests [COMMA] STOP",
-    "until: WHERE tests=tests [COMMA] STOP",
+    "until: ASSOONAS tests=tests [COMMA] [WHODOES] STOP",
+    "until: WHERE tests=tests [COMMA] [WHODOES] STOP",
     "until: HALTWHEN tests=tests",
-    "until: STOP ASSOONAS tests=tests",
-    "until: STOP WHERE tests=tests",
+    "until: [MISSION] [SHOULD] STOP ASSOONAS tests=tests",
+    "until: [MISSION] [SHOULD] STOP WHERE tests=tests",
     "until: [MISSION] [IS] STOP AT [DET] FIRSTONE ONE [WHICH] [IS] test=predicate",
     "until: [MISSION] [IS] STOP AT [DET] FIRSTONE READING [WHICH] [IS] test=predicate",
-    "until: STOP AT [DET] ORD ONE [WHICH] [IS] test=predicate",
+    "until: STOP AT [DET] ORD [ONE] [WHICH] [IS] test=predicate",
+    "until: STOP AT [DET] FIRSTONE [WHICH] [IS] test=predicate",
+    "until: DET FIRSTONE READING [WHICH] [IS] test=predicate STOP [MISSION]",
+    "until: DET FIRSTONE ONE [WHICH] [IS] test=predicate STOP [MISSION]",
+    "until: DET ORD READING [WHICH] [IS] test=predicate STOP [MISSION]",
     cost=0.3,
 )
 def until(used: int, tests: AllTests | None = None, test: Test | None = None) -> UntilCondition | None:

@@ -74,6 +74,16 @@ def look_at(place: PlaceMeaning, verb: Lex, used: int) -> DriveCommand | None:
     return DriveCommand(place, used) if place.shape == "area" and "goes_there" in verb.features else None
 
 
+@construction("drive: way=ALONG where=region GO", "drive: AT place=place GO", "drive: ALONG place=place GO", cost=0.3)
+def goes_there(
+    used: int, place: PlaceMeaning | None = None, where: s.Selector | None = None, way: Lex | None = None
+) -> DriveCommand | None:
+    """Compose "up row 3 you go" and "off to tree 4 you go"."""
+    if where is not None:
+        return drive_along(where, used, way)
+    return DriveCommand(place, used) if place is not None and place.shape == "one" else None
+
+
 @construction("drive: GO ALONG n=count inner=nominal", cost=0.1)
 def along_so_many(n: int, inner: Nominal, used: int) -> DriveCommand | None:
     """Compose "drive along 5 trees", which follow each other in a row."""

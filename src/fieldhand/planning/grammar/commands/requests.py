@@ -12,6 +12,7 @@ from fieldhand.planning.grammar.meaning import (
     After,
     Again,
     Allowed,
+    AllTests,
     CaptureCommand,
     CaptureWhere,
     Command,
@@ -33,7 +34,9 @@ from fieldhand.planning.grammar.meaning import (
     Reordered,
     Said,
     StopCommand,
+    Test,
     Thing,
+    UntilCondition,
     When,
 )
 from fieldhand.planning.grammar.places.numbers import named_trees
@@ -349,6 +352,12 @@ def same_reading(reading: Lex) -> Thing | None:
     return None if reading.plural else Thing(LAST_THING)
 
 
+@construction("things: WHICHONE things=things IS", cost=0.3)
+def what_it_is(things: tuple[Thing, ...]) -> tuple[Thing, ...]:
+    """Compose "what the air temperature is"."""
+    return things
+
+
 @construction("here: SAME noun=TREE", cost=0.3)
 def same_tree(noun: Lex) -> PlaceMeaning | None:
     """Compose "same tree"."""
@@ -533,13 +542,86 @@ def without_joint(before: Said, one: Command) -> Said | None:
     return Said((*before.clauses, LinkedCommand(None, one))) if follows else None
 
 
+@construction(
+    "said: before=said joint=joint STOP AND way=home ASSOONAS tests=tests",
+    "said: before=said joint=joint STOP AND way=home WHERE tests=tests",
+    "said: before=said joint=joint STOP AND way=home IF tests=tests",
+    cost=0.3,
+)
+def stopped_and_home(before: Said, joint: Connective, way: Home, tests: AllTests, used: int) -> Said:
+    """Compose "... Stop and come home as soon as one is above 500 ppm."."""
+    own = used & ~way.used & ~_used_by(before)
+    ends = LinkedCommand(joint, UntilCondition(tests, own))
+    return Said((*before.clauses, ends, LinkedCommand(Connective(False, False, 0, both=True), way)))
+
+
+@construction("said: before=said FULLSTOP BY level=LEVEL DEFINED test=predicate [by=measured_by]", cost=0.2)
+def with_level(before: Said, level: Lex, test: Test, used: int, by: str = "") -> Said | None:
+    """Compose "... By hot I mean over 37 degC.", of what was said to be hot."""
+    own = used & ~_used_by(before)
+    clauses = tuple(replace(one, command=_at_threshold(one.command, level, test, by, own)) for one in before.clauses)
+    return Said(clauses) if clauses != before.clauses else None
+
+
+def _used_by(said: Said) -> int:
+    """Return the tokens of commands and of what joins them."""
+    used = 0
+    for clause in said.clauses:
+        used |= clause.command.used | (0 if clause.before is None else clause.before.used)
+    return used
+
+
+def _at_threshold(command: Command, level: Lex, test: Test, by: str, used: int) -> Command:
+    """Return a command with a test in place of the tests of a level."""
+    if not isinstance(command, When | CaptureWhere | UntilCondition):
+        return command
+    tests = tuple(
+        replace(test, quantity=one.quantity or by, negated=test.negated != one.negated, unit=test.unit or one.unit)
+        if one.check == "level" and one.value == level.value
+        else one
+        for one in command.tests.tests
+    )
+    if tests == command.tests.tests:
+        return command
+    return replace(command, tests=replace(command.tests, tests=tests), used=command.used | used)
+
+
+@construction(
+    "said: before=said joint=joint one=failing [COMMA] [USE] place=place INSTEAD",
+    "said: before=said joint=joint one=failing [COMMA] TAKE place=place INSTEAD",
+    "said: before=said joint=joint one=failing [COMMA] GO [AT] place=place INSTEAD",
+    "said: before=said joint=joint one=failing COMMA place=place",
+    "said: before=said [COMMA] OR [COMMA] one=failing [COMMA] place=place",
+    "said: before=said [COMMA] OR place=place one=failing",
+    cost=0.4,
+)
+def or_there(
+    before: Said, one: Failing, place: PlaceMeaning, used: int, joint: Connective | None = None
+) -> Said | None:
+    """Compose "photograph tree 4 or, failing that, tree 5" and "... If it can't be reached, use tree 5 instead."."""
+    last = before.clauses[-1].command
+    if place.shape != "one" or not isinstance(last, CaptureCommand | DriveCommand):
+        return None
+    if last.place is None or last.place.shape != "one":
+        return None
+    failing = replace(one, used=used & ~_used_by(before))
+    there = replace(last, place=place, used=place.tokens)
+    return Said((*before.clauses, LinkedCommand(joint, failing), LinkedCommand(None, there)))
+
+
+@construction("said: first=place [COMMA] OR [COMMA] one=failing [COMMA] second=place COMMA act=capture", cost=0.4)
+def either_there(first: PlaceMeaning, one: Failing, second: PlaceMeaning, act: CaptureCommand) -> Said | None:
+    """Compose "tree 4 or, failing that, tree 5: a picture"."""
+    if first.shape != "one" or second.shape != "one" or act.place is not None or len(act.things) > 1:
+        return None
+    here, there = (replace(act, place=place, used=act.used | place.tokens, relation="at") for place in (first, second))
+    return Said((LinkedCommand(None, here), LinkedCommand(None, one), LinkedCommand(None, there)))
+
+
 @construction("said: REPEAT times=COUNT COMMA rest=said", "said: times=COUNT [OVER] COMMA rest=said", cost=0.3)
 def so_often_first(times: Lex, rest: Said, used: int) -> Said:
     """Compose "do this three times: photograph tree 4 and measure CO2 at tree 9"."""
-    own = used
-    for clause in rest.clauses:
-        own &= ~(clause.command.used | (clause.before.used if clause.before is not None else 0))
-    again = Again(None, own, times=int(times.value), in_all=True, whole=True)
+    again = Again(None, used & ~_used_by(rest), times=int(times.value), in_all=True, whole=True)
     return Said((LinkedCommand(None, again), *rest.clauses))
 
 

@@ -317,6 +317,27 @@ def chosen_behind(chosen: Chosen, choice: Choice) -> Chosen | None:
     return _with_choice(chosen, choice)
 
 
+@construction("chosen: chosen=chosen [COMMA] BY [DET] attribute=ATTR", cost=0.2)
+def best_by(chosen: Chosen, attribute: Lex) -> list[Chosen] | None:
+    """Compose "weakest vines, going by vigor"."""
+    choice = chosen.choice
+    if choice is None or choice.by != "best" or not isinstance(choice.value, tuple):
+        return None
+    name, lowest = choice.value
+    return [
+        replace(chosen, choice=replace(choice, value=(other, lowest)))
+        for other in attribute.value
+        if name in ("", other)
+    ]
+
+
+@construction("chosen: chosen=chosen WITH [DET] attribute=ATTR DET best=ranking", cost=0.1)
+def with_attribute_most(chosen: Chosen, attribute: Lex, best: tuple[str, bool]) -> list[Chosen] | None:
+    """Compose "tree with the yield the most big"."""
+    made = [] if best[0] else [_with_choice(chosen, Choice("best", (name, best[1]))) for name in attribute.value]
+    return [one for one in made if one is not None] or None
+
+
 @construction("chosen: chosen=chosen WITH DET rank=ORD best=ranking", cost=0.1)
 def with_the_second_most(chosen: Chosen, rank: Lex, best: tuple[str, bool]) -> Chosen | None:
     """Compose "tree with the second highest yield"."""
