@@ -207,7 +207,7 @@ def as_many_of(group: PlaceMeaning) -> PlaceMeaning | None:
 @construction("place: one=place ITSELF", cost=0.1)
 def tree_itself(one: PlaceMeaning) -> PlaceMeaning | None:
     """Compose "tree 40 itself"."""
-    return one if one.shape == "one" and isinstance(one.selector, s.TreeIs) else None
+    return one if one.shape == "one" and one.selector.named_tree else None
 
 
 @construction(
