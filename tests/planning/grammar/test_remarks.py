@@ -265,7 +265,6 @@ KEPT = [
     "I reckon half of them is plenty. Take a picture of every tree.",
     "I'd say the Carmels. Take a picture of every tree.",
     "We can forget the Carmels. Take a picture of every tree.",
-    "You can forget the Carmels. Take a picture of every tree.",
     "It is a pity about the Carmels, forget them. Take a picture of every tree.",
     "We don't love the Carmels. Take a picture of every tree.",
     "I fear the wet corner will swallow you. Take a picture of every tree.",

@@ -47,8 +47,11 @@ def _again(command: CaptureCommand, _: None) -> CaptureCommand | None:
 
 def _each(command: CaptureCommand, things: tuple[Thing, ...] | int | None) -> CaptureCommand | None:
     """Return a command with so many captures, or those of ``things``, at each of several places."""
+    if things == 1 and command.place is None:
+        return command  # "of the yellow trees let the temperature be taken, each once"
     if isinstance(things, int):
-        command = _counted(command, things) if _is_uncounted(command) else replace(command, things=())
+        same_number = _is_uncounted(command) or {one.count for one in command.things} == {things}
+        command = _counted(command, things) if same_number else replace(command, things=())
     elif things is not None:
         same = {one.action for one in command.things} == {one.action for one in things}
         command = replace(command, things=things if same and _is_uncounted(command) else ())
@@ -81,6 +84,7 @@ def once_more() -> Adjunct:
 @construction(
     "adjunct: EACH [OFTHEM]",
     "adjunct: times=often EACH",
+    "adjunct: EACH times=often",
     "adjunct: times=count EACH",
     "adjunct: number=things EACH",
     cost=0.2,

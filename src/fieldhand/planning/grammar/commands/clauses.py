@@ -16,7 +16,7 @@ from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import LAST_THING, CaptureCommand, PlaceMeaning, Thing
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import as_every_nth, is_across
+from fieldhand.planning.selections import as_every_nth, as_some, is_across
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -406,6 +406,8 @@ def _topic(clause: Clause, used: int) -> CaptureCommand | None:
         )
     if place.shape not in ("one", "several", "area") or any(one.action == LAST_THING for one in things):
         return None
+    if "s" in clause.order and place.count and as_some(place.selector) is not None:
+        return None  # "two trees get a picture" may announce which ones
     several = tuple(replace(one, plural=True) for one in things) if place.shape == "area" else things
     return CaptureCommand(several, place, used, relation="lead" if clause.order == "pt" else "at")
 

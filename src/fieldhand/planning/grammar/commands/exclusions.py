@@ -8,11 +8,20 @@ from dataclasses import dataclass, replace
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import CaptureCommand, Command, Connective, Lead, Likewise, PlaceMeaning, Said
+from fieldhand.planning.grammar.meaning import (
+    CaptureCommand,
+    Command,
+    Connective,
+    Lead,
+    Likewise,
+    LinkedCommand,
+    PlaceMeaning,
+    Said,
+)
 from fieldhand.planning.grammar.places.groups import except_for, except_positions
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import named_places, swapped
+from fieldhand.planning.selections import chooses_from_trees, named_places, over, swapped
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -112,7 +121,22 @@ def left_out_before(out: Excluded, joint: Connective, rest: Said, site: Site) ->
         return None  # "skip row 3. Photograph every other row.": each of those that are left, or every second one?
     without = _each_without(rest, out, site, first=True)
     having = [number for number, one in enumerate(without) if one is not None]
-    return _with(rest, without, having) if having else None
+    return _in_other_area(_with(rest, without, having), rest) if having else None
+
+
+def _in_other_area(said: Said, before: Said) -> Said:
+    """Return commands with the places that follow "in the other one" chosen there."""
+    area, following = said.clauses[0].command, said.clauses[1:2]
+    if not isinstance(area, Lead) or area == before.clauses[0].command or not following:
+        return said
+    inner = following[0].command
+    if not isinstance(inner, CaptureCommand | Lead) or inner.place is None or area.place.shape != "area":
+        return said
+    if inner.place.shape not in ("one", "several") or not chooses_from_trees(inner.place.selector):
+        return said
+    place = replace(inner.place, selector=over(inner.place.selector, area.place.selector))
+    merged = replace(inner, place=place, used=inner.used | area.used)
+    return Said((LinkedCommand(said.clauses[0].before, merged), *said.clauses[2:]))
 
 
 def _is_every_second(command: Command) -> bool:
