@@ -62,7 +62,7 @@ def spacing_of_many(dist: float) -> tuple[float, bool]:
 
 
 @construction(
-    "own_stops: [STOPBY] POINT [COMMA] dist=spaced",
+    "own_stops: [STOPBY] [WITH] [DET] POINT [COMMA] dist=spaced",
     "own_stops: STOPEACH dist=every",
     "own_stops: [DET] READING dist=every",
     "own_stops: ONE READING dist=every",

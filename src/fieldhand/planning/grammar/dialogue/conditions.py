@@ -389,6 +389,11 @@ def _for_each_place(state: DialogueState, tests: AllTests, following: Sequence[L
     there = isinstance(command, CaptureCommand) and command.place is not None and command.place.shape == "here"
     if tests.of_last == "any" and state.loop is not None and there:
         return replace(tests, of_last="")
+    places = {node.act.at for _, node in walk(state.plan) if node.act is not None and node.act.at is not None}
+    spoken_of = isinstance(command, CaptureCommand) and is_spoken_of(command.place)
+    if tests.of_last == "any" and state.loop is None and spoken_of and len(places) > 1:
+        # "at tree 4 and at tree 9 ...; if either one is low, a picture there": at that one
+        raise NotComposed(message("it is not clear at which of them this is done", context="fault"))
     return tests
 
 

@@ -27,6 +27,7 @@ from fieldhand.planning.selections import (
     as_zone,
     counts_in_row,
     is_by_attribute,
+    is_end_of_site,
     is_one_row,
     named_places,
     over,
@@ -48,7 +49,7 @@ def with_known_place(setting: Setting, state: DialogueState, command: Command) -
     """
     if not isinstance(command, _WithPlace) or command.place is None:
         return command
-    place = _in_row_spoken_of(state, command.place)
+    place = _end_of_row_spoken_of(state, _in_row_spoken_of(state, command.place))
     command = replace(command, place=place)
     if place.beside:
         return replace(command, place=_beside(setting, state, place, command.used))
@@ -78,6 +79,31 @@ def _in_row_spoken_of(state: DialogueState, place: PlaceMeaning) -> PlaceMeaning
     if len(rows) != 1 or before.selector.relative or not is_one_row(next(iter(rows))):
         return place
     return replace(place, selector=swapped(place.selector, s.RowOf(), rows.pop()))
+
+
+def _end_of_row_spoken_of(state: DialogueState, place: PlaceMeaning) -> PlaceMeaning:
+    """Return "the first tree" and "the last tree" behind the trees of one row as the ends of that row.
+
+    Raises:
+        NotComposed: The trees before were those of several rows, or an order of visits was given.
+    """
+    before = state.where
+    if not is_end_of_site(place.selector) or before is None or before.shape != "several" or state.area is not None:
+        return place
+    rows = {part for part in before.selector.walk() if are_rows(part)}
+    if not rows:
+        return place
+    last = place.selector == s.Last()
+    row = rows.pop()
+    if rows or not is_one_row(row):
+        raise NotComposed(message("it is not clear which one is meant", context="fault"))
+    ordered = next((part for part in before.selector.walk() if isinstance(part, s.Ordered)), None)
+    if ordered is None:
+        return replace(place, selector=s.InRow(first=-1 if last else 1, last=-1 if last else 1, of=row))
+    side = ordered.by.partition("_to_")[2 if last else 0]
+    if side not in SIDES:
+        raise NotComposed(message("it is not clear which one is meant", context="fault"))
+    return replace(place, selector=s.Extreme(side=side, of=row))
 
 
 def _of_another_value(state: DialogueState, described: s.Selector) -> s.Selector:

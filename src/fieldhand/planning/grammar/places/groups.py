@@ -422,6 +422,7 @@ def except_numbers(inner: Nominal, trees: tuple[str, ...]) -> PlaceMeaning | Non
     "place: whole=place [COMMA] except part=place",
     "place: whole=place BUT part=place",
     "place: whole=place [COMMA] except in_ part=place",
+    "place: whole=place [COMMA] except which_is in_ part=place",
     "place: whole=place [COMMA] except those_in part=place",
     "place: whole=place [COMMA] those_in part=place LEFTOUT",
     cost=0.3,

@@ -486,7 +486,7 @@ def ranking_word(attribute: Lex) -> tuple[str, bool]:
     return cast("tuple[str, bool]", attribute.value)
 
 
-@construction("ranking: rank=ranking attribute=ATTR", cost=0.0)
+@construction("ranking: rank=ranking [DASH] attribute=ATTR", cost=0.0)
 def ranking_of(rank: tuple[str, bool], attribute: Lex) -> list[tuple[str, bool]] | None:
     """Compose "highest yield"."""
     return [(name, rank[1]) for name in attribute.value] if not rank[0] else None

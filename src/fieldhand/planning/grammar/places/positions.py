@@ -7,7 +7,7 @@ from dataclasses import replace
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning, Shape
-from fieldhand.planning.grammar.places.compass import SIDES
+from fieldhand.planning.grammar.places.compass import AWAY_FROM, SIDES
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.row_by_row import MOST_ONE_BY_ONE, one_by_one
 from fieldhand.planning.grammar.words import Lex
@@ -455,6 +455,12 @@ def from_side(side: Lex) -> Side | None:
     return side.value if side.value in SIDES else None
 
 
+@construction("start: side=start [COMMA] [AND] GOING [AT] [DET] to=DIR", cost=0.1)
+def from_side_and_on(side: Side, to: Lex) -> Side | None:
+    """Compose "starting from the south and working north"."""
+    return side if AWAY_FROM.get(side, "").endswith(f"_to_{to.value}") else None
+
+
 @construction(
     "place: whole=place [COMMA] COUNTED [DET] side=DIR",
     "place: whole=place [COMMA] COUNTED [DET] side=DIR FINISH",
@@ -463,10 +469,18 @@ def from_side(side: Lex) -> Side | None:
 )
 def counted_from(whole: PlaceMeaning, side: Lex) -> PlaceMeaning | None:
     """Compose "every other tree of row 6 counted from the south" and "trees 4 to 8 of row 3 counted from the south"."""
-    counted = as_every_nth(whole.selector) or as_in_row(whole.selector)
+    counted = as_every_nth(whole.selector) or as_in_row(whole.selector) or _as_positions(whole.selector)
     if counted is None or counted.counted_from != "usual" or side.value not in SIDES:
         return None
     return replace(whole, selector=replace(counted, counted_from=side.value))
+
+
+def _as_positions(selector: s.Selector) -> s.InRow | None:
+    """Return trees with successive numbers as positions of a row that was named before; None for others."""
+    numbers = [int(one.tree) for one in selector.members if isinstance(one, s.TreeIs) and one.tree.isdigit()]
+    if len(numbers) != len(selector.members) or numbers != list(range(numbers[0], numbers[-1] + 1)):
+        return None
+    return s.InRow(first=numbers[0], last=numbers[-1])
 
 
 @construction(

@@ -121,7 +121,7 @@ def way_to_side(side: Lex) -> Towards | None:
     return side.value if side.value in SIDES else None
 
 
-@construction("stride: n=count TREE way=way", "stride: n=count way=way", cost=0.1)
+@construction("stride: [ANOTHER] n=count TREE way=way", "stride: n=count way=way", cost=0.1)
 def stride(n: int, way: Towards) -> tuple[int, Towards]:
     """Compose "three trees to the north"."""
     return (n, way)
@@ -245,16 +245,16 @@ def at_distance(of: s.Selector, at: Distance) -> s.Selector | None:
 
 
 @construction(
-    "place: [EACH] [DET] [OTHER] inner=nominal [which_is] at=distance",
+    "place: [each=EACH] [DET] [OTHER] inner=nominal [which_is] at=distance",
     "place: [ANY] n=count inner=nominal at=distance",
     cost=0.2,
 )
-def within(inner: Nominal, at: Distance, n: int | None = None) -> PlaceMeaning | None:
+def within(inner: Nominal, at: Distance, n: int | None = None, each: Lex | None = None) -> PlaceMeaning | None:
     """Compose "all trees within 20 m of the charger" and "three trees within 20 m of the charger"."""
     there = at_distance(inner.selector, at)
     if there is None or inner.single or (n is not None and inner.complete):
         return None
-    if n is None and at[2].shape == "here" and not inner.plural:
+    if n is None and at[2].shape == "here" and not inner.plural and each is None:
         return None
     if n is None:
         return _beside(at[2], PlaceMeaning(there, "several"))
