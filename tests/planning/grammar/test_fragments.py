@@ -58,6 +58,11 @@ IN_ORCHARD = [
     ("Photograph trees 4 and 5. CO2 each.", "for UnionOf(TreeIs(4)+TreeIs(5)): [picture; co2]"),
     ("CO2 at every tree of row 9, minus any that lie inside the wet corner", "for Excluding(InZone(wet corner), of Rows(9, 9)): [co2]"),
     ("Rows 1 to 10, but the odd-numbered ones only: CO2 at every tree", "for Rows(1, 10, 2): [co2]"),
+    ("To do, in this order:\n- tree 7: temp\n- tree 7: co2\n- tree 9: co2", "air @ TreeIs(7); co2 @ TreeIs(7); co2 @ TreeIs(9)"),
+    ("You know the pond? The three trees sitting closest to it: air temp, please", "for Nearest(InZone(pond), 3): [air]"),
+    ("Yellow trees, five of them, the ones nearest the charger: CO2", "for Nearest(Marker(charger), 5, of Where(leaf_color, eq, yellow)): [co2]"),
+    ("Carmels, the three closest to the pond, a picture of each", "for Nearest(InZone(pond), 3, of Where(variety, eq, Carmel)): [picture]"),
+    ("Northwest corner tree: pic. Southeast corner tree: pic. In between, nothing.", "picture @ Corners(nw); picture @ Corners(se)"),
 ]  # fmt: skip
 BY_AMIGA = [
     ("Soil moisture, forty centimetres down, row 5, every other tree", "for EveryNth(2, of Rows(5, 5)): [moisture(depth_cm 40)]"),
@@ -74,6 +79,8 @@ IN_VINEYARD = [
     ("South block, row 13, vines 1 to 5, only the odd-numbered ones: infrared image.", "for UnionOf(InRow(1, 1, of Rows(13, 13, of InBlock(South)))+InRow(3, 3, of Rows(13, 13, of InBlock(South)))+InRow(5, 5, of Rows(13, 13, of InBlock(South)))): [picture] | return_to_start"),
     ("Merlot. Block North. Five vines. Thermal each.", "for Take(5, of Where(variety, eq, Merlot, of InBlock(North))): [picture] | return_to_start"),
     ("Row 13 of block North, please. Oh, sorry, I meant row 10! And just vines 20 to 22, a picture of each", "for InRow(20, 22, of Rows(10, 10, of InBlock(North))): [picture] | return_to_start"),
+    ("Cabernet Sauvignon, eight of them, nearest the start, a thermal photo each", "for Nearest(Marker(start), 8, of Where(variety, eq, Cabernet Sauvignon)): [picture] | return_to_start"),
+    ("South blk. Rows 10-12. 10th vine each, counted from north. CO2.", "for InRow(10, 10, north, of Rows(10, 12, of InBlock(South))): [co2] | return_to_start"),
 ]  # fmt: skip
 #: What leaves open which of the places is meant, or what is captured at which.
 OPEN = [
@@ -98,6 +105,15 @@ OPEN = [
     "Go to the last tree of row 3 and take CO2 at every third tree.",
     "CO2 each.",
     "Take a picture of tree 4. CO2 each.",
+    "Row 6. The three trees closest to it: air temp.",
+    "Third tree each: CO2",
+    "Yellow trees. CO2. Northern half. Thermal.",
+    "Row 3. CO2. But not the first tree.",
+    "Tree 4, picture. Tree 9, nothing.",
+    "Row 3. Two trees. Row 5. Three trees. CO2.",
+    "Row 3. First tree. Last tree. CO2.",
+    "Row 3, row 4. CO2 at the first tree.",
+    "Tree 4. Tree 9. If hot, CO2.",
 ]  # fmt: skip
 OPEN_IN_VINEYARD = [
     "CO2, row 10, fifth vine from the north. Just that.",

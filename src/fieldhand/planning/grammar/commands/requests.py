@@ -625,6 +625,13 @@ def so_often_first(times: Lex, rest: Said, used: int) -> Said:
     return Said((LinkedCommand(None, again), *rest.clauses))
 
 
+@construction("said: one=order COMMA FULLSTOP rest=said", cost=0.2)
+def order_of_list(one: InAnOrder, rest: Said) -> Said:
+    """Compose "in this order:", above the lines of a list."""
+    first, *others = rest.clauses
+    return Said((LinkedCommand(None, one), replace(first, before=Connective(False, False, 0, bare=True)), *others))
+
+
 @construction("lead: WHOLETHING", cost=0.5)
 def all_of_it(used: int) -> Lead:
     """Compose "the whole thing", of an area that is named beside it."""

@@ -473,7 +473,8 @@ def capture_elided(setting: Setting, state: DialogueState) -> DialogueState:
         return state
     if lead.relation == "" and lead.place.selector.named_marker:
         raise NotComposed(message("it is not clear from which place that is measured", context="fault"))
-    if lead.relation == "" and specifies_part(lead.place.selector) and _is_some_of_area(state.where):
+    part = lead.place.selector == s.Trees() or specifies_part(lead.place.selector)
+    if lead.relation == "" and part and _is_some_of_area(state.where):
         raise NotComposed(
             message("it is not clear whether these are some of the places before, or others", context="fault")
         )  # "take CO2 in row 9. Every other tree."

@@ -32,7 +32,7 @@ from fieldhand.planning.grammar.dialogue.driving import (
 from fieldhand.planning.grammar.dialogue.faults import Fork
 from fieldhand.planning.grammar.dialogue.fitting import in_area, is_spoken_of
 from fieldhand.planning.grammar.dialogue.fragments import assembled
-from fieldhand.planning.grammar.dialogue.likewise import with_known_place
+from fieldhand.planning.grammar.dialogue.likewise import anchors, with_known_place
 from fieldhand.planning.grammar.dialogue.plans import (
     EMPTY,
     as_for_each,
@@ -368,7 +368,7 @@ def _rest_of_sentence(following: Sequence[LinkedCommand]) -> list[LinkedCommand]
 def _new_sentence(setting: Setting, state: DialogueState, command: Command) -> DialogueState:
     """Return the state at the beginning of a sentence whose first command is known."""
     state = capture_elided(setting, state)
-    if state.lead is not None and not state.lead.relation and _is_done_there(command):
+    if state.lead is not None and not state.lead.relation and _is_done_there(command, state.lead):
         state = replace(state, lead=replace(state.lead, relation="topic"))  # "Row 6. A picture of each tree."
     if state.open or (state.lead is not None and state.lead.relation != "topic"):
         raise NotComposed(_IDLE, advice=_WHAT_THERE)
@@ -379,10 +379,12 @@ def _new_sentence(setting: Setting, state: DialogueState, command: Command) -> D
     return replace(state, scope=scope, commands_in_sentence=0, within=None, runs_on=False)
 
 
-def _is_done_there(command: Command) -> bool:
-    """Return True for a capture at places that were spoken of, or at each tree."""
+def _is_done_there(command: Command, lead: Lead) -> bool:
+    """Return True for a capture at places that were spoken of or are measured from one, or at each tree."""
     place = command.place if isinstance(command, CaptureCommand) else None
-    return place is not None and (is_spoken_of(place) or place.selector == s.Trees())
+    if place is None:
+        return False
+    return is_spoken_of(place) or place.selector == s.Trees() or lead.place.selector in anchors(place.selector)
 
 
 def _lead(setting: Setting, state: DialogueState, command: Lead) -> DialogueState:

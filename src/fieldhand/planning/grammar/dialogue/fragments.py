@@ -178,7 +178,13 @@ def _commands(setting: Setting, clauses: Sequence[LinkedCommand], *, last: bool)
     steps = _steps(setting, clauses)
     for one, other in pairwise(steps):
         areas = any(place.shape == "area" or not named_places(place.selector) for place in one.places)
-        if areas and any(specifies_part(place.selector) for place in other.places):
+        parts = any(specifies_part(place.selector) for place in other.places)
+        shared = any(
+            _shares_trees(setting, place, after) and place.selector != after.selector
+            for place in one.places
+            for after in other.places
+        )
+        if (areas and parts) or shared:
             raise _unclear(other.used)
     steps = _with_captures_of_last(steps)
     *whole, end = steps

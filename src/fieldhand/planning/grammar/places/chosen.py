@@ -311,7 +311,25 @@ def _with_nth(chosen: Chosen, **changed: Any) -> Chosen | None:
     return replace(chosen, choice=replace(choice, value=replace(choice.value, **changed)))
 
 
-@construction("chosen: chosen=chosen [COMMA] choice=chosen_as", cost=0.1)
+@construction("chosen: chosen=chosen COMMA n=count OFTHEM", cost=0.2)
+def so_many_of_them(chosen: Chosen, n: int) -> Chosen | None:
+    """Compose "yellow trees, eight of them"."""
+    return replace(chosen, count=n) if chosen.count is None and chosen.choice is None and chosen.rank is None else None
+
+
+@construction("chosen: chosen=chosen COMMA DET n=count choice=chosen_as", cost=0.2)
+def so_many_chosen_behind(chosen: Chosen, n: int, choice: Choice) -> Chosen | None:
+    """Compose "yellow trees, the eight nearest to the charger"."""
+    some = so_many_of_them(chosen, n)
+    return None if some is None else _with_choice(some, choice)
+
+
+@construction(
+    "chosen: chosen=chosen [COMMA] choice=chosen_as",
+    "chosen: chosen=chosen STANDS choice=chosen_as",
+    "chosen: chosen=chosen COMMA DET ONE [STANDS] choice=chosen_as",
+    cost=0.1,
+)
 def chosen_behind(chosen: Chosen, choice: Choice) -> Chosen | None:
     """Compose "trees nearest to the charger"."""
     return _with_choice(chosen, choice)

@@ -176,6 +176,7 @@ def trees_of_row(where: tuple[int, int], rows: s.Selector, inner: Nominal = _TRE
     "place: DET rank=ORD",
     "place: [DET] rank=ORD inner=nominal [COMMA] FROM [DET] side=DIR",
     "place: [DET] rank=ORD FROM [DET] side=DIR",
+    "place: [DET] rank=ORD inner=nominal EACH",
     cost=0.6,
 )
 def tree_of_row_named_before(rank: Lex, inner: Nominal | None = None, side: Lex | None = None) -> PlaceMeaning | None:
