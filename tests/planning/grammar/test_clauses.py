@@ -684,7 +684,7 @@ PLANNED = [
     (
         "husky",
         "Photograph every tree of row 3, not the yellow ones.",
-        "for Excluding(Where(leaf_color, eq, yellow, of Rows(3, 3)), of Rows(3, 3)): [picture]",
+        "for Excluding(Where(leaf_color, eq, yellow), of Rows(3, 3)): [picture]",
     ),
     (
         "husky",

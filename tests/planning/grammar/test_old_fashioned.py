@@ -135,6 +135,8 @@ OPEN = [
     "Photograph row 4. Skip tree 45.",
     "Photograph row 3. Not the CO2.",
     "Photograph the three oldest trees. Skip the Carmels.",
+    "Photograph every tree in row 3. Not just tree 45.",
+    "Photograph every tree in row 3, not just tree 45.",
     "Skip row 3. Take pictures of every other row.",
     "Leave tree 4 alone.",
     "Don't photograph row 3.",

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.naming import Naming
-from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.chart import Grammar, tokens_of
 from fieldhand.planning.grammar.meaning import (
     CaptureCommand,
     Command,
@@ -82,14 +82,17 @@ def any_there_kept_out(where: s.Selector, word: Lex | None = None) -> Excluded |
     "excluded: EXCEPT out=kept_out",
     "excluded: LEAVE out=kept_out ALONE",
     "excluded: out=kept_out LEFTOUT",
-    "excluded: NOT out=kept_out",
-    "excluded: THOUGH NOT out=kept_out",
-    "excluded: NOT out=kept_out [COMMA] THOUGH",
+    "excluded: word=NOT out=kept_out",
+    "excluded: THOUGH word=NOT out=kept_out",
+    "excluded: word=NOT out=kept_out [COMMA] THOUGH",
     "excluded: WITHOUT verb=ACTV out=kept_out",
     cost=0.2,
 )
-def excluded(out: Excluded, used: int, verb: Lex | None = None) -> Excluded | None:
+def excluded(out: Excluded, used: int, verb: Lex | None = None, word: Lex | None = None) -> Excluded | None:
     """Compose "skip the yellow trees", "leave the Carmels be" and "tree 4 can be left out"."""
+    tokens = tokens_of(used)
+    if word is not None and len(tokens) < tokens[-1] - tokens[0] + 1:
+        return None  # "not just tree 4"
     if verb is None:
         return replace(out, used=used)
     naming: Naming = verb.value

@@ -254,7 +254,7 @@ def _unvisited(selector: s.Selector) -> s.Selector:
     return s.NotVisited(of=selector)
 
 
-@construction("except: [COMMA] EXCEPT [FOR]", "except: [COMMA] word=WITHOUT", "except: COMMA NOT", cost=0.0)
+@construction("except: [COMMA] EXCEPT [FOR]", "except: [COMMA] word=WITHOUT", cost=0.0)
 def except_word(word: Lex | None = None) -> str | None:
     """Compose "except for" and "without"."""
     return "except" if word is None or "leaves_out" in word.features else None
