@@ -215,6 +215,10 @@ def go_home(setting: Setting, state: DialogueState, command: Home) -> DialogueSt
         return replace(state, nominal=command.then, nominal_said=said)
     if not is_conditional(state.scope):
         state = replace(state, scope=())  # the way home is never optional
+    if state.loop is not None and is_inside(state.scope, state.loop):
+        # "at each tree ..., if it is high, go home": the other trees are not visited then
+        stopped = with_step(state, p.StopMission(id="", said=said))
+        return replace(stopped, nominal=command.then, commands_in_sentence=state.commands_in_sentence + 1)
     if state.scope:
         return replace(drive(setting, state, _way_home(command)), in_case=command.then)
     return replace(state, nominal=command.then, nominal_said=said, home=command, open=False)
