@@ -447,13 +447,13 @@ def beginning_of_row(rows: s.Selector) -> PlaceMeaning:
     "start: STARTING [DET] side=MOST [TREE]",
     "start: STARTING [DET] side=MOST ONE",
     "start: STARTING ITS side=MOST [TREE]",
-    "start: STARTING [DET] TREE AT [DET] side=DIR FINISH [in_] [any_rows]",
+    "start: STARTING [DET] [rank=ORD] TREE AT [DET] side=DIR FINISH [in_] [any_rows]",
     "start: STARTING [DET] side=DIR FINISH in_ any_rows",
     cost=0.1,
 )
-def from_side(side: Lex) -> Side | None:
-    """Compose "starting from the north"."""
-    return side.value if side.value in SIDES else None
+def from_side(side: Lex, rank: Lex | None = None) -> Side | None:
+    """Compose "starting from the north" and "starting with the first tree at the north end"."""
+    return side.value if side.value in SIDES and (rank is None or rank.value == 1) else None
 
 
 @construction("start: side=start [COMMA] [AND] GOING [AT] [DET] to=DIR", cost=0.1)
