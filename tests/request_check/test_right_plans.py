@@ -155,6 +155,7 @@ def test_a_right_plan_in_another_form_is_not_doubted(rewrite: Callable[[Any], An
             measures={},
             constraints=task.constraints,
             nominal=task.composition.nominal,
+            read_as=task.command.read_as,
         )
         assert mismatches(other, DEMO, ROBOTS[robot]) == (), request
     assert changed >= 4

@@ -239,6 +239,11 @@ def as_rows(selector: s.Selector) -> s.Rows | None:
     return selector if isinstance(selector, s.Rows) else None
 
 
+def as_ordered(selector: s.Selector) -> s.Ordered | None:
+    """Return the selector if it sorts places, None otherwise."""
+    return selector if isinstance(selector, s.Ordered) else None
+
+
 def as_every_nth(selector: s.Selector) -> s.EveryNth | None:
     """Return the selector if it selects every n-th tree, None otherwise."""
     return selector if isinstance(selector, s.EveryNth) else None

@@ -15,6 +15,7 @@ from planning.english.vineyards import vineyard
 
 ORCHARD, HUSKY, AMIGA = open_site("demo"), load_robot("husky"), load_robot("amiga")
 IN_ORCHARD = [
+    ("Row 3. CO2. But not the first tree.", "for Excluding(InRow(1, 1, of Rows(3, 3)), of Rows(3, 3)): [co2]"),
     ("Row 6. Thermal. The whole thing. Then home.", "for Rows(6, 6): [picture] | return_to_start"),
     ("Row 6. All of it. Thermal.", "for Rows(6, 6): [picture]"),
     ("Row 6. All trees. Thermal.", "for Rows(6, 6): [picture]"),
@@ -73,12 +74,12 @@ IN_VINEYARD = [
     ("Block South, rows 3 and 5, first and last vine. CO2.", "for UnionOf(InRow(1, 1, of UnionOf(Rows(3, 3, of InBlock(South))+Rows(5, 5, of InBlock(South))))+InRow(-1, -1, of UnionOf(Rows(3, 3, of InBlock(South))+Rows(5, 5, of InBlock(South))))): [co2] | return_to_start"),
     ("Have a look at the north block, row 12. Every sixth vine, a picture of each, then go back", "for EveryNth(6, of Rows(12, 12, of InBlock(North))): [picture] | return_to_start"),
     ("Row 10 of block North. Vines 20 to 22, a picture of each.", "for InRow(20, 22, of Rows(10, 10, of InBlock(North))): [picture] | return_to_start"),
-    ("Row 13 of block North, please. Oh, sorry, I meant row 10 of block North! And just vines 20 to 22, a picture of each", "for InRow(20, 22, of Rows(10, 10, of InBlock(North))): [picture] | return_to_start"),
+    ("Row 13 of block North, please. Oh, sorry, I meant row 10 of block North! Just vines 20 to 22, a picture of each", "for InRow(20, 22, of Rows(10, 10, of InBlock(North))): [picture] | return_to_start"),
     ("South block, row 13: first vine CO2, last vine CO2, nothing else, then back to where you started from", "co2 @ InRow(1, 1, of Rows(13, 13, of InBlock(South))); co2 @ InRow(-1, -1, of Rows(13, 13, of InBlock(South))) | return_to_start"),
     ("North. Row 11. Every vine. Thermal.", "for Rows(11, 11, of InBlock(North)): [picture] | return_to_start"),
     ("South block, row 13, vines 1 to 5, only the odd-numbered ones: infrared image.", "for UnionOf(InRow(1, 1, of Rows(13, 13, of InBlock(South)))+InRow(3, 3, of Rows(13, 13, of InBlock(South)))+InRow(5, 5, of Rows(13, 13, of InBlock(South)))): [picture] | return_to_start"),
     ("Merlot. Block North. Five vines. Thermal each.", "for Take(5, of Where(variety, eq, Merlot, of InBlock(North))): [picture] | return_to_start"),
-    ("Row 13 of block North, please. Oh, sorry, I meant row 10! And just vines 20 to 22, a picture of each", "for InRow(20, 22, of Rows(10, 10, of InBlock(North))): [picture] | return_to_start"),
+    ("Row 13 of block North, please. Oh, sorry, I meant row 10! Just vines 20 to 22, a picture of each", "for InRow(20, 22, of Rows(10, 10, of InBlock(North))): [picture] | return_to_start"),
     ("Cabernet Sauvignon, eight of them, nearest the start, a thermal photo each", "for Nearest(Marker(start), 8, of Where(variety, eq, Cabernet Sauvignon)): [picture] | return_to_start"),
     ("South blk. Rows 10-12. 10th vine each, counted from north. CO2.", "for InRow(10, 10, north, of Rows(10, 12, of InBlock(South))): [co2] | return_to_start"),
 ]  # fmt: skip
@@ -108,7 +109,6 @@ OPEN = [
     "Row 6. The three trees closest to it: air temp.",
     "Third tree each: CO2",
     "Yellow trees. CO2. Northern half. Thermal.",
-    "Row 3. CO2. But not the first tree.",
     "Tree 4, picture. Tree 9, nothing.",
     "Row 3. Two trees. Row 5. Three trees. CO2.",
     "Row 3. First tree. Last tree. CO2.",

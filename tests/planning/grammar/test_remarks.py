@@ -185,7 +185,6 @@ TOLD_OF = [
 KEPT = [
     "Never the Syrah. Take a picture of tree 4.",
     "We never go to the Carmels. Take a picture of tree 4.",
-    "Take a picture of row 3, every tree, not the yellow ones, my dear.",
     "My boss says to skip row 4. Take a picture of row 3, every tree.",
     "The wet corner is off limits. Take a picture of every tree.",
     "The wet corner is flooded. Take a picture of every tree.",

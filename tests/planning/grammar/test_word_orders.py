@@ -8,7 +8,7 @@ import pytest
 
 from fieldhand.approval.account import unaccounted
 from fieldhand.planning.grammar.reader import composed
-from fieldhand.planning.planner import Planned
+from fieldhand.planning.planner import Clarify, Planned
 from fieldhand.request_check import mismatches
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.loader import open_site
@@ -86,3 +86,25 @@ def test_a_word_of_the_robot_may_be_an_attribute_of_the_site() -> None:
     outcome = composed("At each tree with yellow leaves, measure nitrate.", DEMO, AMIGA)
     assert isinstance(outcome, Planned)
     assert outline(outcome.task) == "for Where(leaf_color, eq, yellow): [nitrate]"
+
+
+@pytest.mark.parametrize(
+    "request_",
+    [
+        "Photograph all but the first two trees in row 2.",
+        "Photograph all but the last two trees of row 2.",
+        "All but the last tree of row 3: CO2.",
+        "Measure CO2 at all but the northernmost tree of row 2.",
+    ],
+)
+def test_all_but_a_part_of_a_row_is_of_the_row_or_of_the_site(request_: str) -> None:
+    outcome = composed(request_, DEMO, HUSKY)
+    assert isinstance(outcome, Clarify)
+    assert all("other than" in choice for choice in outcome.choices)
+
+
+@pytest.mark.parametrize(
+    "request_", ["Photograph all, but the first two trees of row 2.", "CO2, but three trees of row 2."]
+)
+def test_what_follows_but_is_no_place_of_the_captures_before_it(request_: str) -> None:
+    assert not isinstance(composed(request_, DEMO, HUSKY), Planned)

@@ -515,7 +515,8 @@ class Connective:
     Attributes:
         full: True if it separates sentences.
         then: True if it says that one follows the other.
-        both: True if it contains "and".
+        both: True if it contains "and" or "but".
+        contrasts: True if it contains "but".
         first: True if it says that what follows is to be done before ("but first").
         of_all: True if it is to be done before all others ("before all of that").
         from_here: True if what follows begins where the robot is then ("from there").
@@ -529,6 +530,7 @@ class Connective:
     first: bool = False
     of_all: bool = False
     both: bool = False
+    contrasts: bool = False
     from_here: bool = False
     bare: bool = False
     purpose: bool = False

@@ -21,7 +21,7 @@ from fieldhand.planning.grammar.meaning import (
 from fieldhand.planning.grammar.places.groups import except_for, except_positions
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import chooses_from_trees, named_places, over, swapped
+from fieldhand.planning.selections import as_rows, chooses_from_trees, named_places, over, swapped
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -156,7 +156,7 @@ def _each_without(said: Said, out: Excluded, site: Site, *, first: bool = False)
     Where no command has such places, those of a description are left out of all of them.
     """
     found = [_without(clause.command, out, site, first=first) for clause in said.clauses]
-    named = out.place is None or any(isinstance(one, s.TreeIs | s.Rows) for one in out.place.selector.walk())
+    named = out.place is None or any(one.named_tree or as_rows(one) for one in out.place.selector.walk())
     if named or any(one is not None for one in found):
         return found
     return [_without(clause.command, out, site, first=first, some=False) for clause in said.clauses]

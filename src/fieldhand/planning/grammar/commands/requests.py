@@ -85,10 +85,10 @@ def and_or_but(word: Lex) -> Lex:
     return word
 
 
-@construction("joint: [COMMA] and_or_but COMMA [then] [COMMA]", cost=0.3)
-def joint_with_comma(used: int, then: str = "") -> Connective:
+@construction("joint: [COMMA] both=and_or_but COMMA [then] [COMMA]", cost=0.3)
+def joint_with_comma(used: int, both: Lex, then: str = "") -> Connective:
     """Compose ", and, then"."""
-    return Connective(False, bool(then), used, both=True)
+    return Connective(False, bool(then), used, both=True, contrasts="contrast" in both.features)
 
 
 @construction(
@@ -106,7 +106,10 @@ def but_first(used: int, word: Lex) -> Connective:
 def joint(used: int, after: str = "", both: Lex | None = None) -> Connective | None:
     """Compose "and", and "then" that adds another place ("a picture of row 3, then of row 4")."""
     bare = not after and both is None
-    return None if after == "from here" else Connective(False, False, used, both=both is not None, bare=bare)
+    contrasts = both is not None and "contrast" in both.features
+    if after == "from here":
+        return None
+    return Connective(False, False, used, both=both is not None, contrasts=contrasts, bare=bare)
 
 
 @construction("joint: [before=COMMA] [both=and_or_but] then=then [COMMA]", cost=0.1)

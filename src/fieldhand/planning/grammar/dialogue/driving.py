@@ -34,6 +34,7 @@ from fieldhand.planning.selections import (
     are_rows,
     as_every_nth,
     as_in_row,
+    as_ordered,
     blocks_of,
     chooses_from_trees,
     is_next_to_here,
@@ -321,10 +322,11 @@ def ordered(setting: Setting, loop: p.ForEach, command: InAnOrder, said: Spans) 
         raise NotComposed(message("an order of places cannot be combined with a choice of how many", context="fault"))
     if command.by == "reverse":
         backwards = _reversed(loop.select, setting.site)
-        if (every := as_every_nth(loop.select)) is not None and isinstance(backwards, s.Ordered):
-            side = cast(Side, backwards.by.partition("_to_")[0])
+        every, ordered = as_every_nth(loop.select), as_ordered(backwards)
+        if every is not None and ordered is not None:
+            side = cast(Side, ordered.by.partition("_to_")[0])
             ways = (every, replace(every, counted_from=side))
-            backwards = replace(backwards, of=setting.either("counted from there?", command.used, ways))
+            backwards = replace(ordered, of=setting.either("counted from there?", command.used, ways))
         return replace(loop, select=backwards, order="given", said=said)
     if not command.by:
         return replace(loop, order="given", said=said)

@@ -141,7 +141,8 @@ def _end_of_fragments(clauses: Sequence[LinkedCommand]) -> int:
 def _is_fragment(clause: LinkedCommand, *, first: bool) -> bool:
     match clause.command:
         case Lead(relation=relation, things=things):
-            return relation != "topic" and not things
+            leaves_out = clause.before is not None and clause.before.contrasts  # "all but the first two trees"
+            return relation != "topic" and not things and not leaves_out
         case DriveCommand() as drive:
             return first and drive.place.shape == "area" and not (drive.begins or drive.returns or drive.ends)
         case CaptureCommand() as command:

@@ -22,6 +22,7 @@ from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.selections import (
     are_rows,
     as_in_row,
+    as_ordered,
     as_some,
     as_where,
     as_zone,
@@ -97,7 +98,7 @@ def _end_of_row_spoken_of(state: DialogueState, place: PlaceMeaning) -> PlaceMea
     row = rows.pop()
     if rows or not is_one_row(row):
         raise NotComposed(message("it is not clear which one is meant", context="fault"))
-    ordered = next((part for part in before.selector.walk() if isinstance(part, s.Ordered)), None)
+    ordered = next((one for part in before.selector.walk() if (one := as_ordered(part)) is not None), None)
     if ordered is None:
         return replace(place, selector=s.InRow(first=-1 if last else 1, last=-1 if last else 1, of=row))
     side = ordered.by.partition("_to_")[2 if last else 0]

@@ -133,7 +133,7 @@ def _other_place(old: PlaceMeaning, new: PlaceMeaning) -> PlaceMeaning | None:
             return replace(old, selector=over(new.selector, blocks.pop()), tokens=old.tokens | new.tokens)
         return replace(new, tokens=old.tokens | new.tokens)
     named = (*named_places(old.selector), *named_places(new.selector))
-    if old.shape == new.shape == "several" and all(isinstance(one, s.TreeIs) for one in named):
+    if old.shape == new.shape == "several" and all(one.named_tree for one in named):
         return replace(new, tokens=old.tokens | new.tokens)
     if new.shape != "area":
         return None

@@ -11,10 +11,12 @@ from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.places.rows import rows_at
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
+    AREAS,
     are_rows,
     are_several_rows,
     as_in_row,
     as_random,
+    as_rows,
     as_some,
     as_top,
     blocks_of,
@@ -423,12 +425,12 @@ def except_numbers(inner: Nominal, trees: tuple[str, ...]) -> PlaceMeaning | Non
     "place: whole=place BUT part=place",
     "place: whole=place [COMMA] except in_ part=place",
     "place: whole=place [COMMA] except which_is in_ part=place",
-    "place: whole=place [COMMA] except those_in part=place",
-    "place: whole=place [COMMA] those_in part=place LEFTOUT",
+    "place: whole=place [COMMA] except those=those_in part=place",
+    "place: whole=place [COMMA] those=those_in part=place LEFTOUT",
     cost=0.3,
     given=("site",),
 )
-def except_for(whole: PlaceMeaning, part: PlaceMeaning, site: Site) -> PlaceMeaning | None:
+def except_for(whole: PlaceMeaning, part: PlaceMeaning, site: Site, those: str = "") -> PlaceMeaning | None:
     """Compose "all trees except the yellow trees"."""
     if (
         whole.shape not in ("several", "area")
@@ -441,7 +443,7 @@ def except_for(whole: PlaceMeaning, part: PlaceMeaning, site: Site) -> PlaceMean
         return whole  # "the trees within 12 m of tree 40, but not tree 40 itself"
     if whole.selector != s.Trees() and any(is_end_of_site(one) or one.named_marker for one in part.selector.members):
         return None  # the first, the last or the ends of these, not of the site
-    trees = {one.tree for one in part.selector.walk() if isinstance(one, s.TreeIs)}
+    trees = {one.named_tree for one in part.selector.walk() if one.named_tree}
     if trees and whole.selector != s.Trees() and not trees <= (ids_of(whole.selector, site) or set()):
         return None
     if whole.per is not None:
@@ -451,7 +453,8 @@ def except_for(whole: PlaceMeaning, part: PlaceMeaning, site: Site) -> PlaceMean
     blocks = set(blocks_of(whole.selector))
     if len(blocks) == 1 and are_rows(part.selector) and is_whole_rows(part.selector) and not is_in_block(part.selector):
         part = replace(part, selector=over(part.selector, blocks.pop()))  # "row 4" behind "rows 1 to 6 of block North"
-    all_of_it = whole.shape == "area" and part.shape == "several"  # "row 6 except the yellow trees"
+    trees_of_it = part.shape == "several" or bool(those)  # "row 6 except the yellow trees", "... any in the wet corner"
+    all_of_it = whole.shape == "area" and trees_of_it
     selector = s.Excluding(places=part.selector, of=whole.selector)
     return replace(whole, selector=selector, shape="several" if all_of_it else whole.shape)
 
@@ -484,11 +487,11 @@ def those_of_parity(whole: PlaceMeaning, which: str) -> PlaceMeaning | None:
     if row is not None and 0 < row.first < row.last:
         numbers = [n for n in range(row.first, row.last + 1) if n % 2 == remainder]
         parts: tuple[s.Selector, ...] = tuple(replace(row, first=n, last=n) for n in numbers)
-    elif isinstance(selector, s.Rows) and selector.every == 1 and selector.counted_from == "usual":
-        low, high = selector.first, selector.last
+    elif (labelled := as_rows(selector)) is not None and labelled.every == 1 and labelled.counted_from == "usual":
+        low, high = labelled.first, labelled.last
         if not (low.isdigit() and high.isdigit() and int(low) < int(high)):
             return None
-        return replace(whole, selector=replace(selector, first=str(int(low) + (int(low) % 2 != remainder)), every=2))
+        return replace(whole, selector=replace(labelled, first=str(int(low) + (int(low) % 2 != remainder)), every=2))
     else:
         return None
     return replace(whole, selector=s.UnionOf(parts=parts), count=len(parts)) if len(parts) > 1 else None
@@ -616,11 +619,15 @@ def it(word: Lex) -> PlaceMeaning:
 
 
 @construction("place: EACH BUT part=place", "place: EACH EXCEPT part=place", cost=0.4)
-def all_but(part: PlaceMeaning) -> PlaceMeaning | None:
-    """Compose "all but the yellow trees"."""
-    if part.shape not in ("one", "several") or part.count or part.per is not None:
+def all_but(part: PlaceMeaning) -> list[PlaceMeaning] | None:
+    """Compose "all but the yellow trees", and "all but the last tree of row 3", of that row or of the site."""
+    if part.shape not in ("one", "several") or part.per is not None or part.optional or part.at_most is not None:
         return None
-    return PlaceMeaning(s.Excluding(places=part.selector), "several")
+    if as_some(part.selector) is not None:
+        return None
+    area = next((one for one in part.selector.walk() if isinstance(one, AREAS)), None)
+    wholes = [s.Trees()] if area is None else [area, s.Trees()]
+    return [PlaceMeaning(s.Excluding(places=part.selector, of=whole), "several") for whole in wholes]
 
 
 @construction("place: word=EACH n=count inner=nominal", cost=0.2, given=("site",))

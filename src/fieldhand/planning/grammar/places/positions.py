@@ -478,7 +478,7 @@ def counted_from(whole: PlaceMeaning, side: Lex) -> PlaceMeaning | None:
 
 def _as_positions(selector: s.Selector) -> s.InRow | None:
     """Return trees with successive numbers as positions of a row that was named before; None for others."""
-    numbers = [int(one.tree) for one in selector.members if isinstance(one, s.TreeIs) and one.tree.isdigit()]
+    numbers = [int(one.named_tree) for one in selector.members if one.named_tree.isdigit()]
     if len(numbers) != len(selector.members) or numbers != list(range(numbers[0], numbers[-1] + 1)):
         return None
     return s.InRow(first=numbers[0], last=numbers[-1])

@@ -297,7 +297,7 @@ def rows_beside(noun: Lex, to: Lex, side: Lex, site: Site, n: int | None = None)
     return s.UnionOf(parts=tuple(found)) if len(found) > 1 else found[0] if found else None
 
 
-def rows_towards(number: int, side: str, site: Site) -> s.Selector | None:
+def rows_towards(number: int, side: str, site: Site) -> s.RowOf | None:
     """Return the row so many rows to a side of the current one; None if the rows run to that side."""
     runs = {block.runs_east_west for block in site.planting.blocks}
     if runs != {side in ("north", "south")} or side not in SIDES:
