@@ -24,8 +24,9 @@ $(READY): pyproject.toml benchmarks/pyproject.toml constraints.txt scripts/setup
 demo: $(READY)
 	@$(BIN)/fieldhand demo
 
+# The rewritten assertions of the tests are kept for the next run, also where Python is told to keep no bytecode.
 test: $(READY)
-	@$(BIN)/python -m pytest -n $(WORKERS) --dist worksteal
+	@env -u PYTHONDONTWRITEBYTECODE $(BIN)/python -m pytest -n $(WORKERS) --dist worksteal
 
 check: $(READY)
 	$(BIN)/ruff check .

@@ -2,7 +2,8 @@
 
 Two thirds of a command's time go into loading libraries. So a first process loads them once and is then copied for each
 command; a copy has its own folder, environment, input and output, and ends as any program ends. What the interpreter
-itself reads from the environment takes a new process, and so does who asks for ``fresh`` one.
+itself reads from the environment takes a new process, and so does who asks for ``fresh`` one; who runs several commands
+with the same of these variables can have a first process :func:`loaded_with` them.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ import signal
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from functools import cache
@@ -53,6 +54,24 @@ def fieldhand(
         files[0].write_text(stdin or "")
         status = _ordered(words, cwd, environment, files)
         return Run(status=status, out=files[1].read_text(), err=files[2].read_text())
+
+
+@contextmanager
+def loaded_with(env: dict[str, str]) -> Iterator[Callable[..., Run]]:
+    """Have a first process with an environment; what it yields runs ``fieldhand`` there as :func:`fieldhand` does."""
+    first = _loaded(env)
+
+    def command(*words: str, cwd: Path) -> Run:
+        with tempfile.TemporaryDirectory() as folder:
+            files = [Path(folder) / name for name in ("in", "out", "err")]
+            files[0].touch()
+            status = _ordered(words, cwd, env, files, first=first)
+            return Run(status=status, out=files[1].read_text(), err=files[2].read_text())
+
+    try:
+        yield command
+    finally:
+        first.communicate()
 
 
 def at_terminal(*words: str, terminal: str, cwd: Path, env: dict[str, str]) -> int:
@@ -98,7 +117,7 @@ class Started:
         """Read what is left, and wait until it has ended."""
         out = self.out.read()
         self.out.close()
-        return Run(status=_answered({"wait": self.pid}), out=out, err=self._err.read_text())
+        return Run(status=_answered({"wait": self.pid}, _first()), out=out, err=self._err.read_text())
 
 
 def started(*words: str, folder: Path, env: dict[str, str] | None = None, deaf: bool = False) -> Started:
@@ -128,6 +147,7 @@ def _ordered(
     background: bool = False,
     terminal: bool = False,
     deaf: bool = False,
+    first: subprocess.Popen[str] | None = None,
 ) -> int:
     """Return the answer of the first process to an order."""
     order = {
@@ -140,11 +160,10 @@ def _ordered(
         "terminal": terminal,
         "deaf": deaf,
     }
-    return _answered(order)
+    return _answered(order, first or _first())
 
 
-def _answered(order: dict[str, object]) -> int:
-    first = _first()
+def _answered(order: dict[str, object], first: subprocess.Popen[str]) -> int:
     assert first.stdin is not None
     assert first.stdout is not None
     first.stdin.write(json.dumps(order) + "\n")
@@ -173,11 +192,17 @@ def _at_start(env: dict[str, str]) -> dict[str, str]:
 @cache
 def _first() -> subprocess.Popen[str]:
     """The process that is copied; it ends when these tests do."""
-    made = subprocess.Popen(
+    made = _loaded(dict(os.environ))
+    atexit.register(made.communicate)
+    return made
+
+
+def _loaded(env: dict[str, str]) -> subprocess.Popen[str]:
+    """Start a process that loads the libraries and is then copied."""
+    return subprocess.Popen(
         [sys.executable, str(Path(__file__).with_name("command_server.py"))],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         text=True,
+        env=env,
     )
-    atexit.register(made.communicate)
-    return made
