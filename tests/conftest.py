@@ -107,7 +107,7 @@ def _missions_of_the_tests(_no_private_environment: None, tmp_path_factory: pyte
 
 @pytest.fixture(scope="session", autouse=True)
 def _plans_of_this_run(tmp_path_factory: pytest.TempPathFactory) -> None:
-    """What one process has planned, the others need not plan."""
+    """Share plans: a request that one process has planned is not planned by the others."""
     own = tmp_path_factory.getbasetemp()
     keep_in((own.parent if "PYTEST_XDIST_WORKER" in os.environ else own) / "plans")
 

@@ -144,7 +144,7 @@ def manifest(changed: dict[str, Any]) -> object:
 
 
 def members(change: Callable[[str], str]) -> Iterator[Case]:
-    """What a bundle holds, signed by whom we trust."""
+    """The contents of a bundle, signed by whom we trust."""
     for name, data in members_of(good_bundle()).items():
         text = data.decode(errors="replace")
         if name.endswith((".yaml", ".geojson", ".xml")):

@@ -361,7 +361,7 @@ def answering(status: int, body: Callable[[str], bytes]) -> Iterator[str]:
 
 
 def robot_says(bundle: bytes) -> Callable[[str], bytes]:
-    """What a robot's agent answers, all of its words hostile."""
+    """The answers of a robot's agent, all of its words hostile."""
     sha256, worst = hashlib.sha256(bundle).hexdigest(), f"{FORMULA}{SEEN}{UNSEEN}"
     standing = {
         "bundle": sha256, "mission": worst, "task": worst, "request": worst, "signer": worst, "received_at": worst,

@@ -46,7 +46,7 @@ def test_no_token_no_answer(robot_agent: RobotAgentInProcess, said: str) -> None
 
 
 def test_guessing_is_slow_and_ends_and_never_locks_the_right_token_out(robot_agent: RobotAgentInProcess) -> None:
-    """Who guesses may share an address with who may give orders."""
+    """Somebody who guesses tokens may share an address with somebody who has one."""
 
     def guess() -> int:
         return robot_agent.call("GET", "/agent", headers=WRONG).status_code

@@ -169,7 +169,7 @@ def test_no_name_from_outside_is_a_name_of_a_file(empty: RobotAgentInProcess, na
 
 
 def test_an_older_approval_of_a_mission_does_not_come_back(tmp_path: Path) -> None:
-    """What was replaced by a later approval is neither taken nor started, wherever it is."""
+    """A bundle that was replaced by a later approval is neither taken nor started, wherever it is."""
     robot_agent = RobotAgentInProcess(tmp_path)
     old, new = pack_mission(at="2026-04-30T08:00:00+02:00"), good()
     robot_agent.upload(old)

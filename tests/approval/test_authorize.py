@@ -75,7 +75,7 @@ def test_no_other_module_makes_an_authorized_task():
 
 
 def _makes(path: Path) -> bool:
-    """Whether a module calls the class, or passes it on under another name."""
+    """Return True if a module calls the class, or passes it on under another name."""
     text = path.read_text(encoding="utf-8")
     if "AuthorizedTask" not in text:
         return False

@@ -30,7 +30,7 @@ from support.missions.signed import (
 
 
 def refused(data: bytes) -> str:
-    """What is said of it, on one line."""
+    """Return the message about it, on one line."""
     with pytest.raises(BundleError) as refusal:
         opened(data)
     assert "\n" not in str(refusal.value)

@@ -122,7 +122,7 @@ def whole(robot: str, request_: str) -> str:
 
 
 def same_figures(text: str) -> str:
-    """What drives and draws of the forecast come to is held elsewhere: here every figure of them is a 0."""
+    """Set every figure of the drives and draws to 0: other tests compare them."""
     figures = ("  En total", "  Nueve", "  Probabilidad")
     lines = [re.sub(r"\d+", "0", line) if line.startswith(figures) else line for line in text.splitlines()]
     return re.sub(r"se esperan \d+ de (\d+), \d+ %", r"se esperan 0 de \1, 0 %", "\n".join(lines))

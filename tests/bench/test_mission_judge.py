@@ -53,7 +53,7 @@ def log(*acts: tuple[str, int], status: str = "completed", end: tuple[float, flo
 
 
 def found(expect: dict[str, Any], lines: list[str]) -> str:
-    """What is wrong, or nothing."""
+    """Return the faults; none if all is right."""
     expected = ExpectForm.model_validate(expect).expected()
     return "; ".join(judge(GROUND, expected, read_log(lines, GROUND)))
 

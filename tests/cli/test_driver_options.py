@@ -18,7 +18,7 @@ RUN = ("run", "Measure CO2 at tree 5.", "--site", "demo", "--yes")
 
 
 def refused(*words: str) -> FieldhandError:
-    """What a command says that cannot be carried out."""
+    """Return the message of a command that cannot be carried out."""
     done = CliRunner().invoke(assemble(), words)
     assert isinstance(done.exception, FieldhandError), done.output
     return done.exception

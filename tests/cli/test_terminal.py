@@ -14,7 +14,7 @@ WORDS = ("plan", "Read CO2 at tree 4.", "--site", "demo")
 
 
 def completed(shell: str, line: str) -> str:
-    """What a shell is offered behind a line."""
+    """Return the completions that a shell is offered behind a line."""
     env = {
         "_FIELDHAND_COMPLETE": f"complete_{shell}",
         "COMP_WORDS": line,

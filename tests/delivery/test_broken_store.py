@@ -104,7 +104,7 @@ def entry(**more: object) -> OutboxEntry:
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_an_outbox_on_a_disk_that_fails_at_any_call(tmp_path: Path, kind: str) -> None:
-    """What was put in waits until it was noted as delivered, and has its bundle as long as it waits."""
+    """Check that what was put in waits until it was noted as delivered, and has its bundle as long as it waits."""
 
     def steps(folder: Path) -> list[Use]:
         outbox, put = Outbox(folder / "outbox"), list[OutboxEntry]()

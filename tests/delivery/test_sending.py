@@ -39,7 +39,7 @@ def check(data: bytes, source: str) -> Sendable:
 
 
 class Sender:
-    """Who sends to a robot over a line that loses what it is told to."""
+    """A sender to a robot over a line that loses what it is told to."""
 
     def __init__(
         self, folder: Path, robot_agent: RobotAgentInProcess, lose: Callable[[httpx.Request], str] = lambda _: ""

@@ -124,7 +124,7 @@ def page_of(files):
 
 
 def text_of(files):
-    """What a reader sees of the page, one space between words."""
+    """Return the text that a reader sees of the page, one space between words."""
     body = page_of(files).find("body")
     return " ".join(" ".join(body.itertext()).split())
 

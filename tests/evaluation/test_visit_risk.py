@@ -21,7 +21,7 @@ def metres(a, b):
 
 
 def missions(threshold, chance, stops, left, count, seed):
-    """How many run short and how many visits they make, driven one by one, home at 0."""
+    """Return how many run short and how many visits they make, driven one by one, home at 0."""
     rng, failed, visits = np.random.default_rng(seed), 0, 0
     for _ in range(count):
         at, room = threshold.here, left

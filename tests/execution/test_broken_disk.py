@@ -59,7 +59,7 @@ class Watched(Field):
         self.fly(PLAN, journal=Telling)
 
     def stopped(self) -> str:
-        """What stopped the mission before its end; empty if nothing did."""
+        """Return the error that stopped the mission before its end; empty if nothing did."""
         try:
             self.life()
         except FieldhandError as error:

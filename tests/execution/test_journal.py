@@ -172,7 +172,7 @@ def test_the_log_is_completed_from_the_journal(tmp_path: Path, tail: str) -> Non
 
 
 def test_a_journal_older_than_the_log_is_refused(tmp_path: Path) -> None:
-    """What it lacks was done: it would be done again."""
+    """Steps that it lacks were done: they would be done again."""
     field = Field(tmp_path)
     with pytest.raises(PowerCut):
         field.fly(cut=9)

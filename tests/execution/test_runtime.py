@@ -75,7 +75,7 @@ def end_of(events: Sequence[Event]) -> Ended:
 
 
 def at(event: Ended | Arrived, place: str) -> bool:
-    """Whether the robot stands at a marker, or beside a tree at its standoff."""
+    """Return True if the robot stands at a marker, or beside a tree at its standoff."""
     spot = SITE.markers.get(place) or SITE.by_id[place].place
     away = math.dist(SITE.projection.metres(event.lat, event.lon)[0], spot.xy)
     return abs(away - (husky().standoff_m if spot.kind == "tree" else 0.0)) < 0.01

@@ -238,7 +238,7 @@ def test_a_forecast_that_exceeds_what_is_accepted_is_said_of_optional_visits_too
 
 
 def test_branches_that_took_the_same_share_what_is_expected_of_optional_visits(monkeypatch) -> None:
-    """Which of the trees was measured twice does not matter to the visits that follow, only how many were."""
+    """The visits that follow depend on how many trees were measured twice, not on which."""
     from fieldhand.forecast import optional_work
 
     trees = ["1", "2", "3"]

@@ -14,7 +14,7 @@ from fieldhand.language.po import Entry, read_entries
 
 
 def silent_language() -> Language:
-    """That language, as one that was read."""
+    """Return that language, as one that was read."""
     patterns = open_language("es").patterns
     return Language(code="xx", name="xx", translations=_translations(_entries()), melts={}, patterns=patterns)
 

@@ -19,7 +19,7 @@ SEEDS = range(16)
 
 
 def printed(flown: Flown) -> Iterator[str]:
-    """What ``run`` and ``status`` print of a mission."""
+    """Return the text that ``run`` and ``status`` print of a mission."""
     event_text = EventText(flown.robot)
     yield from (line for line in map(event_text.line, flown.events) if line is not None)
     for count in range(0, len(flown.events) + 1, 3):

@@ -30,7 +30,7 @@ ON_THE_DEMO = [
 
 
 def said(outcome: Outcome) -> Iterator[str]:
-    """What a person is shown of a question or a refusal."""
+    """Return the text that a person is shown of a question or a refusal."""
     match outcome:
         case Clarify():
             yield outcome.question

@@ -34,7 +34,7 @@ NAMES = re.compile(
 
 @dataclass(frozen=True, kw_only=True)
 class Printed:
-    """What a command printed: its standard output, then its errors."""
+    """Return the text that a command printed: its standard output, then its errors."""
 
     status: int
     text: str

@@ -212,7 +212,7 @@ class Simulated:
 
     @property
     def decisions(self) -> dict[str, deque[bool]]:
-        """What each condition came to, in its order, by node."""
+        """Return the result of each condition, in its order, by node."""
         found: dict[str, deque[bool]] = defaultdict(deque)
         for event in self._of_plan():
             if isinstance(event, Decided):
@@ -341,7 +341,7 @@ def previewed(flight: Simulated, optional: OptionalWorkPolicy | None) -> Walk:
 
 
 def trace_of(walked: Walk) -> Trace:
-    """What happens on a preview."""
+    """Return the events of a preview."""
     found: Trace = []
     for step in walked.steps:
         if step.kind == "drive":
@@ -518,7 +518,7 @@ def _selectors(text: str) -> tuple[Selector, ...]:
 
 
 def disagreements(flight: Simulated) -> list[str]:
-    """What the four ways of carrying out a mission differ in."""
+    """Return the differences between the four ways of carrying out a mission."""
     robot, found = flight.trace, list[str]()
     walked = previewed(flight, AsChosen(flight))
     if trace_of(walked) != robot:
@@ -530,7 +530,7 @@ def disagreements(flight: Simulated) -> list[str]:
 
 
 def _of_replay(flight: Simulated, walked: Walk) -> list[str]:
-    """What a replay counts otherwise than the robot did it. What a failure cut off it wants as well."""
+    """Return the differences between a replay's counts and the robot's; steps cut off by a failure are wanted."""
     tallies = replay_log(flight.task.composition.plan, flight.events)
     wanted: Counter[str] = Counter()
     for step in walked.steps:

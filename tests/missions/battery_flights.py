@@ -120,24 +120,24 @@ def broken(flown: Flown) -> list[str]:
 
 
 def called_success(flown: Flown) -> bool:
-    """What the command line's exit status 0 means."""
+    """Return True for the command line's exit status 0."""
     return flown.log[-1]["status"] == "completed" and all(o.outcome == "success" for o in flown.outcomes)
 
 
 def said(flown: Flown, level: str, t: float = math.inf) -> bool:
-    """Whether the log says by then that the battery has come down to a level."""
+    """Return True if the log says by then that the battery has come down to a level."""
     return any(e["event"] == "limit" and e["level"] == level and e["t"] <= t + SUMS for e in flown.log)
 
 
 def below_stop_unsaid(flown: Flown) -> bool:
-    """Whether the charge went below the stop level without a line before that says so."""
+    """Return True if the charge went below the stop level without a line before that says so."""
     stop = levels(flown)["stop"]
     low = [e["t"] for e in flown.log if e.get("charge_percent", 100.0) < stop - SUMS and e["event"] != "limit"]
     return bool(low) and not said(flown, "stop", low[0])
 
 
 def problems(flown: Flown) -> list[str]:
-    """What no mission may do."""
+    """Return the faults that no mission may have."""
     found = [*faulted_flights.problems(flown)]
     lowest = min(e["charge_percent"] for e in flown.log if "charge_percent" in e)
     limits = [e for e in flown.log if e["event"] == "limit"]

@@ -35,7 +35,7 @@ def optional(*steps: Node) -> OptionalStep:
 
 
 def without(node: InOrder | AnyOrder) -> Node:
-    """What must be done of a sequence or a set."""
+    """Return the steps of a sequence or a set that must be done."""
     return replace(node, steps=tuple(step for step in node.steps if not isinstance(step, OptionalStep)))
 
 

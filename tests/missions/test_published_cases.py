@@ -49,12 +49,12 @@ def cases() -> list[Any]:
 
 @pytest.fixture(scope="module")
 def expected() -> dict[str, tuple[Expected, ...]]:
-    """What the bench's judge expects of each world of each case."""
+    """Return what the bench's judge expects of each world of each case."""
     return {case.id: tuple(world.expected for world in case.worlds) for case in load_cases([str(CASES)])}
 
 
 def problem_of(lines: list[str], site: Path, meant: dict[str, Any]) -> str | None:
-    """What the referee finds wrong with a log; None if it is as asked."""
+    """Return what the referee finds wrong with a log; None if it is as asked."""
     found: str | None = referee().judge(ground(site), meant["expect"], [json.loads(line) for line in lines])
     return found
 
@@ -84,7 +84,7 @@ def test_plain_english_ends_as_it_was_meant_and_both_judges_agree(
 
 @cache
 def model_planned(case: str, site: Path, robot: str) -> Task:
-    """What comes today of a language model's recorded answer."""
+    """Return the outcome of a language model's recorded answer today."""
     (session,) = read_transcript(TRANSCRIPTS / f"{case}.jsonl")
     outcome = replay(session, open_site(str(site)), load_robot(robot))
     assert isinstance(outcome, Planned), outcome
@@ -92,7 +92,7 @@ def model_planned(case: str, site: Path, robot: str) -> Task:
 
 
 def model_flown(case: dict[str, Any], world: int, default_site: str, expected: Expected) -> tuple[Task, str | None]:
-    """What a language model planned, and what the referee finds wrong with its log, as the bench's judge does."""
+    """Return what a model planned, and what the referee finds wrong with its log, as the bench's judge does."""
     site = (CASES.parent / case.get("site", default_site)).resolve()
     meant, robot = case["worlds"][world], case.get("robot", "husky")
     task, readings = model_planned(case["id"], site, robot), meant.get("readings")

@@ -167,7 +167,7 @@ def random_plan(rng: np.random.Generator, site: Site) -> Node:
 
 
 def crossings(ground: Planted, path: Any) -> list[str]:
-    """What a driven path goes through that it must not."""
+    """Return the areas that a driven path goes through and must not."""
     line = LineString(path)
     found = [f"tree line {k}" for k, row in enumerate(ground.tree_lines) if line.intersects(row)]
     found += [f"keep-out {k}" for k, p in enumerate(ground.keep_outs) if line.intersection(p.buffer(-0.02)).length > 0]
@@ -200,7 +200,7 @@ def test_no_drive_of_any_mission_crosses_a_tree_line_or_a_keep_out(named: bool, 
 
 
 def _cut_off(events: Any, drive: Driving) -> bool:
-    """Whether a drive did not come to its end."""
+    """Return True if a drive did not come to its end."""
     after = events[events.index(drive) + 1 :]
     following = next((e for e in after if isinstance(e, Arrived | Driving | Faulted | Ended)), None)
     return not isinstance(following, Arrived)

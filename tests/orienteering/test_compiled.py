@@ -53,7 +53,7 @@ def test_sorting_is_that_of_numpy():
 
 
 def entered():
-    """How often each loop that Python calls has been compiled or loaded in this process."""
+    """Return how often each loop that Python calls has been compiled or loaded in this process."""
     loops = [loop for module in (anneal, insertion, legs, order_value) for loop in vars(module).values()]
     return {loop.__name__: len(loop.signatures) for loop in loops if hasattr(loop, "signatures")}
 

@@ -67,13 +67,13 @@ def ids(selector, site) -> list[str]:
 
 
 def lies_askew(site: Site) -> bool:
-    """Whether the trees leave corners of the box of the compass around them empty, so that its sides are not theirs."""
+    """Return True if the trees leave corners of the box around them empty, so that its sides are not theirs."""
     trees = MultiPoint([tree.place.xy for tree in site.trees])
     return trees.convex_hull.area < 0.8 * trees.envelope.area
 
 
 def beside_along_its_row(site: Site, tree: Tree, next_to: Callable[[str], bool]) -> bool:
-    """Whether a tree in its row is next to it; in no row, any tree. Ours stays in the row where plants are missing."""
+    """Return True if a tree of the same row is next to it, gaps in the row included; in no row, if any tree is."""
     row = int(site.planting.row_of[tree.index]) if site.planting.blocks else -1
     beside = [site.trees[k] for k in site.planting.rows[row].trees] if row >= 0 else site.trees
     return any(next_to(other.place.id) for other in beside)

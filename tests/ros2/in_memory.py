@@ -28,7 +28,7 @@ RELIABLE = QosProfile()
 
 @dataclass(frozen=True, kw_only=True)
 class Disturbed:
-    """What becomes of messages on their way.
+    """Faults of messages on their way.
 
     Attributes:
         loss: Part of them that never arrives.
@@ -42,7 +42,7 @@ class Disturbed:
 
 
 class Graph:
-    """What connects nodes.
+    """The connection between nodes.
 
     Args:
         now: Seconds. What is delayed arrives by it.
@@ -145,7 +145,7 @@ class Node:
 
 @dataclass(eq=False)
 class _End:
-    """What reads or writes: the part that all endpoints share."""
+    """A reader or writer: the part that all endpoints share."""
 
     node: Node
     name: str
@@ -167,7 +167,7 @@ class _End:
 
     @property
     def noticed(self) -> bool:
-        """Whether the others take it to be there."""
+        """Return True if the others take it to be there."""
         gone_s = self.node.vanished_s
         return self in self.graph.ends and (gone_s is None or self.graph.now() < gone_s + self.graph.noticed_s)
 
@@ -287,7 +287,7 @@ class _Server(_End):
 
 
 def _fit(writer: _End, reader: _End) -> bool:
-    """Whether name and type are the same, and the writer offers what the reader asks for."""
+    """Return True if name and type are the same, and the writer offers what the reader asks for."""
     asked, offered = reader.qos, writer.qos
     return (
         (writer.name, writer.type) == (reader.name, reader.type)

@@ -29,7 +29,7 @@ NUMBER, TO_ROBOT, FROM_ROBOT, ALL = "std_msgs/msg/Int32", "/to_robot", "/from_ro
 
 
 class Process:
-    """What the lines say, each done by the method of its name."""
+    """Carry out the lines, each done by the method of its name."""
 
     def __init__(self) -> None:
         self.clock = SimulatedClock()
@@ -144,7 +144,7 @@ class Process:
             node.close()
 
     def state(self) -> dict[str, object]:
-        """What the robot is at; of the simulated one, the goals that succeeded."""
+        """Return the place at which the robot is; of the simulated one, the goals that succeeded."""
         robot = self.robots[0]
         if isinstance(robot, SimulatedRobot):
             return {"made": [(said.name, said.place) for said in self.said_of_goals if said.end == "succeeded"]}

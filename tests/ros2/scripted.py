@@ -13,7 +13,7 @@ STATUS_OF = {"executing": 2, "succeeded": 4, "cancelled": 5, "aborted": 6}
 
 @dataclass(frozen=True, kw_only=True)
 class Script:
-    """What becomes of one goal."""
+    """The course of one goal."""
 
     accepts: bool = True
     lasts_s: float = 5.0

@@ -304,7 +304,7 @@ def world(bound: Ros2Bindings | None = None, *, seed: int = 0, **switches: Any) 
     checked: dict[str, set[str]] = {}
 
     def complete(type_name: str, message: RosMessage) -> RosMessage:
-        """What a robot says of itself ten times a second is held against its type the first time only."""
+        """Check messages that are sent ten times a second against their type the first time only."""
         if not type_name.startswith(("sensor_msgs/", "nav_msgs/", "std_msgs/")):
             return types.complete(type_name, message)
         if checked.get(type_name) != set(message):

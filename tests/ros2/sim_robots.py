@@ -55,12 +55,12 @@ class SimRobot:
         os.kill(self._process, signal.SIGKILL)
 
     def account(self) -> list[dict[str, Any]]:
-        """What it has said in all its lives."""
+        """Return what it has said in all its lives."""
         texts = [self._out(life).read_text() for life in range(1, self.lives + 1) if self._out(life).exists()]
         return [json.loads(line) for text in texts for line in text.splitlines(keepends=True) if line.endswith("\n")]
 
     def made(self, action: str) -> Counter[str]:
-        """How often an action of ROS, by the end of its name, succeeded at each place."""
+        """Return how often an action of ROS, by the end of its name, succeeded at each place."""
         return Counter(
             line["place"]
             for line in self.account()

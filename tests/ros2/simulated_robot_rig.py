@@ -147,7 +147,7 @@ class SimulatedRobotRig:
         return replies[0][1]
 
     def heard(self, topic: str, type_name: str, seconds: float = 2.0) -> tuple[RosMessage, ...]:
-        """What comes on a topic from now on."""
+        """Return the messages that arrive on a topic from now on."""
         subscription = self.client.subscribe(bindings(self.robot).whole_name(topic), type_name, SENSOR_QOS)
         messages: list[RosMessage] = []
         until = self.clock.now() + seconds

@@ -76,6 +76,6 @@ def rclpy_robot(folder: Path, *words: str, lat: float, lon: float) -> Iterator[P
 
 
 def goals(said: Path) -> list[dict[str, Any]]:
-    """What a robot says of the goals that have ended."""
+    """Return what a robot says of the goals that have ended."""
     lines = [json.loads(line) for line in said.read_text().splitlines(keepends=True) if line.endswith("\n")]
     return [line for line in lines if line["event"] == "goal"]

@@ -85,7 +85,7 @@ def test_messages_arrive_in_their_order_and_of_many_the_newest_are_kept(node: Dd
     newest = node.subscribe("/echo", "std_msgs/msg/String", QosProfile(depth=3))
 
     def hello() -> bool:
-        """That we have found the other does not mean that it has found us."""
+        """We may have found the other side before it has found us."""
         say.send({"data": "hello"})
         return echo.take() != () and newest.take() != ()
 
@@ -147,7 +147,7 @@ def test_a_server_whose_middleware_does_not_understand_requests_does_not_count(
 
 
 def test_half_a_server_does_not_count(node: DdsTransport, domain: int) -> None:
-    """Who hears requests and cannot be heard: replies would get lost."""
+    """A server that hears requests and cannot be heard: replies would get lost."""
     client = node.client("/half", "std_srvs/srv/Empty")
     server = open_dds(node.interfaces, domain)
     with pytest.MonkeyPatch.context() as patch:

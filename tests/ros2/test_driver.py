@@ -550,7 +550,7 @@ def test_odometry_that_is_set_anew_has_driven_nothing() -> None:
 
 
 def test_messages_that_are_taken_together_were_not_sent_together() -> None:
-    """What was driven between them is told from a jump by their own stamps."""
+    """The way driven between them is told from a jump by their own stamps."""
     clock = SimulatedClock()
     graph = Graph(clock.now)
     telemetry = Telemetry(graph.node(), bindings(), SITE.projection, speed_m_s=1.0, clock=clock.now, steady=clock.now)

@@ -130,7 +130,7 @@ class Executor:
         )
 
     def status(self) -> Mapping[str, Any]:
-        """What is kept for who comes late."""
+        """Return the messages that are kept for late subscribers."""
         heard = self.node.subscribe("/executor/status", "std_msgs/msg/String", QosProfile(transient=True, depth=1))
         text = str(until(heard.take)[-1]["data"])
         heard.close()

@@ -68,7 +68,7 @@ def act(action: str, tree: str) -> Act:
 
 
 def driven(meeting: Meeting, *, until_m: float | None = None, **change: Any) -> Progress:
-    """How a drive to the last tree ends, when after some metres something changes."""
+    """Return how a drive to the last tree ends, when after some metres something changes."""
     driver = meeting.connect()
     driver.start_drive(drive_goal(SITE.start, FAR))
     if until_m is not None:

@@ -109,7 +109,7 @@ class Plan:
         return cls(approved=approved, site=site, robot=robot, seed=seed)
 
     def simulated(self, world: World) -> tuple[Event, ...]:
-        """What happens in the plain simulation."""
+        """Return the events of the plain simulation."""
         return mission.simulate(self.approved, world=world, seed=self.seed, speed=None, emit=lambda _: None).events
 
     def kept(self, under: Path, vehicle: Vehicle) -> missions.StoredMission:
@@ -132,7 +132,7 @@ class Plan:
         emit: Callable[[Path, Event], None] = lambda *_: None,
         under_way: Callable[[Path], None] = lambda _: None,
     ) -> tuple[Event, ...]:
-        """What happens on the robot that answers.
+        """Return the events on the robot that answers.
 
         Args:
             emit: Takes each event, with the mission's folder.
@@ -149,7 +149,7 @@ class Plan:
         emit: Callable[[Path, Event], None] = lambda *_: None,
         under_way: Callable[[Path], None] = lambda _: None,
     ) -> tuple[Event, ...]:
-        """What happens on a vehicle that is ready."""
+        """Return the events on a vehicle that is ready."""
         missions.require_in_place(open_site(self.site), load_robot(self.robot), vehicle.driver)
         given, stood = self.kept(under, vehicle), vehicle.driver.position()
 
@@ -167,7 +167,7 @@ class Plan:
 
 
 def test_the_demo_goes_as_in_simulation(tmp_path: Path) -> None:
-    """What it may drive is just enough for some of the visits; robot and mission live on one time, so that what is
+    """The budget of distance is just enough for some of the visits; robot and mission live on one time, so that what is
     decided depends on no process that waits for its turn."""
     husky = str(patient(tmp_path, type="nav2_msgs/action/NavigateThroughPoses"))
     plan = Plan.of(REQUEST, robot=husky, seed=7)
@@ -308,7 +308,7 @@ def _abort(robot: SimRobot, husky: str, folder: Path) -> None:
 
 
 def drives(robot: SimRobot, *, since: int) -> list[str]:
-    """How its drives ended, of what it has said since."""
+    """Return how its drives ended, of what it has said since."""
     said = [line for line in robot.account()[since:] if line["event"] == "goal"]
     return [line["end"] for line in said if "navigate" in line["name"]]
 

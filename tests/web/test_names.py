@@ -20,7 +20,7 @@ Box = tuple[float, float, float, float]
 
 
 def run(tmp_path: Any, call: str, *given: object) -> Any:
-    """What a function of the script gives."""
+    """Return the result of a function of the script."""
     (tmp_path / "names.mjs").write_bytes(assets()["names.js"].data)
     (tmp_path / "run.mjs").write_text(
         "import * as names from './names.mjs';\n"

@@ -19,7 +19,7 @@ REPLAY = (resources.files("fieldhand.exchange.replay") / "page.js").read_text(en
 
 
 class Page(HTMLParser):
-    """What the checks below need of the page."""
+    """The parts of the page that the checks below need."""
 
     def __init__(self) -> None:
         super().__init__()

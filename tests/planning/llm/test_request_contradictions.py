@@ -29,7 +29,7 @@ def captures(task: Task) -> int:
 
 
 def doubted(task: Task) -> tuple[str, ...]:
-    """What approval says of the Task as it is read from its document, wherever it was kept."""
+    """Return the findings of approval on the Task as it is read from its document, wherever it was kept."""
     review = mission.review(decode(encode(task)), DEMO, HUSKY)
     return tuple(w for w in review.warnings if "this may not be what was asked" in w)
 

@@ -34,7 +34,7 @@ def failure(*answers: ScriptedAnswer | str, settings: LlmSettings | None = None)
 
 
 def failed(chat: ModelChat) -> ModelError | None:
-    """How asking ends; None for an answer without text."""
+    """Return the error with which asking ends; None for an answer without text."""
     try:
         assert chat.ask(TALK).text == ""
     except ModelError as error:

@@ -1,4 +1,4 @@
-"""Which other language a request seems to be in, so that the answer can say which languages are understood.
+"""The other language that a request seems to be in, so that the answer can say which languages are understood.
 
 A short list of function words a language, and scripts that English is not written in. It looks only at words that the
 lexicon does not know, and wants two of them, because "de" alone may be a name.

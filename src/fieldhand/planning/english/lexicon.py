@@ -48,7 +48,7 @@ class Lexicon:
         return frozenset({*words, *names, *(part for name in names for part in split(name))})
 
     def entry(self, phrase: Phrase) -> NameEntry | None:
-        """What a phrase is; None if it is not known."""
+        """Return the meaning of a phrase; None if it is not known."""
         return self.own.get(phrase) or shared_vocabulary().get(phrase)
 
     @cached_property

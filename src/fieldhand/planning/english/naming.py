@@ -1,4 +1,4 @@
-"""What this robot's captures and this site's trees are called in words."""
+"""Names in words for the captures of a robot and the trees of a site."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _LONGEST_TEXT, _LONGEST_ZONE = 40, 60
 
 @dataclass(frozen=True, kw_only=True)
 class NameEntry:
-    """What a phrase is: a terminal of the grammar, its value, and whether it is a noun in the plural."""
+    """The meaning of a phrase: a terminal of the grammar, its value, and whether it is a noun in the plural."""
 
     kind: str
     value: Any = None
@@ -127,7 +127,7 @@ def name_words(attribute: str) -> list[str]:
 
 
 def _spoken(attribute: str) -> set[Phrase]:
-    """How people may call an attribute: its name, that without its unit, and other words for it."""
+    """Return the names of an attribute in words: its name, that without its unit, and other words for it."""
     base = name_words(attribute)
     spoken = {split(attribute), tuple(base)}
     for hint, words in vocabulary()["aliases"].items():

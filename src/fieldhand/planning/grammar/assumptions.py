@@ -1,4 +1,4 @@
-"""What is assumed where a request leaves out a detail that the plan has."""
+"""Assumptions where a request leaves out a detail that the plan has."""
 
 from __future__ import annotations
 

@@ -57,7 +57,7 @@ class Telling:
 
 @dataclass(frozen=True, kw_only=True)
 class WordKinds:
-    """What the words of a request can be.
+    """The kinds that the words of a request can have.
 
     Attributes:
         words: The words.

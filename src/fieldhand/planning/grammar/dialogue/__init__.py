@@ -1,4 +1,4 @@
-"""What the clauses of a request mean together: pure functions from a state and a clause to the next state.
+"""The meaning of the clauses of a request together: pure functions from a state and a clause to the next state.
 
 The rules:
 

@@ -1,4 +1,4 @@
-"""What stops the reading of clauses: they do not fit together, or leave open what is meant."""
+"""Errors that stop the reading of clauses: they do not fit together, or leave open what is meant."""
 
 from __future__ import annotations
 

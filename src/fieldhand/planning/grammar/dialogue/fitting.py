@@ -1,4 +1,4 @@
-"""Which places a capture means: how many visits, how many captures at each, and one row after the other."""
+"""The places that a capture means: how many visits, how many captures at each, and one row after the other."""
 
 from __future__ import annotations
 

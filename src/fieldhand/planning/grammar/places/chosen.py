@@ -46,7 +46,7 @@ _RANKED = ("extreme", "best", "nearest", "farthest")
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """How trees are chosen among those of a description.
+    """A way to choose trees among those of a description.
 
     Attributes:
         by: Way to choose.
@@ -60,7 +60,7 @@ class Choice:
 
 
 @dataclass(frozen=True)
-class Nth:
+class NthTree:
     """Every n-th tree.
 
     Attributes:
@@ -259,7 +259,7 @@ def _every(chosen: Chosen, n: int) -> Chosen | None:
     inner = chosen.inner
     if n < 2 or inner.tested or inner.kind != "tree" or chosen.count is not None or chosen.choice is not None:
         return None
-    return replace(chosen, choice=Choice("nth", Nth(n)), count=1, inner=replace(inner, plural=False), preceded=True)
+    return replace(chosen, choice=Choice("nth", NthTree(n)), count=1, inner=replace(inner, plural=False), preceded=True)
 
 
 # Words behind the noun.
@@ -297,16 +297,16 @@ def counted_from(chosen: Chosen, side: Lex) -> Chosen | None:
 def in_area_behind(chosen: Chosen, where: s.Selector, way: str) -> Chosen | None:
     """Compose "every third tree, starting with the second, in row 4"."""
     nth = None if chosen.choice is None else chosen.choice.value
-    starts = isinstance(nth, Nth) and (nth.start > 1 or nth.visited_from is not None)
+    starts = isinstance(nth, NthTree) and (nth.start > 1 or nth.visited_from is not None)
     return in_area(chosen, where, way) if starts else None
 
 
 def _with_nth(chosen: Chosen, **changed: Any) -> Chosen | None:
     """Return every n-th tree with the tree or the side from which they are counted."""
     choice = chosen.choice
-    if choice is None or not isinstance(choice.value, Nth):
+    if choice is None or not isinstance(choice.value, NthTree):
         return None
-    if any(getattr(choice.value, name) != Nth.__dataclass_fields__[name].default for name in changed):
+    if any(getattr(choice.value, name) != NthTree.__dataclass_fields__[name].default for name in changed):
         return None
     return replace(chosen, choice=replace(choice, value=replace(choice.value, **changed)))
 
