@@ -229,7 +229,7 @@ class MissionRunner:
                     return self._aborted(order)
                 self._let_time_pass()
         finally:
-            tree.stop(Status.INVALID)
+            tree.stop(Status.INVALID)  # cancels the goal of the driver, if there is one
 
     def _over(self, tree: MissionTree) -> Ending | None:
         """Return the end of the plan, or None while it continues."""

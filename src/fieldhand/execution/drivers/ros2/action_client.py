@@ -116,7 +116,9 @@ class ActionClient:
         return self._goal is not None and self._outcome is None
 
     def cancel(self, why: str = "") -> None:
-        """Request cancellation of the goal; :meth:`step` reports when it has ended. Repeated calls have no effect.
+        """Note that the goal is to be cancelled; :meth:`step` sends the request and reports when the goal has ended.
+
+        Repeated calls have no effect.
 
         Args:
             why: Reason, reported in the outcome unless the goal succeeds.
