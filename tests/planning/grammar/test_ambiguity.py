@@ -46,7 +46,7 @@ def test_each_answer_is_the_read_back_of_a_plan_that_says_all_of_the_request(req
 @pytest.mark.parametrize(
     ("request_", "plans"),
     [
-        ("Fotografía la fila 3.", {"for Rows(3, 3): [picture]", "picture @ Take(1, of Rows(3, 3))"}),
+        ("Toma una foto de la fila 3.", {"for Rows(3, 3): [picture]", "picture @ Take(1, of Rows(3, 3))"}),
         ("Photograph tree 4 or 9.", {"picture @ TreeIs(4)", "picture @ TreeIs(9)"}),
         ("check tree 4", {"picture @ TreeIs(4)", "air @ TreeIs(4)", "co2 @ TreeIs(4)"}),
         (

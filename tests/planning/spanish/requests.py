@@ -192,7 +192,7 @@ PLANNED: list[tuple[str, str]] = [
 
 #: Requests that have to be asked about or refused, and none of which is planned.
 NOT_PLANNED: list[str] = [
-    "Fotografía la fila 3.",
+    "Toma una foto de la fila 3.",
     "Toma una foto en el árbol 4 mañana.",
     "No fotografíes el árbol 4.",
     "Toma una foto en el árbol 4 en lugar del árbol 5.",
@@ -216,7 +216,7 @@ NOT_PLANNED: list[str] = [
     "Fotografía el árbol 4, no el árbol 5.",
     "Fotografía las filas 2 y 3 excepto el lunes.",
     "Toma una foto del árbol 4 y del robot.",
-    "Fotografía la mitad norte.",
+    "Toma una foto de la mitad norte.",
     "Fotografía el árbol 4,5.",
     "Fotografía el árbol 3 a 5 metros.",
     "Mide el CO2 en el árbol 4. Si es bajo o no, toma una foto.",
@@ -252,8 +252,8 @@ NOT_PLANNED: list[str] = [
     "Fotografía el árbol 4 con la batería al 30 %.",
     "Con 40 % de batería, fotografía las esquinas.",
     "Fotografía las esquinas antes de que pasen 20 minutos.",
-    "Fotografía la primera y la última fila.",
-    "Fotografía el lado norte.",
+    "Toma una foto de la primera y la última fila.",
+    "Toma una foto del lado norte.",
     "Fotografía cada otro árbol de la fila 3.",
     "Mide la temperatura.",
     "Mide la temperatura en el árbol 4. Si la temperatura del dosel es alta, toma una foto.",

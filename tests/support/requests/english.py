@@ -1088,7 +1088,7 @@ ASKED = [
     ),
     ("husky", "Take a picture of all 12 trees.", "'Take a picture of all 12 trees': which is meant?"),
     ("husky", "Survey the orchard.", "'Survey the orchard': which is meant?"),
-    ("husky", "Photograph the western edge.", "'Photograph the western edge': which is meant?"),
+    ("husky", "Take a picture of the western edge.", "'Take a picture of the western edge': which is meant?"),
     ("husky", "take a picture of the northern half", "'take a picture of the northern half': which is meant?"),
     ("husky", "Photograph the whole orchard.", "'Photograph the whole orchard': which is meant?"),
 ]

@@ -211,6 +211,15 @@ PLANNED = [
         "photograph the yellow trees starting from the west",
         "for Ordered(west_to_east, of Where(leaf_color, eq, yellow)) given: [picture]",
     ),
+    ("husky", "Photograph row 3.", "for Rows(3, 3): [picture]"),
+    (
+        "husky",
+        "Photograph rows 5, 3 and 1 in that order.",
+        "for UnionOf(Rows(5, 5)+Rows(3, 3)+Rows(1, 1)) given: [picture]",
+    ),
+    ("husky", "Photograph row 2 twice.", "for Rows(2, 2): [picture x2]"),
+    ("husky", "Measure CO2 in row 2 at every second tree.", "for EveryNth(2, of Rows(2, 2)): [co2]"),
+    ("husky", "In row 2 at every second tree measure CO2.", "for EveryNth(2, of Rows(2, 2)): [co2]"),
     ("husky", "take pictures of rows 2 to 4 row by row", "for Ordered(rows, of Rows(2, 4)) given: [picture]"),
     (
         "husky",
@@ -1050,7 +1059,11 @@ ASKED = [
         "'take a picture of every tree of the row next to row 3': which is meant?",
     ),
     ("husky", "take a picture of row 3 of block 1", "'take a picture of row 3 of block 1': which is meant?"),
-    ("husky", "photograph rows 2 to 4 row by row", "'photograph rows 2 to 4 row by row': which is meant?"),
+    (
+        "husky",
+        "take a picture of rows 2 to 4 row by row",
+        "'take a picture of rows 2 to 4 row by row': which is meant?",
+    ),
     (
         "husky",
         "Go to row 6. Photograph every second tree.",
@@ -1118,8 +1131,8 @@ ASKED = [
     ),
     (
         "husky",
-        "Photograph rows 5, 3 and 1 in that order.",
-        "'Photograph rows 5, 3 and 1 in that order': which is meant?",
+        "Take a picture of rows 5, 3 and 1 in that order.",
+        "'Take a picture of rows 5, 3 and 1 in that order': which is meant?",
     ),
     (
         "husky",

@@ -387,6 +387,8 @@ def _act(clause: Clause, used: int) -> CaptureCommand | None:
         return CaptureCommand(once(things), clause.place, used)
     if clause.place is None:
         return CaptureCommand(things, None, used)
+    if clause.place.shape == "area" and not clause.things:  # "photograph row 3": each of its trees
+        things = tuple(replace(one, plural=True) for one in things)
     return CaptureCommand(things, clause.place, used, relation=clause.relation if "t" in clause.order else "of")
 
 

@@ -344,9 +344,11 @@ def outside(inner: Nominal, where: Lex) -> Nominal | None:
     return replace(inner, selector=over(inner.selector, s.InZone(zone=where.value, outside=True)))
 
 
-@construction("place: where=region COMMA inner=place", cost=0.6)
-def places_of_area(where: s.Selector, inner: PlaceMeaning) -> PlaceMeaning | None:
-    """Compose "row 7, every third tree"."""
+@construction("place: where=region COMMA inner=place", "place: where=region to=AT inner=place", cost=0.6)
+def places_of_area(where: s.Selector, inner: PlaceMeaning, to: Lex | None = None) -> PlaceMeaning | None:
+    """Compose "row 7, every third tree" and "row 7 at every third tree"."""
+    if to is not None and "motion" in to.features:
+        return None
     if inner.per is not None or inner.shape not in ("one", "several") or not chooses_from_trees(inner.selector):
         return None
     if any(isinstance(part, AREAS) for part in inner.selector.walk()):
