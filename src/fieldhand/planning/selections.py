@@ -224,6 +224,11 @@ def as_zone(selector: s.Selector) -> s.InZone | None:
     return selector if isinstance(selector, s.InZone) else None
 
 
+def as_corners(selector: s.Selector) -> s.Corners | None:
+    """Return the selector if it selects corner trees, None otherwise."""
+    return selector if isinstance(selector, s.Corners) else None
+
+
 def as_half(selector: s.Selector) -> s.Half | None:
     """Return the selector if it is a half of the site, None otherwise."""
     return selector if isinstance(selector, s.Half) else None

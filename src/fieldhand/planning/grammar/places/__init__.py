@@ -13,11 +13,26 @@ from fieldhand.planning.grammar.places import (
     numbered,
     numbers,
     positions,
+    rounds,
     rows,
     spots,
     steps,
 )
 
 GRAMMAR = Grammar()
-for _part in (numbers, numbered, nouns, areas, rows, positions, spots, groups, likewise, steps, chosen, choices):
+for _part in (
+    numbers,
+    numbered,
+    nouns,
+    areas,
+    rows,
+    positions,
+    spots,
+    rounds,
+    groups,
+    likewise,
+    steps,
+    chosen,
+    choices,
+):
     GRAMMAR.include(_part.GRAMMAR)
