@@ -83,7 +83,9 @@ def amounts(tokens: Sequence[Token], nouns: dict[int, Noun], units: frozenset[st
     for number in _numbers(tokens):
         amount = _amount(tokens, number, nouns, units)
         before = found[-1] if found else None
-        bare = amount.kind == "plain" or (amount.kind == "captures" and not _is_counted(tokens, number.end, nouns))
+        ends_range = number.start > 0 and tokens[number.start - 1].text in _RANGES  # "rows 2 to 4 photograph"
+        counts = _is_counted(tokens, number.end, nouns) and not ends_range
+        bare = amount.kind == "plain" or (amount.kind == "captures" and not counts)
         if before is not None and (bare or amount.kind == before.kind) and _listed(tokens, before, number):
             amount = replace(amount, kind=before.kind, actions=frozenset())
             if (

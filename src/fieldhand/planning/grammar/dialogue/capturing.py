@@ -21,6 +21,7 @@ from fieldhand.planning.grammar.dialogue.fitting import (
     in_area,
     in_each_row,
     is_spoken_of,
+    of_each_before,
     spaced,
     within_area,
 )
@@ -318,6 +319,7 @@ def _place_of(
             raise NotComposed(message("it is not clear where that is", context="fault"))
         place = replace(place, there=False)
     if before is None:
+        place = of_each_before(state, place)
         place = _contrasted(setting, state, place, command.used)
         return within_area(place, state.within), state, ()
     state, said = replace(state, lead=None, area=None), setting.spans_of(before.used)
@@ -333,7 +335,7 @@ def _place_of(
     if first.per is not None and place is not None and place.per is None and place.shape in ("one", "several"):
         if first.shape != "area":
             raise NotComposed(message("it is not clear at which of two places this is done", context="fault"))
-        return in_each_row(first.per, place), state, said
+        return in_each_row(first.per, place), replace(state, each_of=first.per), said
     if first.shape == "one" and (place is None or place.shape in ("here", "nearby", "step")):
         moves = place is not None and place.shape != "here"
         return place if moves else None, drive(setting, state, DriveCommand(first, before.used)), ()

@@ -376,7 +376,7 @@ def _new_sentence(setting: Setting, state: DialogueState, command: Command) -> D
     if state.area is not None and not isinstance(command, When) and not is_there(setting, state.area, place):
         state = enter(setting, state, state.area)
     scope = state.scope if isinstance(command, Otherwise) else ()
-    return replace(state, scope=scope, commands_in_sentence=0, within=None, runs_on=False)
+    return replace(state, scope=scope, commands_in_sentence=0, within=None, each_of=None, runs_on=False)
 
 
 def _is_done_there(command: Command, lead: Lead) -> bool:

@@ -8,7 +8,7 @@ from typing import cast
 from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.places.picks.ordered import Order
-from fieldhand.planning.grammar.dialogue.fitting import in_area, of_each_row
+from fieldhand.planning.grammar.dialogue.fitting import in_area, in_each_row, of_each_before, of_each_row
 from fieldhand.planning.grammar.dialogue.plans import (
     EMPTY,
     as_for_each,
@@ -82,8 +82,14 @@ def drive(setting: Setting, state: DialogueState, command: DriveCommand) -> Dial
         said = (*setting.spans_of(area.used), *said)
     lead = state.lead
     if lead is not None and lead.place.shape == "area" and place.shape in ("one", "several"):
-        state, place = replace(state, lead=None), in_area(setting, lead, place)  # "in row 3, visit every tree"
+        rows = lead.place.per
+        if rows is not None and place.per is not None:
+            raise NotComposed(message("it is not clear at which of two places this is done", context="fault"))
+        there = in_area(setting, lead, place) if rows is None else in_each_row(rows, place)
+        state, place = replace(state, lead=None, each_of=rows), there  # "in row 3 (in each row), visit every tree"
         said = (*setting.spans_of(lead.used), *said)
+    elif lead is None:
+        place = of_each_before(state, place) or place
     require_known(setting, state, place, command.used)
     if state.awaits_command:
         raise NotComposed(message("it is not clear at which of two places this is done", context="fault"))

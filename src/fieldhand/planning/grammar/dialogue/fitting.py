@@ -8,11 +8,12 @@ from typing import Any, cast
 
 from fieldhand.language import message
 from fieldhand.places import selectors as s
-from fieldhand.planning.grammar.dialogue.state import NotComposed, OpenQuestion, Setting
+from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, OpenQuestion, Setting
 from fieldhand.planning.grammar.meaning import DriveCommand, Lead, PlaceMeaning, Thing
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.row_by_row import MOST_ONE_BY_ONE, one_by_one
 from fieldhand.planning.selections import (
+    AREAS,
     are_rows,
     are_several_rows,
     as_along_row,
@@ -97,6 +98,17 @@ def along_row(before: DriveCommand, place: PlaceMeaning) -> PlaceMeaning | None:
         raise NotComposed(message("it is not clear in which direction along the row", context="fault"))
     made = tuple(replace(part, towards=before.along) for part in parts)
     return replace(place, selector=made[0] if len(made) == 1 else s.UnionOf(parts=made))
+
+
+def of_each_before(state: DialogueState, place: PlaceMeaning | None) -> PlaceMeaning | None:
+    """Return a place in each of the rows of its sentence ("in each row the first tree, then the last"), if it fits."""
+    if state.each_of is None or place is None or place.shape not in ("one", "several") or place.per is not None:
+        return place
+    own_area = any(isinstance(part, AREAS) for part in place.selector.walk())
+    named = any(part.named_tree for part in place.selector.members)
+    if place.selector.relative or own_area or named or not chooses_from_trees(place.selector):
+        return place
+    return in_each_row(state.each_of, place)
 
 
 def in_each_row(rows: s.Selector, place: PlaceMeaning) -> PlaceMeaning:

@@ -104,6 +104,7 @@ class DialogueState:
         order: Order of the next places.
         home: Return with which the mission ends, if nothing follows.
         within: Rows or area in which the places of the sentence are.
+        each_of: Rows of each of which the places of the sentence are ("in each row, ... the first tree, ... the last").
         asked: Test of the last question.
         in_case: How the mission ends in one case.
         returned: True if the last drive is a return ("come back to the charger").
@@ -136,6 +137,7 @@ class DialogueState:
     order: InAnOrder | None = None
     home: Home | None = None
     within: s.Selector | None = None
+    each_of: s.Selector | None = None
     asked: AllTests | None = None
     in_case: Then | None = None
     returned: bool = False
