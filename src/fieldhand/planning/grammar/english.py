@@ -39,7 +39,7 @@ _SPELT_OUT = {
     "pics": "pictures",
 }
 #: Words for pictures and for taking them, by what they are to the grammar.
-_WITH_A_CAMERA = {"PICTURE": "NOUN", "CAMERA": "ACTV"}
+_WITH_A_CAMERA = {"PICTURE": "NOUN", "THERMAL": "NOUN", "CAMERA": "ACTV"}
 #: Categories of phrases that are silent in the shared vocabulary only.
 _SAY_SOMETHING = frozenset({"AVERAGEWORD", "CORRECTION", "ONEBYONE"})
 
@@ -51,10 +51,12 @@ class EnglishPhrases:
     Attributes:
         lexicon: Shared vocabulary, and the words of the robot and of the site.
         camera: Action that takes pictures, if the robot has just one.
+        is_thermal: True if these are thermal pictures.
     """
 
     lexicon: Lexicon
     camera: Naming | None
+    is_thermal: bool = False
 
     @property
     def longest(self) -> int:
@@ -94,7 +96,7 @@ class EnglishPhrases:
         for other in own:
             if other.kind in _WITH_A_CAMERA:
                 meant = _WITH_A_CAMERA[other.kind]
-                if self.camera is not None and meant != kind:
+                if self.camera is not None and meant != kind and (self.is_thermal or other.kind != "THERMAL"):
                     yield NameEntry(kind=meant, value=self.camera, plural=other.plural)
             elif other.kind != kind:
                 yield other
@@ -134,8 +136,9 @@ def more_words() -> Mapping[Phrase, tuple[NameEntry, ...]]:
     for kind, phrases in own["words"].items():
         for phrase in phrases:
             found[split(phrase)].append(NameEntry(kind=kind))
-    for phrase in own["words"]["PICTURE"]:
-        found[split(plural_of(phrase))].append(NameEntry(kind="PICTURE", plural=True))
+    for kind in ("PICTURE", "THERMAL"):
+        for phrase in own["words"][kind]:
+            found[split(plural_of(phrase))].append(NameEntry(kind=kind, plural=True))
     for phrase, value in own["derived"].items():
         found[split(phrase)].append(NameEntry(kind="SUPER", value=tuple(value)))
     for phrase, part in own["parts"].items():
@@ -154,7 +157,10 @@ def more_words() -> Mapping[Phrase, tuple[NameEntry, ...]]:
 
 def phrases_for(robot: RobotProfile, site: Site) -> EnglishPhrases:
     """Return the words of English for a robot on a site."""
-    return EnglishPhrases(lexicon_for(robot, site), camera_of(robot))
+    camera = camera_of(robot)
+    taking = [one for one in robot.actions if camera is not None and one.name in camera.actions]
+    is_thermal = any("thermal" in split(word) for one in taking for word in one.words)
+    return EnglishPhrases(lexicon_for(robot, site), camera, is_thermal)
 
 
 def camera_of(robot: RobotProfile) -> Naming | None:

@@ -16,7 +16,7 @@ from fieldhand.task.plan import Span
 _ASKING = frozenset(
     {
         "ACTV", "ALLOW", "ANOTHER", "APART", "ASMANY", "ATLEAST", "ATTRVAL", "BATTERY", "BEFORE",
-        "BETWEEN", "BUT", "CMP", "CORNER", "COUNT", "DIR", "EACH", "EXCEPT", "FITS", "GO", "GOHOME",
+        "BETWEEN", "BUT", "CLOCKWISE", "CMP", "CORNER", "COUNT", "DIR", "EACH", "EXCEPT", "FITS", "GO", "GOHOME",
         "IF", "IFSO", "INORDER", "INSTEAD", "INTERVAL", "ISNOT", "KEEP", "LEVEL", "MEASURE", "MOST",
         "NEAREST", "NEARBY", "NOORDER", "NOT", "NOUN", "NUM", "ORD", "ORDERED", "OTHERWISE", "REPEAT",
         "RETURN", "ROW", "STOP", "SUPER", "TAKE", "TIMES", "TREE", "TREEID", "TRY", "UNIT", "UNLESS",
@@ -127,10 +127,11 @@ def without_remarks(
     if len(left_out | labels) == len(words):
         left_out, labels = set(), set()
     kept_ones = [k for k in range(len(words)) if k not in left_out | labels]
+    dictated = {k for k, word in enumerate(words) if word.is_dictated}
     edited = tuple((words[one[0]].start, words[one[-1] + 1].start) for one in corrected)
     return Remarks(
         words=tuple(words[k] for k in kept_ones),
-        spans=_spans(words, left_out | topics),
+        spans=_spans(words, left_out | topics | dictated),
         labels=_spans(words, labels),
         corrected=edited,
         topics=frozenset(at for at, k in enumerate(kept_ones) if k in topics),
