@@ -107,10 +107,11 @@ def after_at_most(word: Lex, most: Amount, used: int) -> LimitClause | None:
     return LimitClause(most, False, used) if "after_doing" in word.features and most.unit == "seconds" else None
 
 
-@construction("subject: [DET] DRIVEN", "subject: MISSION", "subject: [DET] BATTERY USE", cost=0.1)
-def subject() -> str:
-    """Compose what is limited: "the driving distance", "the whole thing"."""
-    return "it"
+@construction("subject: [DET] DRIVEN", "subject: MISSION", "subject: [DET] BATTERY USE", "subject: IT", cost=0.1)
+@construction("subject: word=DET", cost=0.3)
+def subject(word: Lex | None = None) -> str | None:
+    """Compose what is limited: "the driving distance", "the whole thing", "that"."""
+    return "it" if word is None or "demonstrative" in word.features else None
 
 
 @construction(
