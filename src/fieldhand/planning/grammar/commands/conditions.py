@@ -77,6 +77,7 @@ def nth_reading(rank: Lex | None = None) -> Subject:
     "measured: [DET] noun=NOUN",
     "measured: [DET] noun=NOUN READING",
     "measured: [DET] noun=NOUN THERE",
+    "measured: [DET] noun=NOUNPOSS",
     "measured: ITS AVERAGEWORD noun=NOUN",
     "measured: [DET] noun=MEDIUM",
     cost=0.0,

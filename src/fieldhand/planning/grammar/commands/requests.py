@@ -507,6 +507,15 @@ def next_command(before: Said, joint: Connective, one: Command) -> Said | None:
     return Said((*before.clauses, LinkedCommand(joint, one)))
 
 
+@construction("said: before=said [COMMA] word=OPENER one=command", cost=0.3)
+def so_command(before: Said, word: Lex, one: Command, used: int) -> Said | None:
+    """Compose "(is it high), so take a picture"."""
+    if "consequence" not in word.features or not isinstance(before.clauses[-1].command, When):
+        return None
+    joint = Connective(False, False, used & ~one.used & ~_used_by(before))
+    return Said((*before.clauses, LinkedCommand(joint, one)))
+
+
 @construction("said: before=said joint=joint one=terse", cost=0.4)
 def next_terse(before: Said, joint: Connective, one: When) -> Said | None:
     """Compose ". Above 30 degC", behind which stands what is done then."""

@@ -248,7 +248,8 @@ def _read(
                 command = replace(command, relation="at")  # "at every tree of row 3, a picture and CO2"
             one_more = command.relation == "plain" and any(thing.count for thing in command.things)
             decided = command.relation == "bare" and bool(following) and following[0].before is None
-            if again and (one_more or decided):
+            decided = decided and (again or isinstance(following[0].command, When))
+            if (again and one_more) or decided:
                 command = replace(command, relation="at")  # "a second reading whenever the first is below 400 ppm"
             if command.relation == "bare" and (not state.open or (again and state.choice is None)):
                 raise NotComposed(message("it does not say what to do with it", context="fault"))

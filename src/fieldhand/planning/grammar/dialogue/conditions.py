@@ -165,7 +165,8 @@ def _of_last_threshold(state: DialogueState, tests: AllTests) -> AllTests:
     denies = (
         last is not None and last.check == test.check and last.negated
     )  # "unless it is above 35 ...; if it is above"
-    opposes = last is not None and last.check in _OPPOSITES[test.check] and not last.negated
+    opposites = (test.check,) if test.negated else _OPPOSITES[test.check]  # "under 15? ...; not under? ..."
+    opposes = last is not None and last.check in opposites and not last.negated
     if last is None or len(tests.tests) > 1 or not (denies or opposes):
         raise NotComposed(message("it is not clear with what it is compared", context="fault"))
     return AllTests((replace(last, negated=opposes),))
@@ -683,7 +684,9 @@ def until(setting: Setting, state: DialogueState, command: UntilCondition) -> Di
     if state.loop is None or state.captured is None or not is_inside(state.captured, state.loop):
         raise NotComposed(message("it is not clear what ends then", context="fault"))
     path = state.loop[:-1]
-    tests = replace(command.tests, of_last="") if command.tests.of_last == "any" else command.tests
+    tests = _of_quantity(setting, replace(command.tests, of_last=""))
+    if command.tests.of_last not in ("", "any"):
+        raise NotComposed(message("it is not clear what ends then", context="fault"))
     condition, state = condition_of(setting, state, tests)
     loop = for_each_at(state.plan, path)
     said = (*loop.said, *setting.spans_of(command.used))
