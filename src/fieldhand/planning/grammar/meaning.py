@@ -404,6 +404,15 @@ class VisitLimit:
 
 
 @dataclass(frozen=True, slots=True)
+class Total:
+    """A number of captures that must agree with the plan; ``action`` is empty for captures of any kind."""
+
+    count: int
+    action: str
+    used: int
+
+
+@dataclass(frozen=True, slots=True)
 class Again:
     """A command to do what was done at the last place again, at another place or there.
 
@@ -464,11 +473,13 @@ class Reordered:
         first: Place that comes first ("tree 9 first"); None if it is not said.
         used: Tokens of the phrase.
         swapped: True if two steps change places ("the other way round").
+        then: Place that comes after it, if the phrase names it ("tree 9 before tree 4").
     """
 
     first: PlaceMeaning | None
     used: int
     swapped: bool = False
+    then: PlaceMeaning | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -548,6 +559,7 @@ class Connective:
         from_here: True if what follows begins where the robot is then ("from there").
         bare: True if it is only a comma.
         purpose: True for "to" before what is done at the place.
+        precedes: True for "before".
     """
 
     full: bool
@@ -560,6 +572,7 @@ class Connective:
     from_here: bool = False
     bare: bool = False
     purpose: bool = False
+    precedes: bool = False
 
 
 Command = (
@@ -576,6 +589,7 @@ Command = (
     | Allowed
     | UntilCondition
     | VisitLimit
+    | Total
     | RankCommand
     | Again
     | InAnOrder

@@ -17,8 +17,13 @@ from fieldhand.site.model import Site
 _WORD_COST = 1.0
 #: Comparisons that are written as signs.
 _COMPARISONS = {
-    ">": "gt", "<": "lt", ">=": "ge", "<=": "le", "\N{GREATER-THAN OR EQUAL TO}": "ge", "\N{LESS-THAN OR EQUAL TO}": "le",
-}  # fmt: skip
+    ">": "gt",
+    "<": "lt",
+    ">=": "ge",
+    "<=": "le",
+    "\N{GREATER-THAN OR EQUAL TO}": "ge",
+    "\N{LESS-THAN OR EQUAL TO}": "le",
+}
 #: Categories of markers by their kind.
 _MARKERS = {"start": "START", "end": "FINISH", "charger": "CHARGER"}
 _SIGNS = {"comma": "COMMA", "dash": "DASH", "sign": "AND", "hash": "HASH", "stop": "FULLSTOP"}

@@ -392,10 +392,11 @@ def for_each_of_them(one: When, used: int) -> When:
     return replace(one, used=used)
 
 
-@construction("when: test=test mark=FULLSTOP", "when: test=predicate mark=FULLSTOP", cost=0.6)
-def test_as_question(test: Test, mark: Lex, used: int) -> When | None:
+@construction("when: tests=tests mark=FULLSTOP", "when: test=predicate mark=FULLSTOP", cost=0.6)
+def asked_of_reading(mark: Lex, used: int, tests: AllTests | None = None, test: Test | None = None) -> When | None:
     """Compose "below 33 degC?" and "is it below 33 degC?"."""
-    return When(AllTests((test,)), used, asks=True) if "question" in mark.features else None
+    tests = tests if test is None else AllTests((test,))
+    return When(tests, used, asks=True) if tests is not None and "question" in mark.features else None
 
 
 @construction("if_: IF", "if_: IF COMMA AND IF [COMMA]", cost=0.0)
@@ -430,6 +431,7 @@ def question(test: Test, used: int) -> ReadingQuestion | None:
 
 @construction(
     "failing: TRY",
+    "failing: TRY mark=FULLSTOP",
     "failing: IF [WHODOES] CANNOT",
     "failing: IF IT CANNOT",
     "failing: IF DOES CANNOT",
@@ -437,8 +439,12 @@ def question(test: Test, used: int) -> ReadingQuestion | None:
     "failing: IF things=things CANNOT [verb]",
     cost=0.2,
 )
-def failing(used: int, things: tuple[Thing, ...] = (), reading: Lex | None = None) -> Failing | None:
-    """Compose "if that fails", "if you can't get to it" and "if the leaf sample does not succeed"."""
+def failing(
+    used: int, things: tuple[Thing, ...] = (), reading: Lex | None = None, mark: Lex | None = None
+) -> Failing | None:
+    """Compose "if that fails", "can't get to it?" and "if the leaf sample does not succeed"."""
+    if mark is not None and "question" not in mark.features:
+        return None
     if len(things) > 1 or (reading is not None and reading.plural):
         return None
     return Failing(used, action=things[0].action if things else "" if reading is None else LAST_THING)

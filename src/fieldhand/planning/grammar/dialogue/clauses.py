@@ -49,6 +49,7 @@ from fieldhand.planning.grammar.dialogue.state import (
     with_joints,
     with_step,
 )
+from fieldhand.planning.grammar.dialogue.totals import with_total
 from fieldhand.planning.grammar.dialogue.turns import as_meant
 from fieldhand.planning.grammar.meaning import (
     LAST_THING,
@@ -76,6 +77,7 @@ from fieldhand.planning.grammar.meaning import (
     Reordered,
     Said,
     StopCommand,
+    Total,
     UntilCondition,
     VisitLimit,
     When,
@@ -242,6 +244,9 @@ def _read(
                     )
                 )  # "two trees get a picture"
             again = any(thing.action == LAST_THING for thing in command.things)
+            counted = any(one.count for one in command.things)
+            if command.relation == "bare" and counted and _says_number(state, joint, command):
+                raise NotComposed(message("it is not clear whether this is done once more", context="fault"))
             if command.relation == "bare" and _continues(state, joint, again=again):
                 command = replace(command, relation="at")  # "at tree 40 a picture, then CO2"
             elif command.relation == "bare" and state.lead is not None and joint is not None and not joint.both:
@@ -290,6 +295,8 @@ def _read(
             return replace(state, ranking=command)
         case VisitLimit():
             return limit_visits(setting, state, command)
+        case Total():
+            return with_total(setting, capture_elided(setting, state), command)
         case Again():
             return capture_again(setting, state, command)
         case InAnOrder():
@@ -338,6 +345,12 @@ def _continues(state: DialogueState, joint: Connective | None, *, again: bool) -
     if joint is not None and not joint.then:
         return not again and (last.act is not None or last.visits_each)
     return last.act is not None
+
+
+def _says_number(state: DialogueState, joint: Connective | None, command: CaptureCommand) -> bool:
+    """Return True behind a comma for the captures made before it, of which it may give the number ("(4 pictures)")."""
+    made = {one.action for one in state.things}
+    return joint is not None and joint.bare and made == {one.action for one in command.things}
 
 
 def _has_own_place(command: Command) -> bool:

@@ -487,7 +487,8 @@ def _of_reading_there(
         return _decided_by(setting, state, command, said)
     state = _choice(setting, replace(state, scope=()), command, said)
     then = following[0].command if following else None
-    goes_there = isinstance(then, CaptureCommand) and is_spoken_of(then.place) and not is_last
+    at = then.place if isinstance(then, CaptureCommand) else None
+    goes_there = at is not None and is_spoken_of(at) and at.shape != "those" and not is_last
     if isinstance(then, CaptureCommand) and then.place is None and not is_last:
         goes_there = setting.either("there, or where the robot is?", then.used, (True, False))
     return replace(state, lead=Lead(place, command.used)) if goes_there and place is not None else state

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import combinations
+from typing import Any, cast
 
 from fieldhand.language import message, named
 from fieldhand.language.words import say_name
@@ -23,7 +24,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
 )
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, OpenQuestion, Setting
 from fieldhand.planning.grammar.meaning import NTH_READING, AllTests, Check, PlaceMeaning, Test
-from fieldhand.planning.grammar.places.compass import SIDES
+from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.selections import named_places
 from fieldhand.robot.model import RobotProfile
@@ -269,6 +270,10 @@ def _place_meant(setting: Setting, places: Sequence[s.Selector], place: PlaceMea
         same = [one for one in places if meant and ids_of(one, setting.site) == meant]
         return place.selector if place.selector in places else same[0] if len(same) == 1 else None
     side = place.like.side
+    if side in CORNERS:
+        corner = ids_of(s.Corners(which=(cast(Any, side),)), setting.site)
+        same = [one for one in places if ids_of(one, setting.site) == corner]
+        return same[0] if len(same) == 1 else None
     if side not in SIDES or len(places) < 2 or not all(_is_one(setting, one) for one in places):
         return None
     if any(one.relative for one in places):
