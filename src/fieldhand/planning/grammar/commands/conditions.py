@@ -50,6 +50,8 @@ construction = GRAMMAR.construction
 _OPPOSITE: Mapping[Check, Check] = {"lt": "ge", "ge": "lt", "gt": "le", "le": "gt"}
 #: Units of the readings of which some levels are said, by the feature of the words.
 _SAID_OF = {"of_heat": "degC", "of_water": "percent"}
+#: Largest number of readings of which a request says how many pass a test.
+_MOST_OF_SEVERAL = 9
 #: The reading taken last.
 _IT = Subject()
 
@@ -246,7 +248,12 @@ def outside(low: tuple[float, str], high: tuple[float, str], word: Lex | None = 
     return inside if inside is None or word is None else replace(inside, negated=True)
 
 
-@construction("predicate: [AT] value=threshold bound=BOUND", "predicate: value=threshold sign=AND", cost=0.1)
+@construction(
+    "predicate: [AT] value=threshold bound=BOUND",
+    "predicate: FROM value=threshold bound=BOUND",
+    "predicate: value=threshold sign=AND",
+    cost=0.1,
+)
 def bounded(value: tuple[float, str], bound: Lex | None = None, sign: Lex | None = None) -> Test | None:
     """Compose "30 degC or more" and "30+"."""
     if bound is None:
@@ -254,15 +261,15 @@ def bounded(value: tuple[float, str], bound: Lex | None = None, sign: Lex | None
     return None if bound.value[1] else Test("", bound.value[0], value[0], value[1])
 
 
-@construction(
-    "predicate: STILL test=predicate",
-    "predicate: AGAIN test=predicate",
-    "predicate: EVERYTHING test=predicate",
-    "predicate: LEVEL [COMMA] MEANING test=predicate",
-    cost=0.1,
-)
+@construction("predicate: STILL test=predicate", "predicate: AGAIN test=predicate", cost=0.1)
 def still(test: Test) -> Test:
-    """Compose "still above 30 degC", "anything above 30 degC" and "too hot, meaning over 40 degC"."""
+    """Compose "still above 30 degC" and "again above 30 degC", of the latest reading."""
+    return replace(test, quantity=test.quantity or LATEST_READING)
+
+
+@construction("predicate: EVERYTHING test=predicate", "predicate: LEVEL [COMMA] MEANING test=predicate", cost=0.1)
+def anything_so(test: Test) -> Test:
+    """Compose "anything above 30 degC" and "too hot, meaning over 40 degC"."""
     return test
 
 
@@ -469,7 +476,7 @@ def failing_at_one(one: Failing, used: int) -> Failing:
     return replace(one, used=used, at_one=True)
 
 
-@construction("when: IF test=predicate", "when: WHERE test=predicate", cost=0.8)
+@construction("when: IF test=predicate", "when: WHERE test=predicate", "when: WITH test=predicate", cost=0.8)
 def when_so(test: Test, used: int) -> When:
     """Compose "if hot" and "where low"."""
     return When(AllTests((test,)), used)
@@ -565,6 +572,7 @@ def among_trees(inner: Nominal) -> PlaceMeaning | None:
     "tested: among [WHICH] [IS] test=predicate",
     "tested: among WHERE [IT] [IS] test=predicate",
     "tested: among WHICH noun=NOUN [IS] test=predicate",
+    "tested: among WITH test=predicate",
     "tested: DET test=predicate noun=ONE",
     "tested: test=predicate noun=ONE",
     "tested: area=among_trees WHICH [IS] test=predicate",
@@ -760,10 +768,19 @@ def pass_to_next(used: int) -> PassOn:
 
 
 @construction(
-    "group: every=GROUPALL", "group: GROUPANY", "group: none=GROUPNONE", "group: [ATLEAST] n=count OFTHEM", cost=0.0
+    "group: every=GROUPALL",
+    "group: GROUPANY",
+    "group: none=GROUPNONE",
+    "group: [ATLEAST] n=count OFTHEM",
+    "group: n=count bound=BOUND [OFTHEM]",
+    "group: bound=CMP n=count [OFTHEM]",
+    cost=0.0,
 )
-def group(every: Lex | None = None, none: Lex | None = None, n: int = 0) -> OfLast:
-    """Compose "both", "any of them" and "at least two of them"."""
+def group(every: Lex | None = None, none: Lex | None = None, n: int = 0, bound: Lex | None = None) -> OfLast | None:
+    """Compose "both", "any of them", "at least two of them" and "more than one"."""
+    if bound is not None:
+        more = {("ge", ""): 0, ("gt", ""): 1}.get(bound.value)
+        return None if more is None or n > _MOST_OF_SEVERAL else n + more
     return n or ("all" if every is not None else "none" if none is not None else "any")
 
 

@@ -423,7 +423,7 @@ def again_in_that_order(one: Again, used: int) -> Again | None:
     return replace(one, used=used) if one.times else None
 
 
-@construction("capture: AGAIN", "capture: AGAIN place=here", cost=1.5)
+@construction("capture: AGAIN", "capture: AGAIN place=here", "capture: MEASURE AGAIN", cost=1.5)
 def once_more(used: int, place: PlaceMeaning | None = None) -> CaptureCommand:
     """Compose "(and then) once more", of what was captured last."""
     return CaptureCommand((Thing(LAST_THING, count=1),), place, used)

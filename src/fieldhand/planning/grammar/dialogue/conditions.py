@@ -165,7 +165,7 @@ def _of_last_threshold(state: DialogueState, tests: AllTests) -> AllTests:
     denies = (
         last is not None and last.check == test.check and last.negated
     )  # "unless it is above 35 ...; if it is above"
-    opposites = (test.check,) if test.negated else _OPPOSITES[test.check]  # "under 15? ...; not under? ..."
+    opposites = (test.check,) if test.negated else _OPPOSITES.get(test.check, ())  # "under 15? ...; not under? ..."
     opposes = last is not None and last.check in opposites and not last.negated
     if last is None or len(tests.tests) > 1 or not (denies or opposes):
         raise NotComposed(message("it is not clear with what it is compared", context="fault"))
