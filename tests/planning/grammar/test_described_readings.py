@@ -387,10 +387,62 @@ SAID: list[tuple[str, str, str]] = [
     ("husky", "Photograph tree 9 before tree 4.", "picture @ TreeIs(9); picture @ TreeIs(4)"),
     ("husky", "CO2 at tree 10, three times in total.", "3 times: [co2 @ TreeIs(10)]"),
     ("husky", "CO2 at tree 10. Three times in all.", "3 times: [co2 @ TreeIs(10)]"),
+    (
+        "husky",
+        "CO2 at trees 4, 9 and 30; at whichever of them exceeds 500 ppm, take a picture.",
+        "for UnionOf(TreeIs(4)+TreeIs(9)+TreeIs(30)): [co2 = r1; if r1 > 500 ppm: [picture]]",
+    ),
+    (
+        "husky",
+        "CO2 tree 4. >500? pic. else home.",
+        "co2 @ TreeIs(4) = r1; if r1 > 500 ppm: [picture] else [go Marker(start)] | return_to_start",
+    ),
+    (
+        "husky",
+        "CO2 at tree 4. Only with a reading above 500 a picture.",
+        "co2 @ TreeIs(4) = r1; if r1 > 500 ppm: [picture]",
+    ),
+    ("husky", "CO2 at tree 4. From 500 ppm upwards, a picture.", "co2 @ TreeIs(4) = r1; if r1 >= 500 ppm: [picture]"),
+    (
+        "husky",
+        "Measure CO2 at trees 4, 9 and 30. If two or more are high, photograph tree 12.",
+        "co2 @ TreeIs(4) = r1; co2 @ TreeIs(9) = r2; co2 @ TreeIs(30) = r3; if r1 high and r2 high or r1 high and r3 high or r2 high and r3 high: [picture @ TreeIs(12)]",
+    ),
+    (
+        "husky",
+        "Measure CO2 at trees 4, 9 and 30 and photograph any with more than 500 ppm.",
+        "for UnionOf(TreeIs(4)+TreeIs(9)+TreeIs(30)): [co2 = r1; if r1 > 500 ppm: [picture]]",
+    ),
+    (
+        "husky",
+        "Photograph row 3, every tree; where it's hot, CO2 too; where it isn't, move on.",
+        "for Rows(3, 3): [picture = r1; if r1 high: [co2]]",
+    ),
+    (
+        "husky",
+        "Measure CO2 at tree 4. If high, measure again; if still high, photograph it.",
+        "co2 @ TreeIs(4) = r1; if r1 high: [co2 = r2; if r2 high: [picture]]",
+    ),
+    ("husky", "Go to tree 4. CO2 above 500? Photograph it.", "go TreeIs(4); co2 = r1; if r1 > 500 ppm: [picture]"),
+    (
+        "husky",
+        "Go to the charger and read the air temperature. Anything above 35 and you can turn straight round and come back; otherwise carry on to tree 1 and photograph it.",
+        "go Marker(charger); air = r1; if r1 > 35 degC: [go Marker(start)] else [go TreeIs(1); picture] | return_to_start",
+    ),
+    (
+        "husky",
+        "CO2 at tree 4. Above 500 ppm and you come home, otherwise photograph it.",
+        "co2 @ TreeIs(4) = r1; if r1 > 500 ppm: [go Marker(start)] else [picture] | return_to_start",
+    ),
 ]
 
 #: Requests that leave open what is meant, contradict themselves, or compare readings.
 OPEN: list[tuple[str, str]] = [
+    ("husky", "Measure CO2 at every yellow tree. If the average is high, photograph tree 4."),
+    ("husky", "Measure CO2 at trees 4 and 9. If tree 4 is higher than tree 9, photograph tree 4."),
+    ("husky", "Measure CO2 at trees 4 and 9. If the first is higher than the second, photograph tree 4."),
+    ("husky", "Measure CO2 at trees 4 and 9. If exactly one of them is high, photograph it."),
+    ("husky", "Measure CO2 at tree 4 twice. If the second one is high, photograph the tree."),
     ("husky", "Photograph trees 4, 9 and 30, but tree 30 before tree 9."),
     ("husky", "Photograph trees 4 and 9, but tree 9 before tree 12."),
     ("husky", "CO2 at trees 4 and 40. Take a picture of the one with the higher reading."),

@@ -449,7 +449,10 @@ def _is_of_other_case(state: DialogueState, place: PlaceMeaning) -> bool:
         return False
     choice = as_choice(node_at(state.plan, state.scope[:-1]))
     nodes = () if choice is None else tuple(p.walk(choice.then))
-    return any(node.selector is not None and not (node.visits_each and place.one_tree) for node in nodes)
+    named = [
+        node for node in nodes if node.selector is not None and not (node.only_drives and node.selector.named_marker)
+    ]
+    return any(not (node.visits_each and place.one_tree) for node in named)
 
 
 def _nothing_done_there(state: DialogueState) -> bool:

@@ -274,7 +274,8 @@ def _read(
         case StopCommand():
             return _stop(setting, state, command)
         case When():
-            return when(setting, state, command, [*_way_home(following), *_rest_of_sentence(following)])
+            begins = state.commands_in_sentence == 0
+            return when(setting, state, command, [*_way_home(following, begins=begins), *_rest_of_sentence(following)])
         case CaptureWhere():
             return captured_where(setting, state, command)
         case Otherwise() if following and isinstance(following[0].command, PassOn):
@@ -360,12 +361,18 @@ def _has_own_place(command: Command) -> bool:
     return command.place is not None and command.place.shape == "one" and not command.place.selector.relative
 
 
-def _way_home(following: Sequence[LinkedCommand]) -> list[LinkedCommand]:
-    """Return the return that directly follows a condition, which then decides it ("if it is hot, come home")."""
+def _way_home(following: Sequence[LinkedCommand], *, begins: bool) -> list[LinkedCommand]:
+    """Return the return that directly follows a condition, which then decides it ("if it is hot, come home").
+
+    Args:
+        following: Clauses behind the condition.
+        begins: True if the condition begins its sentence ("above 35 degC and you come home").
+    """
     first = following[0] if following else None
     if first is None or not isinstance(first.command, Home):
         return []
-    return [first] if first.before is None or first.before.bare else []
+    joined = first.before is not None and not first.before.bare and not (begins and first.before.both)
+    return [] if joined else [first]
 
 
 def _rest_of_sentence(following: Sequence[LinkedCommand]) -> list[LinkedCommand]:
