@@ -8,6 +8,11 @@ Longer than other files because it is a table.
 PLANNED = [
     (
         "husky",
+        "If the CO2 at tree 4 is low and the CO2 at tree 9 is high, take a picture of tree 12.",
+        "co2 @ TreeIs(4) = r1; co2 @ TreeIs(9) = r2; if r1 low and r2 high: [picture @ TreeIs(12)]",
+    ),
+    (
+        "husky",
         "Take a picture of tree 4. If it is low, take a CO2 reading. If it is high, take a temperature reading.",
         "picture @ TreeIs(4) = r1; if r1 low: [co2]; if r1 high: [air]",
     ),
@@ -1243,11 +1248,6 @@ REFUSED = [
         "husky",
         "Take a picture of tree 4 or, if that fails, of tree 5.",
         "'or, if that fails' does not fit at this point in 'Take a picture of tree 4 or, if that fails, of tree 5'",
-    ),
-    (
-        "husky",
-        "If the CO2 at tree 4 is low and the CO2 at tree 9 is high, take a picture of tree 12.",
-        "'is high, take a' does not fit at this point in 'If the CO2 at tree 4 is low and the CO2 at tree 9 is high, take a picture of tree 12'",
     ),
     ("husky", "Take no pictures.", "each word is known, but not what they say together"),
     ("husky", "Stop.", "'Stop': it asks for nothing to be done"),

@@ -1306,11 +1306,6 @@ REFUSED = [
     ),
     (
         "husky",
-        "Starting from the charger, take a CO2 reading every 15 m, 5 in total.",
-        "'in total' does not fit at this point in 'Starting from the charger, take a CO2 reading every 15 m, 5 in total'",
-    ),
-    (
-        "husky",
         "Take CO2 readings 10 to 15 m apart in row 4.",
         "'10 to 15 m' does not fit at this point in 'Take CO2 readings 10 to 15 m apart in row 4'",
     ),

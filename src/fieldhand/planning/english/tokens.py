@@ -21,7 +21,7 @@ _TOKEN = re.compile(
     r"|(?P<sign>[&+])"
     r"|(?P<hash>#)"
     r"|(?P<space>[\s\"'\u201c\u201d\u2018\u2019*_`]+)"
-    r"|(?P<other>.)",
+    r"|(?P<other>[<>]=|.)",
     re.DOTALL | re.IGNORECASE,
 )
 

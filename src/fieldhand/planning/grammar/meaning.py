@@ -38,6 +38,8 @@ SAME_VALUE = "="
 DEFAULT_VALUE = ""
 #: Quantity of a test of a reading of the request by its number: "^1" is the first, "^-1" the last.
 NTH_READING = "^"
+#: Quantity of a test of the latest reading of several ("that one").
+LATEST_READING = "^^"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -284,6 +286,8 @@ class Test:
         unit: Unit that the phrase names; empty if none.
         negated: True for "is not".
         attribute: Attribute of the tree that is tested instead of a reading; empty for a reading.
+        place: Place of the reading, if the phrase names it ("the one at the south end").
+        setting: Parameters of the reading, if the phrase names them ("the 15 cm value").
     """
 
     quantity: str
@@ -292,6 +296,23 @@ class Test:
     unit: str = ""
     negated: bool = False
     attribute: str = ""
+    place: PlaceMeaning | None = None
+    setting: tuple[tuple[str, str | float], ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Subject:
+    """A reading that is tested, as a phrase describes it.
+
+    Attributes:
+        quantity: Quantity of the reading; empty if the phrase names none ("it").
+        place: Place of the reading.
+        setting: Parameters of the reading.
+    """
+
+    quantity: str = ""
+    place: PlaceMeaning | None = None
+    setting: tuple[tuple[str, str | float], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -316,19 +337,24 @@ class When:
 
     Attributes:
         tests: Tests; none for "if so".
-        measured_at: Place at which the tested reading is taken first, if the condition names one.
         among: What it may choose from: the trees of an area ("wherever a tree is yellow"), or the places visited last
             ("those above 30 degC").
         terse: True for a test without "if" ("above 30 degC: a picture").
+        asks: True for a question ("is it above 30 degC?"), which "if so" may answer.
         affirms: True for "if it is", of a test that was denied before ("unless it is high, ..., if it is, ...").
     """
 
     tests: AllTests
     used: int
-    measured_at: PlaceMeaning | None = None
     among: Literal["", "area", "visited"] = ""
     terse: bool = False
+    asks: bool = False
     affirms: bool = False
+
+    @property
+    def measured_at(self) -> PlaceMeaning | None:
+        """The place of the only reading that is tested, if the condition names one."""
+        return self.tests.tests[0].place if len(self.tests.tests) == 1 else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -374,6 +400,15 @@ class VisitLimit:
     """The maximum number of visits of the places before it; without ``count`` as many as the budget allows."""
 
     count: int | None
+    used: int
+
+
+@dataclass(frozen=True, slots=True)
+class Total:
+    """A number of captures that must agree with the plan; ``action`` is empty for captures of any kind."""
+
+    count: int
+    action: str
     used: int
 
 
@@ -438,11 +473,13 @@ class Reordered:
         first: Place that comes first ("tree 9 first"); None if it is not said.
         used: Tokens of the phrase.
         swapped: True if two steps change places ("the other way round").
+        then: Place that comes after it, if the phrase names it ("tree 9 before tree 4").
     """
 
     first: PlaceMeaning | None
     used: int
     swapped: bool = False
+    then: PlaceMeaning | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -522,6 +559,7 @@ class Connective:
         from_here: True if what follows begins where the robot is then ("from there").
         bare: True if it is only a comma.
         purpose: True for "to" before what is done at the place.
+        precedes: True for "before".
     """
 
     full: bool
@@ -534,6 +572,7 @@ class Connective:
     from_here: bool = False
     bare: bool = False
     purpose: bool = False
+    precedes: bool = False
 
 
 Command = (
@@ -550,6 +589,7 @@ Command = (
     | Allowed
     | UntilCondition
     | VisitLimit
+    | Total
     | RankCommand
     | Again
     | InAnOrder

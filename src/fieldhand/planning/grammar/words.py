@@ -16,7 +16,14 @@ from fieldhand.site.model import Site
 #: Price of a word by itself; a phrase of several words costs no more, so that longer phrases are preferred.
 _WORD_COST = 1.0
 #: Comparisons that are written as signs.
-_COMPARISONS = {">": "gt", "<": "lt", "\N{GREATER-THAN OR EQUAL TO}": "ge", "\N{LESS-THAN OR EQUAL TO}": "le"}
+_COMPARISONS = {
+    ">": "gt",
+    "<": "lt",
+    ">=": "ge",
+    "<=": "le",
+    "\N{GREATER-THAN OR EQUAL TO}": "ge",
+    "\N{LESS-THAN OR EQUAL TO}": "le",
+}
 #: Categories of markers by their kind.
 _MARKERS = {"start": "START", "end": "FINISH", "charger": "CHARGER"}
 _SIGNS = {"comma": "COMMA", "dash": "DASH", "sign": "AND", "hash": "HASH", "stop": "FULLSTOP"}

@@ -9,8 +9,10 @@ from typing import Any
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.commands.parameters import with_parameter
 from fieldhand.planning.grammar.meaning import (
     LAST_THING,
+    LATEST_READING,
     NTH_READING,
     SAME_THRESHOLD,
     Allowed,
@@ -20,17 +22,21 @@ from fieldhand.planning.grammar.meaning import (
     CaptureWhere,
     Check,
     Failing,
+    Likewise,
     Nominal,
     OfLast,
     Otherwise,
+    ParameterValue,
     PassOn,
     PlaceMeaning,
     ReadingQuestion,
+    Subject,
     Test,
     Thing,
     UntilCondition,
     When,
 )
+from fieldhand.planning.grammar.places.compass import AWAY_FROM
 from fieldhand.planning.grammar.places.numbers import named_trees
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_in_row, as_some, is_one_row
@@ -44,147 +50,120 @@ construction = GRAMMAR.construction
 _OPPOSITE: Mapping[Check, Check] = {"lt": "ge", "ge": "lt", "gt": "le", "le": "gt"}
 #: Units of the readings of which some levels are said, by the feature of the words.
 _SAID_OF = {"of_heat": "degC", "of_water": "percent"}
+#: Largest number of readings of which a request says how many pass a test.
+_MOST_OF_SEVERAL = 9
+#: The reading taken last.
+_IT = Subject()
 
 
-@construction("subject: IT", "subject: ITS", "subject: [DET] READING", cost=0.0)
-def anything() -> str:
-    """Compose "it"."""
-    return ""
+@construction("measured: word=IT", "measured: ITS", "measured: [DET] READING", cost=0.0)
+def anything(word: Lex | None = None) -> Subject:
+    """Compose "it", and "that one", which is the latest reading of several."""
+    return Subject(LATEST_READING if word is not None and "latest" in word.features else "")
 
 
-@construction("subject: word=DET", cost=0.3)
-def that(word: Lex) -> str | None:
+@construction("measured: word=DET", cost=0.3)
+def that(word: Lex) -> Subject | None:
     """Compose "that" alone."""
-    return "" if "demonstrative" in word.features else None
+    return Subject() if "demonstrative" in word.features else None
 
 
-@construction("subject: DET rank=ORD READING", "subject: DET rank=ORD ONE", "subject: DET rank=ORD", cost=0.0)
-def nth_reading(rank: Lex) -> str:
-    """Compose "the first reading"."""
-    return f"{NTH_READING}{rank.value}"
+@construction("measured: DET rank=ORD READING", "measured: DET rank=ORD ONE", "measured: DET rank=ORD", cost=0.0)
+@construction("measured: DET LAST READING", "measured: DET LAST ONE", cost=0.0)
+def nth_reading(rank: Lex | None = None) -> Subject:
+    """Compose "the first reading" and "the last one"."""
+    return Subject(f"{NTH_READING}{-1 if rank is None else rank.value}")
 
 
-@construction("subject: DET LAST READING", "subject: DET LAST ONE", cost=0.0)
-def last_reading() -> str:
-    """Compose "the last reading"."""
-    return f"{NTH_READING}-1"
+@construction(
+    "measured: [DET] noun=NOUN",
+    "measured: [DET] noun=NOUN READING",
+    "measured: [DET] noun=NOUN THERE",
+    "measured: [DET] noun=NOUNPOSS",
+    "measured: ITS AVERAGEWORD noun=NOUN",
+    "measured: [DET] noun=MEDIUM",
+    cost=0.0,
+)
+def named_quantity(noun: Lex) -> list[Subject] | None:
+    """Compose "the temperature", "its average temperature" and "the air"."""
+    naming: Naming = noun.value
+    return [Subject(name) for name in dict.fromkeys(naming.quantities) or naming.actions[:1]] or None
 
 
-@construction("subject: [DET] noun=NOUN relation word=DET tree=TREE", cost=0.1)
-def quantity_of_tree(noun: Lex, word: Lex, tree: Lex) -> list[str] | None:
+@construction("measured: [DET] noun=NOUN relation word=DET tree=TREE", cost=0.1)
+def quantity_of_tree(noun: Lex, word: Lex, tree: Lex) -> list[Subject] | None:
     """Compose "the canopy temperature at a tree", of each of those at which it is measured."""
     return None if tree.plural or "definite" in word.features else named_quantity(noun)
 
 
 @construction(
-    "asked: [DET] noun=NOUN [READING] relation place=place", "asked: [DET] noun=MEDIUM relation place=place", cost=0.0
+    "measured: [DET] value=amount [DOWNTO] READING",
+    "measured: [DET] value=amount [DOWNTO] ONE",
+    "measured: [DET] READING how=parameter",
+    "measured: DET ONE how=parameter",
+    "measured: [DET] noun=NOUN [READING] how=parameter",
+    cost=0.1,
+    given=("robot",),
 )
-def quantity_at(noun: Lex, place: PlaceMeaning) -> tuple[str, PlaceMeaning] | None:
-    """Compose "the temperature at tree 4" and "the air at tree 4"."""
-    naming: Naming = noun.value
-    if len(set(naming.quantities)) != 1 or not _is_known(place):
-        return None  # "the temperature at any tree": at which?
-    return (naming.quantities[0], place)
+def with_setting(
+    robot: RobotProfile, value: Amount | None = None, how: ParameterValue | None = None, noun: Lex | None = None
+) -> list[Subject] | None:
+    """Compose "the 15 cm value" and "the moisture at 15 cm", of readings that were taken so."""
+    setting = how if value is None else ParameterValue(value.number, value.unit, ())
+    if setting is None or isinstance(setting.value, str):
+        return None
+    made = [with_parameter(Thing(action.name), setting, robot) for action in robot.actions]
+    ways = dict.fromkeys(one.parameters for one in made if one is not None)
+    named = [Subject()] if noun is None else named_quantity(noun) or []
+    return [replace(one, setting=way) for one in named for way in ways]
+
+
+@construction(
+    "measured: [DET] READING relation place=place",
+    "measured: DET noun=ONE relation place=place",
+    "measured: [DET] noun=NOUN [READING] relation place=place",
+    "measured: [DET] noun=MEDIUM relation place=place",
+    "measured: place=owned_by [READING]",
+    "measured: place=owned_by noun=NOUN [READING]",
+    cost=0.0,
+)
+def reading_at(place: PlaceMeaning, noun: Lex | None = None) -> list[Subject] | None:
+    """Compose "the temperature at tree 4", "the one at tree 4" and "tree 4's"."""
+    named = [Subject()] if noun is None or noun.value is None else named_quantity(noun) or []
+    return [replace(one, place=place) for one in named] if _is_known(place) and len(named) == 1 else None
+
+
+@construction("measured: place=place", cost=0.0)
+def reading_of_place(place: PlaceMeaning) -> Subject | None:
+    """Compose "tree 31" and "the southern one", of a reading that was taken there."""
+    return Subject(place=place) if _is_known(place) else None
+
+
+@construction(
+    "measured: [DET] READING relation side=an_end",
+    "measured: DET ONE relation side=an_end",
+    "measured: [DET] place=DIR READING",
+    "measured: [DET] place=MOST READING",
+    cost=0.0,
+)
+def reading_to_side(side: str = "", place: Lex | None = None) -> Subject | None:
+    """Compose "the one at the south end" and "the northernmost reading"."""
+    to = side if place is None else place.value
+    return Subject(place=PlaceMeaning(s.Here(), "one", like=Likewise("", side=to))) if to in AWAY_FROM else None
 
 
 def _is_known(place: PlaceMeaning) -> bool:
-    """Return True for one place that the phrase names by itself: not "the second one", not any tree of several."""
+    """Return True for one place that the phrase names by itself: not any tree of several."""
     counted = as_in_row(place.selector)
-    if place.shape != "one" or place.like is not None or as_some(place.selector) is not None:
+    if place.shape != "one" or (place.like is not None and place.like.kind) or as_some(place.selector) is not None:
         return False
     return counted is None or is_one_row(counted.of)
-
-
-@construction(
-    "measured: asked=asked [IS] test=predicate",
-    "measured: asked=asked denied=ISNOT test=predicate",
-    cost=0.2,
-)
-def measured(asked: tuple[str, PlaceMeaning], test: Test, denied: Lex | None = None) -> tuple[PlaceMeaning, Test]:
-    """Compose "the temperature at tree 4 is above 30 degC"."""
-    return (asked[1], replace(test, quantity=asked[0], negated=test.negated != (denied is not None)))
-
-
-@construction(
-    "measured: [DET] noun=NOUN [READING] [IS] test=predicate relation place=place",
-    "measured: [DET] noun=MEDIUM [IS] test=predicate relation place=place",
-    cost=0.3,
-)
-def measured_at(noun: Lex, test: Test, place: PlaceMeaning) -> tuple[PlaceMeaning, Test] | None:
-    """Compose "the temperature is above 30 degC at tree 4"."""
-    asked = quantity_at(noun, place)
-    return None if asked is None else measured(asked, test)
-
-
-@construction("when: IF one=measured", "when: WHERE one=measured", "when: word=UNLESS one=measured", cost=0.3)
-def when_measured(one: tuple[PlaceMeaning, Test], used: int, word: Lex | None = None) -> When:
-    """Compose "if the temperature at tree 4 is above 30 degC"."""
-    test = one[1] if word is None else replace(one[1], negated=not one[1].negated)
-    return When(AllTests((test,)), used, measured_at=one[0])
 
 
 @construction("terse: test=predicate", "terse: test=test", cost=0.6)
 def terse(test: Test, used: int) -> When:
     """Compose "above 30 degC", behind which stands what is done then."""
     return When(AllTests((test,)), used, terse=True)
-
-
-@construction(
-    "measured: place=place [IS] test=predicate",
-    "measured: IT [IS] test=predicate AT place=place",
-    cost=0.6,
-    given=("robot",),
-)
-def tree_measured(place: PlaceMeaning, test: Test, robot: RobotProfile) -> list[tuple[PlaceMeaning, Test]] | None:
-    """Compose "tree 14 is hotter than 36 degC": which readings are in that unit?"""
-    if not _is_known(place) or test.value == SAME_THRESHOLD:
-        return None
-    measured_by_it = [name for action in robot.actions for name in action.measures]
-    found = [name for name in measured_by_it if test.unit in ("", robot.quantity[name].unit)]
-    return [(place, replace(test, quantity=name)) for name in found]
-
-
-@construction(
-    "measured: place=place [IS] test=predicate",
-    "measured: IT [IS] test=predicate AT place=place",
-    "measured: number=NUM IS test=predicate",
-    cost=0.0,
-    given=("site",),
-)
-def measured_before(
-    test: Test, site: Site, place: PlaceMeaning | None = None, number: Lex | None = None
-) -> tuple[PlaceMeaning, Test] | None:
-    """Compose "tree 31 came out high" and "31 came out high", of a reading that was taken there."""
-    if number is not None:
-        place = named_trees((number.text,)) if number.text.isdecimal() and number.text in site.by_id else None
-    known = place is not None and _is_known(place) and test.value != SAME_THRESHOLD
-    return (place, test) if known and place is not None else None
-
-
-@construction("question: IS one=measured [FULLSTOP]", cost=0.2)
-def is_it_there(one: tuple[PlaceMeaning, Test], used: int) -> ReadingQuestion:
-    """Compose "is tree 4 hotter than 36 degC?"."""
-    return ReadingQuestion(AllTests((one[1],)), one[0], used)
-
-
-@construction("question: one=question MEASURE IT", "question: one=question FULLSTOP MEASURE IT", cost=0.1)
-def question_measured(one: ReadingQuestion, used: int) -> ReadingQuestion:
-    """Compose "is the air above 35 degC at tree 4? Measure it."."""
-    return replace(one, used=used)
-
-
-@construction(
-    "subject: [DET] noun=NOUN",
-    "subject: [DET] noun=NOUN READING",
-    "subject: [DET] noun=NOUN THERE",
-    "subject: ITS AVERAGEWORD noun=NOUN",
-    "subject: [DET] noun=MEDIUM",
-    cost=0.0,
-)
-def named_quantity(noun: Lex) -> list[str] | None:
-    """Compose "the temperature", "its average temperature" and "the air"."""
-    naming: Naming = noun.value
-    return list(naming.quantities or naming.actions[:1]) or None
 
 
 @construction("threshold: value=amount", cost=0.0)
@@ -269,15 +248,28 @@ def outside(low: tuple[float, str], high: tuple[float, str], word: Lex | None = 
     return inside if inside is None or word is None else replace(inside, negated=True)
 
 
-@construction("predicate: [AT] value=threshold bound=BOUND", cost=0.1)
-def bounded(value: tuple[float, str], bound: Lex) -> Test | None:
-    """Compose "30 degC or more"."""
+@construction(
+    "predicate: [AT] value=threshold bound=BOUND",
+    "predicate: FROM value=threshold bound=BOUND",
+    "predicate: value=threshold sign=AND",
+    cost=0.1,
+)
+def bounded(value: tuple[float, str], bound: Lex | None = None, sign: Lex | None = None) -> Test | None:
+    """Compose "30 degC or more" and "30+"."""
+    if bound is None:
+        return Test("", "ge", value[0], value[1]) if sign is not None and sign.text == "+" else None
     return None if bound.value[1] else Test("", bound.value[0], value[0], value[1])
 
 
 @construction("predicate: STILL test=predicate", "predicate: AGAIN test=predicate", cost=0.1)
 def still(test: Test) -> Test:
-    """Compose "still above 30 degC" and "again above 30 degC"."""
+    """Compose "still above 30 degC" and "again above 30 degC", of the latest reading."""
+    return replace(test, quantity=test.quantity or LATEST_READING)
+
+
+@construction("predicate: EVERYTHING test=predicate", "predicate: LEVEL [COMMA] MEANING test=predicate", cost=0.1)
+def anything_so(test: Test) -> Test:
+    """Compose "anything above 30 degC" and "too hot, meaning over 40 degC"."""
     return test
 
 
@@ -300,15 +292,48 @@ def negated(test: Test) -> Test:
 
 
 @construction(
-    "test: [subject=subject] IS test=predicate",
-    "test: subject=subject test=predicate",
-    "test: IS subject=subject test=predicate",
-    "test: [subject=subject] denied=ISNOT test=predicate",
+    "test: [subject=measured] IS test=predicate",
+    "test: subject=measured test=predicate",
+    "test: IS subject=measured test=predicate",
+    "test: test=predicate IS subject=measured",
+    "test: [subject=measured] denied=ISNOT test=predicate",
+    "test: subject=measured [IS] test=predicate relation place=place",
     cost=0.2,
 )
-def reading_is(test: Test, subject: str = "", denied: Lex | None = None) -> Test:
+def reading_is(
+    test: Test, subject: Subject = _IT, denied: Lex | None = None, place: PlaceMeaning | None = None
+) -> Test | None:
     """Compose "it is above 30 degC", "it is not above 30 degC" and "is it above 30 degC"."""
-    return replace(test, quantity=subject, negated=test.negated != (denied is not None))
+    if place is not None and (subject.place is not None or not _is_known(place)):
+        return None
+    if (subject.place is not None or place is not None) and test.value == SAME_THRESHOLD:
+        return None
+    negated = test.negated != (denied is not None)
+    return replace(
+        test,
+        quantity=subject.quantity or test.quantity,
+        negated=negated,
+        place=subject.place or place,
+        setting=subject.setting,
+    )
+
+
+@construction("test: subject=measured [IS] test=predicate", cost=0.8, given=("robot",))
+@construction("test: subject=measured [IS] test=predicate by=measured_by", cost=0.2, given=("robot",))
+def tree_measured(subject: Subject, test: Test, robot: RobotProfile, by: str = "") -> list[Test] | None:
+    """Compose "tree 14 is hotter than 36 degC": which readings are in that unit?"""
+    if subject.place is None or subject.quantity or subject.place.like is not None or test.value == SAME_THRESHOLD:
+        return None
+    measured = [by] if by else [name for action in robot.actions for name in action.measures]
+    found = [name for name in measured if by or test.unit in ("", robot.quantity[name].unit)]
+    return [replace(test, quantity=name, place=subject.place) for name in found]
+
+
+@construction("test: number=NUM IS test=predicate", cost=0.0, given=("site",))
+def number_is(number: Lex, test: Test, site: Site) -> Test | None:
+    """Compose "31 came out high", of a reading that was taken there."""
+    known = number.text.isdecimal() and number.text in site.by_id and test.value != SAME_THRESHOLD
+    return replace(test, place=named_trees((number.text,))) if known else None
 
 
 @construction("tests: test=test", cost=0.0)
@@ -326,13 +351,15 @@ def several_tests(first: AllTests, second: Test, any_of: Lex | None = None) -> A
 
 
 @construction(
-    "tests: subject=subject IS first=predicate AND second=predicate",
-    "tests: subject=subject IS first=predicate any_of=OR second=predicate",
+    "tests: subject=measured IS first=predicate AND second=predicate",
+    "tests: subject=measured IS first=predicate any_of=OR second=predicate",
     cost=0.2,
 )
-def two_tests_of_one(subject: str, first: Test, second: Test, any_of: Lex | None = None) -> AllTests:
+def two_tests_of_one(subject: Subject, first: Test, second: Test, any_of: Lex | None = None) -> AllTests:
     """Compose "it is below 20 degC or above 30 degC"."""
-    both = (replace(first, quantity=subject), replace(second, quantity=subject))
+    both = tuple(
+        replace(one, quantity=subject.quantity, place=subject.place, setting=subject.setting) for one in (first, second)
+    )
     return AllTests(both, any_of=any_of is not None)
 
 
@@ -372,21 +399,22 @@ def for_each_of_them(one: When, used: int) -> When:
     return replace(one, used=used)
 
 
-@construction("when: one=bare_level FULLSTOP", cost=0.3)
-def level_question(one: AllTests, used: int) -> When:
-    """Compose "low?"."""
-    return When(one, used)
-
-
-@construction("when: test=test mark=FULLSTOP", "when: test=predicate mark=FULLSTOP", cost=0.6)
-def test_as_question(test: Test, mark: Lex, used: int) -> When | None:
+@construction("when: tests=tests mark=FULLSTOP", "when: test=predicate mark=FULLSTOP", cost=0.6)
+def asked_of_reading(mark: Lex, used: int, tests: AllTests | None = None, test: Test | None = None) -> When | None:
     """Compose "below 33 degC?" and "is it below 33 degC?"."""
-    return When(AllTests((test,)), used) if "question" in mark.features else None
+    tests = tests if test is None else AllTests((test,))
+    return When(tests, used, asks=True) if tests is not None and "question" in mark.features else None
+
+
+@construction("if_: IF", "if_: IF COMMA AND IF [COMMA]", cost=0.0)
+def if_word() -> str:
+    """Compose "if (and only if)"."""
+    return "if"
 
 
 @construction(
-    "when: IF tests=tests",
-    "when: IF tests=tests INVERTED",
+    "when: if_ tests=tests",
+    "when: if_ tests=tests INVERTED",
     "when: INVERTS tests=tests",
     "when: where=WHERE tests=tests",
     cost=0.3,
@@ -397,29 +425,20 @@ def when(tests: AllTests, used: int, where: Lex | None = None) -> When:
 
 
 @construction(
-    "question: MEASURE QUESTION tests=tests",
-    "question: MEASURE WHETHER tests=tests",
-    "question: MEASURE IF tests=tests",
+    "question: MEASURE QUESTION test=test",
+    "question: MEASURE WHETHER test=test",
+    "question: MEASURE IF test=test",
     cost=0.2,
 )
-def question(tests: AllTests, used: int) -> ReadingQuestion | None:
-    """Compose "check whether the temperature is high"."""
-    return ReadingQuestion(tests, None, used) if len(tests.tests) == 1 and tests.tests[0].quantity else None
-
-
-@construction(
-    "question: MEASURE QUESTION one=measured",
-    "question: MEASURE WHETHER one=measured",
-    "question: MEASURE IF one=measured",
-    cost=0.2,
-)
-def question_at(one: tuple[PlaceMeaning, Test], used: int) -> ReadingQuestion:
-    """Compose "check whether the temperature at tree 4 is high"."""
-    return ReadingQuestion(AllTests((one[1],)), one[0], used)
+@construction("question: IS test=test [FULLSTOP]", "question: IS test=test [FULLSTOP] MEASURE IT", cost=0.2)
+def question(test: Test, used: int) -> ReadingQuestion | None:
+    """Compose "check whether the temperature at tree 4 is high" and "is tree 4 hotter than 36 degC?"."""
+    return ReadingQuestion(AllTests((test,)), test.place, used) if test.quantity.isidentifier() else None
 
 
 @construction(
     "failing: TRY",
+    "failing: TRY mark=FULLSTOP",
     "failing: IF [WHODOES] CANNOT",
     "failing: IF IT CANNOT",
     "failing: IF DOES CANNOT",
@@ -427,8 +446,12 @@ def question_at(one: tuple[PlaceMeaning, Test], used: int) -> ReadingQuestion:
     "failing: IF things=things CANNOT [verb]",
     cost=0.2,
 )
-def failing(used: int, things: tuple[Thing, ...] = (), reading: Lex | None = None) -> Failing | None:
-    """Compose "if that fails", "if you can't get to it" and "if the leaf sample does not succeed"."""
+def failing(
+    used: int, things: tuple[Thing, ...] = (), reading: Lex | None = None, mark: Lex | None = None
+) -> Failing | None:
+    """Compose "if that fails", "can't get to it?" and "if the leaf sample does not succeed"."""
+    if mark is not None and "question" not in mark.features:
+        return None
     if len(things) > 1 or (reading is not None and reading.plural):
         return None
     return Failing(used, action=things[0].action if things else "" if reading is None else LAST_THING)
@@ -453,7 +476,7 @@ def failing_at_one(one: Failing, used: int) -> Failing:
     return replace(one, used=used, at_one=True)
 
 
-@construction("when: IF test=predicate", "when: WHERE test=predicate", cost=0.8)
+@construction("when: IF test=predicate", "when: WHERE test=predicate", "when: WITH test=predicate", cost=0.8)
 def when_so(test: Test, used: int) -> When:
     """Compose "if hot" and "where low"."""
     return When(AllTests((test,)), used)
@@ -501,6 +524,7 @@ def both_means(first: str, second: str) -> str:
 @construction(
     "tests: SOMEONE [IS] test=predicate",
     "tests: SOMEONE READING [IS] test=predicate",
+    "tests: SOMEONE noun=NOUN [IS] test=predicate",
     "tests: SOMEONE WITH [DET] noun=NOUN test=predicate",
     cost=0.3,
 )
@@ -514,120 +538,95 @@ def when_tree_is(place: PlaceMeaning, value: Lex, used: int) -> list[When] | Non
     """Compose "if tree 6 is yellow"."""
     if place.shape != "one" or as_some(place.selector) is not None:
         return None  # "if a tree is yellow": of those visited
-    return [When(AllTests((test,)), used, measured_at=place) for test in tree_is(value)]
-
-
-@construction("predicate: LEVEL [COMMA] MEANING test=predicate", cost=0.1)
-def level_explained(test: Test) -> Test:
-    """Compose "too hot, meaning over 40 degC"."""
-    return test
+    return [When(AllTests((replace(test, place=place),)), used) for test in tree_is(value)]
 
 
 @construction(
-    "tested: word=DET WHICH [IS] test=predicate",
-    "tested: word=DET WHERE [IT] [IS] test=predicate",
-    "tested: ANY [WHICH] IS test=predicate",
-    "tested: ANY WHICH test=predicate",
-    "tested: WHATEVER IS test=predicate",
-    "tested: EACH ONE [WHICH] [IS] test=predicate",
-    "tested: ANY [OF] IT WHICH [IS] test=predicate",
-    "tested: EACH WHICH [IS] test=predicate",
-    "tested: DET inner=nominal WHICH [IS] test=predicate",
-    "tested: [DET] inner=nominal WHERE [IT] [IS] test=predicate",
-    "tested: ANY inner=nominal WHICH [IS] test=predicate",
-    "tested: ANY inner=nominal WHERE [IT] [IS] test=predicate",
-    "tested: EACH inner=nominal WHICH [IS] test=predicate",
-    "tested: EACH inner=nominal WHERE [IT] [IS] test=predicate",
-    "tested: DET test=predicate ONE",
+    "among: ANY",
+    "among: EACH",
+    "among: WHATEVER",
+    "among: EVERYTHING",
+    "among: EACH ONE",
+    "among: ANY OF IT",
+    "among: word=DET",
+    "among: EACH word=DET",
+    "among: [DET] noun=ONE",
+    cost=0.0,
+)
+def among(word: Lex | None = None, noun: Lex | None = None) -> str | None:
+    """Compose "those", "any" and "the ones", of several places."""
+    if noun is not None and not noun.plural and "plural" not in noun.features:
+        return None
+    return "those" if word is None or "those" in word.features else None
+
+
+@construction(
+    "among_trees: DET inner=nominal", "among_trees: ANY inner=nominal", "among_trees: EACH inner=nominal", cost=0.0
+)
+def among_trees(inner: Nominal) -> PlaceMeaning | None:
+    """Compose "any tree of row 4" before what it is like."""
+    return None if inner.single or inner.complete else PlaceMeaning(inner.selector, "several", each=True)
+
+
+@construction(
+    "tested: among [WHICH] [IS] test=predicate",
+    "tested: among WHERE [IT] [IS] test=predicate",
+    "tested: among WHICH noun=NOUN [IS] test=predicate",
+    "tested: among WITH test=predicate",
+    "tested: DET test=predicate noun=ONE",
     "tested: test=predicate noun=ONE",
-    "tested: word=DET [IS] test=predicate",
-    "tested: [DET] noun=ONE [WHICH] [IS] test=predicate",
-    "tested: ANY test=predicate",
-    "tested: EACH word=DET test=predicate",
-    "tested: EACH word=DET WHICH [IS] test=predicate",
-    "tested: EVERYTHING [WHICH] [IS] test=predicate",
+    "tested: area=among_trees WHICH [IS] test=predicate",
+    "tested: area=among_trees WHERE [IT] [IS] test=predicate",
+    "tested: those=tested by=measured_by",
     cost=0.2,
 )
 def those_tested(
-    test: Test, inner: Nominal | None = None, word: Lex | None = None, noun: Lex | None = None
-) -> tuple[AllTests, PlaceMeaning | None] | None:
-    """Compose "those that are hot" and "any tree of row 4 that is hot"."""
-    if noun is not None and not noun.plural and "plural" not in noun.features:
-        return None
-    if word is not None and "those" not in word.features:
-        return None
-    if inner is not None and (inner.single or inner.complete):
-        return None
-    area = None if inner is None or inner.selector == s.Trees() else inner.selector
-    return AllTests((test,)), None if area is None else PlaceMeaning(area, "several", each=True)
-
-
-@construction(
-    "tested: DET value=ATTRVAL noun=ONE",
-    "tested: [DET] noun=ONE WHICH [IS] value=ATTRVAL",
-    "tested: word=DET WHICH [IS] value=ATTRVAL",
-    "tested: ANY WHICH [IS] value=ATTRVAL",
-    cost=0.0,
-)
-def those_of_kind(
-    value: Lex, noun: Lex | None = None, word: Lex | None = None
+    test: Test | None = None,
+    area: PlaceMeaning | None = None,
+    noun: Lex | None = None,
+    those: tuple[AllTests, PlaceMeaning | None] | None = None,
+    by: str = "",
 ) -> list[tuple[AllTests, PlaceMeaning | None]] | None:
-    """Compose "the yellow ones" and "those that are yellow"."""
-    if noun is not None and not noun.plural and "plural" not in noun.features:
+    """Compose "those that are hot" and "any tree of row 4 that is above 38 degC in the thermal picture"."""
+    if those is not None:
+        (test,), area = those[0].tests, those[1]
+    if test is None or (noun is not None and noun.value is None and among(noun=noun) is None):
         return None
-    if word is not None and "those" not in word.features:
+    named = measured_by(noun) if noun is not None and noun.value is not None else [by or test.quantity]
+    known = None if area is None or area.selector == s.Trees() else area
+    return [(AllTests((replace(test, quantity=name),)), known) for name in named]
+
+
+@construction("tested: DET value=ATTRVAL noun=ONE", "tested: among WHICH [IS] value=ATTRVAL", cost=0.0)
+def those_of_kind(value: Lex, noun: Lex | None = None) -> list[tuple[AllTests, PlaceMeaning | None]] | None:
+    """Compose "the yellow ones" and "those that are yellow"."""
+    if noun is not None and among(noun=noun) is None:
         return None
     return [(AllTests((test,)), None) for test in tree_is(value)]
 
 
 @construction(
-    "tested: ANY WHICH noun=NOUN [IS] test=predicate", "tested: word=DET WHICH noun=NOUN [IS] test=predicate", cost=0.2
-)
-def whose_reading_is(test: Test, noun: Lex, word: Lex | None = None) -> list[tuple[AllTests, None]] | None:
-    """Compose "any whose canopy turns out high"."""
-    if word is not None and "those" not in word.features:
-        return None
-    return [(AllTests((replace(test, quantity=name),)), None) for name in measured_by(noun)]
-
-
-@construction("tested: [DET] test=predicate noun=ONE in_ place=place", cost=0.3)
-def tested_among(test: Test, noun: Lex, place: PlaceMeaning) -> tuple[AllTests, PlaceMeaning] | None:
-    """Compose "hot ones among trees 57 to 74"."""
-    if "plural" not in noun.features or place.shape not in ("several", "area") or place.optional:
-        return None
-    return (AllTests((test,)), replace(place, shape="several", each=True))
-
-
-@construction("tested: [DET] test=predicate noun=ONE in_ trees=numbers", cost=0.4, given=("site",))
-def tested_among_numbers(
-    test: Test, noun: Lex, trees: tuple[str, ...], site: Site
-) -> tuple[AllTests, PlaceMeaning] | None:
-    """Compose "hot ones among 57 to 74", on a site whose trees have numbers."""
-    known = len(trees) > 1 and all(name in site.by_id for name in trees)
-    return tested_among(test, noun, named_trees(trees)) if known else None
-
-
-@construction("tested: those=tested by=measured_by", cost=0.2)
-def tested_by(those: tuple[AllTests, PlaceMeaning | None], by: str) -> tuple[AllTests, PlaceMeaning | None]:
-    """Compose "any tree that is above 38 degC in the thermal picture"."""
-    (test,) = those[0].tests
-    return (AllTests((replace(test, quantity=by),)), those[1])
-
-
-@construction(
-    "capture_where: WHERE DET inner=nominal [IS] test=predicate [by=measured_by] COMMA act=capture",
-    "capture_where: IF DET inner=nominal [IS] test=predicate [by=measured_by] COMMA act=capture",
-    "capture_where: IF ANY inner=nominal [IS] test=predicate [by=measured_by] COMMA act=capture",
+    "capture_where: if_ area=among_trees [IS] test=predicate [by=measured_by] COMMA act=capture",
+    "capture_where: WHERE area=among_trees [IS] test=predicate [by=measured_by] COMMA act=capture",
+    "capture_where: those=tested COMMA act=capture",
     cost=0.3,
 )
-def whenever_one_is(inner: Nominal, test: Test, act: CaptureCommand, used: int, by: str = "") -> CaptureWhere | None:
+def whenever_one_is(
+    act: CaptureCommand,
+    used: int,
+    area: PlaceMeaning | None = None,
+    test: Test | None = None,
+    by: str = "",
+    those: tuple[AllTests, PlaceMeaning | None] | None = None,
+) -> CaptureWhere | None:
     """Compose "whenever a tree of row 4 is above 38 degC in the thermal picture, measure its CO2"."""
-    if inner.single or inner.complete or inner.plural or inner.selector == s.Trees():
-        return None
     if act.place is not None and act.place.shape != "here" and not act.place.beside:
         return None
-    area = PlaceMeaning(inner.selector, "several", each=True)
     there = act if act.place is not None and act.place.beside else replace(act, place=None)
+    if those is not None:
+        return CaptureWhere(those[0], there, used, those[1]) if act.relation != "bare" else None
+    if test is None or area is None or area.selector == s.Trees():
+        return None
     return CaptureWhere(AllTests((replace(test, quantity=by or test.quantity),)), there, used, area)
 
 
@@ -638,14 +637,6 @@ def measured_by(noun: Lex) -> list[str]:
     """Compose "in the thermal picture": the quantity, or the action that measures it."""
     naming: Naming = noun.value
     return list(dict.fromkeys(naming.quantities)) or list(naming.actions[:1])
-
-
-@construction("measured: place=place [IS] test=predicate by=measured_by", cost=0.2)
-def measured_there(place: PlaceMeaning, test: Test, by: str) -> tuple[PlaceMeaning, Test] | None:
-    """Compose "tree 14 has more than 450 ppm of CO2"."""
-    if place.shape != "one" or as_some(place.selector) is not None:
-        return None
-    return (place, replace(test, quantity=by))
 
 
 @construction(
@@ -682,27 +673,54 @@ def those_get(things: tuple[Thing, ...], tests: tuple[AllTests, PlaceMeaning | N
     return capture_where(things, tests, used)
 
 
+@construction("stops: [WHODOES] STOP [THERE]", "stops: MISSION [SHOULD] STOP", "stops: MISSION IS STOP", cost=0.0)
+def stops() -> str:
+    """Compose "the mission should stop"."""
+    return "stop"
+
+
+@construction("first: [DET] FIRSTONE", "first: [DET] ORD", cost=0.0)
+def first() -> str:
+    """Compose "the first"."""
+    return "first"
+
+
+@construction(
+    "first_tested: first [WHICH] [IS] test=predicate",
+    "first_tested: first ONE [WHICH] [IS] test=predicate",
+    "first_tested: first READING [WHICH] [IS] test=predicate",
+    "first_tested: first ONE INORDERTO test=predicate",
+    cost=0.0,
+)
+def first_tested(test: Test) -> AllTests:
+    """Compose "the first one over 39 degC"."""
+    return AllTests((test,))
+
+
+@construction("soon: ASSOONAS", "soon: WHERE", cost=0.0)
+def soon() -> str:
+    """Compose "as soon as" and "when"."""
+    return "when"
+
+
 @construction(
     "until: UNTIL tests=tests",
-    "until: ASSOONAS tests=tests [COMMA] [WHODOES] STOP",
-    "until: WHERE tests=tests [COMMA] [WHODOES] STOP",
     "until: HALTWHEN tests=tests",
-    "until: [MISSION] [SHOULD] STOP ASSOONAS tests=tests",
-    "until: [MISSION] [SHOULD] STOP WHERE tests=tests",
-    "until: [MISSION] [IS] STOP AT [DET] FIRSTONE ONE [WHICH] [IS] test=predicate",
-    "until: [MISSION] [IS] STOP AT [DET] FIRSTONE READING [WHICH] [IS] test=predicate",
-    "until: STOP AT [DET] ORD [ONE] [WHICH] [IS] test=predicate",
-    "until: STOP AT [DET] FIRSTONE [WHICH] [IS] test=predicate",
-    "until: DET FIRSTONE READING [WHICH] [IS] test=predicate STOP [MISSION]",
-    "until: DET FIRSTONE ONE [WHICH] [IS] test=predicate STOP [MISSION]",
-    "until: DET ORD READING [WHICH] [IS] test=predicate STOP [MISSION]",
+    "until: soon tests=tests [COMMA] stops",
+    "until: stops soon tests=tests",
+    "until: stops AT tests=first_tested",
+    "until: tests=first_tested [COMMA] stops [MISSION]",
     cost=0.3,
 )
-def until(used: int, tests: AllTests | None = None, test: Test | None = None) -> UntilCondition | None:
+def until(used: int, tests: AllTests) -> UntilCondition:
     """Compose "until it is high" and "stop at the first one over 39"."""
-    if test is not None:
-        tests = AllTests((test,))
-    return None if tests is None else UntilCondition(tests, used)
+    return UntilCondition(tests, used)
+
+
+@construction("until: if_ tests=tests [COMMA] stops", cost=0.3)
+def until_any(used: int, tests: AllTests) -> UntilCondition | None:
+    """Compose "if any of them is above 500 ppm, stop there"."""
+    return UntilCondition(tests, used) if tests.of_last == "any" else None
 
 
 @construction("until: [KEEPON] STAYING tests=tests", cost=0.3)
@@ -713,19 +731,11 @@ def while_it_holds(tests: AllTests, used: int) -> UntilCondition | None:
     return UntilCondition(AllTests((replace(tests.tests[0], negated=not tests.tests[0].negated),)), used)
 
 
-@construction(
-    "when: word=DET [WHICH] [IS] test=predicate [SHOULD]",
-    "when: [DET] noun=TREE [WHICH] [IS] test=predicate [SHOULD]",
-    "when: [DET] noun=ONE [WHICH] [IS] test=predicate [SHOULD]",
-    cost=0.6,
-)
-def those_that_are(test: Test, used: int, word: Lex | None = None, noun: Lex | None = None) -> When | None:
+@construction("when: those=tested [SHOULD]", cost=0.5)
+def those_that_are(those: tuple[AllTests, PlaceMeaning | None], used: int) -> When | None:
     """Compose "those hotter than 35 degC should get"."""
-    if word is not None and noun is None and "those" not in word.features:
-        return None
-    if noun is not None and not (noun.plural or "plural" in noun.features):
-        return None
-    return When(AllTests((test,)), used, among="visited")
+    reading = not any(test.attribute for test in those[0].tests)
+    return When(those[0], used, among="visited") if those[1] is None and reading else None
 
 
 @construction(
@@ -758,25 +768,36 @@ def pass_to_next(used: int) -> PassOn:
 
 
 @construction(
-    "tests: every=GROUPALL [IS] test=predicate",
-    "tests: every=GROUPALL noun=NOUN [READING] [IS] test=predicate",
-    "tests: GROUPANY [IS] test=predicate",
-    "tests: GROUPANY noun=NOUN [READING] [IS] test=predicate",
-    "tests: AT GROUPANY [COMMA] test=test",
-    "tests: test=test AT GROUPANY",
-    "tests: none=GROUPNONE [IS] test=predicate",
-    "tests: [ATLEAST] n=count OFTHEM [IS] test=predicate",
+    "group: every=GROUPALL",
+    "group: GROUPANY",
+    "group: none=GROUPNONE",
+    "group: [ATLEAST] n=count OFTHEM",
+    "group: n=count bound=BOUND [OFTHEM]",
+    "group: bound=CMP n=count [OFTHEM]",
+    cost=0.0,
+)
+def group(every: Lex | None = None, none: Lex | None = None, n: int = 0, bound: Lex | None = None) -> OfLast | None:
+    """Compose "both", "any of them", "at least two of them" and "more than one"."""
+    if bound is not None:
+        more = {("ge", ""): 0, ("gt", ""): 1}.get(bound.value)
+        return None if more is None or n > _MOST_OF_SEVERAL else n + more
+    return n or ("all" if every is not None else "none" if none is not None else "any")
+
+
+@construction(
+    "tests: of=group [IS] test=predicate",
+    "tests: of=group noun=NOUN [READING] [IS] test=predicate",
+    "tests: AT of=group [COMMA] test=test",
+    "tests: test=test AT of=group",
+    "tests: test=predicate IS of=group",
     cost=0.2,
 )
-def of_several(
-    test: Test, every: Lex | None = None, none: Lex | None = None, noun: Lex | None = None, n: int = 0
-) -> AllTests | None:
+def of_several(test: Test, of: OfLast, noun: Lex | None = None) -> AllTests | None:
     """Compose "both are low", "at one of them it is low", "neither is low" and "at least two of them are low"."""
-    of_last: OfLast = n or ("all" if every is not None else "none" if none is not None else "any")
     quantities = {test.quantity} if noun is None else set(noun.value.quantities)
-    if len(quantities) != 1:
+    if len(quantities) != 1 or test.place is not None:
         return None
-    return AllTests((replace(test, quantity=quantities.pop()),), of_last=of_last)
+    return AllTests((replace(test, quantity=quantities.pop()),), of_last=of)
 
 
 @construction("otherwise: IF GROUPNONE IS", "otherwise: IF GROUPNONE", cost=0.3)
@@ -785,21 +806,19 @@ def if_none_is(used: int) -> Otherwise:
     return Otherwise(used)
 
 
-@construction("bare_level: level=LEVEL", cost=1.0)
-def bare_level(level: Lex) -> AllTests:
-    """Compose "low" of "low?"."""
-    return AllTests((at_level(level),))
-
-
 @construction(
     "such_reading: [DET] level=LEVEL READING",
     "such_reading: [DET] level=LEVEL noun=NOUN",
     "such_reading: [DET] level=LEVEL noun=NOUN READING",
+    "such_reading: [DET] READING [IS] test=predicate",
+    "such_reading: [DET] noun=NOUN [READING] [IS] test=predicate",
+    "such_reading: EVERYTHING test=predicate",
     cost=0.1,
 )
-def such_reading(level: Lex, noun: Lex | None = None) -> list[Test]:
-    """Compose "a low reading" and "a low CO2 level"."""
-    return [replace(at_level(level), quantity=name) for name in ([""] if noun is None else measured_by(noun))]
+def such_reading(level: Lex | None = None, noun: Lex | None = None, test: Test | None = None) -> list[Test]:
+    """Compose "a low reading", "a low CO2 level" and "a reading above 38 degC"."""
+    tests = [one for one in (test, None if level is None else at_level(level)) if one is not None]
+    return [replace(one, quantity=name) for one in tests for name in ([""] if noun is None else measured_by(noun))]
 
 
 @construction(
@@ -810,6 +829,7 @@ def such_reading(level: Lex, noun: Lex | None = None) -> list[Test]:
     "when: test=such_reading THERE MEANING",
     "when: test=test MEANING",
     "when: test=test THERE MEANING",
+    "when: test=predicate MEANING",
     cost=0.3,
 )
 def such_a_reading_means(test: Test, used: int) -> When:

@@ -21,8 +21,10 @@ from fieldhand.planning.grammar.meaning import (
 )
 from fieldhand.planning.grammar.places.compass import AWAY_FROM
 from fieldhand.planning.grammar.places.groups import both
+from fieldhand.planning.grammar.places.numbers import named_trees
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_some, is_row_of_place
+from fieldhand.site.model import Site
 from fieldhand.terms import Side
 
 GRAMMAR = Grammar()
@@ -356,6 +358,13 @@ def return_to(marker: s.Selector, used: int) -> Home | None:
     return Home("return_to_start" if marker.named_marker == "start" else "return_to_end", used)
 
 
+@construction("home: way=home [COMMA] [AND] NOT [AT] other=marker", cost=0.2)
+def home_and_not(way: Home, other: s.Selector, used: int) -> Home | None:
+    """Compose "come back to the start, not the end"."""
+    known = {"return_to_start": "start", "return_to_end": "end"}.get(way.then or "")
+    return replace(way, used=used) if known and other.named_marker not in ("", known) else None
+
+
 @construction("home: way=home [COMMA] word=THEN", cost=0.2)
 def home_in_the_end(way: Home, word: Lex, used: int) -> Home | None:
     """Compose "come back when done"."""
@@ -392,10 +401,52 @@ def again(used: int, place: PlaceMeaning | None = None) -> Again:
     return Again(place, used)
 
 
-@construction("again: word=REPEAT [AGAIN]", cost=0.1)
-def all_again(word: Lex, used: int) -> Again | None:
-    """Compose "do the whole thing again"."""
-    return Again(None, used, times=1, whole=True) if "whole" in word.features else None
+@construction(
+    "round: word=REPEAT [DET] noun=ROUND",
+    "round: word=TAKE DET noun=ROUND",
+    "round: noun=WHOLETHING",
+    "round: word=REPEAT",
+    cost=0.0,
+)
+def whole_round(word: Lex | None = None, noun: Lex | None = None) -> tuple[bool, bool]:
+    """Compose "do that whole round": is it all that was done, and does its number count what was done?"""
+    whole = noun is not None or (word is not None and "whole" in word.features)
+    return whole, word is not None and "performs" in word.features
+
+
+@construction(
+    "again: what=round AGAIN",
+    "again: what=round times=often",
+    "again: what=round times=often all_of=INALL",
+    "again: what=round more=more_times",
+    "again: times=count noun=ROUND",
+    "again: times=count noun=ROUND OF DET",
+    "again: times=often all_of=INALL",
+    "again: AGAIN several=GROUPALL",
+    "again: several=GROUPALL AGAIN",
+    cost=0.2,
+)
+def repeated(
+    used: int,
+    what: tuple[bool, bool] | None = None,
+    times: int = 1,
+    more: int | None = None,
+    all_of: Lex | None = None,
+    noun: Lex | None = None,
+    several: Lex | None = None,
+) -> list[Again] | None:
+    """Compose "do that whole round three times", "repeat it another two times", "three rounds" and "once more both"."""
+    whole, performs = (False, False) if what is None and noun is None and several is None else what or (True, False)
+    if several is not None or (more is None and times < 2):
+        both = several is not None and "two" in several.features
+        return [Again(None, used, times=1, whole=whole, both=both)] if whole else None
+    if more is not None:
+        return [Again(None, used, times=more, whole=whole)]
+    in_all = Again(None, used, times=times, in_all=True, whole=whole or performs)
+    further = Again(None, used, times=times, whole=whole)
+    if all_of is not None or noun is not None or (whole and performs):
+        return [in_all]
+    return [further, replace(in_all, whole=whole)]
 
 
 @construction(
@@ -410,21 +461,15 @@ def more_times(times: Lex | None = None, n: int = 1) -> int:
     return n if times is None else int(times.value)
 
 
-@construction("again: REPEAT times=more_times", cost=0.2)
-def again_so_often(times: int, used: int) -> Again:
-    """Compose "do it another two times"."""
-    return Again(None, used, times=times)
-
-
-@construction("again: REPEAT times=COUNT", "again: REPEAT n=count TIMES", cost=0.2)
-def again_in_all(used: int, times: Lex | None = None, n: int = 1) -> list[Again]:
-    """Compose "repeat three times": three times in all, or three times more?"""
-    often = n if times is None else int(times.value)
-    return [Again(None, used, times=often), *([Again(None, used, times=often, in_all=True)] if often > 1 else ())]
+@construction("again: trees=numbers [COMMA] SAMEWAY", cost=0.2, given=("site",))
+def the_same_of_numbers(trees: tuple[str, ...], used: int, site: Site) -> Again | None:
+    """Compose "31 same", on a site whose trees have numbers."""
+    return Again(named_trees(trees), used) if all(name in site.by_id for name in trees) else None
 
 
 @construction(
-    "again: place=place SAMEWAY",
+    "again: place=place [COMMA] SAMEWAY",
+    "again: SAMEWAY place=place",
     "again: TAKE place=place SAMEWAY",
     "again: SEENAS place=place SAMEWAY",
     "again: SAMEFOR place=place",

@@ -5,7 +5,19 @@ from __future__ import annotations
 from dataclasses import replace
 
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Amount, Home, LimitClause, PlaceMeaning, VisitLimit
+from fieldhand.planning.grammar.meaning import (
+    Amount,
+    Connective,
+    Home,
+    Lead,
+    LimitClause,
+    LinkedCommand,
+    PlaceMeaning,
+    Said,
+    Thing,
+    Total,
+    VisitLimit,
+)
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import are_unvisited
 
@@ -21,16 +33,19 @@ def less(word: Lex) -> str | None:
     return "less" if word.value in (None, "UPTO") or word.value[0] in ("lt", "le") else None
 
 
-@construction("of_what: [OF] [DET] BATTERY", "of_what: [AT] LIMIT", cost=0.1)
+@construction("of_what: [OF] [DET] BATTERY", "of_what: [AT] LIMIT", "of_what: [OF] DRIVEN", cost=0.1)
 def of_what() -> str:
     """Compose "of battery" and "of driving"."""
     return "of"
 
 
 @construction(
-    "at_most: less most=amount [of_what]",
+    "closed: most=amount [of_what] TOPS",
+    "closed: most=amount [of_what] CLOCK",
+    "closed: most=amount [of_what] [COMMA] [AND] NOTMORE",
+    "at_most: most=closed",
+    "at_most: less most=amount [of_what] [USE]",
     "at_most: UPTO CMP most=amount [of_what]",
-    "at_most: most=amount [of_what] TOPS",
     "at_most: most=amount bound=BOUND",
     cost=0.1,
 )
@@ -56,9 +71,8 @@ def so_much(most: Amount) -> Amount | None:
     "limit: at most=at_most",
     "limit: FOR most=at_most",
     "limit: WITH most=amount AS UPPERLIMIT",
-    "limit: most=amount [of_what] TOPS",
-    "limit: most=amount [of_what] CLOCK",
-    "limit: most=amount [of_what] [COMMA] [AND] NOTMORE",
+    "limit: [WITH] most=closed",
+    "limit: subject [MUST] [IS] most=at_most",
     "limit: CAPAT subject [AT] most=so_much",
     "limit: subject COMMA most=at_most",
     "limit: [WITH] [subject] [IS] LIMITEDTO most=amount [GO]",
@@ -73,7 +87,12 @@ def limited_to(most: Amount, used: int) -> LimitClause | None:
     return LimitClause(most, False, used) if most.unit in _LIMITED else None
 
 
-@construction("limit: said=limit [COMMA] [AND] NOTMORE", "limit: [subject] [MUST] BEDONE said=limit", cost=0.2)
+@construction(
+    "limit: said=limit [COMMA] [AND] NOTMORE",
+    "limit: [subject] [MUST] BEDONE said=limit",
+    "limit: PROVIDED said=limit",
+    cost=0.2,
+)
 def emphasised(said: LimitClause, used: int) -> LimitClause | None:
     """Compose "within 20 minutes and not a minute more" and "be done in 20 minutes"."""
     return None if said.keep else replace(said, used=used)
@@ -107,10 +126,11 @@ def after_at_most(word: Lex, most: Amount, used: int) -> LimitClause | None:
     return LimitClause(most, False, used) if "after_doing" in word.features and most.unit == "seconds" else None
 
 
-@construction("subject: [DET] DRIVEN", "subject: MISSION", "subject: [DET] BATTERY USE", cost=0.1)
-def subject() -> str:
-    """Compose what is limited: "the driving distance", "the whole thing"."""
-    return "it"
+@construction("subject: [DET] DRIVEN", "subject: MISSION", "subject: [DET] BATTERY USE", "subject: IT", cost=0.1)
+@construction("subject: word=DET", cost=0.3)
+def subject(word: Lex | None = None) -> str | None:
+    """Compose what is limited: "the driving distance", "the whole thing", "that"."""
+    return "it" if word is None or "demonstrative" in word.features else None
 
 
 @construction(
@@ -207,6 +227,35 @@ def back_before(least: Amount, used: int) -> LimitClause | None:
 def home_below(least: Amount, used: int) -> LimitClause:
     """Compose "return if the battery drops below 25 %"."""
     return LimitClause(least, True, used, back=True)
+
+
+@construction("said: HAVE most=amount FOR place=place joint=joint rest=said", cost=0.4)
+def so_much_for(most: Amount, place: PlaceMeaning, joint: Connective, rest: Said, used: int) -> Said | None:
+    """Compose "we have 40 minutes for the yellow trees. Photograph ...", which is about them."""
+    if most.unit not in _LIMITED or place.shape not in ("several", "area"):
+        return None
+    own = used & ~place.tokens & ~joint.used
+    for clause in rest.clauses:
+        own &= ~(clause.command.used | (0 if clause.before is None else clause.before.used))
+    first, *others = rest.clauses
+    limit = LinkedCommand(None, LimitClause(most, False, own))
+    topic = LinkedCommand(Connective(True, False, 0), Lead(place, place.tokens, relation="topic"))
+    return Said((limit, topic, replace(first, before=joint), *others))
+
+
+@construction(
+    "total: things=things INALL",
+    "total: INALL things=things",
+    "total: n=count READING INALL",
+    "total: TOTALLING things=things [INALL]",
+    "total: TOTALLING n=count READING [INALL]",
+    cost=0.1,
+)
+def total(used: int, things: tuple[Thing, ...] = (), n: int = 0) -> Total | None:
+    """Compose "six samples in total", which must agree with the plan."""
+    if things and (len(things) > 1 or not things[0].count or things[0].count < 2):
+        return None
+    return Total(things[0].count or 0, things[0].action, used) if things else Total(n, "", used)
 
 
 @construction("share: part=PART [OF] [DET] BATTERY", cost=0.1)

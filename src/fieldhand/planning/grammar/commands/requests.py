@@ -41,7 +41,7 @@ from fieldhand.planning.grammar.meaning import (
 )
 from fieldhand.planning.grammar.places.numbers import named_trees
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import named_places
+from fieldhand.planning.selections import named_places, swapped
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -65,6 +65,7 @@ _LEADS_ON = When | Otherwise | Lead | LimitClause | Allowed | InAnOrder | Failin
     "command: one=allow",
     "command: one=until",
     "command: one=visit_limit",
+    "command: one=total",
     "command: one=ranked_first",
     "command: one=again",
     "command: one=order",
@@ -171,6 +172,14 @@ def before_last(word: Connective, last: Command, rest: Said) -> Said | None:
     return Said((*rest.clauses, LinkedCommand(replace(word, full=not isinstance(last, Home)), last)))
 
 
+@construction("said: before=said joint=joint word=before last=command [COMMA] one=command", cost=0.3)
+def before_home(before: Said, joint: Connective, word: Connective, last: Command, one: Command) -> Said | None:
+    """Compose ". Before coming back, photograph tree 9"."""
+    if not isinstance(one, CaptureCommand | DriveCommand) or not isinstance(last, Home):
+        return None
+    return Said((*before.clauses, LinkedCommand(joint, one), LinkedCommand(replace(word, full=False), last)))
+
+
 @construction(
     "command: STARTWITH one=capture",
     "command: STARTWITH one=drive",
@@ -184,6 +193,23 @@ def in_turn(one: CaptureCommand | DriveCommand, used: int, word: Lex | None = No
     if isinstance(made, CaptureCommand) and made.relation == "bare":
         made = replace(made, relation="at")
     return InTurn(made, word is None, used)
+
+
+@construction("placed: place=place WITH things=things", "placed: place=place BY one=capture", cost=0.0)
+def captured_at(
+    place: PlaceMeaning, things: tuple[Thing, ...] = (), one: CaptureCommand | None = None
+) -> CaptureCommand | None:
+    """Compose "(begin at) tree 46 with a picture"."""
+    if place.shape not in ("one", "several") or (one is not None and one.place is not None):
+        return None
+    return CaptureCommand(things or (() if one is None else one.things), place, 0)
+
+
+@construction("command: STARTING one=placed", "command: word=ENDING one=placed", cost=0.2)
+def in_turn_there(one: CaptureCommand, used: int, word: Lex | None = None) -> InTurn | None:
+    """Compose "begin at tree 46 with a picture" and "end at tree 46 by measuring CO2"."""
+    ends = word is not None and "ends_there" in word.features
+    return InTurn(replace(one, used=used), word is None, used) if word is None or ends else None
 
 
 @construction(
@@ -243,10 +269,15 @@ def swapped_steps(used: int, one: Reordered | None = None) -> Reordered:
     return Reordered(None if one is None else one.first, used, swapped=True)
 
 
-@construction("reordered: place=place FIRSTONE", cost=0.3)
-def comes_first(place: PlaceMeaning, used: int) -> Reordered | None:
-    """Compose "tree 9 first", behind the steps."""
-    return Reordered(place, used) if place.shape in ("one", "several", "area") else None
+@construction(
+    "reordered: place=place FIRSTONE",
+    "reordered: [CONTRAST] place=place BEFORE second=place",
+    "reordered: BUT place=place BEFORE second=place",
+    cost=0.3,
+)
+def comes_first(place: PlaceMeaning, used: int, second: PlaceMeaning | None = None) -> Reordered | None:
+    """Compose "tree 9 first" and "tree 9 before tree 4", behind the steps."""
+    return Reordered(place, used, then=second) if place.shape in ("one", "several", "area") else None
 
 
 @construction("said: last=home COMMA rest=said", "said: last=home FULLSTOP rest=said", cost=0.2)
@@ -264,7 +295,7 @@ def ending_there(last: DriveCommand, rest: Said) -> Said | None:
 @construction("joint: word=BEFORE", cost=0.3)
 def before_doing(word: Lex, used: int) -> Connective | None:
     """Compose "before"."""
-    return Connective(False, True, used) if "before_doing" in word.features else None
+    return Connective(False, True, used, precedes=True) if "before_doing" in word.features else None
 
 
 @construction("then: word=THEN", cost=0.0)
@@ -386,52 +417,16 @@ def those_things(several: Lex | None = None, n: int = 0) -> tuple[Thing, ...] | 
     return None if n == 1 else (Thing(LAST_THINGS, count=number, plural=True),)
 
 
-@construction("repeated: word=REPEAT [DET] ROUND", "repeated: word=TAKE DET ROUND", cost=0.1)
-def whole_round(word: Lex) -> Lex:
-    """Compose "do that whole round"."""
-    return word
-
-
-@construction(
-    "again: word=repeated times=COUNT [INALL]",
-    "again: word=repeated n=count TIMES [INALL]",
-    "again: word=repeated more=more_times",
-    "again: word=repeated [AGAIN]",
-    "again: AGAIN several=GROUPALL",
-    "again: several=GROUPALL AGAIN",
-    cost=0.2,
-)
-def round_again(
-    used: int,
-    word: Lex | None = None,
-    times: Lex | None = None,
-    n: int = 1,
-    more: int | None = None,
-    several: Lex | None = None,
-) -> list[Again] | None:
-    """Compose "do that whole round three times" and "once more both"."""
-    often = more if more is not None else n if times is None else int(times.value)
-    if often < 2 or more is not None:
-        both = several is not None and "two" in several.features
-        return [Again(None, used, times=often, whole=True, both=both)]
-    in_all = Again(None, used, times=often, in_all=True, whole=True)
-    return (
-        [in_all]
-        if word is not None and "performs" in word.features
-        else [Again(None, used, times=often, whole=True), in_all]
-    )
-
-
 @construction("again: one=again [COMMA] INORDER", cost=0.2)
 def again_in_that_order(one: Again, used: int) -> Again | None:
     """Compose "both again, same order"."""
     return replace(one, used=used) if one.times else None
 
 
-@construction("again: place=place COMMA SAMEWAY", cost=0.4)
-def likewise_there(place: PlaceMeaning, used: int) -> Again:
-    """Compose "tree 9: the same"."""
-    return Again(place, used)
+@construction("capture: AGAIN", "capture: AGAIN place=here", "capture: MEASURE AGAIN", cost=1.5)
+def once_more(used: int, place: PlaceMeaning | None = None) -> CaptureCommand:
+    """Compose "(and then) once more", of what was captured last."""
+    return CaptureCommand((Thing(LAST_THING, count=1),), place, used)
 
 
 @construction(
@@ -479,6 +474,14 @@ def what_is_first(one: CaptureCommand | DriveCommand, used: int) -> Said | None:
     return Said((LinkedCommand(Connective(False, True, used & ~one.used), one),))
 
 
+@construction("said: before=said joint=joint tests=first_tested COMMA act=capture [COMMA] AND stops", cost=0.3)
+def first_captured(before: Said, joint: Connective, tests: AllTests, act: CaptureCommand, used: int) -> Said:
+    """Compose ". At the first one over 39 degC, measure CO2 and stop"."""
+    own = used & ~act.used & ~joint.used & ~_used_by(before)
+    there = LinkedCommand(Connective(False, False, 0, bare=True), replace(act, relation="at"))
+    return Said((*before.clauses, LinkedCommand(joint, UntilCondition(tests, own)), there))
+
+
 @construction("said: one=command", cost=0.0)
 def first_command(one: Command) -> Said:
     """Compose "take a picture"."""
@@ -502,9 +505,27 @@ def next_command(before: Said, joint: Connective, one: Command) -> Said | None:
     """Compose "take a picture and go to tree 4"."""
     if joint.purpose and isinstance(one, Lead):
         return None  # "from tree 30 to tree 37"
+    if joint.precedes and isinstance(one, Lead) and _contrasts(before.clauses[-1]):
+        return None  # "trees 4 and 9, but tree 9 before tree 12"
     if joint.then and isinstance(one, Lead) and one.relation == "of" and one.place.shape == "area":
         return None  # "the tree at the end of row 3"
     return Said((*before.clauses, LinkedCommand(joint, one)))
+
+
+@construction("said: before=said [COMMA] word=OPENER one=command", cost=0.3)
+def so_command(before: Said, word: Lex, one: Command, used: int) -> Said | None:
+    """Compose "(is it high), so take a picture"."""
+    if "consequence" not in word.features or not isinstance(before.clauses[-1].command, When):
+        return None
+    joint = Connective(False, False, used & ~one.used & ~_used_by(before))
+    return Said((*before.clauses, LinkedCommand(joint, one)))
+
+
+def _contrasts(clause: LinkedCommand) -> bool:
+    """Return True for places behind "but", or at all of some places but others."""
+    place = getattr(clause.command, "place", None)
+    left_out = place is not None and any(isinstance(part, s.Excluding) for part in place.selector.walk())
+    return left_out or (clause.before is not None and clause.before.contrasts)
 
 
 @construction("said: before=said joint=joint one=terse", cost=0.4)
@@ -590,11 +611,21 @@ def _at_threshold(command: Command, level: Lex, test: Test, by: str, used: int) 
 
 
 @construction(
-    "said: before=said joint=joint one=failing [COMMA] [USE] place=place INSTEAD",
-    "said: before=said joint=joint one=failing [COMMA] TAKE place=place INSTEAD",
-    "said: before=said joint=joint one=failing [COMMA] GO [AT] place=place INSTEAD",
-    "said: before=said joint=joint one=failing COMMA place=place",
-    "said: before=said [COMMA] OR [COMMA] one=failing [COMMA] place=place",
+    "fallback: place=place",
+    "fallback: place=place REMAINS",
+    "fallback: [USE] place=place INSTEAD",
+    "fallback: TAKE [IT] [relation] place=place [INSTEAD]",
+    "fallback: GO [AT] place=place INSTEAD",
+    cost=0.0,
+)
+def fallback(place: PlaceMeaning) -> PlaceMeaning:
+    """Compose "use tree 5 instead" and "tree 5 will do"."""
+    return place
+
+
+@construction(
+    "said: before=said joint=joint one=failing [COMMA] [then] place=fallback",
+    "said: before=said [COMMA] OR [COMMA] one=failing [COMMA] place=fallback",
     "said: before=said [COMMA] OR place=place one=failing",
     cost=0.4,
 )
@@ -608,7 +639,8 @@ def or_there(
     if last.place is None or last.place.shape != "one":
         return None
     failing = replace(one, used=used & ~_used_by(before))
-    there = replace(last, place=place, used=place.tokens)
+    beside = swapped(place.selector, s.Here(), last.place.selector)  # "the tree next to it", which is not reached
+    there = replace(last, place=replace(place, selector=beside, beside=False), used=place.tokens)
     return Said((*before.clauses, LinkedCommand(joint, failing), LinkedCommand(None, there)))
 
 

@@ -25,7 +25,7 @@ from fieldhand.planning.grammar.dialogue.fitting import (
     spaced,
     within_area,
 )
-from fieldhand.planning.grammar.dialogue.likewise import anchors
+from fieldhand.planning.grammar.dialogue.likewise import anchors, single_places
 from fieldhand.planning.grammar.dialogue.plans import (
     EMPTY,
     as_choice,
@@ -168,6 +168,10 @@ def _is_one_more(command: CaptureCommand) -> bool:
 def _those_again(state: DialogueState, place: PlaceMeaning | None) -> PlaceMeaning | None:
     """Return the places of the last command for "those", where its for-each cannot be continued."""
     last = state.where
+    if place is not None and place.shape == "those" and last is not None and last.shape == "one" and state.loop is None:
+        named = single_places(state)  # "at tree 4, then at tree 9. Take a picture of both."
+        both = PlaceMeaning(s.UnionOf(parts=named), "several", count=2, each=True)
+        return both if len(named) == 2 else place
     if place is None or place.shape != "those" or state.loop is not None or last is None or last.shape != "several":
         return place
     if last.selector.relative or last.per is not None or last.optional or last.at_most is not None:
@@ -447,7 +451,10 @@ def _is_of_other_case(state: DialogueState, place: PlaceMeaning) -> bool:
         return False
     choice = as_choice(node_at(state.plan, state.scope[:-1]))
     nodes = () if choice is None else tuple(p.walk(choice.then))
-    return any(node.selector is not None and not (node.visits_each and place.one_tree) for node in nodes)
+    named = [
+        node for node in nodes if node.selector is not None and not (node.only_drives and node.selector.named_marker)
+    ]
+    return any(not (node.visits_each and place.one_tree) for node in named)
 
 
 def _nothing_done_there(state: DialogueState) -> bool:
@@ -516,7 +523,7 @@ def _are_of_each(things: tuple[Thing, ...]) -> bool:
 def capture_again(setting: Setting, state: DialogueState, command: Again) -> DialogueState:
     """Return the state after what was done at the last place was done at another one."""
     if command.times:
-        return done_more_times(setting, state, command)
+        return done_more_times(setting, capture_elided(setting, state), command)
     place, steps = command.place, _steps_before(state)
     if place is not None and place.shape == "area" and place.per is None:
         return repeated_in(setting, state, place.selector, command.used)

@@ -49,6 +49,7 @@ from fieldhand.planning.grammar.dialogue.state import (
     with_joints,
     with_step,
 )
+from fieldhand.planning.grammar.dialogue.totals import with_total
 from fieldhand.planning.grammar.dialogue.turns import as_meant
 from fieldhand.planning.grammar.meaning import (
     LAST_THING,
@@ -76,6 +77,7 @@ from fieldhand.planning.grammar.meaning import (
     Reordered,
     Said,
     StopCommand,
+    Total,
     UntilCondition,
     VisitLimit,
     When,
@@ -242,13 +244,17 @@ def _read(
                     )
                 )  # "two trees get a picture"
             again = any(thing.action == LAST_THING for thing in command.things)
+            counted = any(one.count for one in command.things)
+            if command.relation == "bare" and counted and _says_number(state, joint, command):
+                raise NotComposed(message("it is not clear whether this is done once more", context="fault"))
             if command.relation == "bare" and _continues(state, joint, again=again):
                 command = replace(command, relation="at")  # "at tree 40 a picture, then CO2"
             elif command.relation == "bare" and state.lead is not None and joint is not None and not joint.both:
                 command = replace(command, relation="at")  # "at every tree of row 3, a picture and CO2"
             one_more = command.relation == "plain" and any(thing.count for thing in command.things)
             decided = command.relation == "bare" and bool(following) and following[0].before is None
-            if again and (one_more or decided):
+            decided = decided and (again or isinstance(following[0].command, When))
+            if (again and one_more) or decided:
                 command = replace(command, relation="at")  # "a second reading whenever the first is below 400 ppm"
             if command.relation == "bare" and (not state.open or (again and state.choice is None)):
                 raise NotComposed(message("it does not say what to do with it", context="fault"))
@@ -268,7 +274,8 @@ def _read(
         case StopCommand():
             return _stop(setting, state, command)
         case When():
-            return when(setting, state, command, [*_way_home(following), *_rest_of_sentence(following)])
+            begins = state.commands_in_sentence == 0
+            return when(setting, state, command, [*_way_home(following, begins=begins), *_rest_of_sentence(following)])
         case CaptureWhere():
             return captured_where(setting, state, command)
         case Otherwise() if following and isinstance(following[0].command, PassOn):
@@ -289,6 +296,8 @@ def _read(
             return replace(state, ranking=command)
         case VisitLimit():
             return limit_visits(setting, state, command)
+        case Total():
+            return with_total(setting, capture_elided(setting, state), command)
         case Again():
             return capture_again(setting, state, command)
         case InAnOrder():
@@ -339,6 +348,12 @@ def _continues(state: DialogueState, joint: Connective | None, *, again: bool) -
     return last.act is not None
 
 
+def _says_number(state: DialogueState, joint: Connective | None, command: CaptureCommand) -> bool:
+    """Return True behind a comma for the captures made before it, of which it may give the number ("(4 pictures)")."""
+    made = {one.action for one in state.things}
+    return joint is not None and joint.bare and made == {one.action for one in command.things}
+
+
 def _has_own_place(command: Command) -> bool:
     """Return True for a command that is done at a place of its own, and not at one that was named before it."""
     if not isinstance(command, CaptureCommand | DriveCommand):
@@ -346,12 +361,18 @@ def _has_own_place(command: Command) -> bool:
     return command.place is not None and command.place.shape == "one" and not command.place.selector.relative
 
 
-def _way_home(following: Sequence[LinkedCommand]) -> list[LinkedCommand]:
-    """Return the return that directly follows a condition, which then decides it ("if it is hot, come home")."""
+def _way_home(following: Sequence[LinkedCommand], *, begins: bool) -> list[LinkedCommand]:
+    """Return the return that directly follows a condition, which then decides it ("if it is hot, come home").
+
+    Args:
+        following: Clauses behind the condition.
+        begins: True if the condition begins its sentence ("above 35 degC and you come home").
+    """
     first = following[0] if following else None
     if first is None or not isinstance(first.command, Home):
         return []
-    return [first] if first.before is None or first.before.bare else []
+    joined = first.before is not None and not first.before.bare and not (begins and first.before.both)
+    return [] if joined else [first]
 
 
 def _rest_of_sentence(following: Sequence[LinkedCommand]) -> list[LinkedCommand]:

@@ -37,12 +37,14 @@ from fieldhand.planning.grammar.dialogue.state import (
 )
 from fieldhand.planning.grammar.dialogue.tested import TREE_TESTS, condition_of, reading_before, readings_at
 from fieldhand.planning.grammar.meaning import (
+    LATEST_READING,
     NTH_READING,
     SAME_THRESHOLD,
     AllTests,
     CaptureCommand,
     CaptureWhere,
     Check,
+    Command,
     DriveCommand,
     Lead,
     LinkedCommand,
@@ -83,12 +85,19 @@ def when(setting: Setting, state: DialogueState, command: When, following: Seque
     Raises:
         NotComposed: What is tested, or what depends on it, is unclear.
     """
+    if command.asks and following and _is_answer(following[0].command):
+        return with_joints(replace(state, asked=command.tests), setting.spans_of(command.used))
     decides_last = state.commands_in_sentence > 0 and (not following or isinstance(following[0].command, Otherwise))
     if command.terse and (decides_last or not following):
         raise NotComposed(message("it does not say what depends on it", context="fault"))
     command = replace(command, tests=_of_last_threshold(state, _of_quantity(setting, command.tests)))
+    latest = any(test.quantity == LATEST_READING for test in command.tests.tests)
+    plain = (replace(test, quantity=test.quantity.replace(LATEST_READING, "")) for test in command.tests.tests)
+    command = replace(command, tests=replace(command.tests, tests=tuple(plain)))
+    if len(command.tests.tests) > 1:
+        state = _measured_at_several(setting, state, command)
     if command.measured_at is not None:
-        state, taken = readings_at(state, command.measured_at.selector, command.tests.tests[0], setting.robot)
+        state, taken = readings_at(setting, state, command.tests.tests[0])
         if taken:
             known = setting.either("which reading is tested?", command.used, taken)
             return _of_reading_there(setting, state, command, known, following)
@@ -132,8 +141,15 @@ def when(setting: Setting, state: DialogueState, command: When, following: Seque
         ways = [path for path in ways if _may_be_of(state, path, command.tests, robot)] or ways
         if before in ways and _is_other_end(state.decided, command.tests):
             ways = [before]  # "if it is low, read the air temperature; if it is high, read CO2"
+        elif latest:
+            ways = [way for way in ways if way != before] or ways
         state = replace(state, captured=setting.either("which reading is tested?", command.used, ways))
     return _choice(setting, state, command, said)
+
+
+def _is_answer(command: Command) -> bool:
+    """Return True for "if so" and "otherwise"."""
+    return isinstance(command, Otherwise) or (isinstance(command, When) and not command.tests.tests)
 
 
 def _of_last_threshold(state: DialogueState, tests: AllTests) -> AllTests:
@@ -149,7 +165,8 @@ def _of_last_threshold(state: DialogueState, tests: AllTests) -> AllTests:
     denies = (
         last is not None and last.check == test.check and last.negated
     )  # "unless it is above 35 ...; if it is above"
-    opposes = last is not None and last.check in _OPPOSITES[test.check] and not last.negated
+    opposites = (test.check,) if test.negated else _OPPOSITES.get(test.check, ())  # "under 15? ...; not under? ..."
+    opposes = last is not None and last.check in opposites and not last.negated
     if last is None or len(tests.tests) > 1 or not (denies or opposes):
         raise NotComposed(message("it is not clear with what it is compared", context="fault"))
     return AllTests((replace(last, negated=opposes),))
@@ -332,7 +349,7 @@ def _measured_at_each(setting: Setting, state: DialogueState, command: CaptureWh
     return capture(setting, state, CaptureCommand((Thing(action, plural=True),), place, command.used))
 
 
-def _decide_last_at_each(state: DialogueState, command: When, said: Spans, robot: RobotProfile) -> DialogueState | None:
+def _decide_last_at_each(setting: Setting, state: DialogueState, command: When, said: Spans) -> DialogueState | None:
     """Return the state in which a reading taken at each of several places decides the last captures there.
 
     None if the last captures are the first ones there.
@@ -350,7 +367,7 @@ def _decide_last_at_each(state: DialogueState, command: When, said: Spans, robot
         tests = replace(
             tests, tests=tuple(replace(test, quantity=one_of.get(test.quantity, test.quantity)) for test in tests.tests)
         )
-    condition, state = condition_of(replace(state, captured=tested), tests, robot)
+    condition, state = condition_of(setting, replace(state, captured=tested), tests)
     if state.captured != tested:
         raise NotComposed(message("nothing before it measures that", context="fault"))
     steps = block_at(state.plan, body).steps
@@ -400,7 +417,10 @@ def _for_each_place(state: DialogueState, tests: AllTests, following: Sequence[L
 def _choice(setting: Setting, state: DialogueState, command: When, said: Spans) -> DialogueState:
     """Return the state in which the next commands depend on tests."""
     tests = command.tests
-    condition, state = condition_of(state, tests, setting.robot)
+    condition, state = condition_of(setting, state, tests)
+    tested = None if state.captured is None else node_at(state.plan, state.captured).act
+    if tested is not None and any(test.setting for test in tests.tests):
+        state = replace(state, things=(Thing(tested.action, parameters=tested.parameters),))  # "at the same depth"
     scope = _scope_of_test(setting, state, command)
     path = (*scope, len(block_at(state.plan, scope).steps))
     state = with_step(replace(state, scope=scope), p.If(id="", condition=condition, then=EMPTY, said=said))
@@ -441,10 +461,10 @@ def _decide_last(setting: Setting, state: DialogueState, command: When, said: Sp
     if (measured := _measured_before_last(setting, state, command, said)) is not None:
         return measured
     inside = (*state.scope, len(steps) - 1)
-    if (at_each := _decide_last_at_each(state, command, said, robot)) is not None:
+    if (at_each := _decide_last_at_each(setting, state, command, said)) is not None:
         return at_each
     state = replace(state, captured=reading_before(state.plan, inside, robot))
-    condition, state = condition_of(state, command.tests, robot)
+    condition, state = condition_of(setting, state, command.tests)
     if all(test.attribute for test in command.tests.tests):
         return _decide_last_at_tree(state, condition, said)
     if state.captured is None or is_inside(state.captured, inside):
@@ -460,22 +480,27 @@ def _of_reading_there(
     """Return the state after a condition on a reading that was taken at another place ("if tree 31 was high, ...")."""
     said, place = setting.spans_of(command.used), command.measured_at
     is_last = known == last_capture(state.plan)
+    places = [step.selector for step in state.plan.steps[: int(known[0]) + 1] if step.selector is not None]
+    place = None if place is None else replace(place, selector=places[-1], like=None)
     state = replace(state, captured=known, loop=None)
     if state.commands_in_sentence and (not following or isinstance(following[0].command, Otherwise)):
-        return _decided_by(state, command, said, setting.robot)
+        return _decided_by(setting, state, command, said)
     state = _choice(setting, replace(state, scope=()), command, said)
     then = following[0].command if following else None
-    goes_there = isinstance(then, CaptureCommand) and is_spoken_of(then.place) and not is_last
+    at = then.place if isinstance(then, CaptureCommand) else None
+    goes_there = at is not None and is_spoken_of(at) and at.shape != "those" and not is_last
+    if isinstance(then, CaptureCommand) and then.place is None and not is_last:
+        goes_there = setting.either("there, or where the robot is?", then.used, (True, False))
     return replace(state, lead=Lead(place, command.used)) if goes_there and place is not None else state
 
 
-def _decided_by(state: DialogueState, command: When, said: Spans, robot: RobotProfile) -> DialogueState:
+def _decided_by(setting: Setting, state: DialogueState, command: When, said: Spans) -> DialogueState:
     """Return the state in which a reading at another place decides the last command ("..., but only if 31 was high").
 
     Raises:
         NotComposed: That reading was not taken before the command.
     """
-    condition, state = condition_of(state, command.tests, robot)
+    condition, state = condition_of(setting, state, command.tests)
     steps = state.block.steps
     drives = len(steps) > 1 and steps[-2].only_drives and steps[-2].said == steps[-1].said
     first = len(steps) - (2 if drives else 1)
@@ -514,7 +539,7 @@ def _measured_before_last(setting: Setting, state: DialogueState, command: When,
     else:
         path = (*inside, 0)
         plan = with_node(state.plan, inside, p.InOrder(id="", steps=(first,)))
-    condition, state = condition_of(replace(state, plan=plan, captured=path), command.tests, setting.robot)
+    condition, state = condition_of(setting, replace(state, plan=plan, captured=path), command.tests)
     block = block_at(state.plan, inside)
     choice = p.If(id="", condition=condition, then=body, said=said)
     plan = with_node(state.plan, inside, replace(block, steps=(*block.steps, choice)))
@@ -567,8 +592,8 @@ def _is_opposite(state: DialogueState, tests: AllTests) -> bool:
     if last is None or state.choice is None or len(tests.tests) != 1 or len(last.tests) != 1:
         return False
     one, other = tests.tests[0], last.tests[0]
-    negated = replace(other, negated=not other.negated, quantity=one.quantity)
-    return one == negated and one.quantity in ("", other.quantity)
+    negated = replace(other, negated=not other.negated, quantity=one.quantity, place=one.place, setting=one.setting)
+    return one == negated and one.quantity in ("", other.quantity) and one.place in (None, other.place)
 
 
 def otherwise(setting: Setting, state: DialogueState, said: Spans, *, in_all: bool = False) -> DialogueState:
@@ -643,7 +668,8 @@ def in_no_case(state: DialogueState, said: Spans) -> DialogueState:
     choice = None if state.choice is None else as_choice(node_at(state.plan, state.choice))
     if state.choice is None or choice is None:
         raise NotComposed(message("to which 'if' does it belong?", context="fault"))
-    more = replace(choice, said=(*choice.said, *said))
+    rest = None if choice.otherwise == EMPTY else choice.otherwise
+    more = replace(choice, otherwise=rest, said=(*choice.said, *said))
     return replace(state, plan=with_node(state.plan, state.choice, more))
 
 
@@ -659,8 +685,10 @@ def until(setting: Setting, state: DialogueState, command: UntilCondition) -> Di
     if state.loop is None or state.captured is None or not is_inside(state.captured, state.loop):
         raise NotComposed(message("it is not clear what ends then", context="fault"))
     path = state.loop[:-1]
-    tests = replace(command.tests, of_last="") if command.tests.of_last == "any" else command.tests
-    condition, state = condition_of(state, tests, setting.robot)
+    tests = _of_quantity(setting, replace(command.tests, of_last=""))
+    if command.tests.of_last not in ("", "any"):
+        raise NotComposed(message("it is not clear what ends then", context="fault"))
+    condition, state = condition_of(setting, state, tests)
     loop = for_each_at(state.plan, path)
     said = (*loop.said, *setting.spans_of(command.used))
     plan = with_node(state.plan, path, replace(loop, until=condition, said=said))
@@ -681,6 +709,15 @@ def _at_tested_place(setting: Setting, state: DialogueState, command: When, plac
     if command.tests.tests[0].attribute:
         return drive(setting, state, DriveCommand(place, command.used))
     return _measured(setting, state, command.tests.tests[0].quantity, place, command.used)
+
+
+def _measured_at_several(setting: Setting, state: DialogueState, command: When) -> DialogueState:
+    """Return the state after the readings of a condition were taken at each of its places, as far as they were not."""
+    for test in command.tests.tests:
+        state, taken = readings_at(setting, state, test)
+        if test.place is not None and not taken:
+            state = replace(_measured(setting, state, test.quantity, test.place, command.used), where=None)
+    return state
 
 
 def _measured(setting: Setting, state: DialogueState, quantity: str, place: PlaceMeaning, used: int) -> DialogueState:

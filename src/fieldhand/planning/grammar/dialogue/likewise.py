@@ -214,7 +214,7 @@ def _described(state: DialogueState, mark: s.Selector) -> s.Selector:
     Raises:
         NotComposed: None or several of them are.
     """
-    found = [place for place in _single_places(state) if mark in place.walk()]
+    found = [place for place in single_places(state) if mark in place.walk()]
     if len(found) != 1:
         raise NotComposed(message("it is not clear which one is meant", context="fault"))
     return found[0]
@@ -249,7 +249,7 @@ def _likewise(state: DialogueState, place: PlaceMeaning, like: Likewise) -> Plac
             raise NotComposed(message("it is not clear which one is meant", context="fault"))
         return replace(place, selector=_of_those(state, like.side), like=None)
     kind, side = last
-    if not like.kind and kind != "corner" and len(_single_places(state)) > 1:
+    if not like.kind and kind != "corner" and len(single_places(state)) > 1:
         raise NotComposed(message("it is not clear which one is meant", context="fault"))
     if like.kind not in ("", kind):
         raise NotComposed(message("it is not clear which one is meant", context="fault"))
@@ -282,13 +282,13 @@ def _opposite(side: str) -> str:
 
 def _of_those(state: DialogueState, side: str) -> s.Selector:
     """Return the place farthest to a side, of the single places that were named before."""
-    places = _single_places(state)
+    places = single_places(state)
     if len(places) < 2:
         raise NotComposed(message("it is not clear which one is meant", context="fault"))
     return s.Extreme(side=cast(Any, side), of=s.UnionOf(parts=places))
 
 
-def _single_places(state: DialogueState) -> tuple[s.Selector, ...]:
+def single_places(state: DialogueState) -> tuple[s.Selector, ...]:
     """Return the single places that were named before, if there were no others."""
     named = [step.selector for step in state.plan.steps if step.selector is not None]
     places = [place for selector in named for place in named_places(selector) or (selector,)]

@@ -71,6 +71,8 @@ def _comes_first(places: Sequence[s.Selector], order: Reordered) -> int:
         found = [first.like.number % len(places) if first.like.number < 0 else first.like.number - 1]
     elif first is not None:
         found = [number for number, place in enumerate(places) if first.selector in place.walk()]
+    if order.then is not None and (len(places) != 2 or order.then.selector != places[1 - found[0] if found else 0]):
+        raise _unclear(order)
     if len(found) != 1 or found[0] >= len(places) or (order.swapped and found == [0]):
         raise _unclear(order)
     return found[0]

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import combinations
+from typing import Any, cast
 
 from fieldhand.language import message, named
 from fieldhand.language.words import say_name
 from fieldhand.places import selectors as s
+from fieldhand.places.context import Context
+from fieldhand.places.resolution import resolve
 from fieldhand.planning.grammar.dialogue.plans import (
     Path,
     as_for_each,
@@ -19,8 +22,10 @@ from fieldhand.planning.grammar.dialogue.plans import (
     walk,
     with_node,
 )
-from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, OpenQuestion
-from fieldhand.planning.grammar.meaning import NTH_READING, AllTests, Check, Test
+from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, OpenQuestion, Setting
+from fieldhand.planning.grammar.meaning import NTH_READING, AllTests, Check, PlaceMeaning, Test
+from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
+from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.selections import named_places
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task import conditions as c
@@ -31,38 +36,53 @@ from fieldhand.terms import Test as Comparison
 TREE_TESTS: Mapping[Check, Comparison] = {"eq": "eq", "lt": "lt", "le": "le", "gt": "gt", "ge": "ge"}
 
 
-def condition_of(state: DialogueState, tests: AllTests, robot: RobotProfile) -> tuple[c.Condition, DialogueState]:
+def condition_of(setting: Setting, state: DialogueState, tests: AllTests) -> tuple[c.Condition, DialogueState]:
     """Return the condition of tests, and the state in which the tested readings have names.
 
     Raises:
         NotComposed: Which reading or tree is tested is unclear.
     """
     if tests.of_last:
-        return of_several(state, tests, robot)
+        return of_several(setting, state, tests)
     made: list[c.Condition] = []
     for test in tests.tests:
         if test.attribute:
             made.append(_of_tree(state, test))
         else:
-            one, state = _of_reading(state, test, robot)
+            if test.place is not None and len(tests.tests) > 1:
+                state, taken = readings_at(setting, state, test)
+                state = replace(state, captured=_only(taken))
+                test = replace(test, place=None)
+            one, state = _of_reading(setting, state, test)
             made.append(one)
     if len(made) == 1:
         return made[0], state
     return (c.AnyOf if tests.any_of else c.AllOf)(conditions=tuple(made)), state
 
 
-def of_several(state: DialogueState, tests: AllTests, robot: RobotProfile) -> tuple[c.Condition, DialogueState]:
+def _only(paths: Sequence[Path]) -> Path:
+    """Return the only one of some paths.
+
+    Raises:
+        NotComposed: There is none, or there are several.
+    """
+    if len(paths) != 1:
+        raise NotComposed(message("it is not clear which readings are tested", context="fault"))
+    return paths[0]
+
+
+def of_several(setting: Setting, state: DialogueState, tests: AllTests) -> tuple[c.Condition, DialogueState]:
     """Return the condition on the last several readings together ("both are low"), and the state that names them.
 
     Raises:
         NotComposed: Which readings are meant is unclear.
     """
-    state, paths = _last_readings(state, tests.tests[0], robot)
+    state, paths = _last_readings(setting, state, tests.tests[0])
     if len(paths) < 2 or (tests.of_last == 1 or tests.of_last in range(len(paths) + 1, 100)):
         raise NotComposed(message("it is not clear which readings are tested", context="fault"))
     made: list[c.Condition] = []
     for path in paths:
-        one, state = _of_reading(replace(state, captured=path), tests.tests[0], robot)
+        one, state = _of_reading(setting, replace(state, captured=path), tests.tests[0])
         made.append(c.Not(condition=one) if tests.of_last == "none" else one)
     if isinstance(tests.of_last, int):
         groups = [c.AllOf(conditions=group) for group in combinations(made, tests.of_last)]
@@ -70,21 +90,21 @@ def of_several(state: DialogueState, tests: AllTests, robot: RobotProfile) -> tu
     return (c.AnyOf if tests.of_last == "any" else c.AllOf)(conditions=tuple(made)), state
 
 
-def _last_readings(state: DialogueState, test: Test, robot: RobotProfile) -> tuple[DialogueState, list[Path]]:
+def _last_readings(setting: Setting, state: DialogueState, test: Test) -> tuple[DialogueState, list[Path]]:
     """Return the paths of the last captures of what is tested; a for-each over named places becomes one each."""
     steps = state.block.steps
     if steps and as_for_each(steps[-1]) is not None:
-        state = _one_by_one(state, len(steps) - 1)
+        state = _one_by_one(setting, state, len(steps) - 1)
     found: list[Path] = []
     for number, step in enumerate(state.block.steps):
         if step.act is None:
             found = []
-        elif _fits(step, test, robot):
+        elif _fits(step, test, setting.robot):
             found.append((*state.scope, number))
     return state, found
 
 
-def _one_by_one(state: DialogueState, number: int) -> DialogueState:
+def _one_by_one(setting: Setting, state: DialogueState, number: int) -> DialogueState:
     """Return the state with the captures at each of the named places of a for-each, in place of that step of the block.
 
     Raises:
@@ -99,7 +119,7 @@ def _one_by_one(state: DialogueState, number: int) -> DialogueState:
         or loop.at_most is not None
         or not acts
         or not places
-        or not all(one.single for one in places)
+        or not all(_is_one(setting, one) for one in places)
     ):
         raise NotComposed(message("it is not clear which readings are tested", context="fault"))
     each = [
@@ -119,9 +139,10 @@ def _of_tree(state: DialogueState, test: Test) -> c.Condition:
     return c.Not(condition=condition) if test.negated else condition
 
 
-def _of_reading(state: DialogueState, test: Test, robot: RobotProfile) -> tuple[c.Condition, DialogueState]:
+def _of_reading(setting: Setting, state: DialogueState, test: Test) -> tuple[c.Condition, DialogueState]:
     """Return the condition on a reading, and the state in which that reading has a name."""
-    state, path = _tested_capture(state, test, robot)
+    robot = setting.robot
+    state, path = _tested_capture(setting, state, test)
     act = None if path is None else node_at(state.plan, path).act
     if path is None or act is None:
         raise NotComposed(message("nothing before it measures that", context="fault"))
@@ -163,25 +184,23 @@ def _checked(test: Test, reading: str, quantity: str, robot: RobotProfile) -> c.
     return c.Compare(reading=reading, quantity=quantity, test=test.check, value=test.value, unit=unit)
 
 
-def _tested_capture(state: DialogueState, test: Test, robot: RobotProfile) -> tuple[DialogueState, Path | None]:
+def _tested_capture(setting: Setting, state: DialogueState, test: Test) -> tuple[DialogueState, Path | None]:
     """Return the path of the capture whose reading is tested: the last one, if its quantity and unit fit."""
     if test.quantity.startswith(NTH_READING):
-        return _nth_reading(state, replace(test, quantity=""), int(test.quantity.removeprefix(NTH_READING)), robot)
-    return state, _last_reading(state, test, robot)
+        return _nth_reading(setting, state, replace(test, quantity=""), int(test.quantity.removeprefix(NTH_READING)))
+    return state, _last_reading(state, test, setting.robot)
 
 
-def _nth_reading(
-    state: DialogueState, test: Test, number: int, robot: RobotProfile
-) -> tuple[DialogueState, Path | None]:
+def _nth_reading(setting: Setting, state: DialogueState, test: Test, number: int) -> tuple[DialogueState, Path | None]:
     """Return the path of a reading by its number, 1 for the first; "there" is not known behind another than the last.
 
     Raises:
         NotComposed: It is not clear which reading is meant.
     """
     if state.block.steps and as_for_each(state.block.steps[-1]) is not None:
-        state, measuring = _last_readings(state, test, robot)
+        state, measuring = _last_readings(setting, state, test)
     else:
-        measuring = [path for path, node in walk(state.plan) if _fits(node, test, robot)]
+        measuring = [path for path, node in walk(state.plan) if _fits(node, test, setting.robot)]
     if number == 1 and measuring:
         found = measuring[0]
     elif 1 < number <= len(measuring) or (number < 0 and len(measuring) > 1):
@@ -204,28 +223,65 @@ def _fits(node: p.Node, test: Test, robot: RobotProfile) -> bool:
     if node.act is None:
         return False
     measures = robot.action[node.act.action].measures
+    if not set(test.setting) <= set(node.act.parameters):
+        return False
     if test.quantity:
         return test.quantity in measures
     return bool(measures) and (not test.unit or robot.quantity[measures[0]].unit == test.unit)
 
 
-def readings_at(
-    state: DialogueState, place: s.Selector, test: Test, robot: RobotProfile
-) -> tuple[DialogueState, list[Path]]:
-    """Return the paths of the last reading of each action at a place, outside of conditions.
+def readings_at(setting: Setting, state: DialogueState, test: Test) -> tuple[DialogueState, list[Path]]:
+    """Return the paths of the last reading of each action at the place of a test, outside of conditions.
 
     A for-each over that place and others becomes one capture each.
+
+    Raises:
+        NotComposed: Which of the places of the readings is meant is unclear.
     """
+    if test.place is None:
+        return state, []
     loops = [number for number, step in enumerate(state.plan.steps) if step.visits_each and step.selector is not None]
-    if not state.scope and loops and place in named_places(state.plan.steps[loops[-1]].selector or place):
-        state = replace(_one_by_one(state, loops[-1]), choice=None)
-    found: dict[str, Path] = {}
+    visited = named_places(state.plan.steps[loops[-1]].selector or s.Here()) if loops else ()
+    if not state.scope and visited:
+        meant = _place_meant(setting, visited, test.place)
+        if meant is not None or test.place.like is not None:
+            state = replace(_one_by_one(setting, state, loops[-1]), choice=None)
+    taken: list[tuple[Path, s.Selector, p.Act]] = []
     where: s.Selector | None = None
     for number, step in enumerate(state.plan.steps):
         where = step.selector if step.selector is not None else where
-        if step.act is not None and where == place and _fits(step, test, robot):
-            found[step.act.action] = (number,)
-    return state, list(found.values())
+        if step.act is not None and where is not None and _fits(step, test, setting.robot):
+            taken.append(((number,), where, step.act))
+    meant = _place_meant(setting, tuple(dict.fromkeys(place for _, place, _ in taken)), test.place)
+    if meant is None and test.place.like is not None:
+        raise NotComposed(message("it is not clear which readings are tested", context="fault"))
+    return state, list({act.action: path for path, place, act in taken if place == meant}.values())
+
+
+def _is_one(setting: Setting, place: s.Selector) -> bool:
+    """Return True for a single place."""
+    return place.single or len(ids_of(place, setting.site) or ()) == 1
+
+
+def _place_meant(setting: Setting, places: Sequence[s.Selector], place: PlaceMeaning) -> s.Selector | None:
+    """Return the one of several single places that a phrase means: the same one, or the farthest to a side."""
+    if place.like is None:
+        meant = ids_of(place.selector, setting.site)
+        same = [one for one in places if meant and ids_of(one, setting.site) == meant]
+        return place.selector if place.selector in places else same[0] if len(same) == 1 else None
+    side = place.like.side
+    if side in CORNERS:
+        corner = ids_of(s.Corners(which=(cast(Any, side),)), setting.site)
+        same = [one for one in places if ids_of(one, setting.site) == corner]
+        return same[0] if len(same) == 1 else None
+    if side not in SIDES or len(places) < 2 or not all(_is_one(setting, one) for one in places):
+        return None
+    if any(one.relative for one in places):
+        return None
+    found = [resolve(one, setting.site, Context(here=setting.site.start)) for one in places]
+    north = [at[0].y if side in ("north", "south") else at[0].x for at in found if len(at) == 1]
+    ranked = sorted(north, reverse=side in ("north", "east"))
+    return places[north.index(ranked[0])] if len(ranked) == len(places) and ranked[0] != ranked[1] else None
 
 
 def reading_before(plan: p.InOrder, before: Path, robot: RobotProfile) -> Path | None:

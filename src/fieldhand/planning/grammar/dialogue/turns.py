@@ -21,6 +21,7 @@ from fieldhand.planning.grammar.meaning import (
     LinkedCommand,
     PlaceMeaning,
     Reordered,
+    Total,
 )
 from fieldhand.planning.selections import (
     are_rows,
@@ -61,6 +62,8 @@ def as_meant(setting: Setting, clauses: Sequence[LinkedCommand]) -> tuple[tuple[
 
 def _repeated_first(clauses: Sequence[LinkedCommand]) -> Sequence[LinkedCommand]:
     """Return clauses with a repetition at their beginning ("three times: ...") behind the sentence that it is of."""
+    if clauses and isinstance(clauses[0].command, Total):
+        return (*clauses[1:], replace(clauses[0], before=Connective(True, False, 0)))
     if not clauses or not isinstance(clauses[0].command, Again):
         return clauses
     again, rest = replace(clauses[0], before=Connective(True, True, 0)), clauses[1:]

@@ -1,0 +1,45 @@
+"""Numbers of captures that a request gives beside its steps ("six samples in total")."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from fieldhand.language import message
+from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, Spans
+from fieldhand.planning.grammar.meaning import Total
+from fieldhand.planning.grammar.places.numbered import ids_of
+from fieldhand.task import plan as p
+
+
+def with_total(setting: Setting, state: DialogueState, command: Total) -> DialogueState:
+    """Return the state after a number of captures that agrees with the plan.
+
+    Raises:
+        NotComposed: It does not agree, or the number is not known before the mission.
+    """
+    if _number(setting, state.plan, command.action) != command.count:
+        raise NotComposed(message("it gives two different numbers", context="fault"))
+    last, said = state.plan.steps[-1], setting.spans_of(command.used)
+    return replace(state, plan=replace(state.plan, steps=(*state.plan.steps[:-1], _also_said(last, said))))
+
+
+def _also_said(step: p.Node, said: Spans) -> p.Node:
+    """Return a step that further words say."""
+    return replace(step, said=(*step.said, *said)) if step.act is None else replace(step.act, said=(*step.said, *said))
+
+
+def _number(setting: Setting, node: p.Node, action: str) -> int | None:
+    """Return the number of captures by an action, or by any; None if it depends on what the robot finds."""
+    if node.act is not None:
+        return node.act.count if action in ("", node.act.action) else 0
+    inner = [_number(setting, child, action) for child in node.children]
+    numbers = [one for one in inner if one is not None]
+    if len(numbers) < len(inner) or not any(numbers):
+        return None if len(numbers) < len(inner) else 0
+    if isinstance(node, p.ForEach):
+        ids = ids_of(node.select, setting.site)
+        fixed = not node.optional and node.at_most is None and node.until is None
+        return len(ids) * sum(numbers) if ids and fixed else None
+    if isinstance(node, p.Repeat):
+        return node.times * sum(numbers)
+    return sum(numbers) if isinstance(node, p.InOrder) else None
