@@ -10,7 +10,6 @@ from fieldhand.planning.grammar.places import (
     groups,
     likewise,
     nouns,
-    numbered,
     numbers,
     positions,
     rows,
@@ -19,5 +18,5 @@ from fieldhand.planning.grammar.places import (
 )
 
 GRAMMAR = Grammar()
-for _part in (numbers, numbered, nouns, areas, rows, positions, spots, groups, likewise, steps, chosen, choices):
+for _part in (numbers, nouns, areas, rows, positions, spots, groups, likewise, steps, chosen, choices):
     GRAMMAR.include(_part.GRAMMAR)

@@ -15,6 +15,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.areas import inside
 from fieldhand.planning.grammar.places.compass import AWAY_FROM, CORNERS, SIDES
+from fieldhand.planning.grammar.places.counted import Positions, TreeNumbers, rows_within
 from fieldhand.planning.grammar.places.numbers import VAGUE_NUMBERS
 from fieldhand.planning.grammar.places.steps import Distance
 from fieldhand.planning.grammar.words import Lex
@@ -38,7 +39,7 @@ construction = GRAMMAR.construction
 #: Ways to choose among trees.
 By = Literal[
     "extreme", "best", "nearest", "beside", "around", "farthest", "nearby", "random", "spread", "evenly", "in a run",
-    "adjacent", "apart", "of every", "nth",
+    "adjacent", "apart", "of every", "nth", "at", "numbered",
 ]  # fmt: skip
 #: Choices of which the k-th is one: "the second oldest".
 _RANKED = ("extreme", "best", "nearest", "farthest")
@@ -284,21 +285,36 @@ def starting_from(chosen: Chosen, side: Side) -> Chosen | None:
 @construction("chosen: chosen=chosen COMMA FROM [DET] side=DIR", cost=0.1)
 def from_a_side(chosen: Chosen, side: Lex) -> Chosen | None:
     """Compose "every third tree, from the south", which they are counted and visited from."""
-    return starting_from(chosen, side.value) if side.value in SIDES else None
+    visited = starting_from(chosen, side.value) if side.value in SIDES else None
+    return visited or (None if _as_nth(chosen) is not None else counted_from(chosen, side))
 
 
 @construction("chosen: chosen=chosen FROM [DET] side=DIR", cost=0.1)
 def counted_from(chosen: Chosen, side: Lex) -> Chosen | None:
-    """Compose "every third tree from the north"."""
-    return _with_nth(chosen, counted_from=side.value) if side.value in SIDES else None
+    """Compose "every third tree from the north" and "first two trees from the north"."""
+    choice = chosen.choice
+    if choice is None or side.value not in SIDES:
+        return None
+    if isinstance(choice.value, Positions | TreeNumbers):
+        if choice.value.counted_from != "usual" or rows_within(chosen.inner.selector) is not None:
+            return None  # "the first six trees of row 9 from the south": counted or visited from there?
+        return replace(chosen, choice=replace(choice, value=replace(choice.value, counted_from=side.value)))
+    return _with_nth(chosen, counted_from=side.value)
 
 
 @construction("chosen: chosen=chosen COMMA way=in_ where=region", cost=0.2)
 def in_area_behind(chosen: Chosen, where: s.Selector, way: str) -> Chosen | None:
     """Compose "every third tree, starting with the second, in row 4"."""
-    nth = None if chosen.choice is None else chosen.choice.value
-    starts = isinstance(nth, NthTree) and (nth.start > 1 or nth.visited_from is not None)
-    return in_area(chosen, where, way) if starts else None
+    nth = _as_nth(chosen)
+    starts = nth is not None and (nth.start > 1 or nth.visited_from is not None)
+    counted = chosen.choice is not None and getattr(chosen.choice.value, "counted_from", "usual") != "usual"
+    return in_area(chosen, where, way) if starts or counted else None
+
+
+def _as_nth(chosen: Chosen) -> NthTree | None:
+    """Return how every n-th tree is counted; None for other trees."""
+    value = None if chosen.choice is None else chosen.choice.value
+    return value if isinstance(value, NthTree) else None
 
 
 def _with_nth(chosen: Chosen, **changed: Any) -> Chosen | None:
@@ -557,6 +573,8 @@ def places_of(chosen: Chosen, site: Site, word: Lex | None = None) -> list[Place
     """Compose "the five oldest yellow trees in row 3"."""
     if chosen.choice is None:
         return _unvisited(chosen)
+    if chosen.choice.by in ("at", "numbered"):
+        return None
     indefinite = word is not None and "indefinite" in word.features
     if indefinite and (chosen.inner.plural or chosen.count is not None) and chosen.choice.by != "nearby":
         return None

@@ -7,7 +7,7 @@ from dataclasses import replace
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning, Shape
-from fieldhand.planning.grammar.places.numbered import ids_of
+from fieldhand.planning.grammar.places.numbered import all_of, elsewhere, ids_of, numbered
 from fieldhand.planning.grammar.places.rows import rows_at
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
@@ -119,7 +119,7 @@ def at_most_so_many(check: Lex, n: int, inner: Nominal) -> PlaceMeaning | None:
     return up_to(inner=inner, n=n) if check.value == ("le", "") else None
 
 
-@construction("place: [DET] rank=ORD n=count inner=nominal", cost=0.5)
+@construction("place: [DET] rank=ORD n=count inner=nominal", cost=1.2)
 def first_trees(rank: Lex, n: int, inner: Nominal) -> PlaceMeaning | None:
     """Compose "the first three trees"."""
     if rank.value != 1 or n < 2 or inner.single or inner.selector != s.Trees():
@@ -291,6 +291,19 @@ def named_except_numbers(whole: PlaceMeaning, trees: tuple[str, ...], site: Site
     if not set(trees) < (ids_of(whole.selector, site) or set()):
         return None
     return replace(whole, selector=s.Excluding(places=out, of=whole.selector), shape="several")
+
+
+@construction("place: whole=place except [DET] trees=tree_ids", cost=0.2, given=("site",))
+def except_trees_of_rows(whole: PlaceMeaning, trees: tuple[str, ...], site: Site) -> list[PlaceMeaning] | None:
+    """Compose "the trees of row 3 except tree 5"."""
+    if whole.shape not in ("several", "area") or whole.count is not None or whole.per is not None:
+        return None
+    if whole.selector == s.Trees():
+        return None
+    ways = numbered(trees, whole.selector, site)
+    if whole.selector.relative and all(name.isdigit() for name in trees):
+        ways.append(all_of([s.TreeIs(tree=name) for name in trees]))
+    return [replace(whole, selector=s.Excluding(places=one, of=whole.selector)) for one in ways] or [elsewhere(trees)]
 
 
 @construction("rows_out_of_all: out=left_out [ROW]", cost=0.0, given=("site",))

@@ -67,15 +67,13 @@ construction("edge_side: EDGE side=DIR", "edge_side: SIDE side=DIR", "edge_side:
     spots.edge_side
 )
 construction("corner_at: noun=CORNER side=DIR", cost=0.0)(spots.corner_at)
-construction("place: [DET] FINISH side=DIR in_ rows=rows", cost=0.1)(positions.end_of_row)
+construction("row_end: FINISH side=DIR", cost=0.0)(positions.row_end)
 construction("nominal: inner=nominal OTHER", cost=0.2)(groups.another)
 construction("nominal: ANOTHER inner=nominal OTHER", cost=0.1)(groups.another)
 construction("chosen: chosen=chosen OTHER", cost=0.1)(chosen.others)
 construction("rows: [DET] noun=ROW ODD", "rows: each=EACH noun=ROW ODD", cost=0.1)(rows.odd_rows)
 construction("rows: [DET] noun=ROW EVEN", "rows: each=EACH noun=ROW EVEN", cost=0.1)(rows.even_rows)
 construction("rows: DET rows=row_list", cost=0.1)(rows.listed_rows)
-construction("positions: n=count rank=ORD", cost=0.0)(positions.first_so_many)
-construction("positions: n=count LAST", cost=0.0)(positions.last_so_many)
 construction(
     "rows: [DET] ROW FROM [DET] first=NUM range_to [DET] last=NUM",
     "rows: [DET] ROW first=NUM range_to DET last=NUM",
