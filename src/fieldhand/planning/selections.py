@@ -9,6 +9,7 @@ from dataclasses import replace
 from typing import Any, cast
 
 from fieldhand.places import selectors as s
+from fieldhand.places.selector import Counted
 
 #: Areas by the order in which they are nested, the innermost first: a row of a half of a block.
 _NESTING: dict[type[s.Selector], int] = {
@@ -353,6 +354,11 @@ def is_across(selector: s.Selector) -> bool:
 def is_by_attribute(selector: s.Selector) -> bool:
     """Return True if trees are chosen by an attribute ("yellow", "with vigor below 0.4")."""
     return any(isinstance(part, s.Where) for part in selector.walk())
+
+
+def picks_from_all(selector: s.Selector) -> bool:
+    """Return True if a number of trees is chosen from all trees of the site ("the oldest tree")."""
+    return isinstance(selector, Counted) and selector.of == s.Trees()
 
 
 def is_description(selector: s.Selector) -> bool:

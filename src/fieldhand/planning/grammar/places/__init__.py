@@ -7,6 +7,7 @@ from fieldhand.planning.grammar.places import (
     areas,
     choices,
     chosen,
+    exceptions,
     groups,
     likewise,
     nouns,
@@ -18,5 +19,5 @@ from fieldhand.planning.grammar.places import (
 )
 
 GRAMMAR = Grammar()
-for _part in (numbers, nouns, areas, rows, positions, spots, groups, likewise, steps, chosen, choices):
+for _part in (numbers, nouns, areas, rows, positions, spots, groups, likewise, steps, chosen, choices, exceptions):
     GRAMMAR.include(_part.GRAMMAR)

@@ -565,6 +565,27 @@ def _with_choice(chosen: Chosen, choice: Choice) -> Chosen | None:
     return replace(chosen, choice=choice) if chosen.choice is None else None
 
 
+# Choices without a noun.
+
+
+@construction(
+    "bare: [n=count] choice=chosen_by [ONE]",
+    "bare: choice=chosen_by n=count [ONE]",
+    "bare: [n=count] [ONE] choice=chosen_as",
+    cost=0.1,
+)
+def bare(choice: Choice, n: int = 1) -> Chosen | None:
+    """Compose "three oldest" and "one nearest to the charger", of places that something else names."""
+    if choice.by in ("nearest", "farthest", "beside") and choice.to is None:
+        return None
+    return Chosen(Nominal(s.Trees(), plural=n > 1), count=n, choice=choice)
+
+
+def chosen_among(of: s.Selector, chosen: Chosen, site: Site) -> list[PlaceMeaning]:
+    """Return what a choice without a noun can mean among some places."""
+    return places_of(replace(chosen, inner=replace(chosen.inner, selector=of)), site) or []
+
+
 # Places.
 
 

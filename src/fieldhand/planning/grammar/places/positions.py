@@ -152,7 +152,7 @@ def spots_of_row(at: Positions) -> Chosen | None:
     return ranks_in_row(at) if (0, 1) in at.spans else None
 
 
-@construction("chosen: at=marks", cost=0.6)
+@construction("chosen: at=marks", cost=0.7)
 def ranks_in_row(at: Positions) -> Chosen | None:
     """Compose "first, fifth and last" before "of row 4"."""
     return Chosen(_TREES, choice=Choice("at", replace(at, noun="spots"))) if len(at.spans) > 1 else None
