@@ -361,6 +361,11 @@ def picks_from_all(selector: s.Selector) -> bool:
     return isinstance(selector, Counted) and selector.of == s.Trees()
 
 
+def leaves_out(selector: s.Selector) -> bool:
+    """Return True if an exception ends the description of trees, or that of those from which some are taken."""
+    return isinstance(selector, s.Excluding) or (isinstance(selector, s.Take) and leaves_out(selector.of))
+
+
 def is_description(selector: s.Selector) -> bool:
     """Return True if trees are chosen by attributes and areas alone ("yellow trees of row 3"), and not all are."""
     parts = list(selector.walk())

@@ -7,6 +7,7 @@ from fieldhand.planning.grammar.places import (
     areas,
     choices,
     chosen,
+    clauses,
     exceptions,
     groups,
     likewise,
@@ -19,5 +20,19 @@ from fieldhand.planning.grammar.places import (
 )
 
 GRAMMAR = Grammar()
-for _part in (numbers, nouns, areas, rows, positions, spots, groups, likewise, steps, chosen, choices, exceptions):
+for _part in (
+    numbers,
+    nouns,
+    areas,
+    rows,
+    positions,
+    spots,
+    groups,
+    likewise,
+    steps,
+    chosen,
+    clauses,
+    choices,
+    exceptions,
+):
     GRAMMAR.include(_part.GRAMMAR)

@@ -18,7 +18,6 @@ from fieldhand.planning.selections import (
     are_rows,
     as_edge,
     as_half,
-    as_zone,
     chooses_from_trees,
     counts_in_row,
     is_in_block,
@@ -322,26 +321,6 @@ def in_the_north(inner: Nominal, way: str, side: Lex) -> Nominal | None:
 def along_word() -> str:
     """Compose "along"."""
     return "along"
-
-
-@construction("nominal: inner=nominal OUTSIDE [OF] where=region", cost=0.4)
-def outside_area(inner: Nominal, where: s.Selector) -> Nominal | None:
-    """Compose "trees outside the northern half"."""
-    if inner.single or as_zone(where) is not None:
-        return None
-    return replace(inner, selector=s.Excluding(places=where, of=inner.selector))
-
-
-@construction(
-    "nominal: inner=nominal OUTSIDE [DET] where=ZONE",
-    "nominal: inner=nominal OUTSIDE [OF] [DET] where=ZONE",
-    cost=0.3,
-)
-def outside(inner: Nominal, where: Lex) -> Nominal | None:
-    """Compose "trees outside the wet corner"."""
-    if not chooses_from_trees(inner.selector):
-        return None
-    return replace(inner, selector=over(inner.selector, s.InZone(zone=where.value, outside=True)))
 
 
 @construction("place: where=region COMMA inner=place", cost=0.6)

@@ -6,12 +6,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from fieldhand.places import selectors as s
-from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.chart import Grammar, tokens_of
 from fieldhand.planning.grammar.meaning import PlaceMeaning
 from fieldhand.planning.grammar.places.chosen import Chosen, chosen_among
 from fieldhand.planning.grammar.places.compass import CORNERS
 from fieldhand.planning.grammar.places.counted import BOTH_ENDS, Span
-from fieldhand.planning.grammar.places.numbered import all_of, ids_of, numbered
+from fieldhand.planning.grammar.places.numbered import all_of, elsewhere, ids_of, numbered
 from fieldhand.planning.grammar.places.rows import rows_at
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
@@ -185,18 +185,22 @@ def without(whole: PlaceMeaning, out: LeftOut, site: Site) -> list[PlaceMeaning]
     whole = replace(whole, count=None) if named_places(whole.selector) else whole
     if whole.count is not None or whole.per is not None:
         return None
+    if out.as_trees and not parts and ids_of(whole.selector, site) is not None:
+        return [elsewhere(out.trees)]
     return [_excluding(whole, part) for part in parts] or None
 
 
-@construction(
-    "place: whole=place COMMA NOT trees=numbers",
-    "place: whole=place COMMA NOT trees=tree_ids",
-    cost=0.2,
-    given=("site",),
-)
-def but_not_numbers(whole: PlaceMeaning, trees: tuple[str, ...], site: Site) -> list[PlaceMeaning] | None:
+@construction("not_numbers: NOT trees=numbers", cost=0.0)
+def not_numbers(trees: tuple[str, ...], used: int) -> LeftOut | None:
+    """Compose "not 6 and 7"."""
+    tokens = tokens_of(used)
+    return LeftOut(trees=trees) if len(tokens) == tokens[-1] - tokens[0] + 1 else None  # "not just 6"
+
+
+@construction("place: whole=place COMMA out=not_numbers", cost=0.2, given=("site",))
+def but_not_numbers(whole: PlaceMeaning, out: LeftOut, site: Site) -> list[PlaceMeaning] | None:
     """Compose "trees 4 to 9, not 6"."""
-    return without(whole, LeftOut(trees=trees), site)
+    return without(whole, out, site)
 
 
 def _excluding(whole: PlaceMeaning, part: s.Selector) -> PlaceMeaning:

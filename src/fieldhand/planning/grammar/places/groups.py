@@ -20,6 +20,7 @@ from fieldhand.planning.selections import (
     is_description,
     is_end_of_site,
     landmark_of,
+    leaves_out,
     measures_distance,
     over,
     replaceable_area,
@@ -308,7 +309,7 @@ def both(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | list[Place
         return None  # "trees 4 and 5 and the tree next to it": next to which?
     if not {first.shape, second.shape} <= {"one", "several"} or first.optional or second.optional:
         return None
-    if first.at_most or second.at_most or isinstance(first.selector, s.Excluding):
+    if first.at_most or second.at_most or leaves_out(first.selector):
         return None  # "all trees except tree 4 and tree 7": both are left out
     parts = tuple(part for one in (first, second) for part in one.selector.members)
     counts = [1 if one.shape == "one" else one.count for one in (first, second)]
