@@ -361,6 +361,11 @@ def picks_from_all(selector: s.Selector) -> bool:
     return isinstance(selector, Counted) and selector.of == s.Trees()
 
 
+def picked_from(selector: s.Selector) -> s.Selector | None:
+    """Return the trees of which some are chosen ("the trees of row 3" of "the oldest tree in row 3"); else None."""
+    return selector.of if isinstance(selector, Counted) else None
+
+
 def leaves_out(selector: s.Selector) -> bool:
     """Return True if an exception ends the description of trees, or that of those from which some are taken."""
     return isinstance(selector, s.Excluding) or (isinstance(selector, s.Take) and leaves_out(selector.of))

@@ -15,6 +15,7 @@ from fieldhand.planning.grammar.places import (
     numbers,
     positions,
     rows,
+    sets,
     spots,
     steps,
 )
@@ -34,5 +35,6 @@ for _part in (
     clauses,
     choices,
     exceptions,
+    sets,
 ):
     GRAMMAR.include(_part.GRAMMAR)

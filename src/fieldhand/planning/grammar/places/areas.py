@@ -377,16 +377,6 @@ def those_in(word: Lex, where: s.Selector) -> PlaceMeaning | None:
 
 
 @construction(
-    "place: whole=place [COMMA] STICKING where=region", "place: whole=place COMMA where=region ONLY", cost=0.3
-)
-def sticking_to(whole: PlaceMeaning, where: s.Selector) -> PlaceMeaning | None:
-    """Compose "the yellow trees, sticking to the northern half"."""
-    if whole.shape != "several" or whole.per is not None or not chooses_from_trees(whole.selector):
-        return None
-    return replace(whole, selector=over(whole.selector, where))
-
-
-@construction(
     "nominal: where=block inner=nominal",
     "nominal: where=bare_block inner=nominal",
     "nominal: where=owned_block inner=nominal",

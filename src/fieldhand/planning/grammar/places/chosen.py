@@ -17,6 +17,7 @@ from fieldhand.planning.grammar.places.areas import inside
 from fieldhand.planning.grammar.places.compass import AWAY_FROM, CORNERS, SIDES
 from fieldhand.planning.grammar.places.counted import Positions, TreeNumbers, rows_within
 from fieldhand.planning.grammar.places.numbers import VAGUE_NUMBERS
+from fieldhand.planning.grammar.places.rows import in_each_row
 from fieldhand.planning.grammar.places.steps import Distance
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
@@ -90,6 +91,8 @@ class Chosen:
         near: Distance from a place, within which or beyond which they are.
         neighbours: True for "neighbours", whose place may be the one in hand.
         preceded: True if words before the noun were added; those behind it come first.
+        per: Rows in each of which they are chosen.
+        group: Number of the places of a group of which these are some, -1 if it is not known; 0 for others.
     """
 
     inner: Nominal
@@ -100,6 +103,8 @@ class Chosen:
     near: Distance | None = None
     neighbours: bool = False
     preceded: bool = False
+    per: s.Selector | None = None
+    group: int = 0
 
 
 @construction("chosen: inner=nominal", cost=0.1)
@@ -246,7 +251,7 @@ def yielders(rank: tuple[str, bool], n: int | None = None) -> Chosen | None:
 @construction("chosen: EACH n=ORD chosen=chosen", "chosen: EACH OTHER chosen=chosen", cost=0.1)
 def every_nth(chosen: Chosen, n: Lex | None = None) -> Chosen | None:
     """Compose "every third tree" and "every other tree"."""
-    return _every(chosen, 2 if n is None else n.value) if not chosen.inner.plural else None
+    return _every(chosen, 2 if n is None else n.value) if chosen.group or not chosen.inner.plural else None
 
 
 @construction("chosen: word=EACH n=count chosen=chosen", cost=0.2)
@@ -330,7 +335,7 @@ def _with_nth(chosen: Chosen, **changed: Any) -> Chosen | None:
 @construction("chosen: chosen=chosen COMMA n=count OFTHEM", cost=0.2)
 def so_many_of_them(chosen: Chosen, n: int) -> Chosen | None:
     """Compose "yellow trees, eight of them"."""
-    return replace(chosen, count=n) if chosen.count is None and chosen.choice is None and chosen.rank is None else None
+    return replace(chosen, count=n) if chosen.count is None and chosen.inner.plural and chosen.rank is None else None
 
 
 @construction("chosen: chosen=chosen COMMA DET n=count choice=chosen_as", cost=0.2)
@@ -556,6 +561,14 @@ def in_area(chosen: Chosen, where: s.Selector, way: str) -> Chosen | None:
     return None if there is None else replace(chosen, inner=there)
 
 
+@construction("chosen: chosen=chosen in_ rows=each_row", cost=0.0)
+def chosen_in_each_row(chosen: Chosen, rows: s.Selector) -> Chosen | None:
+    """Compose "three oldest trees in each row"."""
+    if chosen.choice is None or chosen.choice.by in ("at", "numbered", "nth") or chosen.per is not None:
+        return None
+    return replace(chosen, per=rows)
+
+
 def _origin(choice: Choice) -> s.Selector:
     return s.Here() if choice.to is None else choice.to.selector
 
@@ -568,17 +581,30 @@ def _with_choice(chosen: Chosen, choice: Choice) -> Chosen | None:
 # Choices without a noun.
 
 
+@construction("far_side: [which_is] side=farthest_side", cost=0.0)
+def far_side(side: Lex) -> Choice | None:
+    """Compose "farthest to the south"."""
+    return by_side(side)
+
+
+@construction("clause_choice: choice=chosen_as", "clause_choice: [which_is] [DET] choice=chosen_by", cost=0.0)
+def clause_choice(choice: Choice) -> Chosen | None:
+    """Compose "is nearest to the charger" behind "whichever of them"."""
+    return bare(choice)
+
+
 @construction(
     "bare: [n=count] choice=chosen_by [ONE]",
     "bare: choice=chosen_by n=count [ONE]",
     "bare: [n=count] [ONE] choice=chosen_as",
+    "bare: [n=count] [ONE] choice=far_side",
     cost=0.1,
 )
-def bare(choice: Choice, n: int = 1) -> Chosen | None:
+def bare(choice: Choice, n: int | None = None) -> Chosen | None:
     """Compose "three oldest" and "one nearest to the charger", of places that something else names."""
-    if choice.by in ("nearest", "farthest", "beside") and choice.to is None:
+    if (choice.by in ("nearest", "farthest", "beside") and choice.to is None) or choice.by == "of every":
         return None
-    return Chosen(Nominal(s.Trees(), plural=n > 1), count=n, choice=choice)
+    return Chosen(Nominal(s.Trees(), plural=n is not None and n > 1), count=n, choice=choice)
 
 
 def chosen_among(of: s.Selector, chosen: Chosen, site: Site) -> list[PlaceMeaning]:
@@ -601,6 +627,8 @@ def places_of(chosen: Chosen, site: Site, word: Lex | None = None) -> list[Place
         return None
     numbers = _numbers(chosen, definite=word is not None)
     made = [_place(chosen, choice, n) for choice in _named(chosen.choice, site) for n in numbers]
+    if chosen.per is not None:
+        made = [None if one is None else in_each_row(one, chosen.per) for one in made]
     return [one for one in made if one is not None] or None
 
 
@@ -660,6 +688,8 @@ def _named(choice: Choice, site: Site) -> Sequence[Choice]:
 def _numbers(chosen: Chosen, *, definite: bool) -> Sequence[int | None]:
     """Return the numbers of trees that may be meant."""
     choice, inner = chosen.choice, chosen.inner
+    if chosen.group:
+        return (chosen.count or 1,) if chosen.preceded and choice is not None and choice.by != "of every" else ()
     if chosen.count is not None:
         return (chosen.count,) if inner.plural == (chosen.count > 1) else ()
     if not inner.plural:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning, Shape
@@ -29,6 +29,7 @@ class Positions:
         noun: Noun that names the positions by itself ("end"), or "stretch" for those "from the third on"; empty if the
             positions stand before a noun.
         each: True if the phrase says "each" of them.
+        either: True if one of them is meant, and the phrase does not say which.
         in_order: True if the phrase names them one after the other ("at the first and at the last").
     """
 
@@ -37,6 +38,7 @@ class Positions:
     near: s.Selector | None = None
     noun: str = ""
     each: bool = False
+    either: bool = False
     in_order: bool = False
 
 
@@ -81,6 +83,9 @@ def trees_counted(inner: Nominal, at: Positions, site: Site) -> list[PlaceMeanin
     of, rows = inner.selector, rows_within(inner.selector)
     if rows is None:
         return None
+    if at.either:
+        ways = [trees_counted(inner, replace(at, spans=(one,), either=False), site) or [] for one in at.spans]
+        return [place for way in ways for place in way]
     if at.near is not None:
         return _at_end_near(of, at.spans[0], at.near, site) if is_one_row(rows) else None
     middles = [number for first, number in at.spans if first == 0]
@@ -137,7 +142,7 @@ def of_row_named_before(inner: Nominal, at: Positions | TreeNumbers) -> PlaceMea
         if at.counted_from == "usual" or not all(name.isdigit() for name in at.trees):
             return None
         at = Positions(tuple(runs(at.trees)), counted_from=at.counted_from)
-    if at.noun or at.near is not None or any(first < 1 or last < 1 for first, last in at.spans):
+    if at.noun or at.near is not None or at.either or any(first < 1 or last < 1 for first, last in at.spans):
         return None
     if at.spans == ((1, 1),) and at.counted_from == "usual":
         return None

@@ -7,8 +7,9 @@ from dataclasses import dataclass, replace
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar, tokens_of
-from fieldhand.planning.grammar.meaning import PlaceMeaning
+from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.chosen import Chosen, chosen_among
+from fieldhand.planning.grammar.places.clauses import Clause, with_attribute
 from fieldhand.planning.grammar.places.compass import CORNERS
 from fieldhand.planning.grammar.places.counted import BOTH_ENDS, Span
 from fieldhand.planning.grammar.places.numbered import all_of, elsewhere, ids_of, numbered
@@ -70,12 +71,6 @@ def except_word(word: Lex | None = None) -> str | None:
     return "except" if word is None or "leaves_out" in word.features else None
 
 
-@construction("but_not: except", "but_not: [COMMA] BUT [NOT]", cost=0.0)
-def but_not() -> str:
-    """Compose ", but not"."""
-    return "except"
-
-
 @construction(
     "those_in: ANY [TREE] [STANDS] in_", "those_in: DET [ONE] [STANDS] in_", "those_in: DET TREE [STANDS] in_", cost=0.1
 )
@@ -88,6 +83,13 @@ def those_in() -> str:
 def places_out(place: PlaceMeaning) -> LeftOut:
     """Compose "the yellow trees" and "in the wet corner"."""
     return LeftOut(place=place)
+
+
+@construction("out: ANY clause=relative", "out: DET ONE clause=relative", cost=0.1)
+def described_out(clause: Clause) -> LeftOut | None:
+    """Compose "any that are yellow"."""
+    inner = with_attribute(Nominal(s.Trees(), plural=True), clause)
+    return None if inner is None else LeftOut(place=PlaceMeaning(inner.selector, "several"))
 
 
 @construction("out: out=there_out", cost=0.0)
@@ -160,8 +162,25 @@ def chosen_out(chosen: Chosen) -> LeftOut:
     return LeftOut(chosen=chosen)
 
 
+@construction("but_out: except out=out", cost=0.0)
+def out_with_except(out: LeftOut) -> LeftOut:
+    """Compose "except the yellow trees"."""
+    return out
+
+
+@construction("but_out: BUT [NOT] out=out", "but_out: NOT trees=numbers", cost=0.0)
+def out_with_but(used: int, out: LeftOut | None = None, trees: tuple[str, ...] = ()) -> LeftOut | None:
+    """Compose "but not the yellow trees" and "not 6"; "but only the yellow ones" keeps them."""
+    tokens = tokens_of(used)
+    if len(tokens) < tokens[-1] - tokens[0] + 1:
+        return None
+    if out is None:
+        return LeftOut(trees=trees)
+    return out
+
+
 @construction(
-    "place: whole=place but_not out=out",
+    "place: whole=place [COMMA] out=but_out",
     "place: whole=place [COMMA] out=there_out LEFTOUT",
     cost=0.2,
     given=("site",),
@@ -188,19 +207,6 @@ def without(whole: PlaceMeaning, out: LeftOut, site: Site) -> list[PlaceMeaning]
     if out.as_trees and not parts and ids_of(whole.selector, site) is not None:
         return [elsewhere(out.trees)]
     return [_excluding(whole, part) for part in parts] or None
-
-
-@construction("not_numbers: NOT trees=numbers", cost=0.0)
-def not_numbers(trees: tuple[str, ...], used: int) -> LeftOut | None:
-    """Compose "not 6 and 7"."""
-    tokens = tokens_of(used)
-    return LeftOut(trees=trees) if len(tokens) == tokens[-1] - tokens[0] + 1 else None  # "not just 6"
-
-
-@construction("place: whole=place COMMA out=not_numbers", cost=0.2, given=("site",))
-def but_not_numbers(whole: PlaceMeaning, out: LeftOut, site: Site) -> list[PlaceMeaning] | None:
-    """Compose "trees 4 to 9, not 6"."""
-    return without(whole, out, site)
 
 
 def _excluding(whole: PlaceMeaning, part: s.Selector) -> PlaceMeaning:
@@ -248,8 +254,7 @@ def rows_left_out(rows: s.Selector, out: LeftOut, site: Site) -> s.Selector | No
 
 
 @construction(
-    "each_row: rows=each_row but_not out=out", "all_rows: rows=all_rows but_not out=out",
-    "each_row: rows=each_row but_not out=rows_out", "all_rows: rows=all_rows but_not out=rows_out",
+    "each_row: rows=each_row [COMMA] out=but_out", "all_rows: rows=all_rows [COMMA] out=but_out",
     cost=0.2, given=("site",),
 )  # fmt: skip
 def each_row_but(rows: s.Selector, out: LeftOut, site: Site) -> s.Selector | None:
@@ -260,7 +265,7 @@ def each_row_but(rows: s.Selector, out: LeftOut, site: Site) -> s.Selector | Non
     return None if left is None else s.Excluding(places=left, of=rows)
 
 
-@construction("rows_out: positions=left_out ROW", cost=0.0)
+@construction("out: positions=left_out ROW", cost=0.0)
 def rows_out(positions: tuple[Span, ...]) -> LeftOut:
     """Compose "the last row" behind "all rows but"."""
     return LeftOut(positions=positions)
@@ -321,7 +326,7 @@ def except_for(whole: PlaceMeaning, part: PlaceMeaning, site: Site, *, those: bo
     return replace(whole, selector=selector, shape="several" if all_of_it else whole.shape)
 
 
-@construction("place: EACH but_not part=place", "place: EACH [TREE] LEFTOUT part=place", cost=0.3)
+@construction("place: EACH except part=place", "place: EACH BUT part=place", cost=0.3)
 def all_but(part: PlaceMeaning) -> list[PlaceMeaning] | None:
     """Compose "all but the yellow trees", and "all but the last tree of row 3", of that row or of the site."""
     if part.shape not in ("one", "several", "area") or part.per is not None or part.optional:

@@ -12,7 +12,6 @@ from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
     as_in_row,
     as_random,
-    as_rows,
     as_some,
     as_top,
     chooses_from_trees,
@@ -27,7 +26,6 @@ from fieldhand.planning.selections import (
     specifies_part,
     swapped,
 )
-from fieldhand.planning.selections import some_of as few_of
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -140,16 +138,6 @@ def so_many(n: int, inner: Nominal, word: Lex | None = None) -> PlaceMeaning | N
     return PlaceMeaning(s.Take(count=n, of=inner.selector), "several", count=n)
 
 
-@construction("place: n=count OF group=place", "place: n=count FROM group=place", cost=0.3)
-def some_of(n: int, group: PlaceMeaning) -> PlaceMeaning | None:
-    """Compose "two of the yellow trees"."""
-    if group.shape != "several" or group.per is not None or group.optional or group.each:
-        return None
-    if group.count is not None and n >= group.count:
-        return None
-    return PlaceMeaning(few_of(group.selector, n), "one" if n == 1 else "several", count=n)
-
-
 @construction("place: n=count POINT SPREAD [DET] zone=ZONE", cost=0.2)
 def points_over(n: int, zone: Lex) -> PlaceMeaning:
     """Compose "five points spread across the wet corner"."""
@@ -245,36 +233,6 @@ def another(inner: Nominal) -> Nominal | None:
 def _unvisited(selector: s.Selector) -> s.Selector:
     """Return a selector of the trees of a selection that the robot has not visited."""
     return s.NotVisited(of=selector)
-
-
-@construction(
-    "parity: [COMMA] [and_or_but] [ONLY] [DET] odd=ODD [ONE] [ONLY]",
-    "parity: [COMMA] [and_or_but] [ONLY] [DET] EVEN [ONE] [ONLY]",
-    cost=0.1,
-)
-def parity(odd: Lex | None = None) -> str:
-    """Compose "but the odd-numbered ones only"."""
-    return "even" if odd is None else "odd"
-
-
-@construction("place: whole=place which=parity", cost=0.2)
-def those_of_parity(whole: PlaceMeaning, which: str) -> PlaceMeaning | None:
-    """Compose "rows 1 to 10, the odd ones" and "vines 1 to 21 of row 3, only the even ones"."""
-    remainder = 1 if which == "odd" else 0
-    selector, row = whole.selector, as_in_row(whole.selector)
-    if whole.per is not None or whole.optional or whole.at_most is not None:
-        return None
-    if row is not None and 0 < row.first < row.last:
-        numbers = [n for n in range(row.first, row.last + 1) if n % 2 == remainder]
-        parts: tuple[s.Selector, ...] = tuple(replace(row, first=n, last=n) for n in numbers)
-    elif (labelled := as_rows(selector)) is not None and labelled.every == 1 and labelled.counted_from == "usual":
-        low, high = labelled.first, labelled.last
-        if not (low.isdigit() and high.isdigit() and int(low) < int(high)):
-            return None
-        return replace(whole, selector=replace(labelled, first=str(int(low) + (int(low) % 2 != remainder)), every=2))
-    else:
-        return None
-    return replace(whole, selector=s.UnionOf(parts=parts), count=len(parts)) if len(parts) > 1 else None
 
 
 @construction("place_list: first=place COMMA second=place", "place_list: first=place_list COMMA second=place", cost=0.4)
@@ -408,14 +366,6 @@ def each_of_group(word: Lex, place: PlaceMeaning) -> PlaceMeaning | None:
     if place.optional or place.at_most is not None or place.per is not None:
         return None
     return replace(place, each=True)
-
-
-@construction("place: ANY n=count OF group=place", cost=0.2)
-def any_of_group(group: PlaceMeaning, n: int) -> PlaceMeaning | None:
-    """Compose "any 3 of trees 5, 6, 7 and 8"."""
-    if group.shape != "several" or group.count is None or n >= group.count or group.each or group.per is not None:
-        return None
-    return PlaceMeaning(few_of(group.selector, n), "one" if n == 1 else "several", count=n)
 
 
 @construction("place: ANY n=count", cost=0.9)

@@ -397,19 +397,6 @@ def extreme(side: Lex, inner: Nominal) -> Nominal | None:
     return replace(inner, selector=made, single=not inner.plural)
 
 
-@construction(
-    "place: [DET] first=MOST AND second=MOST inner=nominal",
-    "place: [DET] first=MOST AND DET second=MOST inner=nominal",
-    cost=0.2,
-)
-def two_extremes(first: Lex, second: Lex, inner: Nominal) -> PlaceMeaning | None:
-    """Compose "the northernmost and southernmost trees"."""
-    if inner.single or inner.complete or first.value in CORNERS or second.value in CORNERS:
-        return None
-    parts = tuple(s.Extreme(side=side.value, of=inner.selector) for side in (first, second))
-    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=2)
-
-
 @construction("nominal: rank=ORD inner=nominal", "owner: rank=ORD inner=owner", cost=0.2)
 def first_of_site(rank: Lex, inner: Nominal) -> Nominal | None:
     """Compose "first tree"."""

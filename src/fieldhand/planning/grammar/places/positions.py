@@ -120,14 +120,24 @@ def marks(at: tuple[Span, ...]) -> Positions:
     "marks: first=marks AND [DET] then=mark",
     "marks: first=marks [COMMA] AND word=AT [DET] then=mark",
     "marks: first=marks [COMMA] AND word=OF DET then=mark",
+    "marks: first=marks [COMMA] other=OR [DET] then=mark",
     "marks: first=marks COMMA word=AT DET then=mark",
     cost=0.0,
 )
-def more_marks(first: Positions, then: tuple[Span, ...], word: Lex | None = None) -> Positions | None:
+def more_marks(
+    first: Positions, then: tuple[Span, ...], word: Lex | None = None, other: Lex | None = None
+) -> Positions | None:
     """Compose "first, third and fifth", "first tree and the last" and "beginning, the middle and the end"."""
     if not set(first.spans).isdisjoint(then):
         return None
-    return replace(first, spans=(*first.spans, *then), in_order=first.in_order or word is not None)
+    if len(first.spans) > 1 and first.either != (other is not None):
+        return None
+    return replace(
+        first,
+        spans=(*first.spans, *then),
+        either=other is not None,
+        in_order=first.in_order or word is not None,
+    )
 
 
 # Words before the noun, and nouns of their own.
@@ -424,10 +434,15 @@ def from_side(side: Lex, rank: Lex | None = None) -> Side | None:
     return side.value if side.value in SIDES and (rank is None or rank.value == 1) else None
 
 
-@construction("start: side=start [COMMA] [AND] GOING [AT] [DET] to=DIR", cost=0.1)
-def from_side_and_on(side: Side, to: Lex) -> Side | None:
-    """Compose "starting from the south and working north"."""
-    return side if AWAY_FROM.get(side, "").endswith(f"_to_{to.value}") else None
+@construction(
+    "start: side=start [COMMA] [AND] GOING [AT] [DET] to=DIR",
+    "start: FROM [DET] begin=DIR range_to [DET] to=DIR",
+    cost=0.1,
+)
+def from_side_and_on(to: Lex, side: Side | None = None, begin: Lex | None = None) -> Side | None:
+    """Compose "starting from the south and working north" and "from south to north"."""
+    side = side if begin is None else begin.value
+    return side if side is not None and AWAY_FROM.get(side, "").endswith(f"_to_{to.value}") else None
 
 
 @construction("place: DET noun=FINISH OF rows=rows NEAREST [AT] to=place", cost=0.1)
@@ -442,7 +457,7 @@ def nearer_end(noun: Lex, rows: s.Selector, to: PlaceMeaning) -> PlaceMeaning | 
 @construction("place: [BOTH] [DET] at=marks inner=nominal", cost=0.2)
 def first_and_last(at: Positions, inner: Nominal) -> PlaceMeaning | None:
     """Compose "both the first and the last tree", those of the site or of a row that was named before."""
-    if at.spans != BOTH_ENDS or inner.plural or inner.single or inner.selector != s.Trees():
+    if at.spans != BOTH_ENDS or at.either or inner.plural or inner.single or inner.selector != s.Trees():
         return None
     return PlaceMeaning(s.UnionOf(parts=(s.First(), s.Last())), "several", count=2, in_order=at.in_order)
 

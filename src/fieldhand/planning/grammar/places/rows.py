@@ -350,7 +350,7 @@ def rows_at_positions(at: tuple[int, int], noun: Lex, site: Site) -> s.Selector 
 @construction("rows: [DET] at=marks ROW", cost=0.1, given=("site",))
 def listed_positions_of_rows(at: Positions, site: Site) -> s.Selector | None:
     """Compose "the third, fifth and last rows"."""
-    if len(at.spans) < 2 or any(first == 0 for first, _ in at.spans):
+    if len(at.spans) < 2 or at.either or any(first == 0 for first, _ in at.spans):
         return None
     return s.UnionOf(parts=tuple(rows_at(first, last, site) for first, last in at.spans))
 
