@@ -593,15 +593,15 @@ def clause_choice(choice: Choice) -> Chosen | None:
     return bare(choice)
 
 
-@construction(
-    "bare: [n=count] choice=chosen_by [ONE]",
-    "bare: choice=chosen_by n=count [ONE]",
-    "bare: [n=count] [ONE] choice=chosen_as",
-    "bare: [n=count] [ONE] choice=far_side",
-    cost=0.1,
-)
+@construction("bare: [n=count] [ONE] choice=chosen_as", "bare: [n=count] [ONE] choice=far_side", cost=0.1)
+def bare_behind(choice: Choice, n: int | None = None) -> Chosen | None:
+    """Compose "one nearest to the charger", of places that something else names."""
+    return None if choice.by == "best" else bare(choice, n)
+
+
+@construction("bare: [n=count] choice=chosen_by [ONE]", "bare: choice=chosen_by n=count [ONE]", cost=0.1)
 def bare(choice: Choice, n: int | None = None) -> Chosen | None:
-    """Compose "three oldest" and "one nearest to the charger", of places that something else names."""
+    """Compose "three oldest", of places that something else names."""
     if (choice.by in ("nearest", "farthest", "beside") and choice.to is None) or choice.by == "of every":
         return None
     return Chosen(Nominal(s.Trees(), plural=n is not None and n > 1), count=n, choice=choice)

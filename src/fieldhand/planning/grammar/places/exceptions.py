@@ -11,7 +11,7 @@ from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.chosen import Chosen, chosen_among
 from fieldhand.planning.grammar.places.clauses import Clause, with_attribute
 from fieldhand.planning.grammar.places.compass import CORNERS
-from fieldhand.planning.grammar.places.counted import BOTH_ENDS, Span
+from fieldhand.planning.grammar.places.counted import BOTH_ENDS, Span, rows_within
 from fieldhand.planning.grammar.places.numbered import all_of, elsewhere, ids_of, numbered
 from fieldhand.planning.grammar.places.rows import rows_at
 from fieldhand.planning.grammar.words import Lex
@@ -19,6 +19,7 @@ from fieldhand.planning.selections import (
     AREAS,
     are_rows,
     are_several_rows,
+    as_in_row,
     as_some,
     blocks_of,
     centre_of,
@@ -319,11 +320,18 @@ def except_for(whole: PlaceMeaning, part: PlaceMeaning, site: Site, *, those: bo
     blocks = set(blocks_of(whole.selector))
     if len(blocks) == 1 and are_rows(part.selector) and is_whole_rows(part.selector) and not is_in_block(part.selector):
         part = replace(part, selector=over(part.selector, blocks.pop()))  # "row 4" behind "rows 1 to 6 of block North"
-    if part.shape == "one" and picks_from_all(part.selector):
+    if _is_counted_in_it(part, whole) or (part.shape == "one" and picks_from_all(part.selector)):
         part = replace(part, selector=over(part.selector, whole.selector))  # "every yellow tree but the oldest"
     all_of_it = whole.shape == "area" and (part.shape == "several" or those)  # "row 6 except the yellow trees"
     selector = s.Excluding(places=part.selector, of=whole.selector)
     return replace(whole, selector=selector, shape="several" if all_of_it else whole.shape)
+
+
+def _is_counted_in_it(part: PlaceMeaning, whole: PlaceMeaning) -> bool:
+    """Return True for "the two trees at its north end", of a row that is named before it."""
+    counted = [as_in_row(one) for one in part.selector.members]
+    rows = rows_within(whole.selector)
+    return rows is not None and is_one_row(rows) and all(one is not None and one.of == s.Trees() for one in counted)
 
 
 @construction("place: EACH except part=place", "place: EACH BUT part=place", cost=0.3)

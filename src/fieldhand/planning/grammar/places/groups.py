@@ -397,10 +397,12 @@ def up_to_so_many_of_those(n: int, word: Lex | None = None) -> PlaceMeaning | No
     return None if those is None else replace(those, count=None, at_most=n)
 
 
-@construction("place: whole=place word=THERE", cost=0.4)
-def of_them_there(whole: PlaceMeaning, word: Lex) -> PlaceMeaning | None:
-    """Compose "every tree there"."""
-    if "in_area" not in word.features or whole.shape != "several" or whole.per is not None:
+@construction("place: whole=place word=THERE", "place: whole=place OF it=IT", cost=0.4)
+def of_them_there(whole: PlaceMeaning, word: Lex | None = None, it: Lex | None = None) -> PlaceMeaning | None:
+    """Compose "every tree there" and "the trees of it"."""
+    if (word is not None and "in_area" not in word.features) or (it is not None and "of_several" in it.features):
+        return None
+    if whole.shape != "several" or whole.per is not None:
         return None
     return replace(whole, there=True) if chooses_from_trees(whole.selector) else None
 
