@@ -9,6 +9,7 @@ from dataclasses import replace
 from typing import Any, cast
 
 from fieldhand.places import selectors as s
+from fieldhand.places.selector import Counted
 
 #: Areas by the order in which they are nested, the innermost first: a row of a half of a block.
 _NESTING: dict[type[s.Selector], int] = {
@@ -358,6 +359,21 @@ def is_across(selector: s.Selector) -> bool:
 def is_by_attribute(selector: s.Selector) -> bool:
     """Return True if trees are chosen by an attribute ("yellow", "with vigor below 0.4")."""
     return any(isinstance(part, s.Where) for part in selector.walk())
+
+
+def picks_from_all(selector: s.Selector) -> bool:
+    """Return True if a number of trees is chosen from all trees of the site ("the oldest tree")."""
+    return isinstance(selector, Counted) and selector.of == s.Trees()
+
+
+def picked_from(selector: s.Selector) -> s.Selector | None:
+    """Return the trees of which some are chosen ("the trees of row 3" of "the oldest tree in row 3"); else None."""
+    return selector.of if isinstance(selector, Counted) else None
+
+
+def leaves_out(selector: s.Selector) -> bool:
+    """Return True if an exception ends the description of trees, or that of those from which some are taken."""
+    return isinstance(selector, s.Excluding) or (isinstance(selector, s.Take) and leaves_out(selector.of))
 
 
 def is_description(selector: s.Selector) -> bool:

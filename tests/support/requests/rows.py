@@ -1441,7 +1441,7 @@ REFUSED = [
     (
         "husky",
         "Photograph every third tree, from west to east, of row 3.",
-        "'from west to east': it is not clear whether the trees are counted or visited from there",
+        "trees in a row cannot be counted from the west: the rows run north to south",
     ),
     (
         "husky",

@@ -18,7 +18,7 @@ from fieldhand.planning.grammar.meaning import (
     PlaceMeaning,
     Said,
 )
-from fieldhand.planning.grammar.places.groups import except_for, except_positions
+from fieldhand.planning.grammar.places.exceptions import except_for, except_positions
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_rows, chooses_from_trees, named_places, over, swapped
@@ -193,7 +193,7 @@ def _without(
         return replace(command, place=rest, used=used)
     if out.place is None:
         left = except_positions(whole, out.positions)
-        return None if left is None else replace(command, place=left, used=used)
+        return None if left is None else replace(command, place=left[0], used=used)
     among, left_out = ids_of(whole.selector, site), ids_of(out.place.selector, site)
     if among is None or left_out is None or (some and not among & left_out):
         return None
@@ -202,13 +202,13 @@ def _without(
         return replace(command, place=replace(whole, selector=swapped(whole.selector, chosen, others)), used=used)
     if named_places(whole.selector):
         whole = replace(whole, count=None)
-    left = except_for(whole, out.place, site) if not among <= left_out else None
-    if left is None:
+    rest = except_for(whole, out.place, site) if not among <= left_out else None
+    if rest is None:
         return None
     shape = (
-        "several" if left.shape == "area" and left.per is None else left.shape
+        "several" if rest.shape == "area" and rest.per is None else rest.shape
     )  # all but those, not one of the others
-    return replace(command, place=replace(left, shape=shape), used=used)
+    return replace(command, place=replace(rest, shape=shape), used=used)
 
 
 def _others(whole: PlaceMeaning, out: Excluded, site: Site) -> PlaceMeaning | None:

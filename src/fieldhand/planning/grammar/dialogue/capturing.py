@@ -79,6 +79,7 @@ from fieldhand.planning.selections import (
     is_row_of_place,
     landmark_of,
     over,
+    picks_from_all,
     some_of,
     specifies_part,
     swapped,
@@ -345,6 +346,9 @@ def _place_of(
         return place if moves else None, drive(setting, state, DriveCommand(first, before.used)), ()
     if first.shape in ("several", "nearby") and is_spoken_of(place):
         return _some_of_them(first, place), state, said
+    of_these = place is not None and isinstance(before, Lead) and before.relation == "of" and first.shape == "several"
+    if of_these and place is not None and all(picks_from_all(part) for part in place.selector.members):
+        return replace(place, selector=over(place.selector, first.selector)), state, said  # "of these the oldest"
     every = None if place is None else as_every_nth(place.selector)
     if place is not None and every is not None and every.of == s.Trees() and first.shape == "several":
         return replace(place, selector=over(every, first.selector)), state, said

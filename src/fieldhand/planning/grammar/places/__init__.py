@@ -7,14 +7,16 @@ from fieldhand.planning.grammar.places import (
     areas,
     choices,
     chosen,
+    clauses,
+    exceptions,
     groups,
     likewise,
     nouns,
-    numbered,
     numbers,
     positions,
     rounds,
     rows,
+    sets,
     spots,
     steps,
 )
@@ -22,7 +24,6 @@ from fieldhand.planning.grammar.places import (
 GRAMMAR = Grammar()
 for _part in (
     numbers,
-    numbered,
     nouns,
     areas,
     rows,
@@ -33,6 +34,9 @@ for _part in (
     likewise,
     steps,
     chosen,
+    clauses,
     choices,
+    exceptions,
+    sets,
 ):
     GRAMMAR.include(_part.GRAMMAR)

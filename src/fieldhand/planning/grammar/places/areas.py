@@ -18,7 +18,6 @@ from fieldhand.planning.selections import (
     are_rows,
     as_edge,
     as_half,
-    as_zone,
     chooses_from_trees,
     counts_in_row,
     is_in_block,
@@ -324,26 +323,6 @@ def along_word() -> str:
     return "along"
 
 
-@construction("nominal: inner=nominal OUTSIDE [OF] where=region", cost=0.4)
-def outside_area(inner: Nominal, where: s.Selector) -> Nominal | None:
-    """Compose "trees outside the northern half"."""
-    if inner.single or as_zone(where) is not None:
-        return None
-    return replace(inner, selector=s.Excluding(places=where, of=inner.selector))
-
-
-@construction(
-    "nominal: inner=nominal OUTSIDE [DET] where=ZONE",
-    "nominal: inner=nominal OUTSIDE [OF] [DET] where=ZONE",
-    cost=0.3,
-)
-def outside(inner: Nominal, where: Lex) -> Nominal | None:
-    """Compose "trees outside the wet corner"."""
-    if not chooses_from_trees(inner.selector):
-        return None
-    return replace(inner, selector=over(inner.selector, s.InZone(zone=where.value, outside=True)))
-
-
 @construction("place: where=region COMMA inner=place", "place: where=region to=AT inner=place", cost=0.6)
 def places_of_area(where: s.Selector, inner: PlaceMeaning, to: Lex | None = None) -> PlaceMeaning | None:
     """Compose "row 7, every third tree" and "row 7 at every third tree"."""
@@ -397,16 +376,6 @@ def those_in(word: Lex, where: s.Selector) -> PlaceMeaning | None:
     """Compose "those in row 4"."""
     like = Likewise("those")
     return PlaceMeaning(where, "several", like=like) if "stands_for_noun" in word.features else None
-
-
-@construction(
-    "place: whole=place [COMMA] STICKING where=region", "place: whole=place COMMA where=region ONLY", cost=0.3
-)
-def sticking_to(whole: PlaceMeaning, where: s.Selector) -> PlaceMeaning | None:
-    """Compose "the yellow trees, sticking to the northern half"."""
-    if whole.shape != "several" or whole.per is not None or not chooses_from_trees(whole.selector):
-        return None
-    return replace(whole, selector=over(whole.selector, where))
 
 
 @construction(

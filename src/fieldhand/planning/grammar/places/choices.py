@@ -101,6 +101,7 @@ def some_corner(
 @construction(
     "place: ANY noun=FINISH in_ rows=rows",
     "place: ANY FINISH TREE in_ rows=rows",
+    "place: [DET] TREE in_ ANY noun=FINISH in_ rows=rows",
     "place: [DET] TREE AT DET noun=CORNER in_ rows=rows",
     "place: DET noun=CORNER in_ rows=rows",
     cost=0.3,

@@ -15,7 +15,9 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.areas import inside
 from fieldhand.planning.grammar.places.compass import AWAY_FROM, CORNERS, SIDES
+from fieldhand.planning.grammar.places.counted import Positions, TreeNumbers, rows_within
 from fieldhand.planning.grammar.places.numbers import VAGUE_NUMBERS
+from fieldhand.planning.grammar.places.rows import in_each_row
 from fieldhand.planning.grammar.places.steps import Distance
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
@@ -38,7 +40,7 @@ construction = GRAMMAR.construction
 #: Ways to choose among trees.
 By = Literal[
     "extreme", "best", "nearest", "beside", "around", "farthest", "nearby", "random", "spread", "evenly", "in a run",
-    "adjacent", "apart", "of every", "nth",
+    "adjacent", "apart", "of every", "nth", "at", "numbered",
 ]  # fmt: skip
 #: Choices of which the k-th is one: "the second oldest".
 _RANKED = ("extreme", "best", "nearest", "farthest")
@@ -89,6 +91,8 @@ class Chosen:
         near: Distance from a place, within which or beyond which they are.
         neighbours: True for "neighbours", whose place may be the one in hand.
         preceded: True if words before the noun were added; those behind it come first.
+        per: Rows in each of which they are chosen.
+        group: Number of the places of a group of which these are some, -1 if it is not known; 0 for others.
     """
 
     inner: Nominal
@@ -99,6 +103,8 @@ class Chosen:
     near: Distance | None = None
     neighbours: bool = False
     preceded: bool = False
+    per: s.Selector | None = None
+    group: int = 0
 
 
 @construction("chosen: inner=nominal", cost=0.1)
@@ -245,7 +251,7 @@ def yielders(rank: tuple[str, bool], n: int | None = None) -> Chosen | None:
 @construction("chosen: EACH n=ORD chosen=chosen", "chosen: EACH OTHER chosen=chosen", cost=0.1)
 def every_nth(chosen: Chosen, n: Lex | None = None) -> Chosen | None:
     """Compose "every third tree" and "every other tree"."""
-    return _every(chosen, 2 if n is None else n.value) if not chosen.inner.plural else None
+    return _every(chosen, 2 if n is None else n.value) if chosen.group or not chosen.inner.plural else None
 
 
 @construction("chosen: word=EACH n=count chosen=chosen", cost=0.2)
@@ -284,21 +290,36 @@ def starting_from(chosen: Chosen, side: Side) -> Chosen | None:
 @construction("chosen: chosen=chosen COMMA FROM [DET] side=DIR", cost=0.1)
 def from_a_side(chosen: Chosen, side: Lex) -> Chosen | None:
     """Compose "every third tree, from the south", which they are counted and visited from."""
-    return starting_from(chosen, side.value) if side.value in SIDES else None
+    visited = starting_from(chosen, side.value) if side.value in SIDES else None
+    return visited or (None if _as_nth(chosen) is not None else counted_from(chosen, side))
 
 
 @construction("chosen: chosen=chosen FROM [DET] side=DIR", cost=0.1)
 def counted_from(chosen: Chosen, side: Lex) -> Chosen | None:
-    """Compose "every third tree from the north"."""
-    return _with_nth(chosen, counted_from=side.value) if side.value in SIDES else None
+    """Compose "every third tree from the north" and "first two trees from the north"."""
+    choice = chosen.choice
+    if choice is None or side.value not in SIDES:
+        return None
+    if isinstance(choice.value, Positions | TreeNumbers):
+        if choice.value.counted_from != "usual" or rows_within(chosen.inner.selector) is not None:
+            return None  # "the first six trees of row 9 from the south": counted or visited from there?
+        return replace(chosen, choice=replace(choice, value=replace(choice.value, counted_from=side.value)))
+    return _with_nth(chosen, counted_from=side.value)
 
 
 @construction("chosen: chosen=chosen COMMA way=in_ where=region", cost=0.2)
 def in_area_behind(chosen: Chosen, where: s.Selector, way: str) -> Chosen | None:
     """Compose "every third tree, starting with the second, in row 4"."""
-    nth = None if chosen.choice is None else chosen.choice.value
-    starts = isinstance(nth, NthTree) and (nth.start > 1 or nth.visited_from is not None)
-    return in_area(chosen, where, way) if starts else None
+    nth = _as_nth(chosen)
+    starts = nth is not None and (nth.start > 1 or nth.visited_from is not None)
+    counted = chosen.choice is not None and getattr(chosen.choice.value, "counted_from", "usual") != "usual"
+    return in_area(chosen, where, way) if starts or counted else None
+
+
+def _as_nth(chosen: Chosen) -> NthTree | None:
+    """Return how every n-th tree is counted; None for other trees."""
+    value = None if chosen.choice is None else chosen.choice.value
+    return value if isinstance(value, NthTree) else None
 
 
 def _with_nth(chosen: Chosen, **changed: Any) -> Chosen | None:
@@ -314,7 +335,7 @@ def _with_nth(chosen: Chosen, **changed: Any) -> Chosen | None:
 @construction("chosen: chosen=chosen COMMA n=count OFTHEM", cost=0.2)
 def so_many_of_them(chosen: Chosen, n: int) -> Chosen | None:
     """Compose "yellow trees, eight of them"."""
-    return replace(chosen, count=n) if chosen.count is None and chosen.choice is None and chosen.rank is None else None
+    return replace(chosen, count=n) if chosen.count is None and chosen.inner.plural and chosen.rank is None else None
 
 
 @construction("chosen: chosen=chosen COMMA DET n=count choice=chosen_as", cost=0.2)
@@ -540,6 +561,14 @@ def in_area(chosen: Chosen, where: s.Selector, way: str) -> Chosen | None:
     return None if there is None else replace(chosen, inner=there)
 
 
+@construction("chosen: chosen=chosen in_ rows=each_row", cost=0.0)
+def chosen_in_each_row(chosen: Chosen, rows: s.Selector) -> Chosen | None:
+    """Compose "three oldest trees in each row"."""
+    if chosen.choice is None or chosen.choice.by in ("at", "numbered", "nth") or chosen.per is not None:
+        return None
+    return replace(chosen, per=rows)
+
+
 def _origin(choice: Choice) -> s.Selector:
     return s.Here() if choice.to is None else choice.to.selector
 
@@ -547,6 +576,40 @@ def _origin(choice: Choice) -> s.Selector:
 def _with_choice(chosen: Chosen, choice: Choice) -> Chosen | None:
     """Return a description with a choice; only one says how the trees are chosen."""
     return replace(chosen, choice=choice) if chosen.choice is None else None
+
+
+# Choices without a noun.
+
+
+@construction("far_side: [which_is] side=farthest_side", cost=0.0)
+def far_side(side: Lex) -> Choice | None:
+    """Compose "farthest to the south"."""
+    return by_side(side)
+
+
+@construction("clause_choice: choice=chosen_as", "clause_choice: [which_is] [DET] choice=chosen_by", cost=0.0)
+def clause_choice(choice: Choice) -> Chosen | None:
+    """Compose "is nearest to the charger" behind "whichever of them"."""
+    return bare(choice)
+
+
+@construction("bare: [n=count] [ONE] choice=chosen_as", "bare: [n=count] [ONE] choice=far_side", cost=0.1)
+def bare_behind(choice: Choice, n: int | None = None) -> Chosen | None:
+    """Compose "one nearest to the charger", of places that something else names."""
+    return None if choice.by == "best" else bare(choice, n)
+
+
+@construction("bare: [n=count] choice=chosen_by [ONE]", "bare: choice=chosen_by n=count [ONE]", cost=0.1)
+def bare(choice: Choice, n: int | None = None) -> Chosen | None:
+    """Compose "three oldest", of places that something else names."""
+    if (choice.by in ("nearest", "farthest", "beside") and choice.to is None) or choice.by == "of every":
+        return None
+    return Chosen(Nominal(s.Trees(), plural=n is not None and n > 1), count=n, choice=choice)
+
+
+def chosen_among(of: s.Selector, chosen: Chosen, site: Site) -> list[PlaceMeaning]:
+    """Return what a choice without a noun can mean among some places."""
+    return places_of(replace(chosen, inner=replace(chosen.inner, selector=of)), site) or []
 
 
 # Places.
@@ -557,11 +620,15 @@ def places_of(chosen: Chosen, site: Site, word: Lex | None = None) -> list[Place
     """Compose "the five oldest yellow trees in row 3"."""
     if chosen.choice is None:
         return _unvisited(chosen)
+    if chosen.choice.by in ("at", "numbered"):
+        return None
     indefinite = word is not None and "indefinite" in word.features
     if indefinite and (chosen.inner.plural or chosen.count is not None) and chosen.choice.by != "nearby":
         return None
     numbers = _numbers(chosen, definite=word is not None)
     made = [_place(chosen, choice, n) for choice in _named(chosen.choice, site) for n in numbers]
+    if chosen.per is not None:
+        made = [None if one is None else in_each_row(one, chosen.per) for one in made]
     return [one for one in made if one is not None] or None
 
 
@@ -621,6 +688,8 @@ def _named(choice: Choice, site: Site) -> Sequence[Choice]:
 def _numbers(chosen: Chosen, *, definite: bool) -> Sequence[int | None]:
     """Return the numbers of trees that may be meant."""
     choice, inner = chosen.choice, chosen.inner
+    if chosen.group:
+        return (chosen.count or 1,) if chosen.preceded and choice is not None and choice.by != "of every" else ()
     if chosen.count is not None:
         return (chosen.count,) if inner.plural == (chosen.count > 1) else ()
     if not inner.plural:

@@ -8,35 +8,24 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning, Shape
 from fieldhand.planning.grammar.places.numbered import ids_of
-from fieldhand.planning.grammar.places.rows import rows_at
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
-    AREAS,
-    are_rows,
-    are_several_rows,
     as_in_row,
     as_random,
-    as_rows,
     as_some,
     as_top,
-    blocks_of,
-    centre_of,
     chooses_from_trees,
     is_by_attribute,
     is_description,
     is_end_of_site,
-    is_in_block,
-    is_one_row,
-    is_whole_rows,
     landmark_of,
+    leaves_out,
     measures_distance,
     over,
     replaceable_area,
-    rows_of,
     specifies_part,
     swapped,
 )
-from fieldhand.planning.selections import some_of as few_of
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -119,7 +108,7 @@ def at_most_so_many(check: Lex, n: int, inner: Nominal) -> PlaceMeaning | None:
     return up_to(inner=inner, n=n) if check.value == ("le", "") else None
 
 
-@construction("place: [DET] rank=ORD n=count inner=nominal", cost=0.5)
+@construction("place: [DET] rank=ORD n=count inner=nominal", cost=1.2)
 def first_trees(rank: Lex, n: int, inner: Nominal) -> PlaceMeaning | None:
     """Compose "the first three trees"."""
     if rank.value != 1 or n < 2 or inner.single or inner.selector != s.Trees():
@@ -147,16 +136,6 @@ def so_many(n: int, inner: Nominal, word: Lex | None = None) -> PlaceMeaning | N
     if n == 1:
         return PlaceMeaning(s.Take(count=1, of=inner.selector), "one")
     return PlaceMeaning(s.Take(count=n, of=inner.selector), "several", count=n)
-
-
-@construction("place: n=count OF group=place", "place: n=count FROM group=place", cost=0.3)
-def some_of(n: int, group: PlaceMeaning) -> PlaceMeaning | None:
-    """Compose "two of the yellow trees"."""
-    if group.shape != "several" or group.per is not None or group.optional or group.each:
-        return None
-    if group.count is not None and n >= group.count:
-        return None
-    return PlaceMeaning(few_of(group.selector, n), "one" if n == 1 else "several", count=n)
 
 
 @construction("place: n=count POINT SPREAD [DET] zone=ZONE", cost=0.2)
@@ -256,255 +235,6 @@ def _unvisited(selector: s.Selector) -> s.Selector:
     return s.NotVisited(of=selector)
 
 
-@construction("except: [COMMA] EXCEPT [FOR]", "except: [COMMA] word=WITHOUT", cost=0.0)
-def except_word(word: Lex | None = None) -> str | None:
-    """Compose "except for" and "without"."""
-    return "except" if word is None or "leaves_out" in word.features else None
-
-
-@construction("but_not: except", "but_not: [COMMA] BUT [NOT]", cost=0.0)
-def but_not() -> str:
-    """Compose ", but not"."""
-    return "except"
-
-
-@construction(
-    "place: whole=place but_not trees=numbers",
-    "place: whole=place but_not [DET] NUMBERED trees=numbers",
-    "place: whole=place but_not [DET] trees=tree_ids",
-    cost=0.3,
-    given=("site",),
-)
-def named_except_numbers(whole: PlaceMeaning, trees: tuple[str, ...], site: Site) -> PlaceMeaning | None:
-    """Compose "trees 1 to 19 except 7 and 13" and "all trees of row 9 except number 140"."""
-    parts = tuple(s.TreeIs(tree=tree) for tree in trees)
-    out = parts[0] if len(parts) == 1 else s.UnionOf(parts=parts)
-    if set(parts) <= set(whole.selector.members):
-        left = len(parts) < len(whole.selector.members)
-        return replace(whole, selector=s.Excluding(places=out, of=whole.selector), count=None) if left else None
-    if (
-        not _may_leave_out(whole)
-        or whole.selector == s.Trees()
-        or (are_rows(whole.selector) and not is_one_row(whole.selector))
-    ):
-        return None  # "rows 3 to 5 except 4": the tree or the row?
-    if not set(trees) < (ids_of(whole.selector, site) or set()):
-        return None
-    return replace(whole, selector=s.Excluding(places=out, of=whole.selector), shape="several")
-
-
-@construction("rows_out_of_all: out=left_out [ROW]", cost=0.0, given=("site",))
-def positions_left_out(out: tuple[tuple[int, int], ...], site: Site) -> tuple[s.Rows, ...]:
-    """Compose "the last" behind "all rows but"."""
-    return tuple(rows_at(*at, site) for at in out)
-
-
-@construction("place: whole=place but_not out=numbers", "place: whole=place but_not ends=rows_out_of_all", cost=0.2)
-def except_rows(whole: PlaceMeaning, out: tuple[str, ...] = (), ends: tuple[s.Rows, ...] = ()) -> PlaceMeaning | None:
-    """Compose "all rows except 3 and 4"."""
-    if whole.shape != "area" or whole.count is not None or whole.like is not None or whole.per is not None:
-        return None
-    left = each_row_but(whole.selector, out, ends)
-    return None if left is None else replace(whole, selector=left)
-
-
-@construction(
-    "each_row: rows=each_row but_not out=numbers", "each_row: rows=each_row but_not ends=rows_out_of_all", cost=0.2
-)
-def each_row_but(rows: s.Selector, out: tuple[str, ...] = (), ends: tuple[s.Rows, ...] = ()) -> s.Selector | None:
-    """Compose "each row but the last"."""
-    blocks = set(blocks_of(rows))
-    if (
-        not are_several_rows(rows)
-        or len(blocks) > 1
-        or (ends and any(row.every > 1 or row.first for row in rows_of(rows)))
-    ):
-        return None  # "rows 3 to 7 except the first": the third, or the first of the block?
-    named = (s.Rows(first=name, last=name) for name in out)
-    parts = tuple(over(row, next(iter(blocks))) if blocks else row for row in (*named, *ends))
-    return s.Excluding(places=parts[0] if len(parts) == 1 else s.UnionOf(parts=parts), of=rows)
-
-
-@construction(
-    "place: whole=place but_not [DET] value=ATTRVAL ONE",
-    "place: whole=place but_not [DET] value=ATTRVAL ONE in_ where=region",
-    cost=0.2,
-)
-def except_those_of_a_kind(
-    whole: PlaceMeaning, value: Lex, where: s.Selector | None = None
-) -> list[PlaceMeaning] | None:
-    """Compose "row 3 except the yellow ones"."""
-    if not _may_leave_out(whole):
-        return None
-    return [
-        replace(
-            whole,
-            selector=s.Excluding(
-                places=s.Where(attribute=name, test="eq", value=text, of=where or whole.selector), of=whole.selector
-            ),
-        )
-        for name, text in value.value
-    ]
-
-
-@construction(
-    "left_out: [DET] at=span [TREE]",
-    "left_out: [DET] at=span ONE",
-    "left_out: [DET] at=span AND [DET] second=span [TREE]",
-    "left_out: [DET] at=span AND [DET] second=span ONE",
-    "left_out: [DET] at=span TREE AND [DET] second=span TREE",
-    cost=0.1,
-)
-def left_out(at: tuple[int, int], second: tuple[int, int] | None = None) -> tuple[tuple[int, int], ...]:
-    """Compose "the first two" and "the first and the last one" behind "except"."""
-    return (at,) if second is None else (at, second)
-
-
-@construction(
-    "left_out: [DET] noun=FINISH",
-    "left_out: EACH noun=FINISH",
-    "left_out: [DET] FINISH noun=TREE",
-    "left_out: DET ONE AT DET noun=FINISH",
-    "left_out: DET TREE AT DET noun=FINISH",
-    cost=0.1,
-)
-def ends_left_out(noun: Lex) -> tuple[tuple[int, int], ...] | None:
-    """Compose "its ends" and "the end trees" behind "except"."""
-    return ((1, 1), (-1, -1)) if noun.plural else None
-
-
-@construction(
-    "place: whole=place but_not out=left_out", "place: whole=place but_not out=left_out in_ row=rows", cost=0.2
-)
-def except_positions(
-    whole: PlaceMeaning, out: tuple[tuple[int, int], ...], row: s.Selector | None = None
-) -> PlaceMeaning | None:
-    """Compose "row 3 except the first two" and "every tree but the first and last of row 3"."""
-    rows = row if whole.selector == s.Trees() and row is not None else whole.selector
-    if not _may_leave_out(whole) or not are_rows(rows) or row not in (None, s.RowOf(), rows):
-        return None
-    if not is_one_row(rows) and row is None:
-        return None  # "rows 3 and 4 except the first": of each of them?
-    parts = tuple(s.InRow(first=first, last=last, of=rows) for first, last in out)
-    places = parts[0] if len(parts) == 1 else s.UnionOf(parts=parts)
-    return replace(whole, selector=s.Excluding(places=places, of=rows), shape="several")
-
-
-@construction("place: whole=place but_not out=left_out in_ rows=each_row", cost=0.2)
-def except_positions_of_each(
-    whole: PlaceMeaning, out: tuple[tuple[int, int], ...], rows: s.Selector
-) -> PlaceMeaning | None:
-    """Compose "every tree except the first of each row"."""
-    known = whole.selector in (s.Trees(), rows) or (are_rows(whole.selector) and rows == s.Rows())
-    if not known or not _may_leave_out(whole):
-        return None
-    of = whole.selector if are_rows(whole.selector) else rows
-    return except_positions(replace(whole, selector=of), out, of)
-
-
-def _may_leave_out(whole: PlaceMeaning) -> bool:
-    """Return True for all trees of a kind, of which some can be left out."""
-    return whole.shape in ("several", "area") and whole.count is None and whole.per is None and not whole.optional
-
-
-@construction(
-    "place: EACH inner=nominal EXCEPT trees=numbers",
-    "place: EACH inner=nominal EXCEPT DET trees=numbers",
-    cost=0.3,
-)
-def except_numbers(inner: Nominal, trees: tuple[str, ...]) -> PlaceMeaning | None:
-    """Compose "all trees except 12 and 15"."""
-    if inner.selector != s.Trees():
-        return None
-    parts = tuple(s.TreeIs(tree=t) for t in trees)
-    return PlaceMeaning(s.Excluding(places=parts[0] if len(parts) == 1 else s.UnionOf(parts=parts)), "several")
-
-
-@construction(
-    "place: whole=place [COMMA] except part=place",
-    "place: whole=place BUT part=place",
-    "place: whole=place [COMMA] except in_ part=place",
-    "place: whole=place [COMMA] except which_is in_ part=place",
-    "place: whole=place [COMMA] except those=those_in part=place",
-    "place: whole=place [COMMA] those=those_in part=place LEFTOUT",
-    cost=0.3,
-    given=("site",),
-)
-def except_for(whole: PlaceMeaning, part: PlaceMeaning, site: Site, those: str = "") -> PlaceMeaning | None:
-    """Compose "all trees except the yellow trees"."""
-    if (
-        whole.shape not in ("several", "area")
-        or whole.count is not None
-        or part.shape not in ("one", "several", "area")
-    ):
-        return None
-    part = replace(part, like=None) if part.like is not None and part.like.kind == "those" else part
-    if centre_of(whole.selector) == part.selector:
-        return whole  # "the trees within 12 m of tree 40, but not tree 40 itself"
-    if whole.selector != s.Trees() and any(is_end_of_site(one) or one.named_marker for one in part.selector.members):
-        return None  # the first, the last or the ends of these, not of the site
-    trees = {one.named_tree for one in part.selector.walk() if one.named_tree}
-    if trees and whole.selector != s.Trees() and not trees <= (ids_of(whole.selector, site) or set()):
-        return None
-    if whole.per is not None:
-        if whole.shape != "area" or not are_rows(part.selector):
-            return None
-        return replace(whole, per=s.Excluding(places=part.selector, of=whole.per))
-    blocks = set(blocks_of(whole.selector))
-    if len(blocks) == 1 and are_rows(part.selector) and is_whole_rows(part.selector) and not is_in_block(part.selector):
-        part = replace(part, selector=over(part.selector, blocks.pop()))  # "row 4" behind "rows 1 to 6 of block North"
-    trees_of_it = part.shape == "several" or bool(those)  # "row 6 except the yellow trees", "... any in the wet corner"
-    all_of_it = whole.shape == "area" and trees_of_it
-    selector = s.Excluding(places=part.selector, of=whole.selector)
-    return replace(whole, selector=selector, shape="several" if all_of_it else whole.shape)
-
-
-@construction(
-    "those_in: ANY [TREE] [STANDS] in_", "those_in: DET [ONE] [STANDS] in_", "those_in: DET TREE [STANDS] in_", cost=0.1
-)
-def those_in() -> str:
-    """Compose "any that lie in" and "those standing in", behind what is left out of an area."""
-    return "in"
-
-
-@construction(
-    "parity: [COMMA] [and_or_but] [ONLY] [DET] odd=ODD [ONE] [ONLY]",
-    "parity: [COMMA] [and_or_but] [ONLY] [DET] EVEN [ONE] [ONLY]",
-    cost=0.1,
-)
-def parity(odd: Lex | None = None) -> str:
-    """Compose "but the odd-numbered ones only"."""
-    return "even" if odd is None else "odd"
-
-
-@construction("place: whole=place which=parity", cost=0.2)
-def those_of_parity(whole: PlaceMeaning, which: str) -> PlaceMeaning | None:
-    """Compose "rows 1 to 10, the odd ones" and "vines 1 to 21 of row 3, only the even ones"."""
-    remainder = 1 if which == "odd" else 0
-    selector, row = whole.selector, as_in_row(whole.selector)
-    if whole.per is not None or whole.optional or whole.at_most is not None:
-        return None
-    if row is not None and 0 < row.first < row.last:
-        numbers = [n for n in range(row.first, row.last + 1) if n % 2 == remainder]
-        parts: tuple[s.Selector, ...] = tuple(replace(row, first=n, last=n) for n in numbers)
-    elif (labelled := as_rows(selector)) is not None and labelled.every == 1 and labelled.counted_from == "usual":
-        low, high = labelled.first, labelled.last
-        if not (low.isdigit() and high.isdigit() and int(low) < int(high)):
-            return None
-        return replace(whole, selector=replace(labelled, first=str(int(low) + (int(low) % 2 != remainder)), every=2))
-    else:
-        return None
-    return replace(whole, selector=s.UnionOf(parts=parts), count=len(parts)) if len(parts) > 1 else None
-
-
-@construction("place: ANY inner=nominal EXCEPT part=place", "place: ANY inner=nominal CONTRAST part=place", cost=0.2)
-def any_except(inner: Nominal, part: PlaceMeaning) -> PlaceMeaning | None:
-    """Compose "any tree except tree 12"."""
-    if inner.single or part.shape not in ("one", "several"):
-        return None
-    return PlaceMeaning(s.Take(count=1, of=s.Excluding(places=part.selector, of=inner.selector)), "one")
-
-
 @construction("place_list: first=place COMMA second=place", "place_list: first=place_list COMMA second=place", cost=0.4)
 def listed_places(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | list[PlaceMeaning] | None:
     """Compose "tree 12, tree 15"."""
@@ -537,7 +267,7 @@ def both(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | list[Place
         return None  # "trees 4 and 5 and the tree next to it": next to which?
     if not {first.shape, second.shape} <= {"one", "several"} or first.optional or second.optional:
         return None
-    if first.at_most or second.at_most or isinstance(first.selector, s.Excluding):
+    if first.at_most or second.at_most or leaves_out(first.selector):
         return None  # "all trees except tree 4 and tree 7": both are left out
     parts = tuple(part for one in (first, second) for part in one.selector.members)
     counts = [1 if one.shape == "one" else one.count for one in (first, second)]
@@ -618,18 +348,6 @@ def it(word: Lex) -> PlaceMeaning:
     return PlaceMeaning(s.Here(), "those" if "of_several" in word.features else "here")
 
 
-@construction("place: EACH BUT part=place", "place: EACH EXCEPT part=place", cost=0.4)
-def all_but(part: PlaceMeaning) -> list[PlaceMeaning] | None:
-    """Compose "all but the yellow trees", and "all but the last tree of row 3", of that row or of the site."""
-    if part.shape not in ("one", "several") or part.per is not None or part.optional or part.at_most is not None:
-        return None
-    if as_some(part.selector) is not None:
-        return None
-    area = next((one for one in part.selector.walk() if isinstance(one, AREAS)), None)
-    wholes = [s.Trees()] if area is None else [area, s.Trees()]
-    return [PlaceMeaning(s.Excluding(places=part.selector, of=whole), "several") for whole in wholes]
-
-
 @construction("place: word=EACH n=count inner=nominal", cost=0.2, given=("site",))
 def all_so_many(word: Lex, n: int, inner: Nominal, site: Site) -> PlaceMeaning | None:
     """Compose "all 12 yellow trees", where the site has so many."""
@@ -648,14 +366,6 @@ def each_of_group(word: Lex, place: PlaceMeaning) -> PlaceMeaning | None:
     if place.optional or place.at_most is not None or place.per is not None:
         return None
     return replace(place, each=True)
-
-
-@construction("place: ANY n=count OF group=place", cost=0.2)
-def any_of_group(group: PlaceMeaning, n: int) -> PlaceMeaning | None:
-    """Compose "any 3 of trees 5, 6, 7 and 8"."""
-    if group.shape != "several" or group.count is None or n >= group.count or group.each or group.per is not None:
-        return None
-    return PlaceMeaning(few_of(group.selector, n), "one" if n == 1 else "several", count=n)
 
 
 @construction("place: ANY n=count", cost=0.9)
@@ -687,10 +397,12 @@ def up_to_so_many_of_those(n: int, word: Lex | None = None) -> PlaceMeaning | No
     return None if those is None else replace(those, count=None, at_most=n)
 
 
-@construction("place: whole=place word=THERE", cost=0.4)
-def of_them_there(whole: PlaceMeaning, word: Lex) -> PlaceMeaning | None:
-    """Compose "every tree there"."""
-    if "in_area" not in word.features or whole.shape != "several" or whole.per is not None:
+@construction("place: whole=place word=THERE", "place: whole=place OF it=IT", cost=0.4)
+def of_them_there(whole: PlaceMeaning, word: Lex | None = None, it: Lex | None = None) -> PlaceMeaning | None:
+    """Compose "every tree there" and "the trees of it"."""
+    if (word is not None and "in_area" not in word.features) or (it is not None and "of_several" in it.features):
+        return None
+    if whole.shape != "several" or whole.per is not None:
         return None
     return replace(whole, there=True) if chooses_from_trees(whole.selector) else None
 

@@ -10,10 +10,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Amount, Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.words import Lex, hinted_attributes
-from fieldhand.planning.selections import (
-    as_every_nth,
-    chooses_from_trees,
-)
+from fieldhand.planning.selections import chooses_from_trees
 from fieldhand.site.model import Site
 from fieldhand.terms import Test
 
@@ -40,20 +37,14 @@ def which_is() -> str:
 
 
 @construction(
-    "nominal: inner=nominal WHICH [IS] NOT value=ATTRVAL",
-    "nominal: inner=nominal WHICH ISNOT value=ATTRVAL",
-    "nominal: inner=nominal WHICH NOT value=ATTRVAL",
-    "nominal: inner=nominal WHICHPOSS NOT value=ATTRVAL",
-    "nominal: inner=nominal WITHOUT value=ATTRVAL ATTR",
-    "nominal: NON [DASH] value=ATTRVAL inner=nominal",
-    cost=0.3,
+    "nominal: inner=nominal WITHOUT value=ATTRVAL ATTR", "nominal: NON [DASH] value=ATTRVAL inner=nominal", cost=0.3
 )
 def without_attribute(inner: Nominal, value: Lex) -> list[Nominal] | None:
-    """Compose "trees that are not yellow"."""
+    """Compose "non-yellow trees"."""
     if inner.single or inner.complete or not chooses_from_trees(inner.selector):
         return None
     return [
-        replace(inner, selector=s.Where(attribute=name, test="ne", value=text, of=inner.selector), tested=True)
+        replace(inner, selector=that_pass((name, "ne", text), inner.selector), tested=True)
         for name, text in value.value
     ]
 
@@ -138,7 +129,7 @@ def of_several_kinds(values: tuple[tuple[str, str], ...], inner: Nominal) -> Nom
     """Compose "yellow or pale green trees"."""
     if inner.single or inner.complete or inner.pronoun or inner.tested or not inner.plural:
         return None
-    return replace(inner, selector=_that_pass((values[0][0], "any", tuple(text for _, text in values)), inner.selector))
+    return replace(inner, selector=that_pass((values[0][0], "any", tuple(text for _, text in values)), inner.selector))
 
 
 @construction("attribute_test: values=value_list [ATTR]", cost=0.4)
@@ -167,20 +158,7 @@ def those_of_a_kind(value: Lex, site: Site) -> list[Nominal]:
     ]
 
 
-@construction(
-    "nominal: inner=nominal [which_is] test=attribute_test",
-    "nominal: inner=nominal [WITH] test=attribute_test",
-    "nominal: inner=nominal OF test=attribute_test",
-    "nominal: inner=nominal WHERE test=attribute_test",
-)
-def with_attribute(inner: Nominal, test: AttributeTest) -> Nominal | None:
-    """Compose "trees that are older than 8 years"."""
-    if inner.single or inner.complete or not chooses_from_trees(inner.selector):
-        return None
-    return replace(inner, selector=_that_pass(test, inner.selector), tested=True)
-
-
-def _that_pass(test: AttributeTest, of: s.Selector) -> s.Selector:
+def that_pass(test: AttributeTest, of: s.Selector) -> s.Selector:
     """Return the trees of a selection that pass a test of an attribute."""
     name, check, value = test
     if check == "any":
@@ -193,31 +171,6 @@ def _that_pass(test: AttributeTest, of: s.Selector) -> s.Selector:
         low, high = value
         return s.Where(attribute=name, test="le", value=high, of=s.Where(attribute=name, test="ge", value=low, of=of))
     return s.Where(attribute=name, test=check, value=value, of=of)
-
-
-@construction(
-    "nominal: inner=nominal [which_is] test=attribute_test and_or_but [which_is] second=attribute_test",
-    "nominal: inner=nominal WITH test=attribute_test and_or_but [WITH] second=attribute_test",
-    cost=0.2,
-)
-def with_two_attributes(inner: Nominal, test: AttributeTest, second: AttributeTest) -> Nominal | None:
-    """Compose "trees older than 8 years and younger than 12"."""
-    first = with_attribute(inner, test)
-    return None if first is None else with_attribute(first, second)
-
-
-@construction("place: word=DET [which_is] test=attribute_test", "place: word=DET WITH test=attribute_test", cost=0.4)
-def those_of_a_description(word: Lex, test: AttributeTest) -> PlaceMeaning | None:
-    """Compose "those older than 8 years"."""
-    return PlaceMeaning(_that_pass(test, s.Trees()), "several") if "stands_for_noun" in word.features else None
-
-
-@construction("place: whole=place [which_is] test=attribute_test", cost=0.3)
-def those_with_attribute(whole: PlaceMeaning, test: AttributeTest) -> PlaceMeaning | None:
-    """Compose "every third tree in row 4 that is yellow"."""
-    if as_every_nth(whole.selector) is None or whole.per is not None:
-        return None
-    return replace(whole, selector=_that_pass(test, whole.selector))
 
 
 @construction(
@@ -263,7 +216,7 @@ def old_trees(old: Amount, inner: Nominal, site: Site) -> list[Nominal] | None:
     """Compose "four-year-old trees"."""
     if inner.single or inner.complete:
         return None
-    return [replace(inner, selector=_that_pass(test, inner.selector)) for test in of_age(old, site) or ()]
+    return [replace(inner, selector=that_pass(test, inner.selector)) for test in of_age(old, site) or ()]
 
 
 @construction("nominal: old=amount [DASH] OLDS", cost=0.2, given=("site",))
@@ -403,7 +356,7 @@ def attribute_is_not(attribute: Lex, value: Lex) -> list[AttributeTest]:
 )
 def where_so(test: AttributeTest, where: s.Selector | None = None) -> PlaceMeaning | None:
     """Compose "where vigor is under 0.35 in the south block"."""
-    return PlaceMeaning(_that_pass(test, s.Trees() if where is None else where), "several")
+    return PlaceMeaning(that_pass(test, s.Trees() if where is None else where), "several")
 
 
 @construction("place: where=place_where", cost=0.3)
@@ -442,19 +395,6 @@ def extreme(side: Lex, inner: Nominal) -> Nominal | None:
             else s.Extreme(side=side.value, of=inner.selector)
         )
     return replace(inner, selector=made, single=not inner.plural)
-
-
-@construction(
-    "place: [DET] first=MOST AND second=MOST inner=nominal",
-    "place: [DET] first=MOST AND DET second=MOST inner=nominal",
-    cost=0.2,
-)
-def two_extremes(first: Lex, second: Lex, inner: Nominal) -> PlaceMeaning | None:
-    """Compose "the northernmost and southernmost trees"."""
-    if inner.single or inner.complete or first.value in CORNERS or second.value in CORNERS:
-        return None
-    parts = tuple(s.Extreme(side=side.value, of=inner.selector) for side in (first, second))
-    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=2)
 
 
 @construction("nominal: rank=ORD inner=nominal", "owner: rank=ORD inner=owner", cost=0.2)
@@ -552,16 +492,3 @@ def farthest_side(side: Lex) -> Lex:
 def farthest_to_side(inner: Nominal, side: Lex) -> Nominal | None:
     """Compose "tree that lies farthest to the south"."""
     return None if inner.plural else extreme(side, inner)
-
-
-@construction(
-    "nominal: inner=nominal WHICH [IS] NOT in_ where=region",
-    "nominal: inner=nominal WHICH ISNOT in_ where=region",
-    "nominal: inner=nominal NOT in_ where=region",
-    cost=0.3,
-)
-def not_in_area(inner: Nominal, where: s.Selector) -> Nominal | None:
-    """Compose "trees that are not on the edge of the orchard"."""
-    if inner.single or inner.complete:
-        return None
-    return replace(inner, selector=s.Excluding(places=where, of=inner.selector), tested=True)

@@ -1,4 +1,8 @@
-"""Constructions of positions in rows: "third", "first and last", every third tree, the ends of a row."""
+"""Constructions of trees that are counted along their rows: "third", "first and last", "the two at the north end".
+
+The words add positions to a description (:class:`~fieldhand.planning.grammar.places.chosen.Chosen`) in any order;
+:func:`~fieldhand.planning.grammar.places.counted.counted` finds the trees.
+"""
 
 from __future__ import annotations
 
@@ -6,272 +10,497 @@ from dataclasses import replace
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning, Shape
+from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
+from fieldhand.planning.grammar.places.areas import inside
+from fieldhand.planning.grammar.places.chosen import Choice, Chosen, counted_from
 from fieldhand.planning.grammar.places.compass import AWAY_FROM, SIDES
+from fieldhand.planning.grammar.places.counted import (
+    BOTH_ENDS,
+    Positions,
+    Span,
+    TreeNumbers,
+    backwards,
+    of_row_named_before,
+    size_of,
+    trees_counted,
+    trees_numbered,
+)
 from fieldhand.planning.grammar.places.numbered import ids_of
-from fieldhand.planning.grammar.row_by_row import MOST_ONE_BY_ONE, one_by_one
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import are_rows, as_every_nth, as_in_row, chooses_from_trees, is_one_row, over
+from fieldhand.planning.selections import are_rows, chooses_from_trees, is_one_row, over
 from fieldhand.site.model import Site
 from fieldhand.terms import CountedFrom, Side
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
-#: Trees that "points" along a row stand for.
+_TREE = Nominal(s.Trees())
 _TREES = Nominal(s.Trees(), plural=True)
 
 
+# Numbers of trees, and of rows.
+
+
 @construction("position: rank=ORD", cost=0.0)
-def ordinal_position(rank: Lex) -> tuple[int, int]:
+def ordinal_position(rank: Lex) -> Span:
     """Compose "third"."""
     return (rank.value, rank.value)
 
 
 @construction("position: rank=ORD AT LAST", "position: rank=ORD LAST", cost=0.0)
-def position_from_end(rank: Lex) -> tuple[int, int]:
+def position_from_end(rank: Lex) -> Span:
     """Compose "third to last"."""
     return (-rank.value, -rank.value)
 
 
 @construction("position: PENULT", cost=0.0)
-def penultimate() -> tuple[int, int]:
+def penultimate() -> Span:
     """Compose "penultimate"."""
     return (-2, -2)
 
 
 @construction("position: LAST", cost=0.0)
-def last_position() -> tuple[int, int]:
+def last_position() -> Span:
     """Compose "last"."""
     return (-1, -1)
 
 
-@construction(
-    "place: [DET] where=position inner=nominal in_ rows=any_rows",
-    "place: [DET] where=position inner=nominal in_ rows=rows AND in_ more=rows",
-    cost=0.2,
-)
-def tree_of_row(
-    where: tuple[int, int], inner: Nominal, rows: s.Selector, more: s.Selector | None = None
-) -> PlaceMeaning | None:
-    """Compose "the third tree in row 4"."""
-    if more is not None:
-        rows = s.UnionOf(parts=(*rows.members, *more.members))
-    if inner.plural or inner.single or not chooses_from_trees(inner.selector):
-        return None
-    selector = s.InRow(first=where[0], last=where[1], of=over(inner.selector, rows))
-    return PlaceMeaning(selector, "one" if is_one_row(rows) else "several", each=not is_one_row(rows))
-
-
-@construction("span: at=position", "span: at=positions", cost=0.0)
-def span(at: tuple[int, int]) -> tuple[int, int]:
-    """Compose "third" or "first three"."""
-    return at
-
-
-@construction(
-    "place: [DET] first=span AND [DET] second=span inner=nominal in_ rows=any_rows",
-    "place: DET first=span AND AT DET second=span inner=nominal in_ rows=any_rows",
-    "place: DET first=span AND OF DET second=span inner=nominal in_ rows=any_rows",
-    cost=0.2,
-)
-def two_trees_of_row(
-    first: tuple[int, int], second: tuple[int, int], inner: Nominal, rows: s.Selector
-) -> PlaceMeaning | None:
-    """Compose "the first and last trees in row 4"."""
-    if inner.single or not chooses_from_trees(inner.selector):
-        return None
-    of = over(inner.selector, rows)
-    parts = tuple(s.InRow(first=at[0], last=at[1], of=of) for at in (first, second))
-    count = sum(at[1] - at[0] + 1 for at in (first, second)) if is_one_row(rows) else None
-    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=count)
-
-
-@construction("place: [DET] first=span one=nominal AND [DET] second=span [other=nominal] in_ rows=any_rows", cost=0.2)
-def two_positions_of_row(
-    first: tuple[int, int], one: Nominal, second: tuple[int, int], rows: s.Selector, other: Nominal | None = None
-) -> PlaceMeaning | None:
-    """Compose "the first tree and the last tree in row 4"."""
-    if (other is not None and one.selector != other.selector) or one.plural != (first[0] != first[1]):
-        return None
-    return two_trees_of_row(first, second, one, rows)
-
-
-@construction("position_list: rank=ORD COMMA other=ORD", "position_list: rank=ORD AND other=ORD", cost=0.1)
-def two_positions(rank: Lex, other: Lex) -> tuple[int, ...]:
-    """Compose "first and third"."""
-    return (rank.value, other.value)
-
-
-@construction(
-    "position_list: first=position_list COMMA other=ORD",
-    "position_list: first=position_list [COMMA] AND other=ORD",
-    cost=0.1,
-)
-def more_positions(first: tuple[int, ...], other: Lex) -> tuple[int, ...]:
-    """Compose "first, third and fifth"."""
-    return (*first, other.value)
-
-
-@construction(
-    "place: [DET] at=position_list inner=nominal in_ rows=any_rows",
-    cost=0.2,
-)
-def trees_at_positions(at: tuple[int, ...], inner: Nominal, rows: s.Selector) -> PlaceMeaning | None:
-    """Compose "the first, third and fifth trees in row 4"."""
-    if inner.single or not chooses_from_trees(inner.selector):
-        return None
-    of = over(inner.selector, rows)
-    return PlaceMeaning(
-        s.UnionOf(parts=tuple(s.InRow(first=n, last=n, of=of) for n in at)),
-        "several",
-        count=len(at) if is_one_row(rows) else None,
-    )
-
-
-@construction("positions: rank=ORD n=count", cost=0.0)
-def first_so_many(rank: Lex, n: int) -> tuple[int, int] | None:
+@construction("positions: rank=ORD n=count", "positions: n=count rank=ORD", cost=0.0)
+def first_so_many(rank: Lex, n: int) -> Span | None:
     """Compose "first three"."""
     return (1, n) if rank.value == 1 and n > 1 else None
 
 
-@construction("positions: first=ORD range_to [DET] LAST", cost=0.0)
-def from_rank_to_last(first: Lex) -> tuple[int, int]:
-    """Compose "third to the last"."""
-    return (first.value, -1)
-
-
-@construction("positions: first=ORD range_to [DET] last=ORD", cost=0.0)
-def from_rank_to_rank(first: Lex, last: Lex) -> tuple[int, int] | None:
-    """Compose "tenth to the twentieth"."""
-    return (first.value, last.value) if first.value < last.value else None
-
-
-@construction("positions: LAST n=count", cost=0.0)
-def last_so_many(n: int) -> tuple[int, int] | None:
+@construction("positions: LAST n=count", "positions: n=count LAST", cost=0.0)
+def last_so_many(n: int) -> Span | None:
     """Compose "last three"."""
     return (-n, -1) if n > 1 else None
 
 
+@construction("positions: first=ORD range_to [DET] LAST", "positions: first=ORD range_to [DET] last=ORD", cost=0.0)
+def from_rank(first: Lex, last: Lex | None = None) -> Span | None:
+    """Compose "tenth to the twentieth" and "third to the last"."""
+    return (first.value, -1) if last is None else (first.value, last.value) if first.value < last.value else None
+
+
+@construction("span: at=position", "span: at=positions", cost=0.0)
+def span(at: Span) -> Span:
+    """Compose "third" or "first three"."""
+    return at
+
+
+@construction("middle_span: MIDDLE [n=count]", "middle_span: n=count MIDDLE", cost=0.0)
+def middle_span(n: int = 1) -> Span:
+    """Compose "middle" and "middle five"."""
+    return (0, n)
+
+
+@construction("mark: at=span [TREE]", "mark: at=middle_span [TREE]", "mark: at=middle_span ONE", cost=0.0)
+def tree_mark(at: Span) -> tuple[Span, ...]:
+    """Compose "third tree" and "middle one", one of several spots of a row."""
+    return (at,)
+
+
+@construction("mark: START", "mark: DET end=FINISH", "mark: [BOTH] [DET] ends=ends", cost=0.0)
+def end_mark(end: Lex | None = None, ends: Lex | None = None) -> tuple[Span, ...] | None:
+    """Compose "beginning", "the end" and "both ends", among several spots of a row."""
+    if end is not None:
+        return None if end.plural else BOTH_ENDS[1:]
+    return BOTH_ENDS[:1] if ends is None else BOTH_ENDS if ends.plural else None
+
+
+@construction("marks: at=mark", cost=0.0)
+def marks(at: tuple[Span, ...]) -> Positions:
+    """Compose "first", the beginning of "first, third and fifth"."""
+    return Positions(at)
+
+
 @construction(
-    "place: [DET] where=positions inner=nominal in_ rows=any_rows",
-    "place: [DET] inner=nominal FROM [DET] where=positions in_ rows=any_rows",
-    "place: [DET] inner=nominal FROM [DET] where=positions ONE in_ rows=any_rows",
-    "place: [DET] inner=nominal in_ rows=any_rows FROM [DET] where=positions",
-    "place: EACH inner=nominal in_ rows=any_rows FROM [DET] where=positions",
-    "place: rows=rows FROM [DET] where=positions [TREE]",
-    cost=0.2,
+    "marks: first=marks COMMA [AND] [DET] then=mark",
+    "marks: first=marks AND [DET] then=mark",
+    "marks: first=marks [COMMA] AND word=AT [DET] then=mark",
+    "marks: first=marks [COMMA] AND word=OF DET then=mark",
+    "marks: first=marks [COMMA] other=OR [DET] then=mark",
+    "marks: first=marks COMMA word=AT DET then=mark",
+    cost=0.0,
 )
-def trees_of_row(where: tuple[int, int], rows: s.Selector, inner: Nominal = _TREES) -> PlaceMeaning | None:
-    """Compose "the first three trees in row 4"."""
-    if inner.single or not chooses_from_trees(inner.selector):
+def more_marks(
+    first: Positions, then: tuple[Span, ...], word: Lex | None = None, other: Lex | None = None
+) -> Positions | None:
+    """Compose "first, third and fifth", "first tree and the last" and "beginning, the middle and the end"."""
+    if not set(first.spans).isdisjoint(then):
         return None
-    known = is_one_row(rows) and where[0] * where[1] > 0
-    count = where[1] - where[0] + 1 if known else None
-    return PlaceMeaning(s.InRow(first=where[0], last=where[1], of=over(inner.selector, rows)), "several", count=count)
+    if len(first.spans) > 1 and first.either != (other is not None):
+        return None
+    return replace(
+        first,
+        spans=(*first.spans, *then),
+        either=other is not None,
+        in_order=first.in_order or word is not None,
+    )
+
+
+# Words before the noun, and nouns of their own.
+
+
+@construction("chosen: at=marks chosen=chosen", cost=0.0)
+def at_positions(at: Positions, chosen: Chosen) -> Chosen | None:
+    """Compose "first three yellow trees"."""
+    inner = chosen.inner
+    if chosen.choice is not None or chosen.count is not None or chosen.unvisited or inner.complete:
+        return None
+    if inner.kind != "tree" or inner.pronoun or not chooses_from_trees(inner.selector):
+        return None
+    if len(at.spans) == 1 and (inner.plural != (size_of(at.spans[0]) != 1) or at.spans == ((0, 1),)):
+        return None
+    return replace(chosen, choice=Choice("at", at), preceded=True)
+
+
+@construction("chosen: at=marks", cost=0.1)
+def spots_of_row(at: Positions) -> Chosen | None:
+    """Compose "beginning, the middle and the end" before "of row 4"."""
+    return ranks_in_row(at) if (0, 1) in at.spans else None
+
+
+@construction("chosen: at=marks", cost=0.7)
+def ranks_in_row(at: Positions) -> Chosen | None:
+    """Compose "first, fifth and last" before "of row 4"."""
+    return Chosen(_TREES, choice=Choice("at", replace(at, noun="spots"))) if len(at.spans) > 1 else None
+
+
+@construction("ends: noun=FINISH", "ends: FINISH noun=TREE", "ends: OUTER noun=TREE", cost=0.0)
+def ends(noun: Lex) -> Lex:
+    """Compose "ends", "end trees" and "outermost trees", of rows."""
+    return noun
+
+
+@construction("chosen: [n=count] noun=ends", cost=0.0)
+def ends_of_row(noun: Lex, n: int | None = None) -> Chosen | None:
+    """Compose "two ends" before "of row 4", and "end", which is the last tree."""
+    if n not in (None, 2) or (n is not None and not noun.plural):
+        return None
+    at = Positions(BOTH_ENDS if noun.plural else BOTH_ENDS[1:], noun="end")
+    return Chosen(replace(_TREE, plural=noun.plural), choice=Choice("at", at))
+
+
+@construction("chosen: one=DIR AND [DET] other=DIR FINISH", cost=0.0)
+def ends_on_sides(one: Lex, other: Lex) -> Chosen | None:
+    """Compose "north and the south end" before "of row 4"."""
+    if {one.value, other.value} not in ({"north", "south"}, {"east", "west"}):
+        return None
+    return Chosen(_TREES, choice=Choice("at", Positions(BOTH_ENDS, noun="end")))
+
+
+@construction("chosen: START", cost=0.1)
+def beginning_of_row() -> Chosen:
+    """Compose "beginning" before "of row 4"."""
+    return Chosen(_TREE, choice=Choice("at", Positions(BOTH_ENDS[:1], noun="start")))
+
+
+@construction("row_end: side=DIR FINISH", "row_end: side=DIR part=SIDE", "row_end: marker=marker FINISH", cost=0.0)
+def row_end(side: Lex | None = None, marker: s.Selector | None = None, part: Lex | None = None) -> Positions | None:
+    """Compose "northern end" and "charger end" of a row: its first tree, counted from there."""
+    if (side is not None and side.value not in SIDES) or (part is not None and "borders" not in part.features):
+        return None
+    at = Positions(BOTH_ENDS[:1], near=marker, noun="side")
+    return at if side is None else replace(at, counted_from=side.value)
+
+
+@construction("chosen: at=row_end [TREE]", cost=0.0)
+def end_on_side(at: Positions) -> Chosen:
+    """Compose "northern end" before "of row 4"."""
+    return Chosen(_TREE, choice=Choice("at", at))
+
+
+@construction("chosen: trees=tree_ids", cost=0.0)
+def by_numbers(trees: tuple[str, ...]) -> Chosen:
+    """Compose "tree 5" before "of row 3"."""
+    return Chosen(replace(_TREE, plural=len(trees) > 1), choice=Choice("numbered", TreeNumbers(trees)))
+
+
+# Words behind the noun.
 
 
 @construction(
-    "place: [DET] rank=ORD inner=nominal",
-    "place: DET rank=ORD",
-    "place: [DET] rank=ORD inner=nominal [COMMA] FROM [DET] side=DIR",
-    "place: [DET] rank=ORD FROM [DET] side=DIR",
-    "place: [DET] rank=ORD inner=nominal EACH",
-    cost=0.6,
+    "stretch: FROM [DET] at=positions [ONE]",
+    "stretch: FROM [DET] at=positions TREE",
+    "stretch: FROM [DET] first=position [TREE] ONWARDS",
+    "stretch: FROM [DET] first=position [TREE] range_to [DET] FINISH",
+    cost=0.0,
 )
-def tree_of_row_named_before(rank: Lex, inner: Nominal | None = None, side: Lex | None = None) -> PlaceMeaning | None:
-    """Compose "the third tree" and "the third from the north", of a row that was named before it."""
+def stretch(at: Span | None = None, first: Span | None = None) -> Span | None:
+    """Compose "from the third to the tenth" and "from the fifth on" behind a row."""
+    return at if first is None else (first[0], -1)
+
+
+@construction("chosen: chosen=chosen at=stretch", cost=0.1)
+def trees_from_to(chosen: Chosen, at: Span) -> Chosen | None:
+    """Compose "trees from the third to the tenth"."""
+    inner = replace(chosen.inner, plural=True)
+    made = at_positions(Positions((at,)), replace(chosen, inner=inner))
+    if made is None or chosen.inner.plural:
+        return made
+    return replace(made, choice=Choice("at", Positions((at,), noun="stretch")))  # "every tree from the third on"
+
+
+@construction("place: rows=rows [COMMA] at=stretch", cost=0.2, given=("site",))
+def stretch_of_row(rows: s.Selector, at: Span, site: Site) -> list[PlaceMeaning] | None:
+    """Compose "row 4 from the fifth tree on"."""
+    return trees_counted(replace(_TREES, selector=rows), Positions((at,)), site)
+
+
+@construction(
+    "place: rows=rows [COMMA] FROM trees=tree_ids ONWARDS",
+    "place: rows=rows [COMMA] FROM trees=tree_ids range_to [DET] FINISH",
+    "place: [DET] trees=tree_ids ONWARDS in_ rows=rows",
+    cost=0.1,
+    given=("site",),
+)
+def from_number_on(rows: s.Selector, trees: tuple[str, ...], site: Site) -> list[PlaceMeaning] | None:
+    """Compose "row 2 from tree 3 to the end", where the tree with that id does not stand in the row."""
+    if len(trees) > 1 or not trees[0].isdigit() or not is_one_row(rows) or trees[0] in (ids_of(rows, site) or ()):
+        return None
+    return stretch_of_row(rows, (int(trees[0]), -1), site)
+
+
+@construction("chosen: chosen=chosen FROM [DET] side=DIR FINISH", cost=0.1)
+def from_that_end(chosen: Chosen, side: Lex) -> Chosen | None:
+    """Compose "third tree from the north end"."""
+    return counted_from(chosen, side)
+
+
+@construction(
+    "chosen: chosen=chosen [EACH] [COMMA] COUNTED [DET] side=DIR [FINISH]",
+    "chosen: chosen=chosen [EACH] [COMMA] COUNTED [DET] side=DIR SIDE",
+    cost=0.1,
+)
+def counting_from(chosen: Chosen, side: Lex) -> Chosen | None:
+    """Compose "trees 4 to 9, counted from the south"."""
+    counted = counted_from(replace(chosen, inner=replace(chosen.inner, selector=s.Trees())), side)
+    return None if counted is None else replace(counted, inner=chosen.inner)
+
+
+@construction("chosen: chosen=chosen FROM DET noun=FINISH", "chosen: chosen=chosen FROM each=EACH FINISH", cost=0.0)
+def from_the_end(chosen: Chosen, noun: Lex | None = None, each: Lex | None = None) -> Chosen | None:
+    """Compose "third tree from the end" and "second tree from each end"."""
+    at = _as_positions(chosen)
+    if at is None or at.noun or (noun is not None and noun.plural) or at.counted_from != "usual":
+        return None
+    behind = tuple(map(backwards, at.spans))
+    spans = behind if each is None else (*at.spans, *behind)
+    return replace(chosen, choice=Choice("at", replace(at, spans=spans)))
+
+
+@construction(
+    "chosen: chosen=chosen in_ DET noun=FINISH",
+    "chosen: chosen=chosen in_ DET at=row_end",
+    "chosen: chosen=chosen in_ each=EACH noun=FINISH",
+    cost=0.0,
+)
+def at_the_end(
+    chosen: Chosen, noun: Lex | None = None, at: Positions | None = None, each: Lex | None = None
+) -> Chosen | None:
+    """Compose "two trees at the southern end" and "tree at each end"."""
+    inner, n = chosen.inner, chosen.count
+    if (first := _as_positions(chosen)) is not None and at is not None and first == Positions(BOTH_ENDS[:1]):
+        return replace(chosen, choice=Choice("at", replace(at, noun="")))
+    if chosen.choice is not None or inner.kind != "tree" or not chooses_from_trees(inner.selector):
+        return None
+    if n is None and inner.plural and (noun is None or not noun.plural):
+        return None
+    ends = noun is not None and (noun.plural or each is not None)
+    n = (n or 1) // (2 if ends and each is None and n == 2 else 1)
+    made = Positions(((-n, -1),)) if at is None else replace(at, spans=((1, n),), noun="")
+    if ends:
+        made = Positions(((1, n), (-n, -1)), each=n == 1 and each is not None and "two" not in each.features)
+    return replace(chosen, count=None, choice=Choice("at", made))
+
+
+@construction("chosen: chosen=chosen in_ DET MIDDLE", cost=0.1)
+def in_the_middle(chosen: Chosen) -> Chosen | None:
+    """Compose "five trees in the middle" before "of row 4"."""
+    if chosen.count is None or chosen.count < 2:
+        return None
+    return at_positions(Positions(((0, chosen.count),)), replace(chosen, count=None))
+
+
+@construction("chosen: chosen=chosen COMMA in_ rows=each_row", cost=0.0)
+def in_rows_behind(chosen: Chosen, rows: s.Selector) -> Chosen | None:
+    """Compose "fifth tree, counted from the south, in each row"."""
+    at = None if chosen.choice is None else chosen.choice.value
+    return in_rows(chosen, rows) if getattr(at, "counted_from", "usual") != "usual" else None
+
+
+@construction("chosen: chosen=chosen way=in_ rows=any_rows", cost=0.0)
+def in_rows(chosen: Chosen, rows: s.Selector, way: str = "in") -> Chosen | None:
+    """Compose "first three trees in every row"."""
+    choice = chosen.choice
+    if choice is None or not isinstance(choice.value, Positions | TreeNumbers):
+        return None
+    if not chooses_from_trees(chosen.inner.selector) or (there := inside(chosen.inner, rows, way)) is None:
+        return None
+    if isinstance(choice.value, TreeNumbers) and rows == s.Rows():
+        choice = replace(choice, value=replace(choice.value, in_each_row=True))
+    return replace(chosen, choice=choice, inner=there)
+
+
+def _as_positions(chosen: Chosen) -> Positions | None:
+    """Return the positions of a description; None if it has none."""
+    value = None if chosen.choice is None else chosen.choice.value
+    return value if isinstance(value, Positions) else None
+
+
+# Places.
+
+
+@construction("place: [word=DET] chosen=chosen", cost=0.0, given=("site",))
+def by_number(chosen: Chosen, site: Site, word: Lex | None = None) -> list[PlaceMeaning] | None:
+    """Compose "the first three trees in row 4", trees that are counted along their rows."""
+    choice = chosen.choice
+    if choice is None or chosen.count is not None or chosen.unvisited:
+        return None
+    if isinstance(choice.value, TreeNumbers):
+        return trees_numbered(chosen.inner, choice.value, site)
+    at = _as_positions(chosen)
+    if at is None or at.noun == "stretch" or (at.noun == "end" and word is None and not chosen.inner.plural):
+        return None  # "end" is a command rather than a place
+    return trees_counted(chosen.inner, at, site)
+
+
+@construction("place: each=EACH chosen=chosen", cost=0.1, given=("site",))
+def each_by_number(each: Lex, chosen: Chosen, site: Site) -> list[PlaceMeaning] | None:
+    """Compose "each end of row 4" and "every tree of row 4 from the fifth on"."""
+    at = _as_positions(chosen)
+    if at is None or at.noun not in ("end", "stretch"):
+        return None
+    if at.noun == "end":
+        at = replace(at, spans=BOTH_ENDS, each="two" not in each.features)
+    return trees_counted(chosen.inner, at, site)
+
+
+@construction(
+    "place: rows=rows comma=COMMA [DET] chosen=chosen",
+    "place: rows=each_rows chosen=chosen",
+    "place: in_ rows=each_row [COMMA] [DET] chosen=chosen",
+    cost=0.1,
+    given=("site",),
+)
+def behind_their_rows(
+    rows: s.Selector, chosen: Chosen, site: Site, comma: Lex | None = None
+) -> list[PlaceMeaning] | None:
+    """Compose "row 3, trees 4 to 9", "row 3's northern end" and "every row's first tree"."""
+    there, at = in_rows(chosen, rows), _as_positions(chosen)
+    aside = comma is not None and at is not None and at.noun != ""
+    return None if there is None or aside else by_number(there, site)
+
+
+@construction("place: rows=rows trees=tree_ids", cost=0.1, given=("site",))
+def numbers_behind_rows(rows: s.Selector, trees: tuple[str, ...], site: Site) -> list[PlaceMeaning] | None:
+    """Compose "row 3 trees 4 to 9"."""
+    return behind_their_rows(rows, by_numbers(trees), site)
+
+
+@construction("place: [word=DET] chosen=chosen [EACH]", cost=0.4)
+def of_the_row_named_before(chosen: Chosen, word: Lex | None = None) -> PlaceMeaning | None:
+    """Compose "the third tree" and "trees 4 to 8 counted from the south", of a row that was named before it."""
+    at = None if chosen.choice is None else chosen.choice.value
+    if not isinstance(at, Positions | TreeNumbers) or (word is not None and "definite" not in word.features):
+        return None
+    return of_row_named_before(chosen.inner, at) if chosen.count is None else None
+
+
+@construction("place: DET rank=ORD", "place: [DET] rank=ORD FROM [DET] side=DIR", cost=0.6)
+def ranked_of_the_row(rank: Lex, side: Lex | None = None) -> PlaceMeaning | None:
+    """Compose "the third from the north", of a row that was named before it."""
     if side is not None and side.value not in SIDES:
         return None
-    if (rank.value < 2 and side is None) or (
-        inner is not None and (inner.plural or inner.selector != s.Trees() or inner.kind != "tree")
-    ):
-        return None
-    tree = s.InRow(first=rank.value, last=rank.value, of=s.Trees())
-    return PlaceMeaning(tree if side is None else replace(tree, counted_from=side.value), "one")
+    at = Positions(((rank.value, rank.value),), counted_from="usual" if side is None else side.value)
+    return of_row_named_before(_TREE, at)
 
 
 @construction(
-    "place: [DET] inner=nominal FROM [DET] where=positions",
-    "place: [DET] where=positions inner=nominal",
-    cost=0.6,
-)
-def trees_of_row_named_before(where: tuple[int, int], inner: Nominal) -> PlaceMeaning | None:
-    """Compose "the trees from the third to the tenth", of a row that was named before them."""
-    if not 0 < where[0] < where[1] or inner.selector != s.Trees() or inner.kind != "tree" or inner.single:
-        return None
-    selector = s.InRow(first=where[0], last=where[1], of=s.Trees())
-    return PlaceMeaning(selector, "several", count=where[1] - where[0] + 1)
-
-
-@construction(
-    "place: [DET] at=span inner=nominal FROM [DET] side=DIR [FINISH] in_ rows=any_rows",
+    "start: STARTING [DET] side=DIR",
+    "start: STARTING [DET] side=DIR FINISH",
+    "start: STARTING [DET] side=DIR SIDE",
+    "start: STARTING [DET] side=MOST [TREE]",
+    "start: STARTING [DET] side=MOST ONE",
+    "start: STARTING ITS side=MOST [TREE]",
+    "start: STARTING [DET] [rank=ORD] TREE AT [DET] side=DIR FINISH [in_] [any_rows]",
+    "start: STARTING [DET] side=DIR FINISH in_ any_rows",
     cost=0.1,
 )
-def trees_from_side(at: tuple[int, int], inner: Nominal, side: Lex, rows: s.Selector) -> PlaceMeaning | None:
-    """Compose "the third tree from the north in row 4" and "the first three trees from the south of row 2"."""
-    number = at[1] - at[0] + 1
-    if inner.plural != (number > 1) or inner.single or inner.selector != s.Trees() or side.value not in SIDES:
-        return None
-    selector = s.InRow(first=at[0], last=at[1], counted_from=side.value, of=rows)
-    if not is_one_row(rows):
-        return PlaceMeaning(selector, "several")
-    return PlaceMeaning(selector, "one") if number == 1 else PlaceMeaning(selector, "several", count=number)
+def from_side(side: Lex, rank: Lex | None = None) -> Side | None:
+    """Compose "starting from the north" and "starting with the first tree at the north end"."""
+    return side.value if side.value in SIDES and (rank is None or rank.value == 1) else None
 
 
 @construction(
-    "place: [DET] rank=ORD inner=nominal FROM DET FINISH in_ rows=any_rows",
-    "place: [DET] rank=ORD inner=nominal FROM each=EACH FINISH in_ rows=any_rows",
+    "start: side=start [COMMA] [AND] GOING [AT] [DET] to=DIR",
+    "start: FROM [DET] begin=DIR range_to [DET] to=DIR",
     cost=0.1,
 )
-def tree_from_end(rank: Lex, inner: Nominal, rows: s.Selector, each: Lex | None = None) -> PlaceMeaning | None:
-    """Compose "the third tree from the end of row 4" and "the second tree from each end of row 4"."""
-    if inner.plural or inner.single or inner.selector != s.Trees():
+def from_side_and_on(to: Lex, side: Side | None = None, begin: Lex | None = None) -> Side | None:
+    """Compose "starting from the south and working north" and "from south to north"."""
+    side = side if begin is None else begin.value
+    return side if side is not None and AWAY_FROM.get(side, "").endswith(f"_to_{to.value}") else None
+
+
+@construction("place: DET noun=FINISH OF rows=rows NEAREST [AT] to=place", cost=0.1)
+def nearer_end(noun: Lex, rows: s.Selector, to: PlaceMeaning) -> PlaceMeaning | None:
+    """Compose "the end of row 3 nearest to the charger"."""
+    if noun.plural or not is_one_row(rows) or to.shape != "one":
         return None
-    if each is not None:
-        parts = tuple(s.InRow(first=k, last=k, of=rows) for k in (rank.value, -rank.value))
-        return PlaceMeaning(s.UnionOf(parts=parts), "several", count=2 if is_one_row(rows) else None)
-    one: Shape = "one" if is_one_row(rows) else "several"
-    return PlaceMeaning(s.InRow(first=-rank.value, last=-rank.value, of=rows), one)
+    ends = s.UnionOf(parts=(s.InRow(first=1, last=1, of=rows), s.InRow(first=-1, last=-1, of=rows)))
+    return PlaceMeaning(s.Nearest(to=to.selector, of=ends), "one")
+
+
+@construction("place: [BOTH] [DET] at=marks inner=nominal", cost=0.2)
+def first_and_last(at: Positions, inner: Nominal) -> PlaceMeaning | None:
+    """Compose "both the first and the last tree", those of the site or of a row that was named before."""
+    if at.spans != BOTH_ENDS or at.either or inner.plural or inner.single or inner.selector != s.Trees():
+        return None
+    return PlaceMeaning(s.UnionOf(parts=(s.First(), s.Last())), "several", count=2, in_order=at.in_order)
 
 
 @construction(
-    "place: [DET] side=DIR FINISH [TREE] in_ rows=any_rows",
-    "place: rows=each_rows side=DIR FINISH [TREE]",
+    "place: [DET] n=count inner=nominal AT word=DET noun=ROW",
+    "place: word=DET noun=ROW OF n=count inner=nominal",
     cost=0.1,
 )
-def end_of_row(side: Lex, rows: s.Selector) -> PlaceMeaning | None:
-    """Compose "the northern end of row 4"."""
-    if side.value not in SIDES:
+def trees_in_a_row(n: int, inner: Nominal, word: Lex, noun: Lex) -> PlaceMeaning | None:
+    """Compose "four trees in a row"."""
+    if noun.plural or "one" not in word.features or inner.single or inner.complete or n < 2:
         return None
-    one = is_one_row(rows)
-    return PlaceMeaning(
-        s.InRow(first=1, last=1, counted_from=side.value, of=rows), "one" if one else "several", each=not one
-    )
+    return PlaceMeaning(s.Successive(count=n, of=inner.selector), "several", count=n)
 
 
 @construction(
-    "place: [DET] n=count inner=nominal in_ DET [side=DIR] noun=FINISH in_ rows=any_rows",
-    "place: [DET] n=count inner=nominal in_ each=EACH noun=FINISH in_ rows=any_rows",
-    cost=0.1,
+    "place: [DET] n=count inner=nominal [COMMA] EVENLYALONG rows=rows",
+    "place: n=count POINT EVENLYALONG rows=rows",
+    "place: n=count POINT EVENLYSPACED in_ rows=rows",
+    "place: n=count POINT EVENLYSPACED along rows=rows",
+    "place: n=count EVENLYSPACED POINT in_ rows=rows",
+    "place: n=count EVENLYSPACED POINT along rows=rows",
+    "place: [DET] n=count EVENLYSPACED inner=nominal",
+    "place: [DET] n=count inner=nominal [COMMA] EVENLYSPACED",
+    "place: [DET] n=count inner=nominal EVENLYSPACED in_ rows=rows",
+    "place: [DET] n=count inner=nominal EVENLYSPACED along rows=rows",
+    cost=0.2,
 )
-def trees_at_end(
-    n: int, inner: Nominal, noun: Lex, rows: s.Selector, side: Lex | None = None, each: Lex | None = None
-) -> PlaceMeaning | None:
-    """Compose "the two trees at the southern end of row 4" and "two trees at each end of row 4"."""
-    if inner.single or inner.plural != (n > 1) or not chooses_from_trees(inner.selector):
+def evenly_along(n: int, inner: Nominal = _TREES, rows: s.Selector | None = None) -> PlaceMeaning | None:
+    """Compose "ten trees spread evenly along row 4" and "four evenly spaced trees in row 5"."""
+    if inner.single or inner.complete or n < 2 or (rows is not None and not chooses_from_trees(inner.selector)):
         return None
-    if (side is not None and side.value not in SIDES) or (noun.plural and each is None):
-        return None
-    of = over(inner.selector, rows)
-    if each is not None:
-        ends = (s.InRow(first=1, last=n, of=of), s.InRow(first=-n, last=-1, of=of))
-        return PlaceMeaning(s.UnionOf(parts=ends), "several", count=2 * n if is_one_row(rows) else None)
-    run = (
-        s.InRow(first=-n, last=-1, of=of) if side is None else s.InRow(first=1, last=n, counted_from=side.value, of=of)
-    )
-    one = n == 1 and is_one_row(rows)
-    return PlaceMeaning(run, "one" if one else "several", count=n if is_one_row(rows) else None)
+    of = inner.selector if rows is None else over(inner.selector, rows)
+    if len({part for part in of.walk() if are_rows(part)}) != 1 or not any(is_one_row(part) for part in of.walk()):
+        return None  # along which line?
+    return PlaceMeaning(s.Evenly(count=n, of=of), "several", count=n)
+
+
+@construction("each_rows: EACH ROWPOSS", "each_rows: rows=rows POSS", cost=0.0)
+def each_rows(rows: s.Selector | None = None) -> s.Selector:
+    """Compose "every row's" and "row 3's"."""
+    return rows or s.Rows()
 
 
 @construction("fraction: HALF", cost=0.0)
@@ -323,273 +552,6 @@ def part_of_row(part: tuple[int, int, CountedFrom], rows: s.Selector, site: Site
     if number == of and number > 1:
         return s.InRow(first=first - length - 1, last=-1, of=rows)
     return s.InRow(first=first, last=last, counted_from=side, of=rows)
-
-
-@construction(
-    "place: DET MIDDLE n=count inner=nominal in_ rows=rows",
-    "place: DET n=count MIDDLE inner=nominal in_ rows=rows",
-    "place: DET n=count inner=nominal in_ DET MIDDLE in_ rows=rows",
-    cost=0.1,
-    given=("site",),
-)
-def middle_trees_of_row(n: int, inner: Nominal, rows: s.Selector, site: Site) -> list[PlaceMeaning] | None:
-    """Compose "the middle five trees of row 4": of an even number of trees there are two such runs."""
-    left = len(ids_of(rows, site) or ()) - n
-    if inner.selector != s.Trees() or not inner.plural or n < 2 or left < 0 or not is_one_row(rows):
-        return None
-    starts = {left // 2 + 1, (left + 1) // 2 + 1}
-    return [PlaceMeaning(s.InRow(first=k, last=k + n - 1, of=rows), "several", count=n) for k in sorted(starts)]
-
-
-@construction("place: rows=rows FROM [DET] rank=ORD [TREE] ONWARDS", cost=0.1)
-def row_from_position(rows: s.Selector, rank: Lex) -> PlaceMeaning | None:
-    """Compose "row 4 from the fifth tree on"."""
-    return PlaceMeaning(s.InRow(first=rank.value, last=-1, of=rows), "several") if is_one_row(rows) else None
-
-
-@construction("ends: noun=FINISH", "ends: FINISH noun=TREE", cost=0.0)
-def ends(noun: Lex) -> Lex:
-    """Compose "ends" and "end trees", of rows."""
-    return noun
-
-
-@construction(
-    "place: noun=ends in_ rows=any_rows",
-    "place: rows=each_rows noun=ends",
-    "place: each=EACH noun=ends in_ rows=any_rows",
-    "place: [DET] n=count noun=ends in_ rows=any_rows",
-    "place: DET noun=ends in_ rows=any_rows",
-    "place: TREE AT each=EACH noun=FINISH in_ rows=any_rows",
-    "place: DET TREE AT each=EACH noun=FINISH in_ rows=any_rows",
-    cost=0.1,
-)
-def both_ends(noun: Lex, rows: s.Selector, n: int = 2, each: Lex | None = None) -> PlaceMeaning | None:
-    """Compose "both ends of row 4" and "each end of row 4"."""
-    if n != 2 or not (noun.plural or each is not None):
-        return None
-    parts = (s.InRow(first=1, last=1, of=rows), s.InRow(first=-1, last=-1, of=rows))
-    one_by_one = each is not None and "two" not in each.features
-    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=2 if is_one_row(rows) else None, each=one_by_one)
-
-
-@construction("place: [DET] [n=count] OUTER noun=TREE in_ rows=any_rows", cost=0.0)
-def outer_trees_of_rows(noun: Lex, rows: s.Selector, n: int = 2) -> PlaceMeaning | None:
-    """Compose "the outermost trees of each row", those at its ends."""
-    return both_ends(noun, rows, n)
-
-
-@construction("mark: [DET] at=position [TREE]", cost=0.0)
-def mark(at: tuple[int, int]) -> tuple[int, ...] | None:
-    """Compose "the third tree", one of several spots of a row: its number, or 0 for the middle."""
-    return (at[0],) if at[0] == at[1] else None
-
-
-@construction("mark: [DET] MIDDLE [ONE]", "mark: [DET] MIDDLE TREE", cost=0.0)
-def middle_mark() -> tuple[int, ...]:
-    """Compose "the middle", one of several spots of a row."""
-    return (0,)
-
-
-@construction("mark: [DET] START", cost=0.0)
-def first_mark() -> tuple[int, ...]:
-    """Compose "the beginning", one of several spots of a row."""
-    return (1,)
-
-
-@construction("mark: [BOTH] [DET] noun=ends", cost=0.0)
-def end_mark(noun: Lex) -> tuple[int, ...]:
-    """Compose "the end" and "both ends", among several spots of a row."""
-    return (1, -1) if noun.plural else (-1,)
-
-
-@construction(
-    "marks: first=mark [COMMA] [AND] [AT] then=mark", "marks: first=marks [COMMA] [AND] [AT] then=mark", cost=0.0
-)
-def marks(first: tuple[int, ...], then: tuple[int, ...]) -> tuple[int, ...] | None:
-    """Compose "the beginning, the middle and the end"."""
-    return (*first, *then) if set(first).isdisjoint(then) else None
-
-
-@construction("place: at=marks [inner=nominal] in_ rows=any_rows", cost=0.2, given=("site",))
-def spots_of_rows(
-    at: tuple[int, ...], rows: s.Selector, site: Site, inner: Nominal | None = None
-) -> PlaceMeaning | None:
-    """Compose "the first, the middle and the last tree of rows 1 and 5"."""
-    if inner is not None and (inner.single or not chooses_from_trees(inner.selector)):
-        return None
-    parts: list[s.Selector] = []
-    single = one_by_one(rows, site)
-    if not 0 < len(single) <= MOST_ONE_BY_ONE or 0 not in at:
-        return None  # without the middle, rows need not be named one by one
-    for row in single:
-        of = row if inner is None else over(inner.selector, row)
-        parts += (s.Middle(of=of) if number == 0 else s.InRow(first=number, last=number, of=of) for number in at)
-    return PlaceMeaning(s.UnionOf(parts=tuple(parts)), "several", count=len(parts) if is_one_row(rows) else None)
-
-
-@construction("place: [DET] START AND [AT] DET noun=FINISH in_ rows=any_rows", cost=0.1)
-def beginning_and_end(noun: Lex, rows: s.Selector) -> PlaceMeaning | None:
-    """Compose "the beginning and the end of row 4"."""
-    return None if noun.plural else both_ends(replace(noun, plural=True), rows)
-
-
-@construction("place: [DET] START in_ rows=any_rows", cost=0.2)
-def beginning_of_row(rows: s.Selector) -> PlaceMeaning:
-    """Compose "the beginning of row 4"."""
-    single = is_one_row(rows)
-    return PlaceMeaning(s.InRow(first=1, last=1, of=rows), "one" if single else "several", each=not single)
-
-
-@construction(
-    "start: STARTING [DET] side=DIR",
-    "start: STARTING [DET] side=DIR FINISH",
-    "start: STARTING [DET] side=DIR SIDE",
-    "start: STARTING [DET] side=MOST [TREE]",
-    "start: STARTING [DET] side=MOST ONE",
-    "start: STARTING ITS side=MOST [TREE]",
-    "start: STARTING [DET] [rank=ORD] TREE AT [DET] side=DIR FINISH [in_] [any_rows]",
-    "start: STARTING [DET] side=DIR FINISH in_ any_rows",
-    cost=0.1,
-)
-def from_side(side: Lex, rank: Lex | None = None) -> Side | None:
-    """Compose "starting from the north" and "starting with the first tree at the north end"."""
-    return side.value if side.value in SIDES and (rank is None or rank.value == 1) else None
-
-
-@construction("start: side=start [COMMA] [AND] GOING [AT] [DET] to=DIR", cost=0.1)
-def from_side_and_on(side: Side, to: Lex) -> Side | None:
-    """Compose "starting from the south and working north"."""
-    return side if AWAY_FROM.get(side, "").endswith(f"_to_{to.value}") else None
-
-
-@construction(
-    "place: whole=place [COMMA] COUNTED [DET] side=DIR",
-    "place: whole=place [COMMA] COUNTED [DET] side=DIR FINISH",
-    "place: whole=place [COMMA] COUNTED [DET] side=DIR SIDE",
-    cost=0.3,
-)
-def counted_from(whole: PlaceMeaning, side: Lex) -> PlaceMeaning | None:
-    """Compose "every other tree of row 6 counted from the south" and "trees 4 to 8 of row 3 counted from the south"."""
-    counted = as_every_nth(whole.selector) or as_in_row(whole.selector) or _as_positions(whole.selector)
-    if counted is None or counted.counted_from != "usual" or side.value not in SIDES:
-        return None
-    return replace(whole, selector=replace(counted, counted_from=side.value))
-
-
-def _as_positions(selector: s.Selector) -> s.InRow | None:
-    """Return trees with successive numbers as positions of a row that was named before; None for others."""
-    numbers = [int(one.named_tree) for one in selector.members if one.named_tree.isdigit()]
-    if len(numbers) != len(selector.members) or numbers != list(range(numbers[0], numbers[-1] + 1)):
-        return None
-    return s.InRow(first=numbers[0], last=numbers[-1])
-
-
-@construction(
-    "place: [DET] n=count inner=nominal AT word=DET noun=ROW",
-    "place: word=DET noun=ROW OF n=count inner=nominal",
-    cost=0.1,
-)
-def trees_in_a_row(n: int, inner: Nominal, word: Lex, noun: Lex) -> PlaceMeaning | None:
-    """Compose "four trees in a row"."""
-    if noun.plural or "one" not in word.features or inner.single or inner.complete or n < 2:
-        return None
-    return PlaceMeaning(s.Successive(count=n, of=inner.selector), "several", count=n)
-
-
-@construction(
-    "place: [DET] TREE AT DET noun=FINISH in_ rows=rows",
-    "place: DET noun=FINISH OF rows=rows",
-    cost=0.2,
-)
-def end_tree(noun: Lex, rows: s.Selector) -> PlaceMeaning | None:
-    """Compose "the tree at the end of row 3"."""
-    if noun.plural or not is_one_row(rows):
-        return None
-    return PlaceMeaning(s.InRow(first=-1, last=-1, of=rows), "one")
-
-
-@construction(
-    "place: [DET] TREE AT DET side=DIR FINISH in_ rows=any_rows",
-    cost=0.1,
-)
-def tree_at_end(side: Lex, rows: s.Selector) -> PlaceMeaning | None:
-    """Compose "the tree at the south end of row 8"."""
-    return end_of_row(side, rows)
-
-
-@construction("place: [DET] TREE AT [DET] noun=FINISH in_ rows=any_rows", cost=0.2)
-def trees_at_ends(noun: Lex, rows: s.Selector) -> PlaceMeaning | None:
-    """Compose "the trees at the ends of rows 2 to 4"."""
-    return both_ends(noun, rows)
-
-
-@construction("place: DET noun=FINISH OF rows=rows NEAREST [AT] to=place", cost=0.1)
-def nearer_end(noun: Lex, rows: s.Selector, to: PlaceMeaning) -> PlaceMeaning | None:
-    """Compose "the end of row 3 nearest to the charger"."""
-    if noun.plural or not is_one_row(rows) or to.shape != "one":
-        return None
-    ends = s.UnionOf(parts=(s.InRow(first=1, last=1, of=rows), s.InRow(first=-1, last=-1, of=rows)))
-    return PlaceMeaning(s.Nearest(to=to.selector, of=ends), "one")
-
-
-@construction(
-    "place: DET first=position AND AT DET second=position inner=nominal",
-    "place: DET first=position AND OF DET second=position inner=nominal",
-    cost=0.2,
-)
-def first_and_then_last(first: tuple[int, int], second: tuple[int, int], inner: Nominal) -> PlaceMeaning | None:
-    """Compose "the first and at the last tree", two places one after the other."""
-    found = first_and_last(first, second, inner)
-    return None if found is None else replace(found, in_order=True)
-
-
-@construction("place: [BOTH] [DET] first=position [one=nominal] AND [DET] second=position inner=nominal", cost=0.2)
-def first_and_last(
-    first: tuple[int, int], second: tuple[int, int], inner: Nominal, one: Nominal | None = None
-) -> PlaceMeaning | None:
-    """Compose "both the first and the last tree"."""
-    if (first, second) != ((1, 1), (-1, -1)) or inner.plural or inner.single or inner.selector != s.Trees():
-        return None
-    if one is not None and one != inner:
-        return None
-    return PlaceMeaning(s.UnionOf(parts=(s.First(), s.Last())), "several", count=2)
-
-
-@construction(
-    "place: [DET] n=count inner=nominal [COMMA] EVENLYALONG rows=rows",
-    "place: n=count POINT EVENLYALONG rows=rows",
-    "place: n=count POINT EVENLYSPACED in_ rows=rows",
-    "place: n=count POINT EVENLYSPACED along rows=rows",
-    "place: n=count EVENLYSPACED POINT in_ rows=rows",
-    "place: n=count EVENLYSPACED POINT along rows=rows",
-    "place: [DET] n=count EVENLYSPACED inner=nominal",
-    "place: [DET] n=count inner=nominal [COMMA] EVENLYSPACED",
-    "place: [DET] n=count inner=nominal EVENLYSPACED in_ rows=rows",
-    "place: [DET] n=count inner=nominal EVENLYSPACED along rows=rows",
-    cost=0.2,
-)
-def evenly_along(n: int, inner: Nominal = _TREES, rows: s.Selector | None = None) -> PlaceMeaning | None:
-    """Compose "ten trees spread evenly along row 4" and "four evenly spaced trees in row 5"."""
-    if inner.single or inner.complete or n < 2 or (rows is not None and not chooses_from_trees(inner.selector)):
-        return None
-    of = inner.selector if rows is None else over(inner.selector, rows)
-    if len({part for part in of.walk() if are_rows(part)}) != 1 or not any(is_one_row(part) for part in of.walk()):
-        return None  # along which line?
-    return PlaceMeaning(s.Evenly(count=n, of=of), "several", count=n)
-
-
-@construction("each_rows: EACH ROWPOSS", "each_rows: rows=rows POSS", cost=0.0)
-def each_rows(rows: s.Selector | None = None) -> s.Selector:
-    """Compose "every row's" and "row 3's"."""
-    return rows or s.Rows()
-
-
-@construction("place: rows=each_rows where=span inner=nominal", cost=0.2)
-def trees_of_each_rows(rows: s.Selector, where: tuple[int, int], inner: Nominal) -> PlaceMeaning | None:
-    """Compose "every row's first tree"."""
-    if inner.plural != (where[0] != where[1]):
-        return None
-    return trees_of_row(where, rows, inner) if inner.plural else tree_of_row(where, inner, rows)
 
 
 @construction(

@@ -9,6 +9,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import SIDES
+from fieldhand.planning.grammar.places.counted import Positions
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.places.numbers import name_of, whole
 from fieldhand.planning.grammar.words import Lex
@@ -37,17 +38,6 @@ _ACROSS = {"north": "south", "south": "north", "east": "west", "west": "east"}
 def row_name(name: Lex) -> Lex:
     """Compose "3" and "A12" behind "row"."""
     return name
-
-
-@construction(
-    "rows: first=position AND second=position ROW",
-    "rows: DET first=position AND [DET] second=position ROW",
-    cost=0.1,
-    given=("site",),
-)
-def two_rows(first: tuple[int, int], second: tuple[int, int], site: Site) -> s.Selector:
-    """Compose "the first and third rows"."""
-    return s.UnionOf(parts=tuple(rows_at(n, n, site) for n in (first[0], second[0])))
 
 
 @construction(
@@ -357,10 +347,12 @@ def rows_at_positions(at: tuple[int, int], noun: Lex, site: Site) -> s.Selector 
     return rows_at(*at, site) if noun.plural else None
 
 
-@construction("rows: [DET] at=position_list ROW", cost=0.1, given=("site",))
-def listed_positions_of_rows(at: tuple[int, ...], site: Site) -> s.Selector:
-    """Compose "the third, fifth and seventh rows"."""
-    return s.UnionOf(parts=tuple(rows_at(n, n, site) for n in at))
+@construction("rows: [DET] at=marks ROW", cost=0.1, given=("site",))
+def listed_positions_of_rows(at: Positions, site: Site) -> s.Selector | None:
+    """Compose "the third, fifth and last rows"."""
+    if len(at.spans) < 2 or at.either or any(first == 0 for first, _ in at.spans):
+        return None
+    return s.UnionOf(parts=tuple(rows_at(first, last, site) for first, last in at.spans))
 
 
 @construction("rows: [DET] LAST noun=ROW", cost=0.2)

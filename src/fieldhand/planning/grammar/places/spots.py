@@ -269,14 +269,6 @@ def corners_of_side(side: Lex, noun: Lex, n: int | None = None) -> Nominal | Non
     return Nominal(s.Corners(which=which), plural=True, complete=2)
 
 
-@construction("place: whole=place but_not [DET] side=DIR ONE", cost=0.2)
-def corners_except(whole: PlaceMeaning, side: Lex) -> PlaceMeaning | None:
-    """Compose "each corner except the north-west one"."""
-    if whole.selector != s.Corners() or side.value not in CORNERS:
-        return None
-    return PlaceMeaning(s.Excluding(places=s.Corners(which=(side.value,)), of=whole.selector), "several")
-
-
 @construction("place: n=count TREE AT EACH noun=CORNER", "place: DET tree=TREE in_ EACH noun=CORNER", cost=0.2)
 def tree_at_each_corner(noun: Lex, n: int = 1, tree: Lex | None = None) -> PlaceMeaning | None:
     """Compose "one tree at each corner" and "the tree in each corner"."""

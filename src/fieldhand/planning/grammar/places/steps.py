@@ -127,6 +127,33 @@ def stride(n: int, way: Towards) -> tuple[int, Towards]:
     return (n, way)
 
 
+@construction("row_side: BEFORE", "row_side: word=THEN", cost=0.0)
+def row_side(word: Lex | None = None) -> Towards | None:
+    """Compose "before" and "after" another tree of a row."""
+    return "up" if word is None else "down" if "after_doing" in word.features else None
+
+
+@construction("place: DET noun=TREE way=row_side to=place", "place: DET noun=ONE way=row_side to=place", cost=0.3)
+def tree_before(noun: Lex, way: Towards, to: PlaceMeaning) -> PlaceMeaning | None:
+    """Compose "the tree before tree 20"."""
+    if noun.plural or "plural" in noun.features or to.shape not in ("one", "here"):
+        return None
+    return PlaceMeaning(s.AlongRow(trees=1, towards=way, origin=to.selector), "one", beside=to.shape == "here")
+
+
+@construction(
+    "place: DET TREE way=row_side AND other=row_side to=place",
+    "place: DET TREE way=row_side to=place AND [DET] [ONE] other=row_side [IT]",
+    cost=0.2,
+)
+def trees_before_and_after(way: Towards, other: Towards, to: PlaceMeaning) -> PlaceMeaning | None:
+    """Compose "the trees before and after tree 20"."""
+    if way == other or to.shape not in ("one", "here"):
+        return None
+    steps = tuple(s.AlongRow(trees=1, towards=one, origin=to.selector) for one in (way, other))
+    return PlaceMeaning(s.UnionOf(parts=steps), "several", count=2, beside=to.shape == "here")
+
+
 @construction("place: step=stride", cost=0.3)
 def along_row(step: tuple[int, Towards]) -> PlaceMeaning:
     """Compose "three trees down the row" as a place."""

@@ -13,7 +13,7 @@ from fieldhand.planning.grammar import commands, places
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands import conditions, driving, limits, spacing, things
 from fieldhand.planning.grammar.meaning import Amount, CaptureCommand, Nominal, PlaceMeaning, Thing
-from fieldhand.planning.grammar.places import chosen, groups, nouns, numbers, positions, rows, spots, steps
+from fieldhand.planning.grammar.places import chosen, clauses, groups, nouns, numbers, positions, rows, spots, steps
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import over
@@ -24,9 +24,8 @@ from fieldhand.terms import Side
 #: and work that the battery allows in "si la batería está", which a test may follow.
 _ENGLISH = (
     nouns.described,
-    nouns.with_attribute,
     nouns.attribute_is,
-    nouns.those_with_attribute,
+    clauses.which_clause,
     groups.each_of_group,
     numbers.longer_tree_list,
     numbers.unmarked_tree_list,
@@ -45,14 +44,10 @@ construction("nominal: inner=nominal value=ATTRVAL", "nominal: inner=nominal OF 
     nouns.described
 )
 construction("quality: value=ATTRVAL", cost=0.4)(nouns.attribute_is)
-construction(
-    "nominal: inner=nominal WHICH [IS] test=attribute_test",
-    "nominal: inner=nominal [WITH] test=attribute_test",
-    "nominal: inner=nominal WHICH [IS] test=quality",
-)(nouns.with_attribute)
-construction(
-    "place: whole=place WHICH [IS] test=attribute_test", "place: whole=place WHICH [IS] test=quality", cost=0.3
-)(nouns.those_with_attribute)
+construction("relative: WHICH [IS] traits=traits", cost=0.2)(clauses.which_clause)
+construction("relative: WHICH [IS] test=quality", cost=0.5)(clauses.with_clause)
+construction("quality_trait: test=quality", cost=0.2)(clauses.tested)
+construction("traits: is_not trait=quality_trait", cost=0.0)(clauses.denied)
 construction("nominal: inner=nominal side=MOST", cost=0.2)(nouns.extreme)
 construction("chosen_as: side=MOST", cost=0.1)(chosen.by_side)
 construction("rows: [DET] [n=count] noun=ROW side=MOST", cost=0.1)(rows.outermost_rows)
@@ -67,15 +62,13 @@ construction("edge_side: EDGE side=DIR", "edge_side: SIDE side=DIR", "edge_side:
     spots.edge_side
 )
 construction("corner_at: noun=CORNER side=DIR", cost=0.0)(spots.corner_at)
-construction("place: [DET] FINISH side=DIR in_ rows=rows", cost=0.1)(positions.end_of_row)
+construction("row_end: FINISH side=DIR", cost=0.0)(positions.row_end)
 construction("nominal: inner=nominal OTHER", cost=0.2)(groups.another)
 construction("nominal: ANOTHER inner=nominal OTHER", cost=0.1)(groups.another)
 construction("chosen: chosen=chosen OTHER", cost=0.1)(chosen.others)
 construction("rows: [DET] noun=ROW ODD", "rows: each=EACH noun=ROW ODD", cost=0.1)(rows.odd_rows)
 construction("rows: [DET] noun=ROW EVEN", "rows: each=EACH noun=ROW EVEN", cost=0.1)(rows.even_rows)
 construction("rows: DET rows=row_list", cost=0.1)(rows.listed_rows)
-construction("positions: n=count rank=ORD", cost=0.0)(positions.first_so_many)
-construction("positions: n=count LAST", cost=0.0)(positions.last_so_many)
 construction(
     "rows: [DET] ROW FROM [DET] first=NUM range_to [DET] last=NUM",
     "rows: [DET] ROW first=NUM range_to DET last=NUM",

@@ -1,0 +1,346 @@
+"""Constructions of exceptions: places without some others, or without a part of themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.chart import Grammar, tokens_of
+from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
+from fieldhand.planning.grammar.places.chosen import Chosen, chosen_among
+from fieldhand.planning.grammar.places.clauses import Clause, with_attribute
+from fieldhand.planning.grammar.places.compass import CORNERS
+from fieldhand.planning.grammar.places.counted import BOTH_ENDS, Span, rows_within
+from fieldhand.planning.grammar.places.numbered import all_of, elsewhere, ids_of, numbered
+from fieldhand.planning.grammar.places.rows import rows_at
+from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.selections import (
+    AREAS,
+    are_rows,
+    are_several_rows,
+    as_in_row,
+    as_some,
+    blocks_of,
+    centre_of,
+    is_end_of_site,
+    is_in_block,
+    is_one_row,
+    is_whole_rows,
+    named_places,
+    over,
+    picks_from_all,
+    rows_of,
+    swapped,
+)
+from fieldhand.site.model import Site
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+
+@dataclass(frozen=True, slots=True)
+class LeftOut:
+    """What an exception leaves out of other places: one of these.
+
+    Attributes:
+        place: Places of their own.
+        trees_there: True if only those of the other places that are in an area are left out ("any in the wet corner").
+        trees: Numbers or ids of trees, or numbers of rows.
+        as_trees: True if the phrase says that these are trees.
+        value: Attribute and value of those that are left out.
+        area: Area in which they are, if the phrase names it.
+        positions: Ranges of positions in the row.
+        rows: Rows of these positions, if the phrase names them.
+        chosen: Choice among the other places ("the oldest one").
+    """
+
+    place: PlaceMeaning | None = None
+    trees_there: bool = False
+    trees: tuple[str, ...] = ()
+    as_trees: bool = False
+    value: tuple[str, str] | None = None
+    area: s.Selector | None = None
+    positions: tuple[Span, ...] = ()
+    rows: s.Selector | None = None
+    chosen: Chosen | None = None
+
+
+@construction("except: [COMMA] EXCEPT [FOR]", "except: [COMMA] word=WITHOUT", cost=0.0)
+def except_word(word: Lex | None = None) -> str | None:
+    """Compose "except for" and "without"."""
+    return "except" if word is None or "leaves_out" in word.features else None
+
+
+@construction(
+    "those_in: ANY [TREE] [STANDS] in_", "those_in: DET [ONE] [STANDS] in_", "those_in: DET TREE [STANDS] in_", cost=0.1
+)
+def those_in() -> str:
+    """Compose "any that lie in" and "those standing in", behind what is left out of an area."""
+    return "in"
+
+
+@construction("out: place=place", "out: in_ place=place", "out: which_is in_ place=place", cost=0.1)
+def places_out(place: PlaceMeaning) -> LeftOut:
+    """Compose "the yellow trees" and "in the wet corner"."""
+    return LeftOut(place=place)
+
+
+@construction("out: ANY clause=relative", "out: DET ONE clause=relative", cost=0.1)
+def described_out(clause: Clause) -> LeftOut | None:
+    """Compose "any that are yellow"."""
+    inner = with_attribute(Nominal(s.Trees(), plural=True), clause)
+    return None if inner is None else LeftOut(place=PlaceMeaning(inner.selector, "several"))
+
+
+@construction("out: out=there_out", cost=0.0)
+def part_out(out: LeftOut) -> LeftOut:
+    """Compose "those in the wet corner" behind "except"."""
+    return out
+
+
+@construction("there_out: those_in place=place", cost=0.1)
+def trees_there_out(place: PlaceMeaning) -> LeftOut:
+    """Compose "those in the wet corner"."""
+    return LeftOut(place=place, trees_there=True)
+
+
+@construction("out: trees=numbers", "out: [DET] word=NUMBERED trees=numbers", "out: [DET] named=tree_ids", cost=0.0)
+def numbers_out(trees: tuple[str, ...] = (), named: tuple[str, ...] = (), word: Lex | None = None) -> LeftOut:
+    """Compose "7 and 13" and "tree 40"."""
+    return LeftOut(trees=trees or named, as_trees=bool(named) or word is not None)
+
+
+@construction(
+    "out: [DET] value=ATTRVAL ONE", "out: ANY value=ATTRVAL ONE", "out: [DET] value=ATTRVAL ONE in_ area=region",
+    cost=0.0,
+)  # fmt: skip
+def kind_out(value: Lex, area: s.Selector | None = None) -> list[LeftOut]:
+    """Compose "the yellow ones"."""
+    return [LeftOut(value=(name, text), area=area) for name, text in value.value]
+
+
+@construction("out: [DET] side=DIR ONE", cost=0.0)
+def corner_out(side: Lex) -> LeftOut | None:
+    """Compose "the north-west one", of corners."""
+    return LeftOut(place=PlaceMeaning(s.Corners(which=(side.value,)), "one")) if side.value in CORNERS else None
+
+
+@construction("left_out: at=left_out_at", "left_out: [BOTH] at=left_out_at AND [DET] second=left_out_at", cost=0.0)
+def left_out(at: tuple[Span, ...], second: tuple[Span, ...] = ()) -> tuple[Span, ...]:
+    """Compose "the first two" and "the first and the last one" behind "except"."""
+    return (*at, *second)
+
+
+@construction("left_out_at: [DET] at=span [TREE]", "left_out_at: [DET] at=span ONE", cost=0.1)
+def position_left_out(at: Span) -> tuple[Span, ...]:
+    """Compose "the first two trees" behind "except"."""
+    return (at,)
+
+
+@construction(
+    "left_out_at: [DET] noun=FINISH",
+    "left_out_at: EACH noun=FINISH",
+    "left_out_at: [DET] FINISH noun=TREE",
+    "left_out_at: DET ONE AT DET noun=FINISH",
+    "left_out_at: DET TREE AT DET noun=FINISH",
+    cost=0.1,
+)
+def ends_left_out(noun: Lex) -> tuple[Span, ...] | None:
+    """Compose "its ends" and "the end trees" behind "except"."""
+    return BOTH_ENDS if noun.plural else None
+
+
+@construction("out: positions=left_out", "out: positions=left_out in_ rows=any_rows", cost=0.0)
+def positions_out(positions: tuple[Span, ...], rows: s.Selector | None = None) -> LeftOut:
+    """Compose "the first and last of row 3"."""
+    return LeftOut(positions=positions, rows=rows)
+
+
+@construction("out: DET chosen=bare", cost=0.0)
+def chosen_out(chosen: Chosen) -> LeftOut:
+    """Compose "the three nearest to the charger"."""
+    return LeftOut(chosen=chosen)
+
+
+@construction("but_out: except out=out", cost=0.0)
+def out_with_except(out: LeftOut) -> LeftOut:
+    """Compose "except the yellow trees"."""
+    return out
+
+
+@construction("but_out: BUT [NOT] out=out", "but_out: NOT trees=numbers", cost=0.0)
+def out_with_but(used: int, out: LeftOut | None = None, trees: tuple[str, ...] = ()) -> LeftOut | None:
+    """Compose "but not the yellow trees" and "not 6"; "but only the yellow ones" keeps them."""
+    tokens = tokens_of(used)
+    if len(tokens) < tokens[-1] - tokens[0] + 1:
+        return None
+    if out is None:
+        return LeftOut(trees=trees)
+    return out
+
+
+@construction(
+    "place: whole=place [COMMA] out=but_out",
+    "place: whole=place [COMMA] out=there_out LEFTOUT",
+    cost=0.2,
+    given=("site",),
+)
+def without(whole: PlaceMeaning, out: LeftOut, site: Site) -> list[PlaceMeaning] | None:
+    """Compose "all trees except the yellow trees" and "row 3, the first two left out"."""
+    some = as_some(whole.selector)
+    if some is not None and whole.per is None:  # "any three trees except tree 12": three of the others
+        others = without(PlaceMeaning(some.of, "several"), out, site) or ()
+        return [replace(whole, selector=swapped(whole.selector, some.of, one.selector)) for one in others] or None
+    if whole.shape not in ("several", "area") or whole.optional:
+        return None
+    if out.place is not None:
+        left = except_for(whole, out.place, site, those=out.trees_there)
+        return None if left is None else [left]
+    if out.positions and not are_several_rows(whole.selector):
+        return except_positions(whole, out.positions, out.rows)
+    if out.positions and out.rows is not None:
+        return except_positions(whole, out.positions, out.rows)
+    parts = _parts_out(whole, out, site)
+    whole = replace(whole, count=None) if named_places(whole.selector) else whole
+    if whole.count is not None or whole.per is not None:
+        return None
+    if out.as_trees and not parts and ids_of(whole.selector, site) is not None:
+        return [elsewhere(out.trees)]
+    return [_excluding(whole, part) for part in parts] or None
+
+
+def _excluding(whole: PlaceMeaning, part: s.Selector) -> PlaceMeaning:
+    """Return a place without a part; some trees of one row are trees rather than an area."""
+    trees = whole.shape == "area" and not are_rows(part)
+    return replace(
+        whole, selector=s.Excluding(places=part, of=whole.selector), shape="several" if trees else whole.shape
+    )
+
+
+def _parts_out(whole: PlaceMeaning, out: LeftOut, site: Site) -> list[s.Selector]:
+    """Return the parts of a place that an exception can mean."""
+    of = whole.selector
+    if out.value is not None:
+        return [s.Where(attribute=out.value[0], test="eq", value=out.value[1], of=out.area or of)]
+    if out.chosen is not None:
+        return [one.selector for one in chosen_among(of, out.chosen, site)]
+    if are_several_rows(of) and not out.as_trees:
+        rows = rows_left_out(of, out, site)
+        return [] if rows is None else [rows]
+    if not out.trees:
+        return []
+    named = [s.TreeIs(tree=tree) for tree in out.trees]
+    if set(named) <= set(of.members):
+        return [all_of(named)] if len(named) < len(of.members) else []
+    if of == s.Trees():
+        return [all_of(named)]
+    ways = numbered(out.trees, of, site) if out.as_trees or is_one_row(of) else []
+    if of.relative and all(name.isdigit() for name in out.trees):
+        ways.append(all_of(named))
+    if not ways and set(out.trees) < (ids_of(of, site) or set()):
+        ways.append(all_of(named))
+    return ways
+
+
+def rows_left_out(rows: s.Selector, out: LeftOut, site: Site) -> s.Selector | None:
+    """Return the rows that numbers and positions behind rows leave out."""
+    blocks = set(blocks_of(rows))
+    if len(blocks) > 1 or (out.positions and any(row.every > 1 or row.first for row in rows_of(rows))):
+        return None  # "rows 3 to 7 except the first": the third, or the first of the block?
+    parts = [s.Rows(first=name, last=name) for name in out.trees] or [rows_at(*at, site) for at in out.positions]
+    if not parts:
+        return None
+    return all_of([over(row, next(iter(blocks))) if blocks else row for row in parts])
+
+
+@construction(
+    "each_row: rows=each_row [COMMA] out=but_out", "all_rows: rows=all_rows [COMMA] out=but_out",
+    cost=0.2, given=("site",),
+)  # fmt: skip
+def each_row_but(rows: s.Selector, out: LeftOut, site: Site) -> s.Selector | None:
+    """Compose "each row but the last"."""
+    if not are_several_rows(rows) or out.as_trees or out.rows is not None:
+        return None
+    left = rows_left_out(rows, out, site)
+    return None if left is None else s.Excluding(places=left, of=rows)
+
+
+@construction("out: positions=left_out ROW", cost=0.0)
+def rows_out(positions: tuple[Span, ...]) -> LeftOut:
+    """Compose "the last row" behind "all rows but"."""
+    return LeftOut(positions=positions)
+
+
+def except_positions(
+    whole: PlaceMeaning, out: tuple[Span, ...], row: s.Selector | None = None
+) -> list[PlaceMeaning] | None:
+    """Return "row 3 except the first two" and "every tree but the first and last of row 3"."""
+    whole_rows = are_rows(whole.selector)
+    of_each = row is not None and not is_one_row(row)
+    known = whole.selector == s.Trees() or row in (None, s.RowOf(), whole.selector) or (of_each and whole_rows)
+    rows = whole.selector if whole_rows else row
+    if rows is None or not known or whole.count is not None or whole.per is not None or whole.optional:
+        return None
+    if not whole_rows and whole.selector != s.Trees():
+        return None
+    if not is_one_row(rows) and row is None:
+        return None  # "rows 3 and 4 except the first": of each of them?
+    places = all_of([s.InRow(first=first, last=last, of=rows) for first, last in out])
+    return [replace(whole, selector=s.Excluding(places=places, of=rows), shape="several")]
+
+
+def except_for(whole: PlaceMeaning, part: PlaceMeaning, site: Site, *, those: bool = False) -> PlaceMeaning | None:
+    """Return "all trees except the yellow trees".
+
+    Args:
+        whole: Places of which some are left out.
+        part: Places that are left out.
+        site: The site.
+        those: True if only trees there are meant, not the area itself.
+    """
+    if whole.shape not in ("several", "area") or part.shape not in ("one", "several", "area"):
+        return None
+    if whole.count is not None:
+        if not set(named_places(part.selector) or (part.selector,)) < set(named_places(whole.selector)):
+            return None
+        whole = replace(whole, count=None)
+    part = replace(part, like=None) if part.like is not None and part.like.kind == "those" else part
+    if centre_of(whole.selector) == part.selector:
+        return whole  # "the trees within 12 m of tree 40, but not tree 40 itself"
+    if whole.selector != s.Trees() and any(is_end_of_site(one) or one.named_marker for one in part.selector.members):
+        return None  # the first, the last or the ends of these, not of the site
+    trees = {one.named_tree for one in part.selector.walk() if one.named_tree}
+    if trees and whole.selector != s.Trees() and not trees <= (ids_of(whole.selector, site) or set()):
+        return None
+    if whole.per is not None:
+        if not are_rows(part.selector):
+            return None
+        return replace(whole, per=s.Excluding(places=part.selector, of=whole.per))
+    blocks = set(blocks_of(whole.selector))
+    if len(blocks) == 1 and are_rows(part.selector) and is_whole_rows(part.selector) and not is_in_block(part.selector):
+        part = replace(part, selector=over(part.selector, blocks.pop()))  # "row 4" behind "rows 1 to 6 of block North"
+    if _is_counted_in_it(part, whole) or (part.shape == "one" and picks_from_all(part.selector)):
+        part = replace(part, selector=over(part.selector, whole.selector))  # "every yellow tree but the oldest"
+    all_of_it = whole.shape == "area" and (part.shape == "several" or those)  # "row 6 except the yellow trees"
+    selector = s.Excluding(places=part.selector, of=whole.selector)
+    return replace(whole, selector=selector, shape="several" if all_of_it else whole.shape)
+
+
+def _is_counted_in_it(part: PlaceMeaning, whole: PlaceMeaning) -> bool:
+    """Return True for "the two trees at its north end", of a row that is named before it."""
+    counted = [as_in_row(one) for one in part.selector.members]
+    rows = rows_within(whole.selector)
+    return rows is not None and is_one_row(rows) and all(one is not None and one.of == s.Trees() for one in counted)
+
+
+@construction("place: EACH except part=place", "place: EACH BUT part=place", cost=0.3)
+def all_but(part: PlaceMeaning) -> list[PlaceMeaning] | None:
+    """Compose "all but the yellow trees", and "all but the last tree of row 3", of that row or of the site."""
+    if part.shape not in ("one", "several", "area") or part.per is not None or part.optional:
+        return None
+    if as_some(part.selector) is not None or part.at_most is not None:
+        return None
+    inside = next((one for one in part.selector.walk() if isinstance(one, AREAS)), None)
+    wholes: Iterator[s.Selector] = iter([s.Trees()] if inside is None or part.shape == "area" else [inside, s.Trees()])
+    return [PlaceMeaning(s.Excluding(places=part.selector, of=whole), "several") for whole in wholes]
