@@ -11,12 +11,12 @@ from fieldhand.planning.english.tokens import Word
 #: Categories of words that no telling contains: conditions, prohibitions, numbers, limits, orders, demands, captures.
 _NEVER = frozenset(
     {
-        "ACTV", "ALLOW", "APART", "ASFIT", "ASMANY", "ATLEAST", "BATTERY", "BEFORE", "CAMERA", "CLIP", "CORRECTION",
-        "CLOCKWISE", "COUNT", "DEMANDS", "DISTINCT", "EVENLYALONG", "EVENLYSPACED", "EXCEPT", "FARAPART", "FITS", "GOHOME", "IF",
-        "IFSO", "INCASE", "INORDER", "INSTEAD", "INTERVAL", "ISNOT", "KEEP", "LAST", "LIMIT", "LIMITEDTO", "MAXIMISE",
-        "MUST", "NOORDER", "NOT", "NOTYET", "NOUN", "NUM", "ONLY", "ORD", "ORDERED", "OTHERWISE", "PART", "PASSON",
-        "READING", "REPEAT", "REVERSE", "SAMEFOR", "SHOULD", "SORT", "STAY", "STOP", "TIMES", "TIMEWORD", "TOPIC",
-        "TRY", "UNIT", "UNLESS", "UNTIL", "UPTO", "WANTED", "WANTS", "WITHOUT",
+        "ACTV", "ALLOW", "APART", "ASFIT", "ASMANY", "ATLEAST", "BATTERY", "BEFORE", "CAMERA", "CLIP", "CLOCKWISE",
+        "CORRECTION", "COUNT", "DEMANDS", "DISTINCT", "EVENLYALONG", "EVENLYSPACED", "EXCEPT", "FARAPART", "FITS",
+        "GOHOME", "IF", "IFSO", "INCASE", "INORDER", "INSTEAD", "INTERVAL", "ISNOT", "KEEP", "LAST", "LIMIT",
+        "LIMITEDTO", "MAXIMISE", "MUST", "NOORDER", "NOT", "NOTYET", "NOUN", "NUM", "ONLY", "ORD", "ORDERED",
+        "OTHERWISE", "PART", "PASSON", "READING", "REPEAT", "REVERSE", "SAMEFOR", "SHOULD", "SORT", "STAY", "STOP",
+        "TIMES", "TIMEWORD", "TOPIC", "TRY", "UNIT", "UNLESS", "UNTIL", "UPTO", "WANTED", "WANTS", "WITHOUT",
     }
 )  # fmt: skip
 #: Categories of words that name trees or a part of the site.
