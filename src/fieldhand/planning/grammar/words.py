@@ -142,18 +142,39 @@ def edges_of(words: Sequence[Word], phrases: Phrases, *, tells: bool = False) ->
             if last.kind not in ("word", "unit", "number", "rank"):
                 break
             phrase.append(last.norm)
-            text = " ".join(word.norm for word in words[start:end])
             yield from _possessive(phrase, start, end, phrases)
-            for entry in phrases.entries(tuple(phrase)):
-                if entry.kind in _TOLD and not tells:
-                    continue
-                features = phrases.features(tuple(phrase))
-                kind = "CONTRAST" if entry.kind == "AND" and "contrast" in features else entry.kind
-                values = list(_values(entry, phrases.lexicon))
-                for value in values:
-                    yield _edge(kind, start, end, Lex(value, entry.plural, text, features))
-                if not values:
-                    yield _edge(LACKING, start, end, Lex(_hint(entry), entry.plural, text, features))
+            yield from _phrase(words, start, end, tuple(phrase), phrases, tells=tells)
+        yield from _interrupted(words, start, phrases, tells=tells)
+
+
+def _phrase(
+    words: Sequence[Word], start: int, end: int, phrase: Phrase, phrases: Phrases, *, tells: bool
+) -> Iterator[PhraseEdge]:
+    """Yield what a phrase can be that stands at some words."""
+    text = " ".join(word.norm for word in words[start:end])
+    for entry in phrases.entries(phrase):
+        if entry.kind in _TOLD and not tells:
+            continue
+        features = phrases.features(phrase)
+        kind = "CONTRAST" if entry.kind == "AND" and "contrast" in features else entry.kind
+        values = list(_values(entry, phrases.lexicon))
+        for value in values:
+            yield _edge(kind, start, end, Lex(value, entry.plural, text, features))
+        if not values:
+            yield _edge(LACKING, start, end, Lex(_hint(entry), entry.plural, text, features))
+
+
+def _interrupted(words: Sequence[Word], start: int, phrases: Phrases, *, tells: bool) -> Iterator[PhraseEdge]:
+    """Yield what the words around an adverb that adds nothing are together ("I'd also like")."""
+    at = start + 1
+    if at + 1 >= len(words) or words[start].kind != "word" or "interrupts" not in phrases.features((words[at].norm,)):
+        return
+    phrase = [words[start].norm]
+    for end in range(at + 2, min(at + 1 + phrases.longest, len(words)) + 1):
+        if words[end - 1].kind != "word":
+            return
+        phrase.append(words[end - 1].norm)
+        yield from _phrase(words, start, end, tuple(phrase), phrases, tells=tells)
 
 
 def _possessive(phrase: Sequence[str], start: int, end: int, phrases: Phrases) -> Iterator[PhraseEdge]:

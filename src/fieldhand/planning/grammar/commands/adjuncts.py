@@ -206,6 +206,12 @@ def as_can_of_many() -> Adjunct:
     return Adjunct(_unchanged, of_many=True)
 
 
+@construction("adjunct: ONTHEWAY", cost=0.3)
+def on_the_way() -> Adjunct:
+    """Compose "on the way back" behind a capture, which comes last anyway."""
+    return Adjunct(_unchanged)
+
+
 def _unchanged(command: CaptureCommand, _: None) -> CaptureCommand:
     return command
 

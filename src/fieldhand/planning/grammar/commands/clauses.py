@@ -25,8 +25,8 @@ construction = GRAMMAR.construction
 #: ``t`` captures, ``w`` captures behind "with", ``f`` captures behind "for", ``m`` "as many" before captures, ``z`` the
 #: ground, ``p`` a place behind a preposition, ``b`` a place by itself, ``h`` "there" and other adverbs, ``o`` a place
 #: that owns what follows, ``s`` "should be", ``i`` "is", ``c`` "have" and "let",
-#: ``d`` "I want" behind what is wanted, ``e`` "to be".
-Kind = Literal["v", "a", "g", "u", "t", "w", "f", "m", "z", "p", "b", "h", "o", "s", "i", "c", "d", "e"]
+#: ``d`` "I want" behind what is wanted, ``e`` "to be", ``k`` a drive along rows.
+Kind = Literal["v", "a", "g", "u", "t", "w", "f", "m", "z", "p", "b", "h", "o", "s", "i", "c", "d", "e", "k"]
 #: How a complete clause is composed: with a verb, as a topic and what is done there, or as captures alone.
 Form = Literal["verb", "act", "topic", "bare"]
 
@@ -62,6 +62,10 @@ _ORDERS: dict[str, Form] = {
     "td": "verb", "tpd": "verb", "thd": "verb", "otd": "verb", "ptd": "verb", "btd": "topic",
     # tree 4 needs a picture (taken)
     "bst": "topic", "bstv": "topic",
+    # drive along row 4 with a picture every 10 m
+    "kw": "topic", "kt": "topic",
+    # at tree 4 I'd like a picture
+    "pct": "topic", "hct": "verb",
     # tree 4: a picture; at tree 4 a picture; a picture of tree 4; a picture: tree 4
     "bt": "topic", "bw": "topic", "wp": "topic", "pt": "topic", "tp": "topic", "th": "topic", "tb": "topic",
     # a picture is needed at tree 4
@@ -151,6 +155,12 @@ def go_part(place: PlaceMeaning) -> Clause | None:
     if place.shape not in ("one", "several"):
         return None
     return _part("g", place=place, relation="lead" if place.shape == "one" else "at")
+
+
+@construction("part: GO ALONG place=place", cost=0.3)
+def go_along_part(place: PlaceMeaning) -> Clause | None:
+    """Compose "drive along row 4" before "with a picture every 10 m"."""
+    return _part("k", place=place, relation="along") if place.shape == "area" and place.per is None else None
 
 
 @construction("part: [relation] DET GROUND", cost=0.2)
@@ -399,6 +409,8 @@ def _topic(clause: Clause, used: int) -> CaptureCommand | None:
         return _bare(clause, used)
     if clause.order == "th":
         return CaptureCommand(things, place, used, relation="plain") if place.shape in ("here", "those") else None
+    if clause.order in ("kw", "kt"):
+        return CaptureCommand(things, place, used, relation="along") if clause.adjuncts else None
     if clause.order == "wp":
         return CaptureCommand(things, place, used) if place.each else None  # "with a picture at every tree"
     if clause.order in ("tp", "tsp"):
@@ -411,7 +423,7 @@ def _topic(clause: Clause, used: int) -> CaptureCommand | None:
     if "s" in clause.order and place.count and as_some(place.selector) is not None:
         return None  # "two trees get a picture" may announce which ones
     several = tuple(replace(one, plural=True) for one in things) if place.shape == "area" else things
-    return CaptureCommand(several, place, used, relation="lead" if clause.order == "pt" else "at")
+    return CaptureCommand(several, place, used, relation="lead" if clause.order in ("pt", "pct") else "at")
 
 
 def _bare(clause: Clause, used: int) -> CaptureCommand:

@@ -480,6 +480,12 @@ def the_same_way(place: PlaceMeaning, used: int) -> Again:
     return Again(place, used)
 
 
+@construction("again: word=TAKE place=place", cost=1.5)
+def do_there(word: Lex, place: PlaceMeaning, used: int) -> Again | None:
+    """Compose "do tree 9 (as well)", where the same is done."""
+    return Again(place, used) if "performs" in word.features and place.shape in ("one", "several") else None
+
+
 @construction("again: REPEAT where=rows", cost=0.2)
 def again_in_row(where: s.Selector, used: int) -> Again | None:
     """Compose "do the same two rows over"."""

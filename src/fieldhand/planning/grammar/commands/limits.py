@@ -80,6 +80,7 @@ def so_much(most: Amount) -> Amount | None:
     "limit: [at] [DET] most=amount UPPERLIMIT",
     "limit: BEFORE most=amount OVERDUE",
     "limit: AT [DET] most=amount LIMIT",
+    "limit: AS most=so_much ALLOW",
     cost=0.3,
 )
 def limited_to(most: Amount, used: int) -> LimitClause | None:

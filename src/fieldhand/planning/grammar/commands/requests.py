@@ -298,6 +298,12 @@ def before_doing(word: Lex, used: int) -> Connective | None:
     return Connective(False, True, used, precedes=True) if "before_doing" in word.features else None
 
 
+@construction("then: ONTHEWAY", cost=0.1)
+def on_the_way() -> str:
+    """Compose "on the way back" before what is done then."""
+    return "then"
+
+
 @construction("then: word=THEN", cost=0.0)
 def then(word: Lex) -> str | None:
     """Compose "then"."""

@@ -39,6 +39,14 @@ def so_many_things(n: int, noun: Lex) -> Thing | None:
     return _named(noun, count=n, plural=True)
 
 
+@construction("thing: word=DET LAST noun=NOUN", "thing: n=count LAST noun=NOUN", cost=0.2)
+def last_thing(noun: Lex, word: Lex | None = None, n: int = 1) -> Thing | None:
+    """Compose "one last picture" and "a final reading"; "the last picture" is one that was taken."""
+    if noun.plural != (n > 1) or (word is not None and "indefinite" not in word.features):
+        return None
+    return _named(noun, count=n, plural=n > 1)
+
+
 @construction("thing: [DET] noun=NOUN READING", "thing: READING OF [DET] noun=NOUN", cost=0.1)
 def reading_of(noun: Lex) -> Thing | None:
     """Compose "the temperature reading"."""

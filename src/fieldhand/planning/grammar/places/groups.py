@@ -145,6 +145,7 @@ def points_over(n: int, zone: Lex) -> PlaceMeaning:
 
 
 @construction("place: ASMANY [DET] [OTHER] inner=nominal as_can", cost=0.2)
+@construction("place: ASMANY [DET] [OTHER] inner=nominal", cost=2.0)
 def as_many(inner: Nominal) -> PlaceMeaning | None:
     """Compose "as many trees as you can"."""
     if inner.single or not inner.plural:
