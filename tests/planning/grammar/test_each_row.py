@@ -34,6 +34,19 @@ SOUTHERN = "Extreme(south, of Rows(2, 2))+Extreme(south, of Rows(3, 3))"
             "For each of rows 2 and 3, photograph the northernmost tree. Photograph the southernmost tree, too.",
             f"for UnionOf({NORTHERN}): [picture]; picture @ Extreme(south)",
         ),
+        (
+            "Photograph the middle tree of rows 2 and 3.",
+            "for UnionOf(Middle(of Rows(2, 2))+Middle(of Rows(3, 3))): [picture]",
+        ),
+        (
+            "Take one thermal picture in every fifth row, at the middle tree.",
+            "for UnionOf(Middle(of Rows(1, 1))+Middle(of Rows(6, 6))): [picture]",
+        ),
+        (
+            "Photograph the yellow trees in the eastern half first and then those in the western half.",
+            "for Where(leaf_color, eq, yellow, of Half(east)): [picture]; "
+            "for Where(leaf_color, eq, yellow, of Half(west)): [picture]",
+        ),
     ],
 )
 def test_each_row_holds_for_the_sentence(request_: str, expected: str) -> None:

@@ -216,7 +216,6 @@ KEPT = [
     "It should be done at noon. Take a picture of tree 4.",
     "We do it every Tuesday. Take a picture of tree 4.",
     "It must be back in 20 minutes. Take a picture of tree 4.",
-    "I have only 10 minutes. Take a picture of tree 4.",
     "I hope you photograph the Carmels. Take a picture of tree 4.",
     "I hope you flambé them. Take a picture of tree 4.",
     "I meant tree 9. Take a picture of tree 4.",

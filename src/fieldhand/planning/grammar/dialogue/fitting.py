@@ -72,6 +72,8 @@ def in_area(setting: Setting, before: Lead | DriveCommand, place: PlaceMeaning |
         selector = over(place.selector, area)
         of_each_row = are_several_rows(area) and all(counts_in_row(part) for part in selector.members)
         return replace(place, selector=selector, shape="several" if of_each_row else place.shape)
+    if place.per is not None and are_rows(place.per) and not is_in_block(place.per) and not are_rows(area):
+        return replace(place, per=over(place.per, area))  # "in the south block, the middle tree of every fifth row"
     within_block = is_in_block(area) and not is_in_block(place.selector) and chooses_from_trees(place.selector)
     if place.shape == "area" and place.per is None and within_block:
         return replace(place, selector=over(place.selector, area))  # "in the north block, ... rows 3 to 5"

@@ -19,6 +19,7 @@ from fieldhand.planning.grammar.meaning import (
     PlaceMeaning,
 )
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
+from fieldhand.planning.grammar.places.groups import of_that_kind
 from fieldhand.planning.selections import (
     are_rows,
     as_in_row,
@@ -57,7 +58,9 @@ def with_known_place(setting: Setting, state: DialogueState, command: Command) -
     if isinstance(place.selector, s.Top) and place.like is not None:
         return _best_of_ranked(state, command, place.selector)
     if place.like is not None and place.like.kind == "those":
-        return replace(command, place=replace(place, like=None))
+        before = state.where
+        kind = before.selector if before is not None and before.shape == "several" else s.Trees()
+        return replace(command, place=replace(place, selector=of_that_kind(kind, place.selector), like=None))
     if place.like is not None and place.like.kind == "rest":
         return replace(command, place=replace(place, selector=_rest(state, place.selector), like=None))
     if place.like is not None and place.like.kind == "nth":

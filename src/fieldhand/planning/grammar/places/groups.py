@@ -252,7 +252,7 @@ def both(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | list[Place
     if first.per is not None or second.per is not None or first.like is not None:
         return None
     if second.like is not None and second.like.kind == "those":
-        second = replace(second, selector=_of_that_kind(first.selector, second.selector), like=None)
+        second = replace(second, selector=of_that_kind(first.selector, second.selector), like=None)
     if second.like is not None:
         if (opposite := _other_end(first.selector, second.selector)) is None:
             return None
@@ -275,6 +275,9 @@ def both(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | list[Place
     count = None if None in counts else sum(c for c in counts if c is not None)
     whole = PlaceMeaning(s.UnionOf(parts=parts), "several", count=count, beside=first.beside)
     counted = next((one for part in parts if (one := as_in_row(part)) is not None), None)
+    drawn = tuple(_drawn(part) for part in parts) if isinstance(parts[-1], s.RandomSample) else parts
+    if drawn != parts:  # "ten old and ten young trees at random": the ten old ones, too?
+        return [replace(whole, selector=s.UnionOf(parts=drawn)), whole]
     if counted is None or not any(is_end_of_site(part) for part in parts):
         return whole
     # "The first tree and the last tree of row 4": is the first that of the row, too?
@@ -282,7 +285,13 @@ def both(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | list[Place
     return [whole, replace(whole, selector=s.UnionOf(parts=in_row))]
 
 
-def _of_that_kind(first: s.Selector, area: s.Selector) -> s.Selector:
+def _drawn(selector: s.Selector) -> s.Selector:
+    """Return so many trees, whichever these are, as trees that are drawn at random."""
+    some = as_some(selector)
+    return selector if some is None else s.RandomSample(count=some.count, of=some.of)
+
+
+def of_that_kind(first: s.Selector, area: s.Selector) -> s.Selector:
     """Return the trees of an area that fit the description of others: "those in row 5" behind "the yellow trees"."""
     if not is_description(first):
         return area

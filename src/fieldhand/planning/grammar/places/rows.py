@@ -497,6 +497,7 @@ def in_each_row(one: PlaceMeaning, rows: s.Selector) -> PlaceMeaning | None:
     return PlaceMeaning(one.selector, "several", each=True, per=rows)
 
 
+@construction("place: rows=each_row [COMMA] in_ one=place", "place: rows=each_row COMMA one=place", cost=0.2)
 @construction("place: rows=rows [COMMA] in_ one=place INEACH", "place: rows=rows COMMA one=place INEACH", cost=0.2)
 def in_each_of_those_rows(rows: s.Selector, one: PlaceMeaning) -> PlaceMeaning | None:
     """Compose "rows 2 and 4, at the middle tree of each"."""

@@ -120,11 +120,14 @@ def middle() -> PlaceMeaning:
     "place: [DET] MIDDLE noun=TREE in_ where=region",
     cost=0.7,
 )
-def middle_of(where: s.Selector, noun: Lex | None = None) -> PlaceMeaning | None:
-    """Compose "the middle of row 4" and "the middle trees of rows 3 and 4"."""
+def middle_of(where: s.Selector, noun: Lex | None = None) -> PlaceMeaning | list[PlaceMeaning] | None:
+    """Compose "the middle of row 4" and "the middle tree of rows 3 and 4", of each of which there is one."""
     several = are_rows(where) and not is_one_row(where)
-    if noun is not None and noun.plural:
-        return PlaceMeaning(s.Middle(), "several", each=True, per=where) if several else None
+    of_each = PlaceMeaning(s.Middle(), "several", each=True, per=where)
+    if noun is not None and (several or noun.plural):
+        return of_each if several else None
+    if several:  # of each row, or of the area that they are?
+        return [of_each, PlaceMeaning(s.Middle(of=where), "one")]
     if (zone := as_zone(where)) is not None:
         return PlaceMeaning(s.PointsIn(zone=zone.zone), "one") if not zone.outside else None
     if (edge := as_edge(where)) is not None:
