@@ -296,8 +296,10 @@ def negated(test: Test) -> Test:
     "test: subject=measured test=predicate",
     "test: IS subject=measured test=predicate",
     "test: test=predicate IS subject=measured",
+    "test: test=predicate subject=measured IS",
     "test: [subject=measured] denied=ISNOT test=predicate",
     "test: subject=measured [IS] test=predicate relation place=place",
+    "test: IS subject=measured test=predicate relation place=place",
     cost=0.2,
 )
 def reading_is(
@@ -430,9 +432,11 @@ def when(tests: AllTests, used: int, where: Lex | None = None) -> When:
     "question: MEASURE IF test=test",
     cost=0.2,
 )
-@construction("question: IS test=test [FULLSTOP]", "question: IS test=test [FULLSTOP] MEASURE IT", cost=0.2)
-def question(test: Test, used: int) -> ReadingQuestion | None:
+@construction("question: IS test=test mark=FULLSTOP", "question: IS test=test [mark=FULLSTOP] MEASURE IT", cost=0.2)
+def question(test: Test, used: int, mark: Lex | None = None) -> ReadingQuestion | None:
     """Compose "check whether the temperature at tree 4 is high" and "is tree 4 hotter than 36 degC?"."""
+    if mark is not None and "question" not in mark.features:
+        return None
     return ReadingQuestion(AllTests((test,)), test.place, used) if test.quantity.isidentifier() else None
 
 
