@@ -76,6 +76,12 @@ def look_at(place: PlaceMeaning, verb: Lex, used: int) -> DriveCommand | None:
     return DriveCommand(place, used) if place.shape == "area" and "goes_there" in verb.features else None
 
 
+@construction("drive: way=drive INSTEAD", cost=0.2)
+def drive_instead(way: DriveCommand, used: int) -> DriveCommand:
+    """Compose "go five trees south instead", in another case."""
+    return replace(way, used=used, instead=True)
+
+
 @construction("drive: way=ALONG where=region GO", "drive: AT place=place GO", "drive: ALONG place=place GO", cost=0.3)
 def goes_there(
     used: int, place: PlaceMeaning | None = None, where: s.Selector | None = None, way: Lex | None = None
