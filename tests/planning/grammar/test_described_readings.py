@@ -474,10 +474,22 @@ SAID: list[tuple[str, str, str]] = [
         "Be the air hot at tree 100 then a picture of tree 101.",
         "air @ TreeIs(100) = r1; if r1 high: [picture @ TreeIs(101)]",
     ),
+    (
+        "husky",
+        "CO2 at trees 4, 9 and 30. If the southern one is high, photograph it.",
+        "co2 @ Extreme(south, of UnionOf(TreeIs(4)+TreeIs(9)+TreeIs(30))) = r1; co2 @ TreeIs(9); co2 @ TreeIs(30); if r1 high: [go Extreme(south, of UnionOf(TreeIs(4)+TreeIs(9)+TreeIs(30))); picture]",
+    ),
+    (
+        "husky",
+        "CO2 at trees 4 and 40. If the northernmost reading is high, photograph tree 12.",
+        "co2 @ Extreme(north, of UnionOf(TreeIs(4)+TreeIs(40))) = r1; co2 @ TreeIs(40); if r1 high: [picture @ TreeIs(12)]",
+    ),
 ]
 
 #: Requests that leave open what is meant, contradict themselves, or compare readings.
 OPEN: list[tuple[str, str]] = [
+    ("husky", "CO2 at trees 4, 5 and 6. If the western one is high, photograph it."),
+    ("husky", "CO2 at every yellow tree. If the northernmost reading is high, photograph tree 4."),
     ("husky", "Photograph ten yellow trees, as many as you can."),
     (
         "husky",
