@@ -434,10 +434,69 @@ SAID: list[tuple[str, str, str]] = [
         "CO2 at tree 4. Above 500 ppm and you come home, otherwise photograph it.",
         "co2 @ TreeIs(4) = r1; if r1 > 500 ppm: [go Marker(start)] else [picture] | return_to_start",
     ),
+    (
+        "husky",
+        "Shoot tree 50. If it is below 33, go five trees north and shoot that one, if it isn't, go five trees south instead.",
+        "picture @ TreeIs(50) = r1; if r1 < 33 degC: [go AlongRow(5, north); picture] else [go AlongRow(5, south); picture]",
+    ),
+    (
+        "husky",
+        "From the ten trees with the highest yield, photograph as many as you can within 25 minutes.",
+        "for Top(yield_kg, 10) optional: [picture] | duration_s 1500",
+    ),
+    (
+        "husky",
+        "Starting at the north end of row 3, take the air temperature at every fourth tree and work your way south.",
+        "for Ordered(north_to_south, of EveryNth(4, north, of Rows(3, 3))) given: [air]",
+    ),
+    (
+        "husky",
+        "Photograph every tree of row 3, toward the north going.",
+        "for Ordered(south_to_north, of Rows(3, 3)) given: [picture]",
+    ),
+    (
+        "husky",
+        "Go down row 6 reading CO2 at every tree, and the moment it tops 500 ppm, halt, snap that tree, and knock off.",
+        "for Rows(6, 6) until r1 > 500 ppm: [co2 = r1; if r1 > 500 ppm: [picture]]",
+    ),
+    (
+        "husky",
+        "CO2 at every tree of row 10; and where below 400 it falls, the air temperature there too.",
+        "for Rows(10, 10): [co2 = r1; if r1 < 400 ppm: [air]]",
+    ),
+    (
+        "husky",
+        "Thermal pics of trees 4 and 9. If >38 degC: + CO2 there. Else nil. Home.",
+        "for UnionOf(TreeIs(4)+TreeIs(9)): [picture = r1; if r1 > 38 degC: [co2]] | return_to_start",
+    ),
+    (
+        "husky",
+        "Be the air hot at tree 100 then a picture of tree 101.",
+        "air @ TreeIs(100) = r1; if r1 high: [picture @ TreeIs(101)]",
+    ),
+    (
+        "husky",
+        "CO2 at trees 4, 9 and 30. If the southern one is high, photograph it.",
+        "co2 @ Extreme(south, of UnionOf(TreeIs(4)+TreeIs(9)+TreeIs(30))) = r1; co2 @ TreeIs(9); co2 @ TreeIs(30); if r1 high: [go Extreme(south, of UnionOf(TreeIs(4)+TreeIs(9)+TreeIs(30))); picture]",
+    ),
+    (
+        "husky",
+        "CO2 at trees 4 and 40. If the northernmost reading is high, photograph tree 12.",
+        "co2 @ Extreme(north, of UnionOf(TreeIs(4)+TreeIs(40))) = r1; co2 @ TreeIs(40); if r1 high: [picture @ TreeIs(12)]",
+    ),
 ]
 
 #: Requests that leave open what is meant, contradict themselves, or compare readings.
 OPEN: list[tuple[str, str]] = [
+    ("husky", "CO2 at trees 4, 5 and 6. If the western one is high, photograph it."),
+    ("husky", "CO2 at every yellow tree. If the northernmost reading is high, photograph tree 4."),
+    ("husky", "Photograph ten yellow trees, as many as you can."),
+    (
+        "husky",
+        "Starting at the north end of row 3, take the air temperature at every fourth tree and work your way north.",
+    ),
+    ("husky", "Photograph tree 60. If it is hot, go to tree 9 instead."),
+    ("husky", "End at the charger with a picture."),
     ("husky", "Measure CO2 at every yellow tree. If the average is high, photograph tree 4."),
     ("husky", "Measure CO2 at trees 4 and 9. If tree 4 is higher than tree 9, photograph tree 4."),
     ("husky", "Measure CO2 at trees 4 and 9. If the first is higher than the second, photograph tree 4."),

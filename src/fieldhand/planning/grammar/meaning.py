@@ -203,6 +203,7 @@ class DriveCommand:
         along: Direction along a row, if the robot drives along it.
         picks: True if the places are only chosen ("take three trees").
         ends: True if nothing is done behind it ("ending at the charger").
+        instead: True if what another case has is done there ("go five trees south instead").
     """
 
     place: PlaceMeaning
@@ -212,6 +213,7 @@ class DriveCommand:
     picks: bool = False
     along: Along = ""
     ends: bool = False
+    instead: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -296,8 +296,10 @@ def negated(test: Test) -> Test:
     "test: subject=measured test=predicate",
     "test: IS subject=measured test=predicate",
     "test: test=predicate IS subject=measured",
+    "test: test=predicate subject=measured IS",
     "test: [subject=measured] denied=ISNOT test=predicate",
     "test: subject=measured [IS] test=predicate relation place=place",
+    "test: IS subject=measured test=predicate relation place=place",
     cost=0.2,
 )
 def reading_is(
@@ -371,18 +373,23 @@ def unless(tests: AllTests, used: int) -> When | None:
     return When(AllTests((replace(tests.tests[0], negated=not tests.tests[0].negated),)), used)
 
 
+@construction("the_tree: IT", "the_tree: DET TREE", "the_tree: place=place", cost=0.0)
+def the_tree(place: PlaceMeaning | None = None) -> Subject | None:
+    """Compose "it", "the tree" and "tree 6", of which an attribute is tested."""
+    return Subject(place=place) if place is None or _is_known(place) else None
+
+
 @construction(
-    "test: IT [IS] [DET] value=ATTRVAL [ONE]",
-    "test: DET TREE IS [DET] value=ATTRVAL [ONE]",
-    "test: IT denied=ISNOT [DET] value=ATTRVAL [ONE]",
-    "test: IT IS denied=NOT [DET] value=ATTRVAL [ONE]",
-    "test: DET TREE denied=ISNOT [DET] value=ATTRVAL [ONE]",
-    "test: DET TREE IS denied=NOT [DET] value=ATTRVAL [ONE]",
+    "test: tree=the_tree IS [DET] value=ATTRVAL [ONE]",
+    "test: IT [DET] value=ATTRVAL [ONE]",
+    "test: tree=the_tree denied=ISNOT [DET] value=ATTRVAL [ONE]",
+    "test: tree=the_tree IS denied=NOT [DET] value=ATTRVAL [ONE]",
     cost=0.3,
 )
-def tree_is(value: Lex, denied: Lex | None = None) -> list[Test]:
-    """Compose "it is yellow" and "it is not a Carmel"."""
-    return [Test("", "eq", text, attribute=name, negated=denied is not None) for name, text in value.value]
+def tree_is(value: Lex, denied: Lex | None = None, tree: Subject = _IT) -> list[Test]:
+    """Compose "it is yellow", "it is not a Carmel" and "tree 6 is yellow"."""
+    negated = denied is not None
+    return [Test("", "eq", text, attribute=name, negated=negated, place=tree.place) for name, text in value.value]
 
 
 @construction("test: IT IS check=CMP value=amount", "test: IT check=CMP value=amount", cost=0.3)
@@ -430,9 +437,11 @@ def when(tests: AllTests, used: int, where: Lex | None = None) -> When:
     "question: MEASURE IF test=test",
     cost=0.2,
 )
-@construction("question: IS test=test [FULLSTOP]", "question: IS test=test [FULLSTOP] MEASURE IT", cost=0.2)
-def question(test: Test, used: int) -> ReadingQuestion | None:
+@construction("question: IS test=test mark=FULLSTOP", "question: IS test=test [mark=FULLSTOP] MEASURE IT", cost=0.2)
+def question(test: Test, used: int, mark: Lex | None = None) -> ReadingQuestion | None:
     """Compose "check whether the temperature at tree 4 is high" and "is tree 4 hotter than 36 degC?"."""
+    if mark is not None and "question" not in mark.features:
+        return None
     return ReadingQuestion(AllTests((test,)), test.place, used) if test.quantity.isidentifier() else None
 
 
@@ -531,14 +540,6 @@ def both_means(first: str, second: str) -> str:
 def someone(test: Test, noun: Lex | None = None) -> list[AllTests]:
     """Compose "one is above 38 degC" and "you find a tree with a canopy temperature above 38 degC"."""
     return [AllTests((replace(test, quantity=name),)) for name in ([""] if noun is None else measured_by(noun))]
-
-
-@construction("when: IF place=place [IS] value=ATTRVAL", "when: IF place=place IS DET value=ATTRVAL", cost=0.3)
-def when_tree_is(place: PlaceMeaning, value: Lex, used: int) -> list[When] | None:
-    """Compose "if tree 6 is yellow"."""
-    if place.shape != "one" or as_some(place.selector) is not None:
-        return None  # "if a tree is yellow": of those visited
-    return [When(AllTests((replace(test, place=place),)), used) for test in tree_is(value)]
 
 
 @construction(
@@ -640,6 +641,12 @@ def measured_by(noun: Lex) -> list[str]:
 
 
 @construction(
+    "capture_where: tests=tested SHOULD things=things [INSTEAD]",
+    "capture_where: tests=tested TAKE things=things",
+    "capture_where: tests=tested COMMA things=things [INSTEAD]",
+    cost=0.4,
+)
+@construction(
     "capture_where: verb things=things relation tests=tested",
     "capture_where: verb things=things FOR tests=tested",
     "capture_where: [WITH] things=things relation tests=tested",
@@ -649,7 +656,7 @@ def measured_by(noun: Lex) -> list[str]:
     cost=0.3,
 )
 def capture_where(things: tuple[Thing, ...], tests: tuple[AllTests, PlaceMeaning | None], used: int) -> CaptureWhere:
-    """Compose "measure CO2 at those that are hot"."""
+    """Compose "measure CO2 at those that are hot" and "any that are hot get a CO2 reading"."""
     return CaptureWhere(tests[0], CaptureCommand(things, None, used), used, tests[1])
 
 
@@ -658,19 +665,6 @@ def act_where(verb: Lex, tests: tuple[AllTests, PlaceMeaning | None], used: int)
     """Compose "photograph those that are hot"."""
     naming: Naming = verb.value
     return CaptureWhere(tests[0], CaptureCommand((Thing(naming.actions[0]),), None, used), used, tests[1])
-
-
-@construction(
-    "capture_where: tests=tested SHOULD things=things",
-    "capture_where: tests=tested TAKE things=things",
-    "capture_where: tests=tested COMMA things=things",
-    "capture_where: tests=tested SHOULD things=things INSTEAD",
-    "capture_where: tests=tested COMMA things=things INSTEAD",
-    cost=0.4,
-)
-def those_get(things: tuple[Thing, ...], tests: tuple[AllTests, PlaceMeaning | None], used: int) -> CaptureWhere:
-    """Compose "any that are hot get a CO2 reading"."""
-    return capture_where(things, tests, used)
 
 
 @construction("stops: [WHODOES] STOP [THERE]", "stops: MISSION [SHOULD] STOP", "stops: MISSION IS STOP", cost=0.0)
@@ -750,21 +744,16 @@ def otherwise(used: int, word: Lex | None = None) -> Otherwise:
     return Otherwise(used, in_all=word is None or "in_all_cases" in word.features)
 
 
-@construction("pass_on: PASSON", cost=0.3)
-def pass_on(used: int) -> PassOn:
-    """Compose "leave it"."""
-    return PassOn(used)
-
-
 @construction(
-    "pass_on: PASSTO [DET] NEXTONE",
-    "pass_on: PASSTO [DET] NEXTONE ONE",
-    "pass_on: PASSTO [DET] NEXTONE TREE",
+    "pass_on: PASSON",
+    "pass_on: PASSTO [DET] on=NEXTONE",
+    "pass_on: PASSTO [DET] on=NEXTONE ONE",
+    "pass_on: PASSTO [DET] on=NEXTONE TREE",
     cost=0.3,
 )
-def pass_to_next(used: int) -> PassOn:
-    """Compose "carry on with the next one"."""
-    return PassOn(used, to_next=True)
+def pass_on(used: int, on: Lex | None = None) -> PassOn:
+    """Compose "leave it" and "carry on with the next one"."""
+    return PassOn(used, to_next=on is not None)
 
 
 @construction(

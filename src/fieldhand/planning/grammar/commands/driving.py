@@ -76,6 +76,12 @@ def look_at(place: PlaceMeaning, verb: Lex, used: int) -> DriveCommand | None:
     return DriveCommand(place, used) if place.shape == "area" and "goes_there" in verb.features else None
 
 
+@construction("drive: way=drive INSTEAD", cost=0.2)
+def drive_instead(way: DriveCommand, used: int) -> DriveCommand:
+    """Compose "go five trees south instead", in another case."""
+    return replace(way, used=used, instead=True)
+
+
 @construction("drive: way=ALONG where=region GO", "drive: AT place=place GO", "drive: ALONG place=place GO", cost=0.3)
 def goes_there(
     used: int, place: PlaceMeaning | None = None, where: s.Selector | None = None, way: Lex | None = None
@@ -170,10 +176,14 @@ def an_end(side: Lex) -> str | None:
     "ordered: side=an_end BEGINSTHERE",
     "ordered: STARTING side=an_end [COMMA] [AND] ENDING last=an_end",
     "ordered: [GOING] FROM side=an_end AT last=an_end",
+    "ordered: ONWAY [AT] last=an_end",
+    "ordered: AT last=an_end ONWAY",
     cost=0.1,
 )
-def from_an_end(side: Side, last: Side | None = None) -> tuple[str, str, bool] | None:
-    """Compose "from its southern end" and "the south end being where you begin"."""
+def from_an_end(side: Side | None = None, last: Side | None = None) -> tuple[str, str, bool] | None:
+    """Compose "from its southern end", "the south end being where you begin" and "going north"."""
+    if side is None:
+        return next(((by, "", False) for by in AWAY_FROM.values() if by.endswith(f"_to_{last}")), None)
     by = AWAY_FROM[side]
     return (by, "", False) if last is None or by == f"{side}_to_{last}" else None
 

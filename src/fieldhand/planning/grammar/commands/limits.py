@@ -99,18 +99,23 @@ def emphasised(said: LimitClause, used: int) -> LimitClause | None:
     return None if said.keep else replace(said, used=used)
 
 
-@construction("limit: UPTO most=amount [of_what]", "limit: less most=amount of_what", cost=0.5)
-def at_most_so_much(most: Amount, used: int) -> LimitClause | None:
-    """Compose "max 20 minutes" and "less than 100 m of driving"."""
-    return limited_to(most, used)
-
-
-@construction("limit: less most=amount", "limit: subject COMMA time=amount", cost=0.5)
-def no_more_than(used: int, most: Amount | None = None, time: Amount | None = None) -> LimitClause | None:
-    """Compose "at most 400 m" and "time: 20 min"; "at most 30 %" may be a reading, "distance: 20 m" one of stops."""
-    amount = most or time
-    units = ("metres", "seconds") if time is None else ("seconds",)
-    return LimitClause(amount, False, used) if amount is not None and amount.unit in units else None
+@construction(
+    "limit: UPTO most=amount [of_what]",
+    "limit: less most=amount of_what",
+    "limit: less length=amount",
+    "limit: subject COMMA time=amount",
+    cost=0.5,
+)
+def at_most_so_much(
+    used: int, most: Amount | None = None, length: Amount | None = None, time: Amount | None = None
+) -> LimitClause | None:
+    """Compose "max 20 minutes" and "time: 20 min"; "at most 30 %" may be a reading, "distance: 20 m" one of stops."""
+    if length is not None and length.unit == "percent":
+        return None
+    amount = most or length or time
+    if amount is None or (time is not None and time.unit != "seconds"):
+        return None
+    return limited_to(amount, used)
 
 
 @construction("limit: word=AT most=amount [of_what]", cost=0.4)
@@ -208,25 +213,17 @@ def with_so_much(least: Amount, used: int) -> list[LimitClause] | None:
     return [LimitClause(least, keep, used) for keep in (False, True)] if least.unit == "percent" else None
 
 
-@construction("limit: back=home WITH least=reserve [LEFT]", cost=0.2)
-def home_with(back: Home, least: Amount, used: int) -> LimitClause | None:
-    """Compose "be back with 30 % of the battery"."""
-    return LimitClause(least, True, used, back=True) if back.then != "return_to_end" and not back.to_it else None
-
-
-@construction("limit: RETURN BEFORE least=low_battery [LEFT]", cost=0.2)
-def back_before(least: Amount, used: int) -> LimitClause | None:
-    """Compose "be back before the battery is at 30 %"."""
-    return LimitClause(least, True, used, back=True) if least.unit == "percent" else None
-
-
 @construction(
+    "limit: back=home WITH least=reserve [LEFT]",
+    "limit: RETURN BEFORE least=low_battery [LEFT]",
     "limit: home in_case least=low_battery",
     "limit: in_case least=low_battery [COMMA] [STOP] [AND] home",
     cost=0.2,
 )
-def home_below(least: Amount, used: int) -> LimitClause:
-    """Compose "return if the battery drops below 25 %"."""
+def home_with(least: Amount, used: int, back: Home | None = None) -> LimitClause | None:
+    """Compose "be back with 30 % of the battery" and "return if the battery drops below 25 %"."""
+    if least.unit != "percent" or (back is not None and (back.then == "return_to_end" or back.to_it)):
+        return None
     return LimitClause(least, True, used, back=True)
 
 

@@ -208,7 +208,8 @@ def captured_at(
 @construction("command: STARTING one=placed", "command: word=ENDING one=placed", cost=0.2)
 def in_turn_there(one: CaptureCommand, used: int, word: Lex | None = None) -> InTurn | None:
     """Compose "begin at tree 46 with a picture" and "end at tree 46 by measuring CO2"."""
-    ends = word is not None and "ends_there" in word.features
+    marked = one.place is not None and one.place.selector.named_marker  # "end at the charger": the robot stays there
+    ends = word is not None and "ends_there" in word.features and not marked
     return InTurn(replace(one, used=used), word is None, used) if word is None or ends else None
 
 
@@ -532,6 +533,12 @@ def _contrasts(clause: LinkedCommand) -> bool:
     place = getattr(clause.command, "place", None)
     left_out = place is not None and any(isinstance(part, s.Excluding) for part in place.selector.walk())
     return left_out or (clause.before is not None and clause.before.contrasts)
+
+
+@construction("said: one=terse", cost=0.4)
+def first_terse(one: When) -> Said | None:
+    """Compose "is it above 30 degC at tree 4", behind which stands what is done then."""
+    return Said((LinkedCommand(None, one),)) if one.measured_at is not None else None
 
 
 @construction("said: before=said joint=joint one=terse", cost=0.4)

@@ -49,7 +49,8 @@ def allowed(
         state = with_assumption(state, taken)
     if state.awaits_command:
         raise NotComposed(message("does it apply to all these places together, or to each of them?", context="fault"))
-    if state.commands_in_sentence and any(step.visits_each and step.is_optional for step in steps[-1:]):
+    optional = bool(state.scope) and node_at(state.plan, state.scope[:-1]).is_optional_step
+    if optional or (state.commands_in_sentence and any(one.visits_each and one.is_optional for one in steps[-1:])):
         raise NotComposed(message("what it applies to may already be left out", context="fault"))
     after_and = joint is None or joint.both or joint.then or joint.full
     if following and state.commands_in_sentence and not after_and:

@@ -264,7 +264,8 @@ def _read(
                 raise NotComposed(message("it does not say what to do with them", context="fault"))
             if command.ends and any(not isinstance(one.command, LimitClause) for one in following):
                 raise NotComposed(message("something follows the end of the mission", context="fault"))
-            return drive(setting, state, command)
+            driven = drive(setting, state, command)
+            return _same_there(setting, state, driven, command, following) if command.instead else driven
         case Lead():
             if joint is not None and not (joint.full or joint.then or joint.both):
                 _require_other_places(state, command.place)
@@ -324,6 +325,25 @@ def _stop(setting: Setting, state: DialogueState, command: StopCommand) -> Dialo
         return replace(state, nominal="stay", nominal_said=(*before, *said))
     state = with_step(state, p.StopMission(id="", said=said))
     return replace(state, in_case="stay") if command.stays else state
+
+
+def _same_there(
+    setting: Setting,
+    state: DialogueState,
+    driven: DialogueState,
+    command: DriveCommand,
+    following: Sequence[LinkedCommand],
+) -> DialogueState:
+    """Return the state after what the first case captures was captured at the place of another case.
+
+    Raises:
+        NotComposed: It is not another case.
+    """
+    if not _is_another_case(state) or not state.things:
+        raise NotComposed(message("it is not clear what is not done then", context="fault"))
+    if any(isinstance(one.command, CaptureCommand) for one in _rest_of_sentence(following)):
+        return driven
+    return capture(setting, driven, CaptureCommand(state.things, None, command.used))
 
 
 def _is_another_case(state: DialogueState) -> bool:

@@ -35,6 +35,7 @@ from fieldhand.planning.selections import (
     as_every_nth,
     as_in_row,
     as_ordered,
+    as_some,
     blocks_of,
     chooses_from_trees,
     is_next_to_here,
@@ -324,6 +325,8 @@ def ordered(setting: Setting, loop: p.ForEach, command: InAnOrder, said: Spans) 
         raise NotComposed(message("the places cannot have two different orders", context="fault"))
     if command.by in ("each", "any"):
         return replace(loop, said=said)
+    if (known := as_ordered(loop.select)) is not None and known.by == command.by != "attribute":
+        return replace(loop, said=said)  # "starting at the north end ..., and work your way south"
     if loop.order == "given" or loop.optional or loop.at_most is not None:
         raise NotComposed(message("an order of places cannot be combined with a choice of how many", context="fault"))
     if command.by == "reverse":
@@ -399,7 +402,10 @@ def limit_visits(setting: Setting, state: DialogueState, command: VisitLimit) ->
         raise NotComposed(message("it is not clear of what so many are meant", context="fault"))
     path = state.loop[:-1]
     loop = for_each_at(state.plan, path)
-    if loop.optional or loop.at_most is not None or (state.where is not None and state.where.count is not None):
+    counted = state.where is not None and state.where.count is not None
+    if command.count is None and as_some(loop.select) is None:
+        counted = False  # "from the ten oldest trees, as many as you can"
+    if loop.optional or loop.at_most is not None or counted:
         raise NotComposed(message("it is not clear whether so many are meant, or at most so many", context="fault"))
     said = (*loop.said, *setting.spans_of(command.used))
     limited = replace(loop, at_most=command.count, optional=command.count is None, said=said)

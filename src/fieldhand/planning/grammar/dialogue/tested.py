@@ -21,6 +21,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
     node_at,
     walk,
     with_node,
+    with_selector,
 )
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, OpenQuestion, Setting
 from fieldhand.planning.grammar.meaning import NTH_READING, AllTests, Check, PlaceMeaning, Test
@@ -32,6 +33,8 @@ from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
 from fieldhand.terms import Test as Comparison
 
+#: Metres by which the place farthest to a side lies farther than the others of its group.
+_FARTHER_M = 1.0
 #: Tests of an attribute.
 TREE_TESTS: Mapping[Check, Comparison] = {"eq": "eq", "lt": "lt", "le": "le", "gt": "gt", "ge": "ge"}
 
@@ -252,10 +255,27 @@ def readings_at(setting: Setting, state: DialogueState, test: Test) -> tuple[Dia
         where = step.selector if step.selector is not None else where
         if step.act is not None and where is not None and _fits(step, test, setting.robot):
             taken.append(((number,), where, step.act))
-    meant = _place_meant(setting, tuple(dict.fromkeys(place for _, place, _ in taken)), test.place)
+    places = tuple(dict.fromkeys(place for _, place, _ in taken))
+    meant = _place_meant(setting, places, test.place)
+    if meant is not None and test.place.like is not None and not _says_side(meant, test.place.like.side):
+        steps = tuple(_said_to_side(step, meant, test.place.like.side, places) for step in state.plan.steps)
+        state = replace(state, plan=replace(state.plan, steps=steps))
     if meant is None and test.place.like is not None:
         raise NotComposed(message("it is not clear which readings are tested", context="fault"))
     return state, list({act.action: path for path, place, act in taken if place == meant}.values())
+
+
+def _says_side(place: s.Selector, side: str) -> bool:
+    """Return True if a place names a side, or is a corner or an end of a row."""
+    return side not in SIDES or any(side in part.sides or isinstance(part, s.InRow) for part in place.walk())
+
+
+def _said_to_side(step: p.Node, place: s.Selector, side: str, places: Sequence[s.Selector]) -> p.Node:
+    """Return a step at a place with that place as the farthest to a side of all of them ("the northern one")."""
+    farthest = s.Extreme(side=cast(Any, side), of=s.UnionOf(parts=tuple(places)))
+    if step.selector != place:
+        return step
+    return with_selector(step, farthest) if step.act is None else replace(step.act, at=farthest)
 
 
 def _is_one(setting: Setting, place: s.Selector) -> bool:
@@ -279,9 +299,10 @@ def _place_meant(setting: Setting, places: Sequence[s.Selector], place: PlaceMea
     if any(one.relative for one in places):
         return None
     found = [resolve(one, setting.site, Context(here=setting.site.start)) for one in places]
-    north = [at[0].y if side in ("north", "south") else at[0].x for at in found if len(at) == 1]
-    ranked = sorted(north, reverse=side in ("north", "east"))
-    return places[north.index(ranked[0])] if len(ranked) == len(places) and ranked[0] != ranked[1] else None
+    along = [at[0].y if side in ("north", "south") else at[0].x for at in found if len(at) == 1]
+    ranked = sorted(along, reverse=side in ("north", "east"))
+    known = len(ranked) == len(places) and abs(ranked[0] - ranked[1]) >= _FARTHER_M
+    return places[along.index(ranked[0])] if known else None
 
 
 def reading_before(plan: p.InOrder, before: Path, robot: RobotProfile) -> Path | None:

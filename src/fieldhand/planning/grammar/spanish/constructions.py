@@ -123,7 +123,7 @@ construction("test: IS check=CMP value=amount", cost=0.3)(conditions.tree_compar
 construction("allow: FITS", cost=0.2)(conditions.if_it_fits)
 construction("limit: WITHOUT GO [UPTO] check=CMP most=amount", cost=0.3)(limits.not_more_than)
 construction("limit: BEFORE BATTERY [IS] [at] least=amount", cost=0.3)(limits.keep)
-construction("limit: RETURN BEFORE WHICH BATTERY [IS] [at] least=amount", cost=0.2)(limits.back_before)
+construction("limit: RETURN BEFORE WHICH BATTERY [IS] [at] least=amount", cost=0.2)(limits.home_with)
 construction("drive: GO OF place=place", cost=0.6)(driving.drive_to)
 
 
