@@ -120,6 +120,26 @@ def neighbours(noun: Lex) -> Chosen:
     return Chosen(inner, choice=Choice("beside"), neighbours=True)
 
 
+@construction("chosen: POINT", cost=0.1)
+def points() -> Chosen:
+    """Compose "points" along a row, which are trees."""
+    return Chosen(Nominal(s.Trees(), plural=True, kind="point"))
+
+
+@construction("chosen: word=DET noun=ROW OF chosen=chosen", cost=0.1)
+def row_of_trees(word: Lex, noun: Lex, chosen: Chosen) -> Chosen | None:
+    """Compose "a row of four trees"."""
+    choice = in_a_row(word, noun)
+    return None if choice is None or chosen.count is None else _with_choice(chosen, choice)
+
+
+@construction("chosen: chosen=chosen along rows=rows", cost=0.2)
+def along_rows(chosen: Chosen, rows: s.Selector) -> Chosen | None:
+    """Compose "four evenly spaced trees along row 5"."""
+    evenly = chosen.choice is not None and chosen.choice.by == "evenly" and chosen.choice.value is None
+    return in_area(chosen, rows, "in") if evenly else None
+
+
 # Words before the noun.
 
 
@@ -294,7 +314,7 @@ def from_a_side(chosen: Chosen, side: Lex) -> Chosen | None:
     return visited or (None if _as_nth(chosen) is not None else counted_from(chosen, side))
 
 
-@construction("chosen: chosen=chosen FROM [DET] side=DIR", cost=0.1)
+@construction("chosen: chosen=chosen FROM [DET] side=DIR [FINISH]", cost=0.1)
 def counted_from(chosen: Chosen, side: Lex) -> Chosen | None:
     """Compose "every third tree from the north" and "first two trees from the north"."""
     choice = chosen.choice
@@ -714,6 +734,8 @@ def _place(chosen: Chosen, choice: Choice, n: int | None) -> PlaceMeaning | None
         if choice.by != "nearby":
             return None
         return PlaceMeaning(s.Nearest(to=s.Here(), count=2, fresh=True, of=of), "nearby")
+    if inner.kind == "point" and choice.by != "evenly":
+        return None
     if inner.kind == "corner" and (n >= (inner.complete or n + 1) or choice.by not in ("nearest", "farthest")):
         return None
     if choice.to is not None and not _measurable(choice):

@@ -433,36 +433,15 @@ def ranking_of(rank: tuple[str, bool], attribute: Lex) -> list[tuple[str, bool]]
 
 
 @construction(
-    "two_rankings: first=ranking AND [DET] [m=count] second=ranking",
-    "two_behind: WITH DET first=ranking AND [DET] [TREE] [WITH] [DET] second=ranking",
-    cost=0.1,
+    "place: [DET] inner=nominal WITH DET first=ranking AND [DET] [TREE] [WITH] [DET] second=ranking", cost=0.1
 )
-def two_rankings(
-    first: tuple[str, bool], second: tuple[str, bool], m: int | None = None
-) -> tuple[str, bool, bool, int | None] | None:
-    """Compose "oldest and the youngest": attribute, whether the lowest are meant first and second, and how many."""
+def two_ranked(inner: Nominal, first: tuple[str, bool], second: tuple[str, bool]) -> PlaceMeaning | None:
+    """Compose "the tree with the highest and the lowest yield"."""
     name = first[0] or second[0]
-    if not name or second[0] not in ("", name) or first == second:
+    if not name or second[0] not in ("", name) or first == second or inner.single or inner.complete:
         return None
-    return (name, first[1], second[1], m)
-
-
-@construction(
-    "place: [DET] [n=count] best=two_rankings inner=nominal",
-    "place: [DET] inner=nominal best=two_behind",
-    cost=0.1,
-)
-def two_ranked(best: tuple[str, bool, bool, int | None], inner: Nominal, n: int = 1) -> PlaceMeaning | None:
-    """Compose "the oldest and the youngest tree in row 3" and "the tree with the highest and the lowest yield"."""
-    name, lowest_first, lowest_second, second_count = best
-    counts = (n, second_count or n)
-    if inner.single or inner.complete or (counts != (1, 1) and not inner.plural):
-        return None
-    parts = tuple(
-        s.Top(attribute=name, count=count, lowest=lowest, of=inner.selector)
-        for count, lowest in zip(counts, (lowest_first, lowest_second), strict=True)
-    )
-    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=sum(counts))
+    parts = tuple(s.Top(attribute=name, count=1, lowest=lowest, of=inner.selector) for _, lowest in (first, second))
+    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=2)
 
 
 @construction("nominal: EVERYTHING", cost=0.2)
