@@ -133,13 +133,6 @@ def row_of_trees(word: Lex, noun: Lex, chosen: Chosen) -> Chosen | None:
     return None if choice is None or chosen.count is None else _with_choice(chosen, choice)
 
 
-@construction("chosen: chosen=chosen along rows=rows", cost=0.2)
-def along_rows(chosen: Chosen, rows: s.Selector) -> Chosen | None:
-    """Compose "four evenly spaced trees along row 5"."""
-    evenly = chosen.choice is not None and chosen.choice.by == "evenly" and chosen.choice.value is None
-    return in_area(chosen, rows, "in") if evenly else None
-
-
 # Words before the noun.
 
 
@@ -358,13 +351,6 @@ def so_many_of_them(chosen: Chosen, n: int) -> Chosen | None:
     return replace(chosen, count=n) if chosen.count is None and chosen.inner.plural and chosen.rank is None else None
 
 
-@construction("chosen: chosen=chosen COMMA DET n=count choice=chosen_as", cost=0.2)
-def so_many_chosen_behind(chosen: Chosen, n: int, choice: Choice) -> Chosen | None:
-    """Compose "yellow trees, the eight nearest to the charger"."""
-    some = so_many_of_them(chosen, n)
-    return None if some is None else _with_choice(some, choice)
-
-
 @construction(
     "chosen: chosen=chosen [COMMA] choice=chosen_as",
     "chosen: chosen=chosen STANDS choice=chosen_as",
@@ -542,15 +528,6 @@ def with_the_most(rank: tuple[str, bool]) -> Choice | None:
 def that_yielded(rank: tuple[str, bool]) -> Choice | None:
     """Compose "that yielded the least"."""
     return None if rank[0] else Choice("best", ("yield", rank[1]))
-
-
-@construction("chosen: chosen=chosen BY [DET] attribute=ATTR", cost=0.1)
-def ranked_by(chosen: Chosen, attribute: Lex) -> list[Chosen] | None:
-    """Compose "bottom 4 trees by yield"."""
-    choice = chosen.choice
-    if choice is None or choice.by != "best" or choice.value[0]:
-        return None
-    return [replace(chosen, choice=Choice("best", (name, choice.value[1]))) for name in attribute.value]
 
 
 @construction("chosen_as: AT word=DET noun=ROW", cost=0.1)

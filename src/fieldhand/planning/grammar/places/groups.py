@@ -103,17 +103,6 @@ def somewhere(where: s.Selector) -> PlaceMeaning:
     return PlaceMeaning(s.Take(count=1, of=where), "one")
 
 
-@construction("place: ASMANY as_can OF group=place", "place: ASMANY OF group=place as_can", cost=0.2)
-def as_many_of(group: PlaceMeaning) -> PlaceMeaning | None:
-    """Compose "as many as you can of the yellow trees"."""
-    listed = all(one.named_tree for one in group.selector.members)
-    if group.shape not in ("several", "area") or group.per is not None or group.optional or group.each:
-        return None
-    if group.count is not None and not listed:
-        return None
-    return replace(group, shape="several", optional=True, count=None)
-
-
 @construction("place: one=place ITSELF", cost=0.1)
 def tree_itself(one: PlaceMeaning) -> PlaceMeaning | None:
     """Compose "tree 40 itself"."""
@@ -236,12 +225,6 @@ def the_same(noun: Lex) -> PlaceMeaning:
     """Compose "the same trees"."""
     several = noun.plural or "plural" in noun.features
     return PlaceMeaning(s.Here(), "those") if several else PlaceMeaning(s.Here(), "here", one_tree=True)
-
-
-@construction("owned_by: ITS", cost=0.1)
-def its() -> PlaceMeaning:
-    """Compose "its", of the place spoken of."""
-    return PlaceMeaning(s.Here(), "here")
 
 
 @construction("place: word=IT", cost=0.3)

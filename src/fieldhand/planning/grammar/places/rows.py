@@ -150,12 +150,6 @@ def row_list(noun: Lex, first: s.Rows) -> tuple[s.Rows, ...] | None:
     return (first,) if noun.plural else None
 
 
-@construction("row_list: ROW first=row_item [COMMA] [AND] ROW item=row_item", cost=0.0)
-def two_in_row_list(first: s.Rows, item: s.Rows) -> tuple[s.Rows, ...]:
-    """Compose "row 3 and row 5", the beginning of "row 3, row 5 and row 7"."""
-    return (first, item)
-
-
 @construction("row_list: rows=row_list [COMMA] [AND] [ROW] item=row_item", cost=0.1)
 def longer_row_list(rows: tuple[s.Rows, ...], item: s.Rows) -> tuple[s.Rows, ...]:
     """Compose "rows 3, 5 and 7 to 9"."""
