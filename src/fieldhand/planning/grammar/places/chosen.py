@@ -773,6 +773,8 @@ def _selector(choice: Choice, n: int, of: s.Selector) -> s.Selector | None:
         case "nth":
             every = s.EveryNth(nth=value.n, start=value.start, counted_from=value.counted_from, of=of)
             return every if value.visited_from is None else s.Ordered(by=AWAY_FROM[value.visited_from], of=every)
+        case "at" | "numbered":
+            return None
         case _ if n < 2:
             return None
         case "spread":

@@ -155,7 +155,7 @@ def out_with_but(used: int, out: LeftOut | None = None, trees: tuple[str, ...] =
         return None
     if out is None:
         return LeftOut(trees=trees)
-    return out
+    return None if out.trees == ("1",) and not out.as_trees else out  # "the last row but one"
 
 
 @construction(

@@ -115,17 +115,6 @@ def longer_value_list(first: Lex, rest: tuple[tuple[str, str], ...]) -> list[tup
     return [(one, *rest) for one in first.value if one[0] == rest[0][0] and one not in rest]
 
 
-@construction("attribute_test: NEITHER first=ATTRVAL NOR second=ATTRVAL", cost=0.1)
-def neither_value(first: Lex, second: Lex) -> list[AttributeTest]:
-    """Compose "neither yellow nor green"."""
-    return [
-        (one[0], "none", (one[1], other[1]))
-        for one in first.value
-        for other in second.value
-        if one[0] == other[0] and one != other
-    ]
-
-
 @construction("nominal: values=value_list inner=nominal", cost=0.2)
 def of_several_kinds(values: tuple[tuple[str, str], ...], inner: Nominal) -> Nominal | None:
     """Compose "yellow or pale green trees"."""

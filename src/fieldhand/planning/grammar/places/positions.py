@@ -525,3 +525,9 @@ def some_of_a_row(n: int, m: int, inner: Nominal) -> PlaceMeaning | None:
     if n >= m or inner.single or inner.complete or not inner.plural or inner.kind != "tree":
         return None
     return PlaceMeaning(s.Evenly(count=n, of=s.Successive(count=m, of=inner.selector)), "several", count=n)
+
+
+@construction("place: [DET] number=row_parity noun=TREE in_ rows=any_rows", cost=0.1)
+def trees_of_parity(number: int, noun: Lex, rows: s.Selector) -> PlaceMeaning | None:
+    """Compose "the even-numbered trees of row 3"."""
+    return PlaceMeaning(s.EveryNth(nth=2, start=number, of=rows), "several", each=True) if noun.plural else None

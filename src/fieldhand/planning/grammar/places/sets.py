@@ -147,6 +147,14 @@ def choices_before_noun(choices: Choices, inner: Nominal, site: Site) -> list[Pl
     return all_among(inner.selector, choices, site)
 
 
+@construction("place: [DET] first=bare OR [DET] second=bare inner=nominal", cost=0.1, given=("site",))
+def either_choice(first: Chosen, second: Chosen, inner: Nominal, site: Site) -> list[PlaceMeaning] | None:
+    """Compose "the oldest or the youngest tree in row 3": which of the two?"""
+    if choices_before_noun((first, second), inner, site) is None:
+        return None
+    return [place for one in (first, second) for place in chosen_among(inner.selector, one, site)]
+
+
 @construction("place: first=place [COMMA] AND DET choices=bares", cost=0.2, given=("site",))
 def and_another_choice(first: PlaceMeaning, choices: Choices, site: Site) -> list[PlaceMeaning] | None:
     """Compose "the oldest tree in row 3 and the youngest", of the same trees."""
