@@ -593,7 +593,7 @@ def clause_choice(choice: Choice) -> Chosen | None:
 @construction("bare: [n=count] [ONE] choice=chosen_as", "bare: [n=count] [ONE] choice=far_side", cost=0.1)
 def bare_behind(choice: Choice, n: int | None = None) -> Chosen | None:
     """Compose "one nearest to the charger", of places that something else names."""
-    return None if choice.by == "best" else bare(choice, n)
+    return None if choice.by == "best" and n is None else bare(choice, n)
 
 
 @construction("bare: [n=count] choice=chosen_by [ONE]", "bare: choice=chosen_by n=count [ONE]", cost=0.1)

@@ -420,6 +420,7 @@ def ranked_of_the_row(rank: Lex, side: Lex | None = None) -> PlaceMeaning | None
     "start: STARTING [DET] side=MOST ONE",
     "start: STARTING ITS side=MOST [TREE]",
     "start: STARTING [DET] [rank=ORD] TREE AT [DET] side=DIR FINISH [in_] [any_rows]",
+    "start: STARTING DET ONE AT [DET] side=DIR FINISH",
     "start: STARTING [DET] side=DIR FINISH in_ any_rows",
     cost=0.1,
 )
