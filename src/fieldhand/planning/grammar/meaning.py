@@ -69,7 +69,7 @@ class Nominal:
     plural: bool = False
     single: bool = False
     complete: int = 0
-    kind: Literal["tree", "corner"] = "tree"
+    kind: Literal["tree", "corner", "point"] = "tree"
     tested: bool = False
     pronoun: bool = False
     of_side: bool = False

@@ -129,12 +129,6 @@ def named_blocks(noun: Lex, named: tuple[s.Selector, ...]) -> tuple[s.Selector, 
     return named if noun.plural and "block" in noun.features and len(set(named)) == len(named) else None
 
 
-@construction("region: blocks=blocks", cost=0.1)
-def blocks_as_region(blocks: tuple[s.Selector, ...]) -> s.Selector:
-    """Compose "the river and home blocks" as an area."""
-    return s.UnionOf(parts=blocks)
-
-
 @construction(
     "each_block: EACH noun=PLOT", "each_block: EACH OF DET noun=PLOT", "each_block: EACH DET noun=PLOT",
     cost=0.1, given=("site",),
@@ -206,12 +200,6 @@ def bare_block(name: Lex) -> s.Selector:
 def bare_block_as_region(block: s.Selector) -> s.Selector:
     """Compose "Home" as an area."""
     return block
-
-
-@construction("region: whole=bare_block part=rows", cost=0.1)
-def rows_behind_block(whole: s.Selector, part: s.Selector) -> s.Selector | None:
-    """Compose "Home rows 3 and 8"."""
-    return over(part, whole) if chooses_from_trees(part) else None
 
 
 @construction("region: block=block", cost=0.0)

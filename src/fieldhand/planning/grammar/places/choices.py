@@ -6,10 +6,9 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import CORNERS
-from fieldhand.planning.grammar.places.numbered import ids_of
-from fieldhand.planning.grammar.places.numbers import VAGUE_NUMBERS, name_of
+from fieldhand.planning.grammar.places.numbers import name_of
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import are_rows, chooses_from_trees, is_by_attribute, is_description, is_one_row
+from fieldhand.planning.selections import are_rows, chooses_from_trees, is_one_row
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -21,45 +20,6 @@ _ANYWHERE = s.Trees()
 def of_your_choice(inner: Nominal) -> Nominal | None:
     """Compose "trees of your choice", of which something else says how many."""
     return None if inner.single or inner.complete or not inner.plural else inner
-
-
-@construction("place: word=DET inner=nominal", "place: word=DET n=count inner=nominal", cost=0.4, given=("site",))
-def those_there(word: Lex, inner: Nominal, site: Site, n: int | None = None) -> list[PlaceMeaning] | None:
-    """Compose "the yellow tree" and "the three yellow trees": all of them, or any so many if there are more."""
-    if inner.single or inner.complete or inner.pronoun or "definite" not in word.features:
-        return None
-    if (n is None and inner.plural) or inner.of_side or inner.kind != "tree" or not is_description(inner.selector):
-        return None
-    return _so_many(n or 1, inner.selector, site)
-
-
-@construction("place: word=DET inner=nominal", cost=0.4)
-def some_of_them(word: Lex, inner: Nominal) -> list[PlaceMeaning] | None:
-    """Compose "some trees": how many?"""
-    if "vague" not in word.features or not inner.plural or inner.single or inner.complete:
-        return None
-    return [PlaceMeaning(s.Take(count=n, of=inner.selector), "several", count=n) for n in VAGUE_NUMBERS]
-
-
-@construction("place: word=EACH n=count inner=nominal", cost=0.3, given=("site",))
-def all_so_many_there(word: Lex, n: int, inner: Nominal, site: Site) -> list[PlaceMeaning] | None:
-    """Compose "all 12 yellow trees" where there are others, too."""
-    if "all_of" not in word.features or inner.single or inner.complete or not inner.plural:
-        return None
-    ways = _so_many(n, inner.selector, site)
-    return ways if ways is not None and len(ways) > 1 else None
-
-
-def _so_many(n: int, selector: s.Selector, site: Site) -> list[PlaceMeaning] | None:
-    """Return the meanings of so many trees of a selection: all of them if there are as many."""
-    there = ids_of(selector, site)
-    if there is None or len(there) < n:
-        return None
-    every = PlaceMeaning(selector, "several")
-    if len(there) == n:
-        return [PlaceMeaning(s.Take(count=1, of=selector), "one") if n == 1 else every]
-    some = PlaceMeaning(s.Take(count=n, of=selector), "one" if n == 1 else "several", count=n)
-    return [every, some]
 
 
 @construction("place: first=place OR second=place", "place: ANY first=place OR second=place", cost=0.4)
@@ -111,14 +71,6 @@ def either_end(rows: s.Selector, noun: Lex | None = None) -> list[PlaceMeaning] 
     if (noun is not None and noun.plural) or not is_one_row(rows):
         return None
     return [PlaceMeaning(s.InRow(first=at, last=at, of=rows), "one") for at in (1, -1)]
-
-
-@construction("place: ANY inner=nominal", cost=0.4, given=("site",))
-def any_described(inner: Nominal, site: Site) -> list[PlaceMeaning] | None:
-    """Compose "any yellow tree": one of them, or each that there is?"""
-    if inner.single or inner.complete or inner.tested or not is_by_attribute(inner.selector):
-        return None
-    return _so_many(1, inner.selector, site)
 
 
 @construction(

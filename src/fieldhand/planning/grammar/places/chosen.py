@@ -120,6 +120,19 @@ def neighbours(noun: Lex) -> Chosen:
     return Chosen(inner, choice=Choice("beside"), neighbours=True)
 
 
+@construction("chosen: POINT", cost=0.1)
+def points() -> Chosen:
+    """Compose "points" along a row, which are trees."""
+    return Chosen(Nominal(s.Trees(), plural=True, kind="point"))
+
+
+@construction("chosen: word=DET noun=ROW OF chosen=chosen", cost=0.1)
+def row_of_trees(word: Lex, noun: Lex, chosen: Chosen) -> Chosen | None:
+    """Compose "a row of four trees"."""
+    choice = in_a_row(word, noun)
+    return None if choice is None or chosen.count is None else _with_choice(chosen, choice)
+
+
 # Words before the noun.
 
 
@@ -294,7 +307,7 @@ def from_a_side(chosen: Chosen, side: Lex) -> Chosen | None:
     return visited or (None if _as_nth(chosen) is not None else counted_from(chosen, side))
 
 
-@construction("chosen: chosen=chosen FROM [DET] side=DIR", cost=0.1)
+@construction("chosen: chosen=chosen FROM [DET] side=DIR [FINISH]", cost=0.1)
 def counted_from(chosen: Chosen, side: Lex) -> Chosen | None:
     """Compose "every third tree from the north" and "first two trees from the north"."""
     choice = chosen.choice
@@ -336,13 +349,6 @@ def _with_nth(chosen: Chosen, **changed: Any) -> Chosen | None:
 def so_many_of_them(chosen: Chosen, n: int) -> Chosen | None:
     """Compose "yellow trees, eight of them"."""
     return replace(chosen, count=n) if chosen.count is None and chosen.inner.plural and chosen.rank is None else None
-
-
-@construction("chosen: chosen=chosen COMMA DET n=count choice=chosen_as", cost=0.2)
-def so_many_chosen_behind(chosen: Chosen, n: int, choice: Choice) -> Chosen | None:
-    """Compose "yellow trees, the eight nearest to the charger"."""
-    some = so_many_of_them(chosen, n)
-    return None if some is None else _with_choice(some, choice)
 
 
 @construction(
@@ -524,15 +530,6 @@ def that_yielded(rank: tuple[str, bool]) -> Choice | None:
     return None if rank[0] else Choice("best", ("yield", rank[1]))
 
 
-@construction("chosen: chosen=chosen BY [DET] attribute=ATTR", cost=0.1)
-def ranked_by(chosen: Chosen, attribute: Lex) -> list[Chosen] | None:
-    """Compose "bottom 4 trees by yield"."""
-    choice = chosen.choice
-    if choice is None or choice.by != "best" or choice.value[0]:
-        return None
-    return [replace(chosen, choice=Choice("best", (name, choice.value[1]))) for name in attribute.value]
-
-
 @construction("chosen_as: AT word=DET noun=ROW", cost=0.1)
 def in_a_row(word: Lex, noun: Lex) -> Choice | None:
     """Compose "in a row"."""
@@ -596,7 +593,7 @@ def clause_choice(choice: Choice) -> Chosen | None:
 @construction("bare: [n=count] [ONE] choice=chosen_as", "bare: [n=count] [ONE] choice=far_side", cost=0.1)
 def bare_behind(choice: Choice, n: int | None = None) -> Chosen | None:
     """Compose "one nearest to the charger", of places that something else names."""
-    return None if choice.by == "best" else bare(choice, n)
+    return None if choice.by == "best" and n is None else bare(choice, n)
 
 
 @construction("bare: [n=count] choice=chosen_by [ONE]", "bare: choice=chosen_by n=count [ONE]", cost=0.1)
@@ -714,6 +711,8 @@ def _place(chosen: Chosen, choice: Choice, n: int | None) -> PlaceMeaning | None
         if choice.by != "nearby":
             return None
         return PlaceMeaning(s.Nearest(to=s.Here(), count=2, fresh=True, of=of), "nearby")
+    if inner.kind == "point" and choice.by != "evenly":
+        return None
     if inner.kind == "corner" and (n >= (inner.complete or n + 1) or choice.by not in ("nearest", "farthest")):
         return None
     if choice.to is not None and not _measurable(choice):
@@ -774,6 +773,8 @@ def _selector(choice: Choice, n: int, of: s.Selector) -> s.Selector | None:
         case "nth":
             every = s.EveryNth(nth=value.n, start=value.start, counted_from=value.counted_from, of=of)
             return every if value.visited_from is None else s.Ordered(by=AWAY_FROM[value.visited_from], of=every)
+        case "at" | "numbered":
+            return None
         case _ if n < 2:
             return None
         case "spread":

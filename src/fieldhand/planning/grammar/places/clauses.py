@@ -32,7 +32,7 @@ class Trait:
         test: Test; None for an area.
         area: Area.
         outside: True if they are outside of the area.
-        denied: True if the phrase says that they are not in it.
+        denied: True if the phrase has "not".
     """
 
     test: AttributeTest | None = None
@@ -83,12 +83,21 @@ def denied(trait: Trait) -> Clause | None:
     if trait.test is None:
         return None if trait.outside else (replace(trait, outside=True, denied=True),)
     name, check, value = trait.test
-    return (Trait((name, _OPPOSITE[check], value)),) if check in _OPPOSITE else None  # type: ignore[arg-type]
+    return (Trait((name, _OPPOSITE[check], value), denied=True),) if check in _OPPOSITE else None  # type: ignore[arg-type]
 
 
-@construction("traits: first=traits and_or_but [which_is] then=traits", cost=0.0)
-def more_traits(first: Clause, then: Clause) -> Clause:
+@construction("traits: NEITHER first=trait NOR then=trait", cost=0.0)
+def neither(first: Trait, then: Trait) -> Clause | None:
+    """Compose "neither yellow nor in row 3"."""
+    one, other = denied(first), denied(then)
+    return None if one is None or other is None or first == then else (*one, *other)
+
+
+@construction("traits: first=traits and_or_but [again=which_is] then=traits", cost=0.0)
+def more_traits(first: Clause, then: Clause, again: str = "") -> Clause | None:
     """Compose "yellow and not in row 3"."""
+    if first[-1].denied and not then[0].denied and not again:
+        return None  # "not yellow and older than 8 years": older, or not both of these?
     return (*first, *then)
 
 

@@ -45,7 +45,6 @@ class LeftOut:
 
     Attributes:
         place: Places of their own.
-        trees_there: True if only those of the other places that are in an area are left out ("any in the wet corner").
         trees: Numbers or ids of trees, or numbers of rows.
         as_trees: True if the phrase says that these are trees.
         value: Attribute and value of those that are left out.
@@ -56,7 +55,6 @@ class LeftOut:
     """
 
     place: PlaceMeaning | None = None
-    trees_there: bool = False
     trees: tuple[str, ...] = ()
     as_trees: bool = False
     value: tuple[str, str] | None = None
@@ -72,14 +70,6 @@ def except_word(word: Lex | None = None) -> str | None:
     return "except" if word is None or "leaves_out" in word.features else None
 
 
-@construction(
-    "those_in: ANY [TREE] [STANDS] in_", "those_in: DET [ONE] [STANDS] in_", "those_in: DET TREE [STANDS] in_", cost=0.1
-)
-def those_in() -> str:
-    """Compose "any that lie in" and "those standing in", behind what is left out of an area."""
-    return "in"
-
-
 @construction("out: place=place", "out: in_ place=place", "out: which_is in_ place=place", cost=0.1)
 def places_out(place: PlaceMeaning) -> LeftOut:
     """Compose "the yellow trees" and "in the wet corner"."""
@@ -91,18 +81,6 @@ def described_out(clause: Clause) -> LeftOut | None:
     """Compose "any that are yellow"."""
     inner = with_attribute(Nominal(s.Trees(), plural=True), clause)
     return None if inner is None else LeftOut(place=PlaceMeaning(inner.selector, "several"))
-
-
-@construction("out: out=there_out", cost=0.0)
-def part_out(out: LeftOut) -> LeftOut:
-    """Compose "those in the wet corner" behind "except"."""
-    return out
-
-
-@construction("there_out: those_in place=place", cost=0.1)
-def trees_there_out(place: PlaceMeaning) -> LeftOut:
-    """Compose "those in the wet corner"."""
-    return LeftOut(place=place, trees_there=True)
 
 
 @construction("out: trees=numbers", "out: [DET] word=NUMBERED trees=numbers", "out: [DET] named=tree_ids", cost=0.0)
@@ -177,12 +155,11 @@ def out_with_but(used: int, out: LeftOut | None = None, trees: tuple[str, ...] =
         return None
     if out is None:
         return LeftOut(trees=trees)
-    return out
+    return None if out.trees == ("1",) and not out.as_trees else out  # "the last row but one"
 
 
 @construction(
     "place: whole=place [COMMA] out=but_out",
-    "place: whole=place [COMMA] out=there_out LEFTOUT",
     cost=0.2,
     given=("site",),
 )
@@ -195,7 +172,7 @@ def without(whole: PlaceMeaning, out: LeftOut, site: Site) -> list[PlaceMeaning]
     if whole.shape not in ("several", "area") or whole.optional:
         return None
     if out.place is not None:
-        left = except_for(whole, out.place, site, those=out.trees_there)
+        left = except_for(whole, out.place, site)
         return None if left is None else [left]
     if out.positions and not are_several_rows(whole.selector):
         return except_positions(whole, out.positions, out.rows)
@@ -290,14 +267,13 @@ def except_positions(
     return [replace(whole, selector=s.Excluding(places=places, of=rows), shape="several")]
 
 
-def except_for(whole: PlaceMeaning, part: PlaceMeaning, site: Site, *, those: bool = False) -> PlaceMeaning | None:
+def except_for(whole: PlaceMeaning, part: PlaceMeaning, site: Site) -> PlaceMeaning | None:
     """Return "all trees except the yellow trees".
 
     Args:
         whole: Places of which some are left out.
         part: Places that are left out.
         site: The site.
-        those: True if only trees there are meant, not the area itself.
     """
     if whole.shape not in ("several", "area") or part.shape not in ("one", "several", "area"):
         return None
@@ -322,7 +298,7 @@ def except_for(whole: PlaceMeaning, part: PlaceMeaning, site: Site, *, those: bo
         part = replace(part, selector=over(part.selector, blocks.pop()))  # "row 4" behind "rows 1 to 6 of block North"
     if _is_counted_in_it(part, whole) or (part.shape == "one" and picks_from_all(part.selector)):
         part = replace(part, selector=over(part.selector, whole.selector))  # "every yellow tree but the oldest"
-    all_of_it = whole.shape == "area" and (part.shape == "several" or those)  # "row 6 except the yellow trees"
+    all_of_it = whole.shape == "area" and part.shape == "several"  # "row 6 except the yellow trees"
     selector = s.Excluding(places=part.selector, of=whole.selector)
     return replace(whole, selector=selector, shape="several" if all_of_it else whole.shape)
 

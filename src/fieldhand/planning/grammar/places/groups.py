@@ -8,6 +8,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning, Shape
 from fieldhand.planning.grammar.places.numbered import ids_of
+from fieldhand.planning.grammar.places.quantities import article, quantified, unquantified
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
     as_in_row,
@@ -15,7 +16,6 @@ from fieldhand.planning.selections import (
     as_some,
     as_top,
     chooses_from_trees,
-    is_by_attribute,
     is_description,
     is_end_of_site,
     landmark_of,
@@ -35,38 +35,21 @@ construction = GRAMMAR.construction
 _MOST_KINDS = 12
 
 
-@construction("place: [word=DET] inner=nominal", cost=0.3)
-def definite(inner: Nominal, word: Lex | None = None) -> PlaceMeaning | None:
-    """Compose "the yellow trees"."""
-    if inner.plural and not inner.complete and word is not None and "indefinite" in word.features:
-        return None  # "some trees": how many?
-    if inner.single:
-        return PlaceMeaning(inner.selector, "one")
-    if inner.complete:
-        return PlaceMeaning(inner.selector, "several", count=inner.complete)
-    return PlaceMeaning(inner.selector, "several") if inner.plural else None
-
-
-@construction("owned_by: [word=DET] inner=owner", cost=0.3)
-def owned_by(inner: Nominal, word: Lex | None = None) -> PlaceMeaning | None:
+@construction("owned_by: [word=DET] inner=owner", cost=0.3, given=("site",))
+def owned_by(inner: Nominal, site: Site, word: Lex | None = None) -> PlaceMeaning | None:
     """Compose "the first tree's"."""
     if word is not None and word.features.isdisjoint({"definite", "indefinite"}):
         return None
-    return definite(inner, word) or (None if word is None else any_one(word, inner) or that_tree(word))
+    if word is None:
+        return unquantified(inner)
+    places = quantified(article(word), inner, site) if inner.single or "indefinite" in word.features else None
+    return places[0] if places else that_tree(word)
 
 
-@construction("place: word=DET inner=nominal", cost=0.3)
-def any_one(word: Lex, inner: Nominal) -> PlaceMeaning | None:
-    """Compose "a yellow tree"."""
-    if inner.single or inner.plural or inner.complete or "indefinite" not in word.features:
-        return None
-    return PlaceMeaning(s.Take(count=1, of=inner.selector), "one")
-
-
-@construction("place: [word=DET] inner=nominal COMMA DET exact=nominal", cost=0.2)
-def namely(inner: Nominal, exact: Nominal, word: Lex | None = None) -> PlaceMeaning | None:
+@construction("place: some=place COMMA DET exact=nominal", cost=0.2)
+def namely(some: PlaceMeaning, exact: Nominal) -> PlaceMeaning | None:
     """Compose "another tree, the farthest one from there"."""
-    vague = inner.single and as_some(inner.selector) is not None if word is None else any_one(word, inner) is not None
+    vague = some.shape == "one" and as_some(some.selector) is not None
     return PlaceMeaning(exact.selector, "one") if vague and exact.single and exact.pronoun else None
 
 
@@ -84,30 +67,6 @@ def in_each_case(some: PlaceMeaning, exact: PlaceMeaning) -> PlaceMeaning | None
     return replace(some, selector=parts[0] if len(parts) == 1 else s.UnionOf(parts=parts))
 
 
-@construction("place: word=ANY inner=nominal", "place: word=ANY DET inner=nominal", cost=0.3)
-def any_of_them(word: Lex, inner: Nominal) -> PlaceMeaning | None:
-    """Compose "any tree of row 4" and "whichever tree is farthest to the west"."""
-    if inner.single and "free_choice" in word.features:
-        return PlaceMeaning(inner.selector, "one")
-    if inner.tested and not inner.plural:
-        return PlaceMeaning(inner.selector, "several", each=True)  # "any tree that is older than 8 years"
-    if inner.single or is_by_attribute(inner.selector):
-        return None  # "any yellow tree": one, or each that there is?
-    return PlaceMeaning(s.Take(count=1, of=inner.selector), "one")
-
-
-@construction("place: ANY n=count inner=nominal", "place: ATLEAST n=count inner=nominal", cost=0.3)
-def any_so_many(n: int, inner: Nominal) -> PlaceMeaning | None:
-    """Compose "any three trees" and "at least three trees"."""
-    return None if inner.complete else so_many(n, inner)
-
-
-@construction("place: check=CMP n=count inner=nominal", cost=0.3)
-def at_most_so_many(check: Lex, n: int, inner: Nominal) -> PlaceMeaning | None:
-    """Compose "at most three trees"."""
-    return up_to(inner=inner, n=n) if check.value == ("le", "") else None
-
-
 @construction("place: [DET] rank=ORD n=count inner=nominal", cost=1.2)
 def first_trees(rank: Lex, n: int, inner: Nominal) -> PlaceMeaning | None:
     """Compose "the first three trees"."""
@@ -116,41 +75,10 @@ def first_trees(rank: Lex, n: int, inner: Nominal) -> PlaceMeaning | None:
     return PlaceMeaning(s.Nearest(to=s.Marker(name="start"), count=n), "several", count=n)
 
 
-@construction("place: EACH [DET] [n=count] inner=nominal", cost=0.2)
-def each_one(inner: Nominal, n: int | None = None) -> PlaceMeaning | None:
-    """Compose "every yellow tree"."""
-    if inner.single or (n is not None and n != inner.complete):
-        return None
-    return PlaceMeaning(inner.selector, "several", each=True, count=inner.complete or None)
-
-
-@construction("place: [word=DET] n=count inner=nominal", cost=0.2)
-def so_many(n: int, inner: Nominal, word: Lex | None = None) -> PlaceMeaning | None:
-    """Compose "three trees"."""
-    if word is not None and not inner.complete and "indefinite" not in word.features:
-        return None  # "the three yellow trees": which are meant, if there are more?
-    if inner.single or (inner.complete and word is not None and n != inner.complete):
-        return None
-    if inner.complete == n:
-        return PlaceMeaning(inner.selector, "several", count=n)
-    if n == 1:
-        return PlaceMeaning(s.Take(count=1, of=inner.selector), "one")
-    return PlaceMeaning(s.Take(count=n, of=inner.selector), "several", count=n)
-
-
 @construction("place: n=count POINT SPREAD [DET] zone=ZONE", cost=0.2)
 def points_over(n: int, zone: Lex) -> PlaceMeaning:
     """Compose "five points spread across the wet corner"."""
     return PlaceMeaning(s.PointsIn(zone=zone.value, count=n), "several", count=n)
-
-
-@construction("place: ASMANY [DET] [OTHER] inner=nominal as_can", cost=0.2)
-@construction("place: ASMANY [DET] [OTHER] inner=nominal", cost=2.0)
-def as_many(inner: Nominal) -> PlaceMeaning | None:
-    """Compose "as many trees as you can"."""
-    if inner.single or not inner.plural:
-        return None
-    return PlaceMeaning(inner.selector, "several", optional=True)
 
 
 @construction("place: EACH [OF] word=DET noun=TREE", cost=0.3)
@@ -175,17 +103,6 @@ def somewhere(where: s.Selector) -> PlaceMeaning:
     return PlaceMeaning(s.Take(count=1, of=where), "one")
 
 
-@construction("place: ASMANY as_can OF group=place", "place: ASMANY OF group=place as_can", cost=0.2)
-def as_many_of(group: PlaceMeaning) -> PlaceMeaning | None:
-    """Compose "as many as you can of the yellow trees"."""
-    listed = all(one.named_tree for one in group.selector.members)
-    if group.shape not in ("several", "area") or group.per is not None or group.optional or group.each:
-        return None
-    if group.count is not None and not listed:
-        return None
-    return replace(group, shape="several", optional=True, count=None)
-
-
 @construction("place: one=place ITSELF", cost=0.1)
 def tree_itself(one: PlaceMeaning) -> PlaceMeaning | None:
     """Compose "tree 40 itself"."""
@@ -207,33 +124,6 @@ def tree_itself(one: PlaceMeaning) -> PlaceMeaning | None:
 def as_can() -> str:
     """Compose "as you can get to" and "as the battery allows"."""
     return "as possible"
-
-
-@construction("place: UPTO n=count inner=nominal", cost=0.2)
-def up_to(n: int, inner: Nominal) -> PlaceMeaning | None:
-    """Compose "up to six trees"."""
-    return None if inner.single or inner.complete else PlaceMeaning(inner.selector, "several", at_most=n)
-
-
-@construction("place: OTHER inner=nominal", cost=0.3)
-def different_ones(inner: Nominal) -> PlaceMeaning | None:
-    """Compose "different trees", of which something else says how many."""
-    if inner.single or not inner.plural or inner.complete:
-        return None
-    return PlaceMeaning(_unvisited(inner.selector), "several")
-
-
-@construction("nominal: ANOTHER inner=nominal", "nominal: DET OTHER inner=nominal", cost=0.2)
-def another(inner: Nominal) -> Nominal | None:
-    """Compose "another tree"."""
-    if inner.single or inner.plural or inner.complete:
-        return None
-    return replace(inner, selector=s.Take(count=1, of=_unvisited(inner.selector)), single=True)
-
-
-def _unvisited(selector: s.Selector) -> s.Selector:
-    """Return a selector of the trees of a selection that the robot has not visited."""
-    return s.NotVisited(of=selector)
 
 
 @construction("place_list: first=place COMMA second=place", "place_list: first=place_list COMMA second=place", cost=0.4)
@@ -346,24 +236,10 @@ def the_same(noun: Lex) -> PlaceMeaning:
     return PlaceMeaning(s.Here(), "those") if several else PlaceMeaning(s.Here(), "here", one_tree=True)
 
 
-@construction("owned_by: ITS", cost=0.1)
-def its() -> PlaceMeaning:
-    """Compose "its", of the place spoken of."""
-    return PlaceMeaning(s.Here(), "here")
-
-
 @construction("place: word=IT", cost=0.3)
 def it(word: Lex) -> PlaceMeaning:
     """Compose "it"."""
     return PlaceMeaning(s.Here(), "those" if "of_several" in word.features else "here")
-
-
-@construction("place: word=EACH n=count inner=nominal", cost=0.2, given=("site",))
-def all_so_many(word: Lex, n: int, inner: Nominal, site: Site) -> PlaceMeaning | None:
-    """Compose "all 12 yellow trees", where the site has so many."""
-    if "all_of" not in word.features or inner.single or inner.complete or not inner.plural:
-        return None
-    return PlaceMeaning(inner.selector, "several") if len(ids_of(inner.selector, site) or ()) == n else None
 
 
 @construction("place: word=EACH OF place=place", "place: word=EACH place=place", cost=0.4)
@@ -415,12 +291,6 @@ def of_them_there(whole: PlaceMeaning, word: Lex | None = None, it: Lex | None =
     if whole.shape != "several" or whole.per is not None:
         return None
     return replace(whole, there=True) if chooses_from_trees(whole.selector) else None
-
-
-@construction("place: [DET] MOSTNUMBER OF inner=nominal", cost=0.2)
-def largest_number(inner: Nominal) -> PlaceMeaning | None:
-    """Compose "the largest possible number of trees"."""
-    return as_many(inner)
 
 
 @construction("each_kind: EACH kind=ATTR", cost=0.0)

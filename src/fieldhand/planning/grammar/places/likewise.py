@@ -122,27 +122,6 @@ def its() -> PlaceMeaning:
 
 
 @construction(
-    "place: to=owned_by [n=count] NEAREST noun=NEIGHBOUR",
-    "place: [DET] [n=count] NEAREST noun=NEIGHBOUR OF to=place",
-    cost=0.2,
-)
-def nearest_neighbours(to: PlaceMeaning, noun: Lex, n: int | None = None) -> list[PlaceMeaning] | None:
-    """Compose "its four nearest neighbours"."""
-    plural = "plural" in noun.features
-    if to.shape not in ("one", "here") or (n is not None and (n > 1) != plural):
-        return None
-    return [
-        PlaceMeaning(
-            s.Nearest(to=to.selector, count=number),
-            "one" if number == 1 else "several",
-            count=number,
-            beside=to.shape == "here",
-        )
-        for number in ((n,) if n is not None else (2, 4) if plural else (1,))
-    ]
-
-
-@construction(
     "place: [DET] [n=count] noun=TREE EACHSIDE [OF] [to=place]",
     "place: [DET] [n=count] noun=NEIGHBOUR EACHSIDE [OF] [to=place]",
     cost=0.2,
@@ -163,15 +142,6 @@ def as_far_from_it(inner: Nominal, to: PlaceMeaning) -> PlaceMeaning | None:
     if inner.single or inner.plural or inner.complete or to.shape not in ("one", "here"):
         return None
     return PlaceMeaning(s.Farthest(origin=to.selector, of=inner.selector), "one", beside=to.shape == "here")
-
-
-@construction("place: far=place in_ rows=rows", "place: in_ rows=rows COMMA far=place", cost=0.2)
-def farthest_in_row(far: PlaceMeaning, rows: s.Selector) -> PlaceMeaning | None:
-    """Compose "the tree farthest from it in the same row"."""
-    end = far.selector
-    if rows != s.RowOf() or not isinstance(end, s.Farthest) or end.of != s.Trees():
-        return None
-    return replace(far, selector=replace(end, of=s.RowOf(origin=end.origin)))
 
 
 @construction("place: whole=place in_ like=likewise", cost=0.3)

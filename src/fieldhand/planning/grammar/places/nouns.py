@@ -20,6 +20,8 @@ construction = GRAMMAR.construction
 #: Attribute, test and value: a pair for "between", alternatives for "any".
 AttributeTest = tuple[str, Test | Literal["between", "any", "none"], Any]
 
+#: Test, value, unit, and the attribute if the words name it ("older than").
+Comparison = tuple[Test | Literal["between"], Any, str, str]
 #: Word in the name of the attribute that an amount is about, by its unit.
 _ATTRIBUTE_BY_UNIT = {"years": "age", "kg": "yield"}
 
@@ -113,17 +115,6 @@ def longer_value_list(first: Lex, rest: tuple[tuple[str, str], ...]) -> list[tup
     return [(one, *rest) for one in first.value if one[0] == rest[0][0] and one not in rest]
 
 
-@construction("attribute_test: NEITHER first=ATTRVAL NOR second=ATTRVAL", cost=0.1)
-def neither_value(first: Lex, second: Lex) -> list[AttributeTest]:
-    """Compose "neither yellow nor green"."""
-    return [
-        (one[0], "none", (one[1], other[1]))
-        for one in first.value
-        for other in second.value
-        if one[0] == other[0] and one != other
-    ]
-
-
 @construction("nominal: values=value_list inner=nominal", cost=0.2)
 def of_several_kinds(values: tuple[tuple[str, str], ...], inner: Nominal) -> Nominal | None:
     """Compose "yellow or pale green trees"."""
@@ -173,42 +164,82 @@ def that_pass(test: AttributeTest, of: s.Selector) -> s.Selector:
     return s.Where(attribute=name, test=check, value=value, of=of)
 
 
-@construction(
-    "attribute_test: [DET] attribute=ATTR [OF] [IS] check=CMP value=NUM",
-    "attribute_test: [DET] attribute=ATTR [OF] [IS] check=CMP value=amount",
-    "attribute_test: check=CMP value=NUM [OF] attribute=ATTR",
-    "attribute_test: check=CMP value=amount [OF] attribute=ATTR",
-    cost=0.2,
-)
-def attribute_compared(attribute: Lex, check: Lex, value: Any) -> list[AttributeTest] | None:
-    """Compose "yield above 10 kg" and "more than 0.9 vigor"."""
-    return None if check.value[1] else [(name, check.value[0], _number(value)) for name in attribute.value]
+@construction("figure: value=NUM", "figure: value=amount", cost=0.0)
+def figure(value: Any) -> tuple[float, str]:
+    """Compose "8" and "8 years": the number and its unit."""
+    return (value.number, value.unit) if isinstance(value, Amount) else (value.value, "")
+
+
+@construction("comparison: check=CMP value=figure", "comparison: value=figure check=BOUND", cost=0.0)
+def compared(check: Lex, value: tuple[float, str]) -> Comparison:
+    """Compose "more than 8 years" and "8 years or older"."""
+    test, attribute = check.value
+    return (test, value[0], value[1], attribute)
+
+
+@construction("comparison: span=value_range", cost=0.1)
+def between(span: tuple[float, float, str]) -> Comparison:
+    """Compose "between 5 and 10 years"."""
+    return ("between", span[:2], span[2], "")
+
+
+@construction("attribute_test: [DET] attribute=ATTR [OF] [IS] by=comparison", cost=0.2)
+@construction("attribute_test: by=comparison [OF] attribute=ATTR", cost=0.2)
+def attribute_compared(attribute: Lex, by: Comparison) -> list[AttributeTest] | None:
+    """Compose "yield above 10 kg", "vigor of 0.9 or more" and "a yield between 4 and 6 kg"."""
+    return None if by[3] else [(name, by[0], by[1]) for name in attribute.value]
 
 
 @construction(
-    "attribute_test: [DET] attribute=ATTR OF value=NUM",
-    "attribute_test: [DET] attribute=ATTR IS value=NUM",
-    "attribute_test: [DET] attribute=ATTR [OF] [IS] value=amount",
-    "attribute_test: value=amount OF attribute=ATTR",
+    "attribute_test: [DET] attribute=ATTR OF value=figure",
+    "attribute_test: [DET] attribute=ATTR IS value=figure",
+    "attribute_test: [DET] attribute=ATTR [OF] [IS] exact=amount",
+    "attribute_test: exact=amount OF attribute=ATTR",
     cost=0.3,
 )
-def attribute_exactly(attribute: Lex, value: Any) -> list[AttributeTest]:
+def attribute_exactly(
+    attribute: Lex, value: tuple[float, str] = (0.0, ""), exact: Amount | None = None
+) -> list[AttributeTest]:
     """Compose "an age of 12 years" and "two years of age"."""
-    return [(name, "eq", _number(value)) for name in attribute.value]
+    return [(name, "eq", value[0] if exact is None else exact.number) for name in attribute.value]
+
+
+@construction("attribute_test: by=comparison", cost=0.2, given=("site",))
+def hinted(by: Comparison, site: Site) -> list[AttributeTest] | None:
+    """Compose "older than 8 years" and "under 8 years", whose words or unit tell the attribute."""
+    check, value, unit, attribute = by
+    if unit not in ("", "metres", *_ATTRIBUTE_BY_UNIT):
+        return None
+    if attribute:
+        return [(attribute, check, value)]
+    names = hinted_attributes(_ATTRIBUTE_BY_UNIT[unit], site) if unit in _ATTRIBUTE_BY_UNIT else ()
+    return [(name, check, value) for name in names]
+
+
+@construction("of_kind: word=AGED", "of_kind: ATTRVERB", cost=0.0)
+def of_kind(word: Lex | None = None) -> str:
+    """Compose "aged" and "yielded": the unit of what they tell."""
+    return "kg" if word is None else "years"
 
 
 @construction(
-    "attribute_test: AGED value=NUM",
-    "attribute_test: AGED value=amount",
-    "attribute_test: value=amount [DASH] OLD",
-    cost=0.2,
-    given=("site",),
-)
-def of_age(value: Any, site: Site) -> list[AttributeTest] | None:
-    """Compose "aged 2" and "two years old"."""
-    if isinstance(value, Amount) and value.unit != "years":
+    "attribute_test: kind=of_kind by=comparison", "attribute_test: by=comparison OLD",
+    "attribute_test: AGED value=figure", "attribute_test: exact=amount [DASH] OLD",
+    cost=0.2, given=("site",),
+)  # fmt: skip
+def of_that_kind(
+    site: Site,
+    kind: str = "years",
+    by: Comparison | None = None,
+    value: tuple[float, str] = (0.0, ""),
+    exact: Amount | None = None,
+) -> list[AttributeTest] | None:
+    """Compose "aged over 5", "between 5 and 10 years old", "yielded less than 5 kg" and "two years old"."""
+    number, unit = value if exact is None else (exact.number, exact.unit)
+    check, wanted, unit, attribute = ("eq", number, unit, "") if by is None else by
+    if attribute or unit not in ("", kind):
         return None
-    return [(name, "eq", _number(value)) for name in hinted_attributes("age", site)]
+    return [(name, check, wanted) for name in hinted_attributes(_ATTRIBUTE_BY_UNIT[kind], site)]  # type: ignore[misc]
 
 
 @construction("nominal: old=amount [DASH] OLD inner=nominal", cost=0.2, given=("site",))
@@ -216,25 +247,13 @@ def old_trees(old: Amount, inner: Nominal, site: Site) -> list[Nominal] | None:
     """Compose "four-year-old trees"."""
     if inner.single or inner.complete:
         return None
-    return [replace(inner, selector=that_pass(test, inner.selector)) for test in of_age(old, site) or ()]
+    return [replace(inner, selector=that_pass(test, inner.selector)) for test in of_that_kind(site, exact=old) or ()]
 
 
 @construction("nominal: old=amount [DASH] OLDS", cost=0.2, given=("site",))
 def those_so_old(old: Amount, site: Site) -> list[Nominal] | None:
     """Compose "four-year-olds"."""
     return old_trees(old, Nominal(s.Trees(), plural=True), site)
-
-
-@construction(
-    "attribute_test: AGED check=CMP value=NUM", "attribute_test: AGED check=CMP value=amount", cost=0.2, given=("site",)
-)
-def age_compared(check: Lex, value: Any, site: Site) -> list[AttributeTest] | None:
-    """Compose "aged over 5"."""
-    if isinstance(value, Amount) and value.unit != "years":
-        return None
-    return (
-        None if check.value[1] else [(name, check.value[0], _number(value)) for name in hinted_attributes("age", site)]
-    )
 
 
 @construction(
@@ -252,83 +271,6 @@ def value_range(low: Any, high: Any) -> tuple[float, float, str] | None:
     if _number(low) >= _number(high) or (isinstance(low, Amount) and low.unit != unit):
         return None
     return (_number(low), _number(high), unit)
-
-
-@construction(
-    "attribute_test: [DET] attribute=ATTR [OF] [IS] span=value_range",
-    "attribute_test: span=value_range [OF] attribute=ATTR",
-    cost=0.2,
-)
-def attribute_between(attribute: Lex, span: tuple[float, float, str]) -> list[AttributeTest]:
-    """Compose "a yield between 4 and 6 kg"."""
-    return [(name, "between", span[:2]) for name in attribute.value]
-
-
-@construction(
-    "attribute_test: old=AGED span=value_range",
-    "attribute_test: span=value_range old=OLD",
-    "attribute_test: verb=ATTRVERB span=value_range",
-    "attribute_test: span=value_range",
-    cost=0.3,
-    given=("site",),
-)
-def measured_between(
-    span: tuple[float, float, str], site: Site, old: Lex | None = None, verb: Lex | None = None
-) -> list[AttributeTest] | None:
-    """Compose "between 5 and 10 years old" and "yielded 4 to 6 kg"."""
-    unit = span[2] or ("years" if old is not None else "kg" if verb is not None else "")
-    if unit not in _ATTRIBUTE_BY_UNIT or (old is not None and unit != "years") or (verb is not None and unit != "kg"):
-        return None
-    return [(name, "between", span[:2]) for name in hinted_attributes(_ATTRIBUTE_BY_UNIT[unit], site)]
-
-
-@construction(
-    "attribute_test: check=CMP value=NUM", "attribute_test: check=CMP value=amount", cost=0.2, given=("site",)
-)
-def hinted_compared(check: Lex, value: Any, site: Site) -> list[AttributeTest] | None:
-    """Compose "older than 8 years" and "under 8 years"."""
-    unit = value.unit if isinstance(value, Amount) else ""
-    if unit not in ("", *_ATTRIBUTE_BY_UNIT, "metres"):
-        return None
-    names = (
-        [check.value[1]]
-        if check.value[1]
-        else hinted_attributes(_ATTRIBUTE_BY_UNIT[unit], site)
-        if unit in _ATTRIBUTE_BY_UNIT
-        else []
-    )
-    return [(name, check.value[0], _number(value)) for name in names]
-
-
-@construction(
-    "attribute_test: value=NUM bound=BOUND", "attribute_test: value=amount bound=BOUND", cost=0.2, given=("site",)
-)
-def bounded(value: Any, bound: Lex, site: Site) -> list[AttributeTest] | None:
-    """Compose "8 years or older" and "8 years and more"."""
-    return hinted_compared(bound, value, site)
-
-
-@construction(
-    "attribute_test: [DET] attribute=ATTR [OF] [IS] value=NUM bound=BOUND",
-    "attribute_test: [DET] attribute=ATTR [OF] [IS] value=amount bound=BOUND",
-    cost=0.2,
-)
-def attribute_bounded(attribute: Lex, value: Any, bound: Lex) -> list[AttributeTest] | None:
-    """Compose "vigor of 0.9 or more"."""
-    return None if bound.value[1] else [(name, bound.value[0], _number(value)) for name in attribute.value]
-
-
-@construction(
-    "attribute_test: ATTRVERB check=CMP value=NUM",
-    "attribute_test: ATTRVERB check=CMP value=amount",
-    cost=0.2,
-    given=("site",),
-)
-def yielded(check: Lex, value: Any, site: Site) -> list[AttributeTest] | None:
-    """Compose "yielded less than 5 kg"."""
-    if check.value[1] or (isinstance(value, Amount) and value.unit != "kg"):
-        return None
-    return [(name, check.value[0], _number(value)) for name in hinted_attributes("yield", site)]
 
 
 @construction("attribute_test: [DET] attribute=ATTR IS value=ATTRVAL", cost=0.2)
@@ -433,36 +375,15 @@ def ranking_of(rank: tuple[str, bool], attribute: Lex) -> list[tuple[str, bool]]
 
 
 @construction(
-    "two_rankings: first=ranking AND [DET] [m=count] second=ranking",
-    "two_behind: WITH DET first=ranking AND [DET] [TREE] [WITH] [DET] second=ranking",
-    cost=0.1,
+    "place: [DET] inner=nominal WITH DET first=ranking AND [DET] [TREE] [WITH] [DET] second=ranking", cost=0.1
 )
-def two_rankings(
-    first: tuple[str, bool], second: tuple[str, bool], m: int | None = None
-) -> tuple[str, bool, bool, int | None] | None:
-    """Compose "oldest and the youngest": attribute, whether the lowest are meant first and second, and how many."""
+def two_ranked(inner: Nominal, first: tuple[str, bool], second: tuple[str, bool]) -> PlaceMeaning | None:
+    """Compose "the tree with the highest and the lowest yield"."""
     name = first[0] or second[0]
-    if not name or second[0] not in ("", name) or first == second:
+    if not name or second[0] not in ("", name) or first == second or inner.single or inner.complete:
         return None
-    return (name, first[1], second[1], m)
-
-
-@construction(
-    "place: [DET] [n=count] best=two_rankings inner=nominal",
-    "place: [DET] inner=nominal best=two_behind",
-    cost=0.1,
-)
-def two_ranked(best: tuple[str, bool, bool, int | None], inner: Nominal, n: int = 1) -> PlaceMeaning | None:
-    """Compose "the oldest and the youngest tree in row 3" and "the tree with the highest and the lowest yield"."""
-    name, lowest_first, lowest_second, second_count = best
-    counts = (n, second_count or n)
-    if inner.single or inner.complete or (counts != (1, 1) and not inner.plural):
-        return None
-    parts = tuple(
-        s.Top(attribute=name, count=count, lowest=lowest, of=inner.selector)
-        for count, lowest in zip(counts, (lowest_first, lowest_second), strict=True)
-    )
-    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=sum(counts))
+    parts = tuple(s.Top(attribute=name, count=1, lowest=lowest, of=inner.selector) for _, lowest in (first, second))
+    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=2)
 
 
 @construction("nominal: EVERYTHING", cost=0.2)

@@ -27,7 +27,7 @@ from fieldhand.planning.grammar.places.counted import (
 )
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import are_rows, chooses_from_trees, is_one_row, over
+from fieldhand.planning.selections import chooses_from_trees, is_one_row
 from fieldhand.site.model import Site
 from fieldhand.terms import CountedFrom, Side
 
@@ -263,12 +263,6 @@ def from_number_on(rows: s.Selector, trees: tuple[str, ...], site: Site) -> list
     return stretch_of_row(rows, (int(trees[0]), -1), site)
 
 
-@construction("chosen: chosen=chosen FROM [DET] side=DIR FINISH", cost=0.1)
-def from_that_end(chosen: Chosen, side: Lex) -> Chosen | None:
-    """Compose "third tree from the north end"."""
-    return counted_from(chosen, side)
-
-
 @construction(
     "chosen: chosen=chosen [EACH] [COMMA] COUNTED [DET] side=DIR [FINISH]",
     "chosen: chosen=chosen [EACH] [COMMA] COUNTED [DET] side=DIR SIDE",
@@ -426,6 +420,7 @@ def ranked_of_the_row(rank: Lex, side: Lex | None = None) -> PlaceMeaning | None
     "start: STARTING [DET] side=MOST ONE",
     "start: STARTING ITS side=MOST [TREE]",
     "start: STARTING [DET] [rank=ORD] TREE AT [DET] side=DIR FINISH [in_] [any_rows]",
+    "start: STARTING DET ONE AT [DET] side=DIR FINISH",
     "start: STARTING [DET] side=DIR FINISH in_ any_rows",
     cost=0.1,
 )
@@ -460,41 +455,6 @@ def first_and_last(at: Positions, inner: Nominal) -> PlaceMeaning | None:
     if at.spans != BOTH_ENDS or at.either or inner.plural or inner.single or inner.selector != s.Trees():
         return None
     return PlaceMeaning(s.UnionOf(parts=(s.First(), s.Last())), "several", count=2, in_order=at.in_order)
-
-
-@construction(
-    "place: [DET] n=count inner=nominal AT word=DET noun=ROW",
-    "place: word=DET noun=ROW OF n=count inner=nominal",
-    cost=0.1,
-)
-def trees_in_a_row(n: int, inner: Nominal, word: Lex, noun: Lex) -> PlaceMeaning | None:
-    """Compose "four trees in a row"."""
-    if noun.plural or "one" not in word.features or inner.single or inner.complete or n < 2:
-        return None
-    return PlaceMeaning(s.Successive(count=n, of=inner.selector), "several", count=n)
-
-
-@construction(
-    "place: [DET] n=count inner=nominal [COMMA] EVENLYALONG rows=rows",
-    "place: n=count POINT EVENLYALONG rows=rows",
-    "place: n=count POINT EVENLYSPACED in_ rows=rows",
-    "place: n=count POINT EVENLYSPACED along rows=rows",
-    "place: n=count EVENLYSPACED POINT in_ rows=rows",
-    "place: n=count EVENLYSPACED POINT along rows=rows",
-    "place: [DET] n=count EVENLYSPACED inner=nominal",
-    "place: [DET] n=count inner=nominal [COMMA] EVENLYSPACED",
-    "place: [DET] n=count inner=nominal EVENLYSPACED in_ rows=rows",
-    "place: [DET] n=count inner=nominal EVENLYSPACED along rows=rows",
-    cost=0.2,
-)
-def evenly_along(n: int, inner: Nominal = _TREES, rows: s.Selector | None = None) -> PlaceMeaning | None:
-    """Compose "ten trees spread evenly along row 4" and "four evenly spaced trees in row 5"."""
-    if inner.single or inner.complete or n < 2 or (rows is not None and not chooses_from_trees(inner.selector)):
-        return None
-    of = inner.selector if rows is None else over(inner.selector, rows)
-    if len({part for part in of.walk() if are_rows(part)}) != 1 or not any(is_one_row(part) for part in of.walk()):
-        return None  # along which line?
-    return PlaceMeaning(s.Evenly(count=n, of=of), "several", count=n)
 
 
 @construction("each_rows: EACH ROWPOSS", "each_rows: rows=rows POSS", cost=0.0)
@@ -566,3 +526,9 @@ def some_of_a_row(n: int, m: int, inner: Nominal) -> PlaceMeaning | None:
     if n >= m or inner.single or inner.complete or not inner.plural or inner.kind != "tree":
         return None
     return PlaceMeaning(s.Evenly(count=n, of=s.Successive(count=m, of=inner.selector)), "several", count=n)
+
+
+@construction("place: [DET] number=row_parity noun=TREE in_ rows=any_rows", cost=0.1)
+def trees_of_parity(number: int, noun: Lex, rows: s.Selector) -> PlaceMeaning | None:
+    """Compose "the even-numbered trees of row 3"."""
+    return PlaceMeaning(s.EveryNth(nth=2, start=number, of=rows), "several", each=True) if noun.plural else None

@@ -9,8 +9,8 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import SIDES
-from fieldhand.planning.grammar.places.counted import Positions
-from fieldhand.planning.grammar.places.numbered import ids_of
+from fieldhand.planning.grammar.places.counted import Positions, size_of
+from fieldhand.planning.grammar.places.numbered import all_of, ids_of
 from fieldhand.planning.grammar.places.numbers import name_of, whole
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
@@ -150,12 +150,6 @@ def row_list(noun: Lex, first: s.Rows) -> tuple[s.Rows, ...] | None:
     return (first,) if noun.plural else None
 
 
-@construction("row_list: ROW first=row_item [COMMA] [AND] ROW item=row_item", cost=0.0)
-def two_in_row_list(first: s.Rows, item: s.Rows) -> tuple[s.Rows, ...]:
-    """Compose "row 3 and row 5", the beginning of "row 3, row 5 and row 7"."""
-    return (first, item)
-
-
 @construction("row_list: rows=row_list [COMMA] [AND] [ROW] item=row_item", cost=0.1)
 def longer_row_list(rows: tuple[s.Rows, ...], item: s.Rows) -> tuple[s.Rows, ...]:
     """Compose "rows 3, 5 and 7 to 9"."""
@@ -166,30 +160,6 @@ def longer_row_list(rows: tuple[s.Rows, ...], item: s.Rows) -> tuple[s.Rows, ...
 def listed_rows(rows: tuple[s.Rows, ...]) -> s.Selector | None:
     """Compose "rows 3 and 5" as rows."""
     return s.UnionOf(parts=rows) if len(rows) > 1 else None
-
-
-@construction("rows: EACH n=ORD ROW", cost=0.8)
-def every_nth_row(n: Lex) -> s.Selector | None:
-    """Compose "every third row"."""
-    return s.Rows(every=n.value) if n.value > 1 else None
-
-
-@construction("rows: EACH OTHER ROW", cost=0.8)
-def every_other_row() -> s.Selector:
-    """Compose "every other row"."""
-    return s.Rows(every=2)
-
-
-@construction(
-    "rows: [DET] rank=ORD AT LAST noun=ROW",
-    "rows: [DET] rank=ORD LAST noun=ROW",
-    "rows: DET PENULT noun=ROW",
-    cost=0.1,
-)
-def row_from_end(noun: Lex, rank: Lex | None = None) -> s.Selector | None:
-    """Compose "the second to last row" and "the penultimate row"."""
-    number = -2 if rank is None else -rank.value
-    return None if noun.plural else s.Rows(first=str(number), last=str(number))
 
 
 @construction("rows: DET SAME ROW", "rows: THATWORD ROW", cost=0.1)
@@ -301,70 +271,74 @@ def rows_over(n: int) -> s.Selector:
     return s.RowOf(over=n)
 
 
-@construction("rows: [DET] ODD noun=ROW", "rows: each=EACH ODD noun=ROW", cost=0.1)
-def odd_rows(noun: Lex, each: Lex | None = None) -> s.Selector | None:
+@construction("row_parity: ODD", cost=0.0)
+def odd() -> int:
+    """Compose "odd-numbered"."""
+    return 1
+
+
+@construction("row_parity: EVEN", cost=0.0)
+def even() -> int:
+    """Compose "even-numbered"."""
+    return 2
+
+
+@construction("rows: [DET] number=row_parity noun=ROW", "rows: each=EACH number=row_parity noun=ROW", cost=0.1)
+def rows_of_parity(number: int, noun: Lex, each: Lex | None = None) -> s.Selector | None:
     """Compose "the odd rows"."""
-    return s.Rows(first="1", every=2) if noun.plural or each is not None else None
+    return s.Rows(first=str(number), every=2) if noun.plural or each is not None else None
 
 
 @construction(
-    "rows: [DET] ODD noun=ROW [FROM] first=row_name range_to last=row_name",
-    "rows: [DET] ODD noun=ROW BETWEEN first=row_name AND last=row_name",
+    "rows: [DET] number=row_parity noun=ROW [FROM] first=row_name range_to last=row_name",
+    "rows: [DET] number=row_parity noun=ROW BETWEEN first=row_name AND last=row_name",
     cost=0.1,
 )
-def odd_rows_between(noun: Lex, first: Lex, last: Lex) -> s.Selector | None:
+def rows_of_parity_between(number: int, noun: Lex, first: Lex, last: Lex) -> s.Selector | None:
     """Compose "the odd rows from 3 to 9"."""
-    return _parity(noun, first, last, 1)
-
-
-@construction("rows: [DET] EVEN noun=ROW", "rows: each=EACH EVEN noun=ROW", cost=0.1)
-def even_rows(noun: Lex, each: Lex | None = None) -> s.Selector | None:
-    """Compose "the even rows"."""
-    return s.Rows(first="2", every=2) if noun.plural or each is not None else None
-
-
-@construction(
-    "rows: [DET] EVEN noun=ROW [FROM] first=row_name range_to last=row_name",
-    "rows: [DET] EVEN noun=ROW BETWEEN first=row_name AND last=row_name",
-    cost=0.1,
-)
-def even_rows_between(noun: Lex, first: Lex, last: Lex) -> s.Selector | None:
-    """Compose "the even rows between 2 and 8"."""
-    return _parity(noun, first, last, 0)
-
-
-def _parity(noun: Lex, first: Lex, last: Lex, remainder: int) -> s.Selector | None:
-    """Return the odd or the even rows of a range."""
     low, high = whole(first.value), whole(last.value)
     if low is None or high is None or low >= high or not noun.plural:
         return None
-    return s.Rows(first=str(low + (low % 2 != remainder)), last=str(high), every=2)
+    return s.Rows(first=str(low + (low - number) % 2), last=str(high), every=2)
 
 
-@construction("rows: [DET] at=positions noun=ROW", cost=0.1, given=("site",))
-def rows_at_positions(at: tuple[int, int], noun: Lex, site: Site) -> s.Selector | None:
-    """Compose "the first three rows", "the last two rows" and "the third to fifth rows"."""
-    return rows_at(*at, site) if noun.plural else None
-
-
-@construction("rows: [DET] at=marks ROW", cost=0.1, given=("site",))
-def listed_positions_of_rows(at: Positions, site: Site) -> s.Selector | None:
-    """Compose "the third, fifth and last rows"."""
-    if len(at.spans) < 2 or at.either or any(first == 0 for first, _ in at.spans):
+@construction("rows: [DET] at=marks noun=ROW", cost=0.1, given=("site",))
+def rows_at_positions(at: Positions, noun: Lex, site: Site) -> s.Selector | None:
+    """Compose "the third row", "the last two rows" and "the third, fifth and last rows"."""
+    if at.either or any(first == 0 for first, _ in at.spans):
         return None
-    return s.UnionOf(parts=tuple(rows_at(first, last, site) for first, last in at.spans))
+    if len(at.spans) == 1 and noun.plural != (size_of(at.spans[0]) != 1):
+        return None
+    return all_of([rows_at(first, last, site) for first, last in at.spans])
 
 
-@construction("rows: [DET] LAST noun=ROW", cost=0.2)
-def last_row(noun: Lex) -> s.Selector | None:
-    """Compose "the last row"."""
-    return None if noun.plural else s.Rows(first="-1", last="-1")
+@construction("row_step: EACH n=ORD", "row_step: EACH OTHER", cost=0.0)
+def row_step(n: Lex | None = None) -> int | None:
+    """Compose "every third" before "row"."""
+    return 2 if n is None else n.value if n.value > 1 else None
 
 
-@construction("rows: [DET] rank=ORD noun=ROW", cost=0.2, given=("site",))
-def ranked_row(rank: Lex, noun: Lex, site: Site) -> s.Selector | None:
-    """Compose "the third row": where the rows have names, the third from the side where counting begins."""
-    return None if noun.plural else rows_at(rank.value, rank.value, site)
+@construction("rows: every=row_step ROW", "rows: every=row_step ROW OF TREE", cost=0.8)
+def every_nth_row(every: int) -> s.Selector:
+    """Compose "every third row"."""
+    return s.Rows(every=every)
+
+
+@construction("each_row: every=row_step noun=ROW", cost=0.2)
+def each_nth_row(every: int, noun: Lex) -> s.Selector | None:
+    """Compose "every third row", one by one."""
+    return None if noun.plural else s.Rows(every=every)
+
+
+@construction(
+    "rows: every=row_step ROW [OF] [TREE] [COMMA] STARTING ROW number=row_name",
+    "rows: every=row_step ROW [OF] [TREE] [COMMA] STARTING DET rank=ORD ROW",
+    cost=0.1,
+)
+def rows_starting_with(every: int, number: Lex | None = None, rank: Lex | None = None) -> s.Selector:
+    """Compose "every third row starting with row 2"."""
+    first = name_of(number) if number is not None else "" if rank is None else str(rank.value)
+    return s.Rows(first=first, every=every)
 
 
 def rows_at(first: int, last: int, site: Site) -> s.Rows:
@@ -450,13 +424,6 @@ def rows_owned_by_block(block: s.Selector, rows: s.Selector) -> s.Selector | Non
     return rows_of_block(rows, block)
 
 
-@construction("each_row: EACH n=ORD noun=ROW", "each_row: EACH OTHER noun=ROW", cost=0.2)
-def every_so_many_row(noun: Lex, n: Lex | None = None) -> s.Selector | None:
-    """Compose "every third row", one by one."""
-    every = 2 if n is None else n.value
-    return s.Rows(every=every) if every > 1 and not noun.plural else None
-
-
 @construction(
     "place: [DET] inner=nominal in_ rows=each_row",
     "place: each=EACH inner=nominal in_ rows=each_row",
@@ -497,27 +464,20 @@ def in_each_row(one: PlaceMeaning, rows: s.Selector) -> PlaceMeaning | None:
     return PlaceMeaning(one.selector, "several", each=True, per=rows)
 
 
-@construction("place: rows=each_row [COMMA] in_ one=place", "place: rows=each_row COMMA one=place", cost=0.2)
-@construction("place: rows=rows [COMMA] in_ one=place INEACH", "place: rows=rows COMMA one=place INEACH", cost=0.2)
-def in_each_of_those_rows(rows: s.Selector, one: PlaceMeaning) -> PlaceMeaning | None:
-    """Compose "rows 2 and 4, at the middle tree of each"."""
-    return None if is_one_row(rows) else in_each_row(one, rows)
-
-
-@construction("place: one=place APIECE in_ rows=rows", "place: one=place in_ rows=rows APIECE", cost=0.2)
-def apiece_in_rows(one: PlaceMeaning, rows: s.Selector) -> PlaceMeaning | None:
-    """Compose "three trees apiece in rows 2 and 4"."""
-    return None if is_one_row(rows) else in_each_row(one, rows)
-
-
 @construction(
-    "place: one=place OF first=rows AND OF second=rows",
-    "place: one=place AT first=rows AND AT second=rows",
+    "place: rows=each_row [COMMA] in_ one=place",
+    "place: rows=each_row COMMA one=place",
+    "place: rows=rows [COMMA] in_ one=place INEACH",
+    "place: rows=rows COMMA one=place INEACH",
+    "place: one=place APIECE in_ rows=rows",
+    "place: one=place in_ rows=rows APIECE",
+    "place: one=place OF rows=rows AND OF more=rows",
+    "place: one=place AT rows=rows AND AT more=rows",
     cost=0.2,
 )
-def in_both_rows(one: PlaceMeaning, first: s.Selector, second: s.Selector) -> PlaceMeaning | None:
-    """Compose "the two northernmost trees of row 2 and of row 8"."""
-    return in_each_row(one, s.UnionOf(parts=(*first.members, *second.members)))
+def in_each_of_those_rows(rows: s.Selector, one: PlaceMeaning, more: s.Selector | None = None) -> PlaceMeaning | None:
+    """Compose "three trees apiece in rows 2 and 4" and "the two northernmost trees of row 2 and of row 8"."""
+    return in_each_row(one, rows if more is None else s.UnionOf(parts=(*rows.members, *more.members)))
 
 
 @construction("place: rows=each_row", cost=0.5)
@@ -559,20 +519,6 @@ def rows_with_block(rows: s.Selector) -> s.Selector:
 def row_like(tree: PlaceMeaning) -> s.Selector | None:
     """Compose "the same row as tree 40"."""
     return row_of_tree(tree)
-
-
-@construction(
-    "rows: EACH n=ORD ROW [OF] [TREE] [COMMA] STARTING ROW number=row_name",
-    "rows: EACH n=ORD ROW [OF] [TREE] [COMMA] STARTING DET rank=ORD ROW",
-    "rows: EACH OTHER ROW [COMMA] STARTING ROW number=row_name",
-    "rows: EACH OTHER ROW [COMMA] STARTING DET rank=ORD ROW",
-    cost=0.1,
-)
-def rows_starting_with(n: Lex | None = None, number: Lex | None = None, rank: Lex | None = None) -> s.Selector | None:
-    """Compose "every third row starting with row 2"."""
-    every = 2 if n is None else n.value
-    first = name_of(number) if number is not None else "" if rank is None else str(rank.value)
-    return s.Rows(first=first, every=every) if every > 1 else None
 
 
 @construction("rows: rows=rows OF TREE", cost=0.2)

@@ -9,18 +9,25 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.chosen import Chosen, chosen_among
 from fieldhand.planning.grammar.places.clauses import Clause, Trait, with_attribute
-from fieldhand.planning.grammar.places.counted import Positions, trees_counted
+from fieldhand.planning.grammar.places.counted import Positions, rows_within, trees_counted
 from fieldhand.planning.grammar.places.numbered import all_of
+from fieldhand.planning.grammar.places.quantities import Quantity, quantified
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
+    AREAS,
+    are_rows,
     as_in_row,
     as_rows,
+    blocks_of,
     chooses_from_trees,
     counts_in_row,
+    is_description,
+    is_in_block,
     is_one_row,
     over,
     picked_from,
     some_of,
+    swapped,
 )
 from fieldhand.site.model import Site
 
@@ -130,6 +137,8 @@ def choices_of_group(
     group: PlaceMeaning, choices: Choices, site: Site, comma: Lex | None = None
 ) -> list[PlaceMeaning] | None:
     """Compose "the oldest and the youngest of the yellow trees" and "of the yellow trees the five oldest"."""
+    if group.shape == "area" and comma is None and is_description(group.selector):
+        group = replace(group, shape="several")  # "of the Merlot, the three oldest"
     if not _is_group(group) or (group.count is not None and any((one.count or 1) >= group.count for one in choices)):
         return None
     if comma is not None and any(one.count is None for one in choices):
@@ -145,6 +154,14 @@ def choices_before_noun(choices: Choices, inner: Nominal, site: Site) -> list[Pl
     if not inner.plural and any(one.count not in (None, 1) for one in choices):
         return None
     return all_among(inner.selector, choices, site)
+
+
+@construction("place: [DET] first=bare OR [DET] second=bare inner=nominal", cost=0.1, given=("site",))
+def either_choice(first: Chosen, second: Chosen, inner: Nominal, site: Site) -> list[PlaceMeaning] | None:
+    """Compose "the oldest or the youngest tree in row 3": which of the two?"""
+    if choices_before_noun((first, second), inner, site) is None:
+        return None
+    return [place for one in (first, second) for place in chosen_among(inner.selector, one, site)]
 
 
 @construction("place: first=place [COMMA] AND DET choices=bares", cost=0.2, given=("site",))
@@ -222,6 +239,47 @@ def only_those(clause: Clause = (), area: s.Selector | None = None, word: Lex | 
     if word is not None and "those" not in word.features:
         return None
     return clause if area is None else (Trait(area=area),)
+
+
+@construction(
+    "place: OF whole=place [COMMA] DET ONE clause=relative",
+    "place: OF whole=place [COMMA] DET ONE in_ area=region",
+    "place: OF whole=place [COMMA] word=DET clause=relative",
+    cost=0.2,
+)
+def of_these_those(
+    whole: PlaceMeaning, clause: Clause = (), area: s.Selector | None = None, word: Lex | None = None
+) -> PlaceMeaning | None:
+    """Compose "of the Merlot, the ones in row 3" and "of the yellow trees, those older than 8 years"."""
+    those = only_those(clause, area, word)
+    return None if those is None else restricted_to(whole, those)
+
+
+@construction(
+    "place: first=place [COMMA] AND [AT] quantity=quantity inner=nominal OUTSIDE [OF] IT", cost=0.1, given=("site",)
+)
+def and_outside_it(first: PlaceMeaning, quantity: Quantity, inner: Nominal, site: Site) -> list[PlaceMeaning] | None:
+    """Compose "the trees in the wet corner and any three trees outside it"."""
+    areas = [part for part in first.selector.walk() if isinstance(part, AREAS)]
+    beyond = with_attribute(inner, (Trait(area=areas[0], outside=True),)) if len(areas) == 1 else None
+    if beyond is None or first.per is not None or first.shape not in ("several", "area"):
+        return None
+    others = quantified(quantity, replace(beyond, tested=False), site) or ()
+    return [replace(first, selector=s.UnionOf(parts=(first.selector, one.selector)), shape="several") for one in others]
+
+
+@construction("place: first=place [COMMA] [AND] then in_ rows=rows", cost=0.2)
+def then_in_rows(first: PlaceMeaning, rows: s.Selector) -> PlaceMeaning | None:
+    """Compose "the first tree of row 10, then of row 11"."""
+    last = first.selector.members[-1]
+    before = rows_within(last)
+    if before is None or before == rows or not is_one_row(rows) or first.per is not None or are_rows(last):
+        return None
+    blocks = blocks_of(before)
+    there = over(rows, blocks[0]) if len(blocks) == 1 and not is_in_block(rows) else rows
+    parts = (*first.selector.members, swapped(last, before, there))
+    one = first.shape == "one" or first.in_order
+    return replace(first, selector=s.UnionOf(parts=parts), shape="several", count=None, in_order=True) if one else None
 
 
 @construction("place: whole=place [COMMA] [and_or_but] clause=only", cost=0.1)

@@ -41,12 +41,6 @@ def middle_spot() -> s.Selector:
     return s.Middle()
 
 
-@construction("spot: DET MIDDLE OF where=region", cost=0.1)
-def middle_spot_of(where: s.Selector) -> s.Selector | None:
-    """Compose "the middle of the north block" behind "three trees in"."""
-    return None if as_edge(where) is not None or are_rows(where) else s.Middle(of=where)
-
-
 @construction("spot: DET at=corner_at [OF] [site]", "spot: DET at=corner_at OF where=region", cost=0.1)
 def corner_spot(at: Nominal, where: s.Selector | None = None) -> s.Selector:
     """Compose "the north-west corner of the south block" behind "ten trees in"."""
@@ -65,16 +59,6 @@ def trees_at_spot(n: int, inner: Nominal, at: s.Selector) -> PlaceMeaning | None
 def somewhere_at_spot(noun: Lex, at: s.Selector) -> PlaceMeaning | None:
     """Compose "the trees in the middle of the orchard": how many?"""
     return PlaceMeaning(s.Nearest(to=at), "unknown") if noun.plural else None
-
-
-@construction("nominal: noun=TREE in_ DET MIDDLE OF where=region", cost=0.7)
-def tree_in_middle_of(where: s.Selector, noun: Lex) -> Nominal | None:
-    """Compose "tree in the middle of row 4"."""
-    if noun.plural:
-        return None
-    if (edge := as_edge(where)) is not None:
-        return Nominal(s.EdgeMiddle(side=edge.side, of=edge.of), single=True)
-    return Nominal(s.Middle(of=where), single=True)
 
 
 @construction("nominal: side=DIR noun=CORNER [TREE]", "nominal: side=MOST noun=CORNER [TREE]", cost=0.1)

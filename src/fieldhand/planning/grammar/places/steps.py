@@ -297,18 +297,6 @@ def one_beyond_place(word: Lex, inner: Nominal, at: Distance) -> PlaceMeaning | 
     return _beside(at[2], PlaceMeaning(s.Take(count=1, of=there), "one"))
 
 
-@construction("place: whole=place [COMMA] [which_is] at=distance", cost=0.3)
-def those_within(whole: PlaceMeaning, at: Distance) -> PlaceMeaning | None:
-    """Compose "every yellow tree that is within 50 m of the charger"."""
-    low, _, to = at
-    if low or to.shape != "one" or to.selector.relative or whole.shape != "several":
-        return None
-    if whole.count is not None or whole.per is not None or not chooses_from_trees(whole.selector):
-        return None
-    there = at_distance(whole.selector, at)
-    return None if there is None else replace(whole, selector=there)
-
-
 @construction(
     "place: DET rank=ORD TREE way=way OF [to=place]", "place: DET rank=ORD TREE way=way [FROM] [THERE]", cost=0.2
 )

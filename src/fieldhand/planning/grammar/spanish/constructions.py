@@ -13,7 +13,18 @@ from fieldhand.planning.grammar import commands, places
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands import conditions, driving, limits, spacing, things
 from fieldhand.planning.grammar.meaning import Amount, CaptureCommand, Nominal, PlaceMeaning, Thing
-from fieldhand.planning.grammar.places import chosen, clauses, groups, nouns, numbers, positions, rows, spots, steps
+from fieldhand.planning.grammar.places import (
+    chosen,
+    clauses,
+    groups,
+    nouns,
+    numbers,
+    positions,
+    quantities,
+    rows,
+    spots,
+    steps,
+)
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import over
@@ -63,11 +74,12 @@ construction("edge_side: EDGE side=DIR", "edge_side: SIDE side=DIR", "edge_side:
 )
 construction("corner_at: noun=CORNER side=DIR", cost=0.0)(spots.corner_at)
 construction("row_end: FINISH side=DIR", cost=0.0)(positions.row_end)
-construction("nominal: inner=nominal OTHER", cost=0.2)(groups.another)
-construction("nominal: ANOTHER inner=nominal OTHER", cost=0.1)(groups.another)
+construction("nominal: inner=nominal OTHER", cost=0.2)(quantities.another)
+construction("nominal: ANOTHER inner=nominal OTHER", cost=0.1)(quantities.another)
 construction("chosen: chosen=chosen OTHER", cost=0.1)(chosen.others)
-construction("rows: [DET] noun=ROW ODD", "rows: each=EACH noun=ROW ODD", cost=0.1)(rows.odd_rows)
-construction("rows: [DET] noun=ROW EVEN", "rows: each=EACH noun=ROW EVEN", cost=0.1)(rows.even_rows)
+construction("rows: [DET] noun=ROW number=row_parity", "rows: each=EACH noun=ROW number=row_parity", cost=0.1)(
+    rows.rows_of_parity
+)
 construction("rows: DET rows=row_list", cost=0.1)(rows.listed_rows)
 construction(
     "rows: [DET] ROW FROM [DET] first=NUM range_to [DET] last=NUM",
@@ -91,8 +103,8 @@ construction(
 construction("place: word=EACHOF place=place", cost=0.4)(groups.each_of_group)
 construction("numbers: first=numbers [COMMA] AND DET item=number_item", cost=0.1)(numbers.more_numbers)
 construction("ordered: DET rank=ranking FIRSTONE", cost=0.1)(driving.best_first)
-construction("place: EACH [DET] inner=nominal ALLYOUCAN", "place: ASMANYOF inner=nominal", cost=0.1)(groups.as_many)
-construction("place: n=count inner=nominal UPTO", "place: n=count inner=nominal ATMOST", cost=0.2)(groups.up_to)
+construction("place: EACH [DET] inner=nominal ALLYOUCAN", "place: ASMANYOF inner=nominal", cost=0.1)(quantities.as_many)
+construction("place: n=count inner=nominal UPTO", "place: n=count inner=nominal ATMOST", cost=0.2)(quantities.up_to)
 construction(
     "place: ANOTHER POINT [RANDOM] [COMMA] step=stride",
     "place: ANOTHER TREE [RANDOM] [COMMA] step=stride",

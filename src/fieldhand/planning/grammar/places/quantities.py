@@ -1,0 +1,175 @@
+"""Constructions of how many of a description are meant: "a", "the three", "any", "every", "as many as you can"."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
+from fieldhand.planning.grammar.places.numbered import ids_of
+from fieldhand.planning.grammar.places.numbers import VAGUE_NUMBERS
+from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.selections import is_by_attribute, is_description
+from fieldhand.site.model import Site
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """Words before a noun that say how many are meant.
+
+    Attributes:
+        kind: Article ("the", "a", "some" or another one, ``that``), "any" or the free choice of "whichever", "each" or
+            "all"; empty if there is none.
+        n: Number, if it is given.
+    """
+
+    kind: Literal["", "the", "a", "some", "that", "any", "whichever", "each", "all"] = ""
+    n: int | None = None
+
+
+@construction("quantity: word=DET [n=count]", cost=0.0)
+def article(word: Lex, n: int | None = None) -> Quantity:
+    """Compose "the", "a" and "the three"."""
+    if "indefinite" in word.features:
+        return Quantity("some" if "vague" in word.features else "a", n)
+    return Quantity("the" if "definite" in word.features else "that", n)
+
+
+@construction("quantity: n=count", cost=0.0)
+def number(n: int) -> Quantity:
+    """Compose "three"."""
+    return Quantity("", n)
+
+
+@construction("quantity: word=ANY [DET]", "quantity: word=ANY n=count", "quantity: ATLEAST n=count", cost=0.1)
+def any_of(word: Lex | None = None, n: int | None = None) -> Quantity:
+    """Compose "any" and "at least three"."""
+    free = word is not None and "free_choice" in word.features
+    return Quantity("whichever" if free else "any", n)
+
+
+@construction("quantity: word=EACH [DET] [n=count]", cost=0.0)
+def each(word: Lex, n: int | None = None) -> Quantity:
+    """Compose "every" and "all 12"."""
+    return Quantity("all" if "all_of" in word.features else "each", n)
+
+
+@construction("place: quantity=quantity inner=nominal", cost=0.2, given=("site",))
+def quantified(quantity: Quantity, inner: Nominal, site: Site) -> list[PlaceMeaning] | None:
+    """Compose "the three yellow trees", "any tree of row 4" and "every corner"."""
+    kind, n = quantity.kind, quantity.n
+    if inner.single:
+        return [PlaceMeaning(inner.selector, "one")] if n is None and kind not in ("any", "each", "all") else None
+    if kind in ("each", "all"):
+        return _all_of(quantity, inner, site)
+    if kind in ("any", "whichever"):
+        return _any_of(n, inner, site)
+    if n is not None:
+        return _so_many(quantity, n, inner, site)
+    if inner.complete:
+        return [PlaceMeaning(inner.selector, "several", count=inner.complete)]
+    if kind in ("a", "some") and not inner.plural:
+        return [PlaceMeaning(s.Take(count=1, of=inner.selector), "one")]
+    if kind == "some":
+        return [PlaceMeaning(s.Take(count=n, of=inner.selector), "several", count=n) for n in VAGUE_NUMBERS]
+    if inner.plural:
+        return [PlaceMeaning(inner.selector, "several")] if kind != "a" else None
+    return _those_there(1, inner, site) if kind == "the" else None
+
+
+@construction("place: inner=nominal", cost=0.3)
+def unquantified(inner: Nominal) -> PlaceMeaning | None:
+    """Compose "yellow trees"."""
+    if inner.single:
+        return PlaceMeaning(inner.selector, "one")
+    if inner.complete:
+        return PlaceMeaning(inner.selector, "several", count=inner.complete)
+    return PlaceMeaning(inner.selector, "several") if inner.plural else None
+
+
+def _all_of(quantity: Quantity, inner: Nominal, site: Site) -> list[PlaceMeaning] | None:
+    """Return "every yellow tree", and "all 12 yellow trees": if there are more, all or only so many?"""
+    n = quantity.n
+    if n in (None, inner.complete):
+        return [PlaceMeaning(inner.selector, "several", each=True, count=inner.complete or None)]
+    return some_or_all(n, inner.selector, site) if quantity.kind == "all" and inner.plural and n else None
+
+
+def _any_of(n: int | None, inner: Nominal, site: Site) -> list[PlaceMeaning] | None:
+    """Return "any three trees", "any tree" and "any yellow tree": one of them, or each that there is?"""
+    if n is not None:
+        return None if inner.complete else _so_many(Quantity(), n, inner, site)
+    if inner.tested and not inner.plural:
+        return [PlaceMeaning(inner.selector, "several", each=True)]  # "any tree that is older than 8 years"
+    if is_by_attribute(inner.selector):
+        return None if inner.complete or inner.tested else some_or_all(1, inner.selector, site)
+    return [PlaceMeaning(s.Take(count=1, of=inner.selector), "one")]
+
+
+def _so_many(quantity: Quantity, n: int, inner: Nominal, site: Site) -> list[PlaceMeaning] | None:
+    """Return "three trees" and "the three yellow trees"."""
+    if inner.complete:
+        if n == inner.complete:
+            return [PlaceMeaning(inner.selector, "several", count=n)]
+        if quantity.kind:
+            return None
+    elif quantity.kind not in ("", "a", "some"):
+        return _those_there(n, inner, site) if quantity.kind == "the" else None
+    return [
+        PlaceMeaning(s.Take(count=n, of=inner.selector), "one" if n == 1 else "several", count=n if n > 1 else None)
+    ]
+
+
+def _those_there(n: int, inner: Nominal, site: Site) -> list[PlaceMeaning] | None:
+    """Return "the three yellow trees": all of them, or any so many if there are more."""
+    if inner.pronoun or inner.of_side or inner.kind != "tree" or not is_description(inner.selector):
+        return None
+    return some_or_all(n, inner.selector, site)
+
+
+def some_or_all(n: int, selector: s.Selector, site: Site) -> list[PlaceMeaning] | None:
+    """Return the meanings of so many trees of a selection: all of them if there are as many."""
+    there = ids_of(selector, site)
+    if there is None or len(there) < n:
+        return None
+    every = PlaceMeaning(selector, "several")
+    if len(there) == n:
+        return [PlaceMeaning(s.Take(count=1, of=selector), "one") if n == 1 else every]
+    some = PlaceMeaning(s.Take(count=n, of=selector), "one" if n == 1 else "several", count=n)
+    return [every, some]
+
+
+@construction("place: ASMANY [DET] [OTHER] inner=nominal as_can", "place: [DET] MOSTNUMBER OF inner=nominal", cost=0.2)
+@construction("place: ASMANY [DET] [OTHER] inner=nominal", cost=2.0)
+def as_many(inner: Nominal) -> PlaceMeaning | None:
+    """Compose "as many trees as you can"."""
+    return None if inner.single or not inner.plural else PlaceMeaning(inner.selector, "several", optional=True)
+
+
+@construction("place: UPTO n=count inner=nominal", "place: check=CMP n=count inner=nominal", cost=0.2)
+def up_to(n: int, inner: Nominal, check: Lex | None = None) -> PlaceMeaning | None:
+    """Compose "up to six trees" and "at most six trees"."""
+    if inner.single or inner.complete or (check is not None and check.value != ("le", "")):
+        return None
+    return PlaceMeaning(inner.selector, "several", at_most=n)
+
+
+@construction("place: OTHER inner=nominal", cost=0.3)
+def different_ones(inner: Nominal) -> PlaceMeaning | None:
+    """Compose "different trees", of which something else says how many."""
+    if inner.single or not inner.plural or inner.complete:
+        return None
+    return PlaceMeaning(s.NotVisited(of=inner.selector), "several")
+
+
+@construction("nominal: ANOTHER inner=nominal", "nominal: DET OTHER inner=nominal", cost=0.2)
+def another(inner: Nominal) -> Nominal | None:
+    """Compose "another tree"."""
+    if inner.single or inner.plural or inner.complete:
+        return None
+    return replace(inner, selector=s.Take(count=1, of=s.NotVisited(of=inner.selector)), single=True)
