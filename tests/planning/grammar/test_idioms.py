@@ -47,6 +47,97 @@ READ = [
         "the middle of the field on the way home.",
         "air @ TreeIs(4) = r1; if r1 > 35 degC: [go Marker(start)] else [co2 @ Middle] | return_to_start",
     ),
+    (
+        "Photograph tree 4. If it's under 33 or over 38, take another picture.",
+        "picture @ TreeIs(4) = r1; if r1 < 33 degC or r1 > 38 degC: [picture]",
+    ),
+    (
+        "Photograph tree 4. If it is neither low nor high, go home.",
+        "picture @ TreeIs(4) = r1; if not r1 low and not r1 high: [go Marker(start)] | return_to_start",
+    ),
+    (
+        "Photograph tree 4. If it is between 33 and 36, measure CO2.",
+        "picture @ TreeIs(4) = r1; if 33 <= r1 <= 36 degC: [co2]",
+    ),
+    (
+        "Take a CO2 reading at tree 20. Same for 40 and 60.",
+        "co2 @ TreeIs(20); for UnionOf(TreeIs(40)+TreeIs(60)): [co2]",
+    ),
+    (
+        "Do two rounds: photograph trees 4, 9 and 14.",
+        "2 times: [for UnionOf(TreeIs(4)+TreeIs(9)+TreeIs(14)): [picture]]",
+    ),
+    (
+        "Do the following twice: photograph tree 4, measure CO2 at tree 9.",
+        "2 times: [picture @ TreeIs(4); co2 @ TreeIs(9)]",
+    ),
+    (
+        "Photograph the eastern half first, then the western half.",
+        "for Half(east): [picture]; for Half(west): [picture]",
+    ),
+    ("Photograph row 4, then row 5.", "for Rows(4, 4): [picture]; for Rows(5, 5): [picture]"),
+    (
+        "Photograph row 4 northwards and row 5 southwards.",
+        "for Ordered(south_to_north, of Rows(4, 4)) given: [picture]; "
+        "for Ordered(north_to_south, of Rows(5, 5)) given: [picture]",
+    ),
+    (
+        "Photograph row 6 and, battery permitting, row 7.",
+        "for Rows(6, 6): [picture]; maybe [for Rows(7, 7): [picture]]",
+    ),
+    (
+        "Photograph trees 9, 10, 11 and, if the battery allows, tree 12.",
+        "for UnionOf(TreeIs(9)+TreeIs(10)+TreeIs(11)): [picture]; maybe [picture @ TreeIs(12)]",
+    ),
+    (
+        "Photograph the trees of row 9 in order from north to south.",
+        "for Ordered(north_to_south, of Rows(9, 9)) given: [picture]",
+    ),
+    (
+        "Photograph the Carmel trees in order of age, oldest first.",
+        "for Ordered(attribute, age_years, True, of Where(variety, eq, Carmel)) given: [picture]",
+    ),
+    (
+        "Photograph the Carmel trees in order of age.",
+        "for Ordered(attribute, age_years, of Where(variety, eq, Carmel)) given: [picture]",
+    ),
+    (
+        "As long as the air at the start is under 30, photograph row 3.",
+        "air @ Marker(start) = r1; if r1 < 30 degC: [for Rows(3, 3): [picture]]",
+    ),
+    (
+        "Photograph tree 4 and tree 9, then do it all again.",
+        "for UnionOf(TreeIs(4)+TreeIs(9)): [picture]; for UnionOf(TreeIs(4)+TreeIs(9)): [picture]",
+    ),
+    (
+        "Photograph tree 4 and measure CO2 at tree 9, then do it all again.",
+        "picture @ TreeIs(4); co2 @ TreeIs(9); picture @ TreeIs(4); co2 @ TreeIs(9)",
+    ),
+    ("Return to the charger afterwards.", "go Marker(charger) | stay"),
+    ("Photograph row 3 and return to the charger afterwards.", "for Rows(3, 3): [picture]; go Marker(charger) | stay"),
+    (
+        "Photograph tree 4. If it's under 36, continue with tree 5.",
+        "picture @ TreeIs(4) = r1; if r1 < 36 degC: [go TreeIs(5); picture = r2]",
+    ),
+    (
+        "Photograph tree 4. If it's under 36, go on to tree 5 and photograph it; otherwise come home.",
+        "picture @ TreeIs(4) = r1; if r1 < 36 degC: [go TreeIs(5); picture] else [go Marker(start)] | return_to_start",
+    ),
+    ("Photograph tree 4, then continue with tree 5.", "picture @ TreeIs(4); go TreeIs(5); picture"),
+    (
+        "Try to get a thermal picture of tree 60, and if you can't reach it take one of the tree next to it instead.",
+        "try [picture @ TreeIs(60)] or [picture @ Nearest(TreeIs(60), True)]",
+    ),
+    (
+        "Photograph tree 60. If you can't reach it, photograph the nearest tree to it.",
+        "try [picture @ TreeIs(60)] or [picture @ Nearest(TreeIs(60))]",
+    ),
+    ("Photograph tree 60 or, if that is blocked, tree 61.", "try [picture @ TreeIs(60)] or [picture @ TreeIs(61)]"),
+    ("Photograph tree 60, or tree 61 if it can't be reached.", "try [picture @ TreeIs(60)] or [picture @ TreeIs(61)]"),
+    (
+        "Photograph tree 60; if it's blocked, the one next to it.",
+        "try [picture @ TreeIs(60)] or [picture @ Nearest(TreeIs(60), True)]",
+    ),
 ]
 
 

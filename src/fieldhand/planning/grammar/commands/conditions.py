@@ -353,14 +353,26 @@ def several_tests(first: AllTests, second: Test, any_of: Lex | None = None) -> A
 
 
 @construction(
-    "tests: subject=measured IS first=predicate AND second=predicate",
-    "tests: subject=measured IS first=predicate any_of=OR second=predicate",
+    "tests: subject=measured [IS] first=predicate AND second=predicate",
+    "tests: subject=measured [IS] first=predicate any_of=OR second=predicate",
+    "tests: subject=measured [IS] none=NEITHER first=predicate NOR second=predicate",
     cost=0.2,
 )
-def two_tests_of_one(subject: Subject, first: Test, second: Test, any_of: Lex | None = None) -> AllTests:
-    """Compose "it is below 20 degC or above 30 degC"."""
+def two_tests_of_one(
+    subject: Subject, first: Test, second: Test, any_of: Lex | None = None, none: Lex | None = None
+) -> AllTests | None:
+    """Compose "it is below 20 degC or above 30 degC" and "it is neither low nor high"."""
+    if first.quantity or second.quantity:
+        return None  # "the CO2 is low or the canopy hot"
     both = tuple(
-        replace(one, quantity=subject.quantity, place=subject.place, setting=subject.setting) for one in (first, second)
+        replace(
+            one,
+            quantity=subject.quantity,
+            place=subject.place,
+            setting=subject.setting,
+            negated=one.negated != (none is not None),
+        )
+        for one in (first, second)
     )
     return AllTests(both, any_of=any_of is not None)
 
@@ -450,6 +462,7 @@ def question(test: Test, used: int, mark: Lex | None = None) -> ReadingQuestion 
     "failing: TRY mark=FULLSTOP",
     "failing: IF [WHODOES] CANNOT",
     "failing: IF IT CANNOT",
+    "failing: IF DET CANNOT",
     "failing: IF DOES CANNOT",
     "failing: IF [DET] reading=READING CANNOT",
     "failing: IF things=things CANNOT [verb]",

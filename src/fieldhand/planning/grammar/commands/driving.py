@@ -76,6 +76,12 @@ def look_at(place: PlaceMeaning, verb: Lex, used: int) -> DriveCommand | None:
     return DriveCommand(place, used) if place.shape == "area" and "goes_there" in verb.features else None
 
 
+@construction("drive: way=drive [COMMA] word=THEN", cost=0.3)
+def drive_afterwards(way: DriveCommand, word: Lex, used: int) -> DriveCommand | None:
+    """Compose "return to the charger afterwards"."""
+    return replace(way, used=used) if "when_done" in word.features and way.returns else None
+
+
 @construction("drive: way=drive INSTEAD", cost=0.2)
 def drive_instead(way: DriveCommand, used: int) -> DriveCommand:
     """Compose "go five trees south instead", in another case."""
@@ -112,10 +118,17 @@ def starting_from(place: s.Selector, used: int) -> DriveCommand:
     return DriveCommand(PlaceMeaning(place, "one"), used, begins=True)
 
 
-@construction("drive: GO WITH place=place", cost=0.5)
-def begin_with(place: PlaceMeaning, used: int) -> DriveCommand | None:
+@construction("drive: verb=GO WITH place=place", cost=0.5)
+def begin_with(verb: Lex, place: PlaceMeaning, used: int) -> DriveCommand | None:
     """Compose "start with tree 4"."""
-    return DriveCommand(place, used, begins=True) if place.shape == "one" else None
+    begins = place.shape == "one" and "goes_on" not in verb.features
+    return DriveCommand(place, used, begins=True) if begins else None
+
+
+@construction("again: verb=GO WITH place=place", cost=0.5)
+def go_on_with(verb: Lex, place: PlaceMeaning, used: int) -> Again | None:
+    """Compose "continue with tree 5", where the same is done."""
+    return Again(place, used) if "goes_on" in verb.features else None
 
 
 @construction("lead: GO WITH place=place", "lead: place=place FIRSTONE", cost=0.8)
@@ -471,9 +484,9 @@ def more_times(times: Lex | None = None, n: int = 1) -> int:
     return n if times is None else int(times.value)
 
 
-@construction("again: trees=numbers [COMMA] SAMEWAY", cost=0.2, given=("site",))
+@construction("again: trees=numbers [COMMA] SAMEWAY", "again: SAMEFOR trees=numbers", cost=0.2, given=("site",))
 def the_same_of_numbers(trees: tuple[str, ...], used: int, site: Site) -> Again | None:
-    """Compose "31 same", on a site whose trees have numbers."""
+    """Compose "31 same" and "the same for 40 and 60", on a site whose trees have numbers."""
     return Again(named_trees(trees), used) if all(name in site.by_id for name in trees) else None
 
 

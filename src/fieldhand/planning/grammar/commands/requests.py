@@ -666,10 +666,16 @@ def either_there(first: PlaceMeaning, one: Failing, second: PlaceMeaning, act: C
     return Said((LinkedCommand(None, here), LinkedCommand(None, one), LinkedCommand(None, there)))
 
 
-@construction("said: REPEAT times=COUNT COMMA rest=said", "said: times=COUNT [OVER] COMMA rest=said", cost=0.3)
-def so_often_first(times: Lex, rest: Said, used: int) -> Said:
+@construction(
+    "said: REPEAT times=often COMMA rest=said",
+    "said: times=often [OVER] COMMA rest=said",
+    "said: [TAKE] times=count ROUND COMMA rest=said",
+    "said: [TAKE] times=count ROUND OF COMMA rest=said",
+    cost=0.3,
+)
+def so_often_first(times: int, rest: Said, used: int) -> Said:
     """Compose "do this three times: photograph tree 4 and measure CO2 at tree 9"."""
-    again = Again(None, used & ~_used_by(rest), times=int(times.value), in_all=True, whole=True)
+    again = Again(None, used & ~_used_by(rest), times=times, in_all=True, whole=True)
     return Said((LinkedCommand(None, again), *rest.clauses))
 
 

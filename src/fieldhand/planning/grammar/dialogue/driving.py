@@ -325,8 +325,15 @@ def ordered(setting: Setting, loop: p.ForEach, command: InAnOrder, said: Spans) 
         raise NotComposed(message("the places cannot have two different orders", context="fault"))
     if command.by in ("each", "any"):
         return replace(loop, said=said)
-    if (known := as_ordered(loop.select)) is not None and known.by == command.by != "attribute":
+    known = as_ordered(loop.select)
+    if known is not None and known.by == command.by != "attribute":
         return replace(loop, said=said)  # "starting at the north end ..., and work your way south"
+    if known is not None and known.by == command.by and known.attribute in (command.attribute, ""):
+        way = replace(known, attribute=command.attribute, descending=command.descending)
+        return replace(loop, select=way, said=said)  # "in order of age, oldest first"
+    only_in_order = loop.order == "given" and known is None and len(loop.select.members) == 1
+    if only_in_order and command.by and command.by != "reverse":
+        loop = replace(loop, order="best")  # "in order from north to south"
     if loop.order == "given" or loop.optional or loop.at_most is not None:
         raise NotComposed(message("an order of places cannot be combined with a choice of how many", context="fault"))
     if command.by == "reverse":

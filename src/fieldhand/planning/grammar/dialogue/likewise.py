@@ -7,7 +7,7 @@ from typing import Any, cast
 
 from fieldhand.language import message
 from fieldhand.places import selectors as s
-from fieldhand.planning.grammar.dialogue.plans import is_inside
+from fieldhand.planning.grammar.dialogue.plans import block_at, is_inside, node_at
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting
 from fieldhand.planning.grammar.meaning import (
     Again,
@@ -52,6 +52,7 @@ def with_known_place(setting: Setting, state: DialogueState, command: Command) -
     if not isinstance(command, _WithPlace) or command.place is None:
         return command
     place = _end_of_row_spoken_of(state, _in_row_spoken_of(state, command.place))
+    place = _beside_unreached(state, place)
     command = replace(command, place=place)
     if place.beside:
         return replace(command, place=_beside(setting, state, place, command.used))
@@ -70,6 +71,19 @@ def with_known_place(setting: Setting, state: DialogueState, command: Command) -
         other = _of_another_value(state, place.selector)
         return replace(command, place=replace(place, selector=other, like=None))
     return command if place.like is None else replace(command, place=_likewise(state, place, place.like))
+
+
+def _beside_unreached(state: DialogueState, place: PlaceMeaning) -> PlaceMeaning:
+    """Return a place near one that could not be reached as measured from that one, where the robot is not."""
+    if not state.scope or state.scope[-1] != "otherwise" or s.Here() not in place.selector.walk():
+        return place
+    tried = node_at(state.plan, state.scope[:-1])
+    if not tried.caught or block_at(state.plan, state.scope).steps:
+        return place
+    named = [node.selector for node in p.walk(tried) if node.selector is not None and not node.selector.relative]
+    if len(named) != 1 or not named[0].single:
+        return place
+    return replace(place, beside=False, selector=swapped(place.selector, s.Here(), named[0]))
 
 
 def _in_row_spoken_of(state: DialogueState, place: PlaceMeaning) -> PlaceMeaning:
