@@ -47,6 +47,7 @@ class LeftOut:
         place: Places of their own.
         trees: Numbers or ids of trees, or numbers of rows.
         as_trees: True if the phrase says that these are trees.
+        or_so_many: True if a number may be that of the trees which are left out ("all trees but 2").
         value: Attribute and value of those that are left out.
         area: Area in which they are, if the phrase names it.
         positions: Ranges of positions in the row.
@@ -57,6 +58,7 @@ class LeftOut:
     place: PlaceMeaning | None = None
     trees: tuple[str, ...] = ()
     as_trees: bool = False
+    or_so_many: bool = False
     value: tuple[str, str] | None = None
     area: s.Selector | None = None
     positions: tuple[Span, ...] = ()
@@ -147,15 +149,19 @@ def out_with_except(out: LeftOut) -> LeftOut:
     return out
 
 
-@construction("but_out: BUT [NOT] out=out", "but_out: NOT trees=numbers", cost=0.0)
-def out_with_but(used: int, out: LeftOut | None = None, trees: tuple[str, ...] = ()) -> LeftOut | None:
+@construction("but_out: BUT [word=NOT] out=out", "but_out: NOT trees=numbers", cost=0.0)
+def out_with_but(
+    used: int, out: LeftOut | None = None, trees: tuple[str, ...] = (), word: Lex | None = None
+) -> LeftOut | None:
     """Compose "but not the yellow trees" and "not 6"; "but only the yellow ones" keeps them."""
     tokens = tokens_of(used)
     if len(tokens) < tokens[-1] - tokens[0] + 1:
         return None
     if out is None:
         return LeftOut(trees=trees)
-    return None if out.trees == ("1",) and not out.as_trees else out  # "the last row but one"
+    if out.trees == ("1",) and not out.as_trees:
+        return None  # "the last row but one"
+    return replace(out, or_so_many=word is None and len(out.trees) == 1 and not out.as_trees)
 
 
 @construction(
@@ -211,7 +217,7 @@ def _parts_out(whole: PlaceMeaning, out: LeftOut, site: Site) -> list[s.Selector
     if set(named) <= set(of.members):
         return [all_of(named)] if len(named) < len(of.members) else []
     if of == s.Trees():
-        return [all_of(named)]
+        return [] if out.or_so_many else [all_of(named)]
     ways = numbered(out.trees, of, site) if out.as_trees or is_one_row(of) else []
     if of.relative and all(name.isdigit() for name in out.trees):
         ways.append(all_of(named))
