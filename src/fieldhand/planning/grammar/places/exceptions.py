@@ -40,13 +40,14 @@ construction = GRAMMAR.construction
 
 
 @dataclass(frozen=True, slots=True)
-class LeftOut:
-    """What an exception leaves out of other places: one of these.
+class Omission:
+    """Places, or parts of other places, that an exception leaves out: one of these.
 
     Attributes:
         place: Places of their own.
         trees: Numbers or ids of trees, or numbers of rows.
         as_trees: True if the phrase says that these are trees.
+        or_so_many: True if a number may be that of the trees which are left out ("all trees but 2").
         value: Attribute and value of those that are left out.
         area: Area in which they are, if the phrase names it.
         positions: Ranges of positions in the row.
@@ -57,6 +58,7 @@ class LeftOut:
     place: PlaceMeaning | None = None
     trees: tuple[str, ...] = ()
     as_trees: bool = False
+    or_so_many: bool = False
     value: tuple[str, str] | None = None
     area: s.Selector | None = None
     positions: tuple[Span, ...] = ()
@@ -71,37 +73,37 @@ def except_word(word: Lex | None = None) -> str | None:
 
 
 @construction("out: place=place", "out: in_ place=place", "out: which_is in_ place=place", cost=0.1)
-def places_out(place: PlaceMeaning) -> LeftOut:
+def places_out(place: PlaceMeaning) -> Omission:
     """Compose "the yellow trees" and "in the wet corner"."""
-    return LeftOut(place=place)
+    return Omission(place=place)
 
 
 @construction("out: ANY clause=relative", "out: DET ONE clause=relative", cost=0.1)
-def described_out(clause: Clause) -> LeftOut | None:
+def described_out(clause: Clause) -> Omission | None:
     """Compose "any that are yellow"."""
     inner = with_attribute(Nominal(s.Trees(), plural=True), clause)
-    return None if inner is None else LeftOut(place=PlaceMeaning(inner.selector, "several"))
+    return None if inner is None else Omission(place=PlaceMeaning(inner.selector, "several"))
 
 
 @construction("out: trees=numbers", "out: [DET] word=NUMBERED trees=numbers", "out: [DET] named=tree_ids", cost=0.0)
-def numbers_out(trees: tuple[str, ...] = (), named: tuple[str, ...] = (), word: Lex | None = None) -> LeftOut:
+def numbers_out(trees: tuple[str, ...] = (), named: tuple[str, ...] = (), word: Lex | None = None) -> Omission:
     """Compose "7 and 13" and "tree 40"."""
-    return LeftOut(trees=trees or named, as_trees=bool(named) or word is not None)
+    return Omission(trees=trees or named, as_trees=bool(named) or word is not None)
 
 
 @construction(
     "out: [DET] value=ATTRVAL ONE", "out: ANY value=ATTRVAL ONE", "out: [DET] value=ATTRVAL ONE in_ area=region",
     cost=0.0,
 )  # fmt: skip
-def kind_out(value: Lex, area: s.Selector | None = None) -> list[LeftOut]:
+def kind_out(value: Lex, area: s.Selector | None = None) -> list[Omission]:
     """Compose "the yellow ones"."""
-    return [LeftOut(value=(name, text), area=area) for name, text in value.value]
+    return [Omission(value=(name, text), area=area) for name, text in value.value]
 
 
 @construction("out: [DET] side=DIR ONE", cost=0.0)
-def corner_out(side: Lex) -> LeftOut | None:
+def corner_out(side: Lex) -> Omission | None:
     """Compose "the north-west one", of corners."""
-    return LeftOut(place=PlaceMeaning(s.Corners(which=(side.value,)), "one")) if side.value in CORNERS else None
+    return Omission(place=PlaceMeaning(s.Corners(which=(side.value,)), "one")) if side.value in CORNERS else None
 
 
 @construction("left_out: at=left_out_at", "left_out: [BOTH] at=left_out_at AND [DET] second=left_out_at", cost=0.0)
@@ -130,32 +132,36 @@ def ends_left_out(noun: Lex) -> tuple[Span, ...] | None:
 
 
 @construction("out: positions=left_out", "out: positions=left_out in_ rows=any_rows", cost=0.0)
-def positions_out(positions: tuple[Span, ...], rows: s.Selector | None = None) -> LeftOut:
+def positions_out(positions: tuple[Span, ...], rows: s.Selector | None = None) -> Omission:
     """Compose "the first and last of row 3"."""
-    return LeftOut(positions=positions, rows=rows)
+    return Omission(positions=positions, rows=rows)
 
 
 @construction("out: DET chosen=bare", cost=0.0)
-def chosen_out(chosen: Chosen) -> LeftOut:
+def chosen_out(chosen: Chosen) -> Omission:
     """Compose "the three nearest to the charger"."""
-    return LeftOut(chosen=chosen)
+    return Omission(chosen=chosen)
 
 
 @construction("but_out: except out=out", cost=0.0)
-def out_with_except(out: LeftOut) -> LeftOut:
+def out_with_except(out: Omission) -> Omission:
     """Compose "except the yellow trees"."""
     return out
 
 
-@construction("but_out: BUT [NOT] out=out", "but_out: NOT trees=numbers", cost=0.0)
-def out_with_but(used: int, out: LeftOut | None = None, trees: tuple[str, ...] = ()) -> LeftOut | None:
+@construction("but_out: BUT [word=NOT] out=out", "but_out: NOT trees=numbers", cost=0.0)
+def out_with_but(
+    used: int, out: Omission | None = None, trees: tuple[str, ...] = (), word: Lex | None = None
+) -> Omission | None:
     """Compose "but not the yellow trees" and "not 6"; "but only the yellow ones" keeps them."""
     tokens = tokens_of(used)
     if len(tokens) < tokens[-1] - tokens[0] + 1:
         return None
     if out is None:
-        return LeftOut(trees=trees)
-    return None if out.trees == ("1",) and not out.as_trees else out  # "the last row but one"
+        return Omission(trees=trees)
+    if out.trees == ("1",) and not out.as_trees:
+        return None  # "the last row but one"
+    return replace(out, or_so_many=word is None and len(out.trees) == 1 and not out.as_trees)
 
 
 @construction(
@@ -163,7 +169,7 @@ def out_with_but(used: int, out: LeftOut | None = None, trees: tuple[str, ...] =
     cost=0.2,
     given=("site",),
 )
-def without(whole: PlaceMeaning, out: LeftOut, site: Site) -> list[PlaceMeaning] | None:
+def without(whole: PlaceMeaning, out: Omission, site: Site) -> list[PlaceMeaning] | None:
     """Compose "all trees except the yellow trees" and "row 3, the first two left out"."""
     some = as_some(whole.selector)
     if some is not None and whole.per is None:  # "any three trees except tree 12": three of the others
@@ -195,7 +201,7 @@ def _excluding(whole: PlaceMeaning, part: s.Selector) -> PlaceMeaning:
     )
 
 
-def _parts_out(whole: PlaceMeaning, out: LeftOut, site: Site) -> list[s.Selector]:
+def _parts_out(whole: PlaceMeaning, out: Omission, site: Site) -> list[s.Selector]:
     """Return the parts of a place that an exception can mean."""
     of = whole.selector
     if out.value is not None:
@@ -211,7 +217,7 @@ def _parts_out(whole: PlaceMeaning, out: LeftOut, site: Site) -> list[s.Selector
     if set(named) <= set(of.members):
         return [all_of(named)] if len(named) < len(of.members) else []
     if of == s.Trees():
-        return [all_of(named)]
+        return [] if out.or_so_many else [all_of(named)]
     ways = numbered(out.trees, of, site) if out.as_trees or is_one_row(of) else []
     if of.relative and all(name.isdigit() for name in out.trees):
         ways.append(all_of(named))
@@ -220,7 +226,7 @@ def _parts_out(whole: PlaceMeaning, out: LeftOut, site: Site) -> list[s.Selector
     return ways
 
 
-def rows_left_out(rows: s.Selector, out: LeftOut, site: Site) -> s.Selector | None:
+def rows_left_out(rows: s.Selector, out: Omission, site: Site) -> s.Selector | None:
     """Return the rows that numbers and positions behind rows leave out."""
     blocks = set(blocks_of(rows))
     if len(blocks) > 1 or (out.positions and any(row.every > 1 or row.first for row in rows_of(rows))):
@@ -235,7 +241,7 @@ def rows_left_out(rows: s.Selector, out: LeftOut, site: Site) -> s.Selector | No
     "each_row: rows=each_row [COMMA] out=but_out", "all_rows: rows=all_rows [COMMA] out=but_out",
     cost=0.2, given=("site",),
 )  # fmt: skip
-def each_row_but(rows: s.Selector, out: LeftOut, site: Site) -> s.Selector | None:
+def each_row_but(rows: s.Selector, out: Omission, site: Site) -> s.Selector | None:
     """Compose "each row but the last"."""
     if not are_several_rows(rows) or out.as_trees or out.rows is not None:
         return None
@@ -244,9 +250,9 @@ def each_row_but(rows: s.Selector, out: LeftOut, site: Site) -> s.Selector | Non
 
 
 @construction("out: positions=left_out ROW", cost=0.0)
-def rows_out(positions: tuple[Span, ...]) -> LeftOut:
+def rows_out(positions: tuple[Span, ...]) -> Omission:
     """Compose "the last row" behind "all rows but"."""
-    return LeftOut(positions=positions)
+    return Omission(positions=positions)
 
 
 def except_positions(

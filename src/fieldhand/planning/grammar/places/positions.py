@@ -95,10 +95,10 @@ def middle_span(n: int = 1) -> Span:
     return (0, n)
 
 
-@construction("mark: at=span [TREE]", "mark: at=middle_span [TREE]", "mark: at=middle_span ONE", cost=0.0)
-def tree_mark(at: Span) -> tuple[Span, ...]:
+@construction("mark: at=span [noun=TREE]", "mark: at=middle_span [noun=TREE]", "mark: at=middle_span ONE", cost=0.0)
+def tree_mark(at: Span, noun: Lex | None = None) -> tuple[Span, ...] | None:
     """Compose "third tree" and "middle one", one of several spots of a row."""
-    return (at,)
+    return (at,) if noun is None or noun.plural == (size_of(at) != 1) else None
 
 
 @construction("mark: START", "mark: DET end=FINISH", "mark: [BOTH] [DET] ends=ends", cost=0.0)
@@ -153,6 +153,9 @@ def at_positions(at: Positions, chosen: Chosen) -> Chosen | None:
         return None
     if len(at.spans) == 1 and (inner.plural != (size_of(at.spans[0]) != 1) or at.spans == ((0, 1),)):
         return None
+    sizes = [size_of(span) for span in at.spans]
+    if inner.plural and sizes[-1] == 1 and max(sizes) > 1:
+        return None  # "the three first and last trees": how many last ones?
     return replace(chosen, choice=Choice("at", at), preceded=True)
 
 

@@ -19,7 +19,7 @@ construction = GRAMMAR.construction
 
 
 @dataclass(frozen=True, slots=True)
-class Quantity:
+class Determiner:
     """Words before a noun that say how many are meant.
 
     Attributes:
@@ -33,34 +33,34 @@ class Quantity:
 
 
 @construction("quantity: word=DET [n=count]", cost=0.0)
-def article(word: Lex, n: int | None = None) -> Quantity:
+def article(word: Lex, n: int | None = None) -> Determiner:
     """Compose "the", "a" and "the three"."""
     if "indefinite" in word.features:
-        return Quantity("some" if "vague" in word.features else "a", n)
-    return Quantity("the" if "definite" in word.features else "that", n)
+        return Determiner("some" if "vague" in word.features else "a", n)
+    return Determiner("the" if "definite" in word.features else "that", n)
 
 
 @construction("quantity: n=count", cost=0.0)
-def number(n: int) -> Quantity:
+def number(n: int) -> Determiner:
     """Compose "three"."""
-    return Quantity("", n)
+    return Determiner("", n)
 
 
 @construction("quantity: word=ANY [DET]", "quantity: word=ANY n=count", "quantity: ATLEAST n=count", cost=0.1)
-def any_of(word: Lex | None = None, n: int | None = None) -> Quantity:
+def any_of(word: Lex | None = None, n: int | None = None) -> Determiner:
     """Compose "any" and "at least three"."""
     free = word is not None and "free_choice" in word.features
-    return Quantity("whichever" if free else "any", n)
+    return Determiner("whichever" if free else "any", n)
 
 
 @construction("quantity: word=EACH [DET] [n=count]", cost=0.0)
-def each(word: Lex, n: int | None = None) -> Quantity:
+def each(word: Lex, n: int | None = None) -> Determiner:
     """Compose "every" and "all 12"."""
-    return Quantity("all" if "all_of" in word.features else "each", n)
+    return Determiner("all" if "all_of" in word.features else "each", n)
 
 
 @construction("place: quantity=quantity inner=nominal", cost=0.2, given=("site",))
-def quantified(quantity: Quantity, inner: Nominal, site: Site) -> list[PlaceMeaning] | None:
+def quantified(quantity: Determiner, inner: Nominal, site: Site) -> list[PlaceMeaning] | None:
     """Compose "the three yellow trees", "any tree of row 4" and "every corner"."""
     kind, n = quantity.kind, quantity.n
     if inner.single:
@@ -92,7 +92,7 @@ def unquantified(inner: Nominal) -> PlaceMeaning | None:
     return PlaceMeaning(inner.selector, "several") if inner.plural else None
 
 
-def _all_of(quantity: Quantity, inner: Nominal, site: Site) -> list[PlaceMeaning] | None:
+def _all_of(quantity: Determiner, inner: Nominal, site: Site) -> list[PlaceMeaning] | None:
     """Return "every yellow tree", and "all 12 yellow trees": if there are more, all or only so many?"""
     n = quantity.n
     if n in (None, inner.complete):
@@ -103,7 +103,7 @@ def _all_of(quantity: Quantity, inner: Nominal, site: Site) -> list[PlaceMeaning
 def _any_of(n: int | None, inner: Nominal, site: Site) -> list[PlaceMeaning] | None:
     """Return "any three trees", "any tree" and "any yellow tree": one of them, or each that there is?"""
     if n is not None:
-        return None if inner.complete else _so_many(Quantity(), n, inner, site)
+        return None if inner.complete else _so_many(Determiner(), n, inner, site)
     if inner.tested and not inner.plural:
         return [PlaceMeaning(inner.selector, "several", each=True)]  # "any tree that is older than 8 years"
     if is_by_attribute(inner.selector):
@@ -111,7 +111,7 @@ def _any_of(n: int | None, inner: Nominal, site: Site) -> list[PlaceMeaning] | N
     return [PlaceMeaning(s.Take(count=1, of=inner.selector), "one")]
 
 
-def _so_many(quantity: Quantity, n: int, inner: Nominal, site: Site) -> list[PlaceMeaning] | None:
+def _so_many(quantity: Determiner, n: int, inner: Nominal, site: Site) -> list[PlaceMeaning] | None:
     """Return "three trees" and "the three yellow trees"."""
     if inner.complete:
         if n == inner.complete:

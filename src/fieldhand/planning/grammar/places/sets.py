@@ -11,7 +11,7 @@ from fieldhand.planning.grammar.places.chosen import Chosen, chosen_among
 from fieldhand.planning.grammar.places.clauses import Clause, Trait, with_attribute
 from fieldhand.planning.grammar.places.counted import Positions, rows_within, trees_counted
 from fieldhand.planning.grammar.places.numbered import all_of
-from fieldhand.planning.grammar.places.quantities import Quantity, quantified
+from fieldhand.planning.grammar.places.quantities import Determiner, quantified
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
     AREAS,
@@ -258,7 +258,7 @@ def of_these_those(
 @construction(
     "place: first=place [COMMA] AND [AT] quantity=quantity inner=nominal OUTSIDE [OF] IT", cost=0.1, given=("site",)
 )
-def and_outside_it(first: PlaceMeaning, quantity: Quantity, inner: Nominal, site: Site) -> list[PlaceMeaning] | None:
+def and_outside_it(first: PlaceMeaning, quantity: Determiner, inner: Nominal, site: Site) -> list[PlaceMeaning] | None:
     """Compose "the trees in the wet corner and any three trees outside it"."""
     areas = [part for part in first.selector.walk() if isinstance(part, AREAS)]
     beyond = with_attribute(inner, (Trait(area=areas[0], outside=True),)) if len(areas) == 1 else None

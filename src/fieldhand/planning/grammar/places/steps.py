@@ -133,12 +133,16 @@ def row_side(word: Lex | None = None) -> Towards | None:
     return "up" if word is None else "down" if "after_doing" in word.features else None
 
 
-@construction("place: DET noun=TREE way=row_side to=place", "place: DET noun=ONE way=row_side to=place", cost=0.3)
-def tree_before(noun: Lex, way: Towards, to: PlaceMeaning) -> PlaceMeaning | None:
+@construction(
+    "place: word=DET noun=TREE way=row_side to=place", "place: word=DET noun=ONE way=row_side to=place", cost=0.3
+)
+def tree_before(word: Lex, noun: Lex, way: Towards, to: PlaceMeaning) -> PlaceMeaning | None:
     """Compose "the tree before tree 20"."""
-    if noun.plural or "plural" in noun.features or to.shape not in ("one", "here"):
+    if noun.plural or "plural" in noun.features or "definite" not in word.features:
         return None
-    return PlaceMeaning(s.AlongRow(trees=1, towards=way, origin=to.selector), "one", beside=to.shape == "here")
+    if to.shape not in ("one", "here"):
+        return None
+    return _beside(to, PlaceMeaning(s.AlongRow(trees=1, towards=way, origin=to.selector), "one"))
 
 
 @construction(
@@ -151,7 +155,7 @@ def trees_before_and_after(way: Towards, other: Towards, to: PlaceMeaning) -> Pl
     if way == other or to.shape not in ("one", "here"):
         return None
     steps = tuple(s.AlongRow(trees=1, towards=one, origin=to.selector) for one in (way, other))
-    return PlaceMeaning(s.UnionOf(parts=steps), "several", count=2, beside=to.shape == "here")
+    return _beside(to, PlaceMeaning(s.UnionOf(parts=steps), "several", count=2))
 
 
 @construction("place: step=stride", cost=0.3)
