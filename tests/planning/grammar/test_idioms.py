@@ -138,6 +138,54 @@ READ = [
         "Photograph tree 60; if it's blocked, the one next to it.",
         "try [picture @ TreeIs(60)] or [picture @ Nearest(TreeIs(60), True)]",
     ),
+    (
+        "Photograph the westernmost row, then the easternmost.",
+        "for Rows(1, 1, west): [picture]; for Rows(1, 1, east): [picture]",
+    ),
+    ("Photograph the northernmost tree and the southernmost.", "for UnionOf(Extreme(north)+Extreme(south)): [picture]"),
+    ("Photograph the northernmost tree, then the southernmost.", "picture @ Extreme(north); picture @ Extreme(south)"),
+    (
+        "Photograph the northernmost tree of row 4 and the southernmost.",
+        "for UnionOf(Extreme(north, of Rows(4, 4))+Extreme(south, of Rows(4, 4))): [picture]",
+    ),
+    (
+        "Go to the northernmost tree and take a picture, then go to the easternmost and measure CO2.",
+        "go Extreme(north); picture; go Extreme(east); co2",
+    ),
+    ("Photograph the easternmost.", "picture @ Extreme(east)"),
+    (
+        "Photograph the two westernmost rows, then the easternmost.",
+        "for Rows(1, 2, west): [picture]; for Rows(1, 1, east): [picture]",
+    ),
+    (
+        "Drive to the north end of row 6, take a picture, then drive to the south end and take another.",
+        "go InRow(1, 1, north, of Rows(6, 6)); picture; go InRow(1, 1, south, of RowOf); picture",
+    ),
+    (
+        "Photograph the tree at the north end of row 6 and measure CO2 at the south end.",
+        "picture @ InRow(1, 1, north, of Rows(6, 6)); co2 @ InRow(1, 1, south, of RowOf)",
+    ),
+    (
+        "Photograph every tree in row 6 and measure CO2 at the north end.",
+        "for Rows(6, 6): [picture]; co2 @ InRow(1, 1, north, of Rows(6, 6))",
+    ),
+    (
+        "For every row from 2 to 6, take a CO2 reading at its northern end.",
+        "for InRow(1, 1, north, of Rows(2, 6)): [co2]",
+    ),
+    (
+        "Go to tree 40, take a picture, then go to the north end of its row and take another.",
+        "go TreeIs(40); picture; go InRow(1, 1, north, of RowOf); picture",
+    ),
+    (
+        "Go to tree 40, take a picture, then go to the north end and take another.",
+        "go TreeIs(40); picture; go InRow(1, 1, north, of RowOf); picture",
+    ),
+    (
+        "In row 6, take a picture at the north end and CO2 at the south end.",
+        "for InRow(1, 1, north, of Rows(6, 6)): [picture]; co2 @ InRow(1, 1, south, of Rows(6, 6))",
+    ),
+    ("Go to the north end of row 3.", "go InRow(1, 1, north, of Rows(3, 3))"),
 ]
 
 

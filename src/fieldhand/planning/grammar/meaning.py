@@ -80,16 +80,17 @@ class Likewise:
     """A side that is named by one named before it: "the other half", "the southern one"; or the best of those ranked.
 
     Attributes:
-        kind: Half, quarter or corner, ``ranked``, ``rest`` for the others of those, ``nth`` for one of several
-            that were named, ``those`` for others of that description, or ``value`` for those with another value
-            ("the green ones"); empty if it is of the kind of the one before.
+        kind: Half, quarter or corner, ``extreme`` for the tree or the row that is farthest to the side, ``ranked``,
+            ``rest`` for the others of those, ``nth`` for one of several that were named, ``those`` for others of that
+            description, or ``value`` for those with another value ("the green ones"); empty if it is of the kind of
+            the one before.
         number: Which one of several, from 1 on; -1 for the last.
         side: Side of the compass; empty for the opposite side.
         holds: True if the places are inside it.
         of_number: Number of those of which it is one, if the phrase says it ("the last of the four").
     """
 
-    kind: Literal["", "half", "quarter", "corner", "ranked", "rest", "nth", "those", "value"]
+    kind: Literal["", "half", "quarter", "corner", "extreme", "ranked", "rest", "nth", "those", "value"]
     side: str = ""
     holds: bool = False
     number: int = 0

@@ -119,6 +119,7 @@ def in_each_row(rows: s.Selector, place: PlaceMeaning) -> PlaceMeaning:
     Raises:
         NotComposed: The place is none of a row.
     """
+    place = replace(place, selector=swapped(place.selector, s.RowOf(), s.Trees()))  # "for each row, ... at its end"
     if not chooses_from_trees(place.selector):
         raise NotComposed(message("it is not clear at which of two places this is done", context="fault"))
     by_number = are_rows(rows) and all(counts_in_row(part) for part in over(place.selector, s.Rows()).members)

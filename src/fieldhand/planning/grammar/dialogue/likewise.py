@@ -28,6 +28,7 @@ from fieldhand.planning.selections import (
     as_where,
     as_zone,
     counts_in_row,
+    is_block,
     is_by_attribute,
     is_end_of_site,
     is_one_row,
@@ -37,6 +38,7 @@ from fieldhand.planning.selections import (
     swapped,
 )
 from fieldhand.task import plan as p
+from fieldhand.terms import Side
 
 _OPPOSITE = {"n": "s", "s": "n", "e": "w", "w": "e", "north": "south", "south": "north", "east": "west", "west": "east"}
 #: Commands with a place.
@@ -62,6 +64,8 @@ def with_known_place(setting: Setting, state: DialogueState, command: Command) -
         before = state.where
         kind = before.selector if before is not None and before.shape == "several" else s.Trees()
         return replace(command, place=replace(place, selector=of_that_kind(kind, place.selector), like=None))
+    if place.like is not None and place.like.kind == "extreme":
+        return replace(command, place=_extreme(state, replace(place, like=None), place.like.side))
     if place.like is not None and place.like.kind == "rest":
         return replace(command, place=replace(place, selector=_rest(state, place.selector), like=None))
     if place.like is not None and place.like.kind == "nth":
@@ -71,6 +75,16 @@ def with_known_place(setting: Setting, state: DialogueState, command: Command) -
         other = _of_another_value(state, place.selector)
         return replace(command, place=replace(place, selector=other, like=None))
     return command if place.like is None else replace(command, place=_likewise(state, place, place.like))
+
+
+def _extreme(state: DialogueState, place: PlaceMeaning, side: str) -> PlaceMeaning:
+    """Return "the easternmost" behind a row as the row that is farthest to the east, and as a tree behind others."""
+    before = state.where
+    if before is None or before.shape == "one" or not are_rows(before.selector):
+        return place
+    outermost = s.Rows(first="1", last="1", counted_from=cast(Side, side))
+    block = next((part for part in before.selector.walk() if is_block(part)), None)
+    return replace(place, selector=outermost if block is None else over(outermost, block), shape="area")
 
 
 def _beside_unreached(state: DialogueState, place: PlaceMeaning) -> PlaceMeaning:

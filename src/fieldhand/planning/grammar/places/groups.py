@@ -143,6 +143,8 @@ def both(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | list[Place
         return None
     if second.like is not None and second.like.kind == "those":
         second = replace(second, selector=of_that_kind(first.selector, second.selector), like=None)
+    if second.like is not None and second.like.kind == "extreme":
+        second = replace(second, like=None)
     if second.like is not None:
         if (opposite := _other_end(first.selector, second.selector)) is None:
             return None

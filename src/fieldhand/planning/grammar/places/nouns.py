@@ -7,7 +7,7 @@ from typing import Any, Literal, cast
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Amount, Nominal, PlaceMeaning
+from fieldhand.planning.grammar.meaning import Amount, Likewise, Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.words import Lex, hinted_attributes
 from fieldhand.planning.selections import chooses_from_trees
@@ -55,6 +55,14 @@ def without_attribute(inner: Nominal, value: Lex) -> list[Nominal] | None:
 def extreme_one(side: Lex) -> Nominal | None:
     """Compose "northernmost" without a noun."""
     return Nominal(s.Extreme(side=side.value), single=True) if side.value in SIDES else None
+
+
+@construction("place: DET side=MOST", cost=0.6)
+def extreme_of_those(side: Lex) -> PlaceMeaning | None:
+    """Compose "the northernmost", which may be a row behind a row."""
+    if side.value not in SIDES:
+        return None
+    return PlaceMeaning(s.Extreme(side=side.value), "one", like=Likewise("extreme", side=side.value))
 
 
 @construction("place: DET rank=ranking", cost=1.0)

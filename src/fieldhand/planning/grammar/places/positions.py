@@ -443,6 +443,20 @@ def from_side_and_on(to: Lex, side: Side | None = None, begin: Lex | None = None
     return side if side is not None and AWAY_FROM.get(side, "").endswith(f"_to_{to.value}") else None
 
 
+@construction(
+    "place: DET side=DIR noun=FINISH",
+    "place: DET TREE AT DET side=DIR noun=FINISH",
+    "place: DET ONE AT DET side=DIR noun=FINISH",
+    "place: poss=ITS side=DIR noun=FINISH",
+    cost=1.2,
+)
+def end_of_that_row(side: Lex, noun: Lex, poss: Lex | None = None) -> PlaceMeaning | None:  # noqa: ARG001
+    """Compose "the south end", of the row that was spoken of."""
+    if side.value not in SIDES or noun.plural:
+        return None
+    return PlaceMeaning(s.InRow(first=1, last=1, counted_from=side.value, of=s.RowOf()), "one")
+
+
 @construction("place: DET noun=FINISH OF rows=rows NEAREST [AT] to=place", cost=0.1)
 def nearer_end(noun: Lex, rows: s.Selector, to: PlaceMeaning) -> PlaceMeaning | None:
     """Compose "the end of row 3 nearest to the charger"."""
