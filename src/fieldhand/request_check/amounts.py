@@ -8,6 +8,7 @@ from itertools import zip_longest
 from typing import Literal
 
 from fieldhand.request_check import words as w
+from fieldhand.request_check.numbers import Number, numbers
 from fieldhand.request_check.words import Token
 
 AmountKind = Literal[
@@ -20,8 +21,6 @@ _RANGES = frozenset({"to", "-", "\u2013", "through", "thru", "until", "till"})
 _NUMBERED = frozenset({"#", "number", "no", "nr", "id", "ids", "numbers", "numbered", "nos"})
 _JOINS = _RANGES | _NUMBERED | {",", "and", "or", "&", "then", "up"}
 _STOPS = frozenset({".", ";", ":", "?", "!", "(", ")"})
-#: Maximum number of digits of an amount.
-_LONGEST = 15
 #: Maximum number of words between two numbers of a list.
 _LONGEST_JOINT = 4
 #: Maximum distance in tokens of a comparison word before its number.
@@ -63,14 +62,6 @@ class Noun:
     actions: frozenset[str]
 
 
-@dataclass(frozen=True, kw_only=True)
-class _Number:
-    value: float
-    start: int
-    end: int
-    ordinal: bool = False
-
-
 def amounts(tokens: Sequence[Token], nouns: dict[int, Noun], units: frozenset[str]) -> tuple[StatedAmount, ...]:
     """Return every number of a request.
 
@@ -80,7 +71,7 @@ def amounts(tokens: Sequence[Token], nouns: dict[int, Noun], units: frozenset[st
         units: Units of the robot's quantities in lower case.
     """
     found: list[StatedAmount] = []
-    for number in _numbers(tokens):
+    for number in numbers(tokens):
         amount = _amount(tokens, number, nouns, units)
         before = found[-1] if found else None
         ends_range = number.start > 0 and tokens[number.start - 1].text in _RANGES  # "rows 2 to 4 photograph"
@@ -103,59 +94,7 @@ def numbers_of(amount: StatedAmount) -> set[int]:
     return found | set(range(int(amount.values[0]), min(amount.through, int(amount.values[0]) + 10_000) + 1))
 
 
-def _numbers(tokens: Sequence[Token]) -> Iterator[_Number]:
-    """Yield numbers in digits and words; "one" alone is skipped, since it is mostly a pronoun."""
-    k = 0
-    while k < len(tokens):
-        text = tokens[k].text
-        if w.is_number(text) and len(text) <= _LONGEST:
-            rank = k + 1 < len(tokens) and tokens[k + 1].joined and tokens[k + 1].text in ("st", "nd", "rd", "th")
-            yield _Number(value=float(text.replace(",", "")), start=k, end=k + 1 + rank, ordinal=rank)
-            k += 1 + rank
-        elif text in w.ORDINALS:
-            yield _Number(value=float(w.ORDINALS[text]), start=k, end=k + 1, ordinal=True)
-            k += 1
-        elif text in w.NUMBERS or text in ("hundred", "thousand"):
-            value, end = _spelt(tokens, k)
-            yield _Number(value=value, start=k, end=end)
-            k = end
-        else:
-            k += 1
-
-
-def _spelt(tokens: Sequence[Token], start: int) -> tuple[float, int]:
-    """Parse a number in words and return it with its end: "twenty five", "two hundred and fifty"."""
-    total, k = 0.0, start
-    while k < len(tokens):
-        text = tokens[k].text
-        if text in w.NUMBERS and (k == start or w.NUMBERS[text] < _room(tokens[k - 1].text)):
-            total += w.NUMBERS[text]
-        elif text in ("hundred", "thousand") and total < 1e9:
-            total = max(total, 1.0) * (100.0 if text == "hundred" else 1000.0)
-        elif not (
-            text in ("and", "-") and k + 1 < len(tokens) and tokens[k + 1].text in w.NUMBERS and _open(tokens, k)
-        ):
-            break
-        k += 1
-    return total, k
-
-
-def _room(before: str) -> float:
-    """Return the bound below which a number word continues the one before it."""
-    if before in ("hundred", "thousand", "and"):
-        return 100.0
-    return 10.0 if before == "-" or w.NUMBERS.get(before, 0.0) >= 20.0 else 0.0
-
-
-def _open(tokens: Sequence[Token], k: int) -> bool:
-    """Return True if a number continues after a joining word: "hundred and fifty", but not "two and three"."""
-    before = tokens[k - 1].text
-    if tokens[k].text == "-":
-        return w.NUMBERS.get(before, 0.0) >= 20.0 and w.NUMBERS[tokens[k + 1].text] < 10.0
-    return before in ("hundred", "thousand")
-
-
-def _amount(tokens: Sequence[Token], number: _Number, nouns: dict[int, Noun], units: frozenset[str]) -> StatedAmount:
+def _amount(tokens: Sequence[Token], number: Number, nouns: dict[int, Noun], units: frozenset[str]) -> StatedAmount:
     value, k = number.value, number.end
     if [token.text for token in tokens[k : k + 1]] == ["-"]:
         k += 1  # "two-year-old"
@@ -278,7 +217,7 @@ def _compared(tokens: Sequence[Token], index: int) -> str:
     return ""
 
 
-def _listed(tokens: Sequence[Token], before: StatedAmount, number: _Number) -> bool:
+def _listed(tokens: Sequence[Token], before: StatedAmount, number: Number) -> bool:
     """Return True if a bare number continues a list of names: "trees 4, 9 and 12"."""
     if before.kind not in ("id", "row", "name") or number.ordinal:
         return False

@@ -36,11 +36,12 @@ ORDINALS = {
     for n, word in enumerate(
         _in_order("""
             first second third fourth fifth sixth seventh eighth ninth tenth eleventh twelfth thirteenth fourteenth
-            fifteenth sixteenth seventeenth eighteenth nineteenth twentieth
+            fifteenth sixteenth seventeenth eighteenth nineteenth
             """),
         start=1,
     )
 }
+ORDINALS |= {f"{word[:-1]}ieth": 20 + 10 * n for n, word in enumerate(_TENS)} | {"hundredth": 100}
 #: Words for a number of things without a noun.
 MULTIPLES = {
     "once": 1,

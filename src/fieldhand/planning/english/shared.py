@@ -102,9 +102,6 @@ def _spreading() -> Iterator[str]:
 def _numbers(v: Mapping[str, Any]) -> Iterator[tuple[str, str, Any]]:
     for word, number in v["numbers"].items():
         yield word, "NUM", float(number)
-    for tens, name in enumerate(_TENS, start=2):
-        for unit, digit in enumerate(_UNITS, start=1):
-            yield f"{name} {digit}", "NUM", float(10 * tens + unit)
     for rank, word in enumerate(v["ranks"]["words"], start=1):
         for form in (word, f"very {word}"):
             yield form, "ORD", rank

@@ -13,7 +13,7 @@ _TOKEN = re.compile(
     r"(?P<rank>\d+(?:st|nd|rd|th)\b)"
     r"|(?P<number>\d{1,3}(?:,\d{3})+(?![\d])|\d+(?:\.\d+)?|(?<![\w.])\.\d+)"
     r"|(?P<word>(?<=\d)['\u2019]s\b|(?:nos?|nr)\.(?=\s*[a-z]?\d)|i\.\s?e\.|viz\.|w/o?(?=[\s\d])|@(?=\s|\w)"
-    r"|~(?=\s?\d)|o['\u2019](?=\s)|(?:temps?|approx|deg|avg|mins?|hrs?|secs?|incl|excl)\.(?=\s+(?-i:[a-z0-9]))(?!\s+(?:take|go|drive|snap|then|if|photo|get|grab|move|after|when|once|otherwise|repeat|and\sthen)\w*\b)|(?:l|ml|g|kg|m|km)/(?:ha|h|s|min|m2|tree)\b|[^\W\d_][\w\u2080-\u2089]*(?:['\u2019][^\W\d_]+)?)"
+    r"|~(?=\s?\d)|\u00d7\d+|o['\u2019](?=\s)|(?:temps?|approx|deg|avg|mins?|hrs?|secs?|incl|excl)\.(?=\s+(?-i:[a-z0-9]))(?!\s+(?:take|go|drive|snap|then|if|photo|get|grab|move|after|when|once|otherwise|repeat|and\sthen)\w*\b)|(?:l|ml|g|kg|m|km)/(?:ha|h|s|min|m2|tree)\b|[^\W\d_][\w\u2080-\u2089]*(?:['\u2019][^\W\d_]+)?)"
     r"|(?P<unit>%|°\s?[cCfF]\b|°)"
     r"|(?P<stop>[.;!?\n]+)"
     r"|(?P<comma>[,:()]|(?<!\d)\s[-\u2013\u2014]+\s|\s[-\u2013\u2014]+\s(?![a-z]?\d)|[-=]>|\u2192)"
@@ -77,7 +77,7 @@ def words_of(request: str) -> list[Word]:
             unicodedata.normalize("NFKC", match.group()).lower().replace("\N{RIGHT SINGLE QUOTATION MARK}", "'").strip()
         )
         norm = norm.rstrip(".") if kind == "word" else norm  # "the air temp. at tree 4"
-        norm = vocabulary()["same_words"].get(norm, norm)
+        norm = vocabulary()["same_words"].get(norm, norm).replace("\N{MULTIPLICATION SIGN}", "x")
         found.append(Word(kind=kind, text=match.group(), norm=norm, start=match.start(), end=match.end()))
     found = list(_with_dictated_marks(found))
     return [word for k, word in enumerate(found) if not _closes_sentence(word, found[k + 1 : k + 2])]

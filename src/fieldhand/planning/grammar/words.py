@@ -9,12 +9,15 @@ from typing import Any, Protocol, TypeVar
 
 from fieldhand.planning.english.lexicon import CODE, Lexicon
 from fieldhand.planning.english.naming import NameEntry, Phrase, split
+from fieldhand.planning.english.numbers import spelt_numbers
 from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.grammar.chart import PhraseEdge
 from fieldhand.site.model import Site
 
 #: Price of a word by itself; a phrase of several words costs no more, so that longer phrases are preferred.
 _WORD_COST = 1.0
+#: Price of a number that is read in parts ("one twenty"), which may be two numbers as well ("in row one twenty trees").
+_IN_PARTS_COST = 2.5
 #: Comparisons that are written as signs.
 _COMPARISONS = {
     ">": "gt",
@@ -33,6 +36,8 @@ _SILENT = "FILLER"
 _INFINITIVE = "INORDERTO"
 #: Category of words that hint at an attribute which the site does not record ("taller than").
 LACKING = "LACKING"
+#: How often something is done, as a sign: "x2".
+_TIMES = re.compile("x([2-9]|[1-9][0-9])")
 #: Ending of an English name that owns what follows.
 _POSSESSIVE = re.compile("(?<=.)['\N{RIGHT SINGLE QUOTATION MARK}]s$")
 #: Categories of the words of tellings.
@@ -133,6 +138,7 @@ def edges_of(words: Sequence[Word], phrases: Phrases, *, tells: bool = False) ->
     """
     for start, word in enumerate(words):
         yield from _single(word, start, phrases)
+        yield from _spelt_out(words, start)
         yield from _names(words, start, phrases)
         phrase: list[str] = []
         for end in range(start + 1, min(start + 1 + phrases.longest, len(words) + 1)):
@@ -210,6 +216,8 @@ def _is_kind(words: Sequence[Word], kind: str, phrases: Phrases) -> bool:
 def _single(word: Word, at: int, phrases: Phrases) -> Iterator[PhraseEdge]:
     if word.kind == "rank":
         yield _edge("ORD", at, at + 1, Lex(int(re.sub(r"\D", "", word.norm)), False, word.norm))
+    elif (times := _TIMES.fullmatch(word.norm)) is not None:
+        yield _edge("COUNT", at, at + 1, Lex(int(times[1]), False, word.norm))
     elif word.kind == "number":
         yield _edge("NUM", at, at + 1, Lex(float(word.norm.replace(",", "")), False, word.norm))
     elif word.text in _COMPARISONS:
@@ -217,6 +225,18 @@ def _single(word: Word, at: int, phrases: Phrases) -> Iterator[PhraseEdge]:
     elif word.kind in _SIGNS:
         features = phrases.features((word.text.strip(),))
         yield _edge(_SIGNS[word.kind], at, at + 1, Lex(word.text, False, word.text, features))
+
+
+def _spelt_out(words: Sequence[Word], start: int) -> Iterator[PhraseEdge]:
+    """Yield the numbers and ranks that several words spell out from a word on, and thousands ("1.5k")."""
+    word, following = words[start], words[start + 1 : start + 2]
+    if word.kind == "number" and [one.text for one in following] == ["k"] and following[0].start == word.end:
+        yield _edge("NUM", start, start + 2, Lex(1000 * float(word.norm.replace(",", "")), False, f"{word.norm}k"))
+    for number in spelt_numbers(words, start):
+        text = " ".join(word.norm for word in words[start : number.end])
+        value = number.value if number.is_rank else float(number.value)
+        cost = _IN_PARTS_COST if number.in_parts else _WORD_COST
+        yield _edge("ORD" if number.is_rank else "NUM", start, number.end, Lex(value, False, text), cost)
 
 
 def _names(words: Sequence[Word], start: int, phrases: Phrases) -> Iterator[PhraseEdge]:
@@ -288,8 +308,8 @@ def hinted_attributes(hint: str, site: Site) -> list[str]:
     return [name for name in site.attributes if hint in name.lower().replace("-", "_").split("_")]
 
 
-def _edge(category: str, start: int, end: int, meaning: Lex) -> PhraseEdge:
-    return PhraseEdge(category, start, end, meaning, _WORD_COST, ((1 << end) - 1) ^ ((1 << start) - 1))
+def _edge(category: str, start: int, end: int, meaning: Lex, cost: float = _WORD_COST) -> PhraseEdge:
+    return PhraseEdge(category, start, end, meaning, cost, ((1 << end) - 1) ^ ((1 << start) - 1))
 
 
 def topic_edge(words: Sequence[Word], at: int) -> PhraseEdge:

@@ -288,27 +288,3 @@ def one_number(first: tuple[str, ...]) -> tuple[str, ...]:
 def more_numbers(first: tuple[str, ...], item: tuple[str, ...]) -> tuple[str, ...]:
     """Compose "12, 15 and 20"."""
     return (*first, *item)
-
-
-@construction(
-    "NUM: many=NUM hundred=NUM AND rest=NUM",
-    "NUM: many=NUM hundred=NUM rest=NUM",
-    "NUM: many=NUM hundred=NUM",
-    cost=0.0,
-)
-def hundreds(many: Lex, hundred: Lex, rest: Lex | None = None) -> Lex | None:
-    """Compose "four hundred and fifty"."""
-    spelled = [number for number in (many, hundred, rest) if number is not None]
-    if not all(number.text.isalpha() for number in spelled) or hundred.value != 100 or not _says_hundreds(many.value):
-        return None
-    value = many.value * 100
-    if rest is not None:
-        if not 1 <= rest.value < 100:
-            return None
-        value += rest.value
-    return Lex(float(value), False, " ".join(number.text.split()[0] for number in spelled))
-
-
-def _says_hundreds(many: float) -> bool:
-    """Return True for "four" and "fifteen" of "four hundred" and "fifteen hundred"."""
-    return 1 <= many < 100 and many % 10 != 0
