@@ -49,6 +49,7 @@ MULTIPLES = {
     "thrice": 3,
     "couple": 2,
     "pair": 2,
+    "brace": 2,
     "both": 2,
     "dozen": 12,
     "double": 2,

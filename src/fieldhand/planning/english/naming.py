@@ -19,6 +19,8 @@ _UNIT_WORDS = frozenset({"m", "kg", "years", "cm", "mm", "of", "the", "percent",
 #: An attribute with more texts than this is a label of each tree rather than a kind of tree.
 _MOST_TEXTS = 200
 _LONGEST_TEXT, _LONGEST_ZONE = 40, 60
+#: Words in the names of zones of water.
+_WATERS = frozenset({"pond", "lake", "reservoir", "pool", "basin", "dam", "lagoon"})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -114,6 +116,10 @@ def site_entries(site: Site) -> Iterator[tuple[Phrase, NameEntry]]:
         if zone.kind != "boundary" and name and len(zone.name) <= _LONGEST_ZONE:
             for phrase in (name, (*name, "zone"), ("zone", *name), (*name, "area"), ("area", *name)):
                 yield phrase, NameEntry(kind="ZONE", value=zone.name)
+    waters = [zone.name for zone in site.zones if zone.kind != "boundary" and _WATERS & {*split(zone.name)}]
+    if len(waters) == 1:  # "the water" is the only pond
+        yield ("the", "water"), NameEntry(kind="ZONE", value=waters[0])
+        yield ("the", "water's", "edge"), NameEntry(kind="ZONE", value=waters[0])
 
 
 def _texts(found: tuple[Any, ...]) -> list[str]:

@@ -37,6 +37,9 @@ _SPELT_OUT = {
     "temperatures": "temperature",
     "pic": "picture",
     "pics": "pictures",
+    "img": "image",
+    "imgs": "images",
+    "therm": "thermal",
 }
 #: Words for pictures and for taking them, by what they are to the grammar.
 _WITH_A_CAMERA = {"PICTURE": "NOUN", "THERMAL": "NOUN", "CAMERA": "ACTV"}
@@ -70,7 +73,8 @@ class EnglishPhrases:
     def entries(self, phrase: Phrase) -> Iterator[NameEntry]:
         """Yield what a phrase can be: in the lexicon, spelt out, and in english.toml."""
         known = self.lexicon.entry(phrase)
-        own = more_words().get(phrase, ())
+        in_full = tuple(_SPELT_OUT.get(word, word) for word in phrase)
+        own = more_words().get(phrase) or more_words().get(in_full, ())
         if known is not None and known.kind == "FILLER" and any(one.kind in _SAY_SOMETHING for one in own):
             known = None
         if known is not None:
@@ -78,7 +82,7 @@ class EnglishPhrases:
             if (attribute := self.lexicon.attributes.get(phrase)) is not None:
                 yield attribute
         else:
-            spelt_out = _asked_by_adjective().get(phrase) or tuple(_SPELT_OUT.get(word, word) for word in phrase)
+            spelt_out = _asked_by_adjective().get(phrase) or in_full
             full = self.lexicon.entry(spelt_out)
             if full is not None and full.kind == "NOUN":
                 yield replace(full, plural=full.plural or phrase[-1].endswith("s"))

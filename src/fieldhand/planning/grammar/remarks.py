@@ -208,7 +208,7 @@ def _numbers_from(words: Sequence[Word], kinds: Sequence[set[str]], start: int, 
 def _wish(sentence: Sequence[int], kinds: Sequence[set[str]]) -> Sequence[int]:
     """Return the words that say who wants it ("My professor wants ...", "Boss wants ..."); empty if there are none."""
     begin = next((at for at, k in enumerate(sentence) if "WANTS" in kinds[k]), 0)
-    person = kinds[sentence[begin - 1]]
+    person = kinds[sentence[begin - 1]] - {"ASIDE"}
     described = begin == 2 and "DET" in kinds[sentence[0]] and not person - {"PAPERWORK"}
     if not described and not (begin == 1 and person == {"PAPERWORK"}):
         return ()
