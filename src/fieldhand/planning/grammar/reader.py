@@ -110,7 +110,8 @@ def read(request: str, site: Site, robot: RobotProfile, language: GrammarLanguag
     edges = edges_of(words, phrases, tells=True)
     likely = edges_of(mended.words, phrases)
     frames = language.frames(words) if language.frames is not None else ()
-    told = without_remarks(words, edges, tells=True, respelt=likely, frames=frames)
+    aims = language.aims(words) if language.aims is not None else ()
+    told = without_remarks(words, edges, tells=True, respelt=likely, frames=frames, aims=aims)
     if told == plain:
         return found
     bare = read_besides(told)

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.grammar.chart import PhraseEdge
 from fieldhand.planning.grammar.list_marks import list_marks
+from fieldhand.planning.grammar.purposes import purpose
 from fieldhand.planning.grammar.tellings import WordKinds, telling
 from fieldhand.task.plan import Span
 
@@ -59,6 +60,7 @@ def without_remarks(
     tells: bool = False,
     respelt: Iterable[PhraseEdge] = (),
     frames: Iterable[tuple[int, int]] = (),
+    aims: Iterable[tuple[int, int]] = (),
 ) -> Remarks:
     """Return the words without remarks: what is told beside the command, and the reasons that are given.
 
@@ -68,6 +70,7 @@ def without_remarks(
         tells: True to leave out sentences and clauses that tell something, too.
         respelt: What the words can be with misspellings mended; what may ask for something then tells nothing.
         frames: Ranges of polite frames ("would you be able to"), which are left out, too.
+        aims: Ranges of the phrases with which purposes begin ("I want to know how").
     """
     marks = list_marks(words)
     words = [replace(word, kind="stop") if k in marks.ends else word for k, word in enumerate(words)]
@@ -99,7 +102,15 @@ def without_remarks(
     ranked = [one for one in sentences if len(one) > 2 and "ORD" in kinds[one[0]] and words[one[1]].kind == "comma"]
     if len(ranked) > 1:
         labels.update(k for one in ranked for k in one[:2])  # "First: ... Second: ..."
-    for sentence in sentences:
+    openings = dict(aims)
+    for whole in sentences:
+        sentence: Sequence[int] = whole
+        if (aim := purpose(sentence, openings, known)) is not None:
+            left_out |= aim.left_out
+            topics |= set() if aim.topic is None else {aim.topic}
+            sentence = [k for k in sentence if k not in aim.left_out]
+            if not sentence:
+                continue
         said = [k for k in sentence if words[k].kind != "comma" and k not in labels | framed]
         label = _label(words, sentence, kinds)
         labels.update(label)
