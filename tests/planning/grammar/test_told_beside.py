@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import pytest
 
+from fieldhand.approval.account import unaccounted
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Outcome, Planned
 from fieldhand.robot.loader import load_robot
@@ -27,8 +28,15 @@ BESIDE = [
     ("I want to know how the Carmels are doing, so take pictures of 5 Carmel trees.", "for Take(5, of Where(variety, eq, Carmel)): [picture]"),
     ("I need to see how the Carmels are doing. Photograph them.", "for Where(variety, eq, Carmel): [picture]"),
     ("Compare the northern half and the southern half: take five CO2 readings in each.", "for UnionOf(Half(north)+Half(south)): [co2 x5]"),
+    ("For the irrigation set: take a picture of tree 4.", "picture @ TreeIs(4)"),
+    ("For the irrigation set: CO2 at trees 4 and 5.", "for UnionOf(TreeIs(4)+TreeIs(5)): [co2]"),
     ("For the variety comparison I need pictures of five Carmels and five Nonpareils.", "for UnionOf(Take(5, of Where(variety, eq, Carmel))+Take(5, of Where(variety, eq, Nonpareil))): [picture]"),
     ("For the variety comparison I need a picture of tree 4.", "picture @ TreeIs(4)"),
+    ("For the comparison, take CO2 at tree 4 and, as a control, at tree 9.", "co2 @ TreeIs(4); co2 @ TreeIs(9)"),
+    ("Take CO2 at tree 4 and at tree 9 as a control.", "co2 @ TreeIs(4); co2 @ TreeIs(9)"),
+    ("As a control, take a picture of tree 4.", "picture @ TreeIs(4)"),
+    ("Take a picture of tree 4 as a control.", "picture @ TreeIs(4)"),
+    ("Take a picture of every tree in row 3, but not of row 4, because we did that row yesterday.", "for Excluding(Rows(4, 4), of Rows(3, 3)): [picture]"),
     ("The lab wants a CO2 sample from tree 4.", "co2 @ TreeIs(4)"),
     ("What's the air temperature at tree 4?", "air @ TreeIs(4)"),
     ("My consultant wants a picture of tree 4.", "picture @ TreeIs(4)"),
@@ -42,11 +50,23 @@ BESIDE = [
     ("We're trying to find out why the leaves curl. Take a picture of tree 4.", "picture @ TreeIs(4)"),
     ("I want to find out why the leaves curl: take a picture of tree 4.", "picture @ TreeIs(4)"),
     ("I wonder whether tree 4 is sick. Photograph it.", "go TreeIs(4); picture"),
+    ("Take a picture of tree 4 this morning.", "picture @ TreeIs(4)"),
+    ("This morning, take a picture of tree 4.", "picture @ TreeIs(4)"),
     ("Take a picture of tree 4 today.", "picture @ TreeIs(4)"),
     ("Today I need a picture of tree 4.", "picture @ TreeIs(4)"),
     ("Take a picture of tree 4 now.", "picture @ TreeIs(4)"),
+    ("Take a picture of tree 4 this afternoon.", "picture @ TreeIs(4)"),
+    ("Take a picture of tree 4 before lunch.", "picture @ TreeIs(4)"),
+    ("After breakfast, take a picture of tree 4.", "picture @ TreeIs(4)"),
+    ("Take a picture of tree 4 right now.", "picture @ TreeIs(4)"),
+    ("Take a picture of tree 4 before the crew needs the machine back.", "picture @ TreeIs(4)"),
+    ("Take a picture of tree 4 before the crew arrives.", "picture @ TreeIs(4)"),
     ("Take a picture of every tree in rows 3 to 5 except row 4 because the pruning crew is in there.", "for Excluding(Rows(4, 4), of Rows(3, 5)): [picture]"),
     ("Take a picture of tree 4, that's the short one.", "picture @ TreeIs(4)"),
+    ("Take a picture of tree 4, the one by the road.", "picture @ TreeIs(4)"),
+    ("Take a picture of tree 4, which is the tall one by the road.", "picture @ TreeIs(4)"),
+    ("Take a picture of tree 4. If it is above 35 degrees, measure CO2 there, otherwise skip the rest and come home.", "picture @ TreeIs(4) = r1; if r1 > 35 degC: [co2] else [stop] | return_to_start"),
+    ("Photograph trees 4, 5 and 6. If one is hotter than 38 degrees, skip the rest and come home.", "for UnionOf(TreeIs(4)+TreeIs(5)+TreeIs(6)): [picture = r1; if r1 > 38 degC: [stop]] | return_to_start"),
     ("My agronomist wants to know whether the Carmels are under stress. Take a picture of each of them.", "for Where(variety, eq, Carmel): [picture]"),
     ("The lab wants to find out what the northern half is short of: CO2 at every tree in it.", "for Half(north): [co2]"),
     ("We're curious whether row 5 is coping. Photograph every tree there, please.", "for Rows(5, 5): [picture]"),
@@ -80,6 +100,30 @@ BESIDE = [
     ("I need to see how the almonds near the charger look. Take a picture of the three trees nearest the charger.", "for Nearest(Marker(charger), 3): [picture]"),
     ("We are wondering whether the five oldest trees are worth keeping. Photograph the five oldest trees.", "for Top(age_years, 5): [picture]"),
     ("I'd like to find out why the Carmels yield so little - photograph five of them.", "for Take(5, of Where(variety, eq, Carmel)): [picture]"),
+    ("This afternoon, I need CO2 at trees 4 and 5.", "for UnionOf(TreeIs(4)+TreeIs(5)): [co2]"),
+    ("I need a picture of tree 4 before lunch.", "picture @ TreeIs(4)"),
+    ("Before lunch take a picture of tree 4.", "picture @ TreeIs(4)"),
+    ("After lunch, take a picture of tree 4. Then measure CO2 there.", "picture @ TreeIs(4); co2"),
+    ("Measure CO2 at trees 4 and 9 this evening.", "for UnionOf(TreeIs(4)+TreeIs(9)): [co2]"),
+    ("This morning please photograph every tree in row 5.", "for Rows(5, 5): [picture]"),
+    ("Photograph every tree in row 5 this morning, please.", "for Rows(5, 5): [picture]"),
+    ("Take a picture of every tree in rows 3 to 5 except row 4, because we did that row yesterday.", "for Excluding(Rows(4, 4), of Rows(3, 5)): [picture]"),
+    ("Skip row 4 because we did that row yesterday. Take a picture of every tree in rows 3 to 5.", "for Excluding(Rows(4, 4), of Rows(3, 5)): [picture]"),
+    ("Photograph the oldest tree because it is the one my grandfather planted.", "picture @ Top(age_years, 1)"),
+    ("Take a picture of tree 4 because the tree next to it died.", "picture @ TreeIs(4)"),
+    ("Take a picture of tree 4, since row 5 was sprayed last week.", "picture @ TreeIs(4)"),
+    ("Take a picture of tree 4 because it looked sick yesterday.", "picture @ TreeIs(4)"),
+    ("Take a picture of tree 4 before the pickers arrive.", "picture @ TreeIs(4)"),
+    ("Before the workers come, take a picture of tree 4.", "picture @ TreeIs(4)"),
+    ("Take a picture of tree 4 before the kids are out of school.", "picture @ TreeIs(4)"),
+    ("Take a picture of tree 4, the one with the broken stake.", "picture @ TreeIs(4)"),
+    ("Take a picture of tree 4, which is the crooked one.", "picture @ TreeIs(4)"),
+    ("Take a picture of tree 4, the big one beside the ditch.", "picture @ TreeIs(4)"),
+    ("Take CO2 at tree 4 and, as a control, at tree 9.", "co2 @ TreeIs(4); co2 @ TreeIs(9)"),
+    ("Take CO2 at tree 4, and at tree 9 as a reference.", "co2 @ TreeIs(4); co2 @ TreeIs(9)"),
+    ("As a check, take CO2 at tree 4.", "co2 @ TreeIs(4)"),
+    ("For the flower series: take a picture of trees 4 and 5.", "for UnionOf(TreeIs(4)+TreeIs(5)): [picture]"),
+    ("Take a picture of tree 4, the crooked one by the ditch, and measure CO2 at tree 9.", "picture @ TreeIs(4); co2 @ TreeIs(9)"),
 ]  # fmt: skip
 #: Requests that restrict the work, ask for something else as well, or have no command.
 KEPT = [
@@ -139,6 +183,37 @@ KEPT = [
     "I want to know how row 5 is doing. Take a picture of 5 trees in row 9.",
     "I want to know how tree 4 is doing. Take a picture of the first 4 trees of row 9.",
     "Hello robot, I want to know how row 5 is doing. Take a picture of tree 4.",
+    "Take a picture of tree 4 now and of tree 5 this afternoon.",
+    "Take a picture of tree 4. Measure CO2 at tree 5 this afternoon.",
+    "Take a picture of tree 4 this morning and this afternoon.",
+    "Take a picture of tree 4 before lunch and again after lunch.",
+    "Take a picture of tree 4, then this afternoon of tree 5.",
+    "Take a picture of the trees we pruned this morning.",
+    "Photograph the trees that were photographed this morning.",
+    "Take a picture of tree 4 this morning at 8.",
+    "Take a picture of tree 4 tomorrow before lunch.",
+    "Every day before lunch take a picture of tree 4.",
+    "Take a picture of tree 4 before the end of the month.",
+    "Take a picture of tree 4 this month.",
+    "Take a picture of the trees from this morning.",
+    "Take a picture of tree 4 because only the yellow trees matter.",
+    "Take a picture of tree 4 because I need CO2 at tree 9.",
+    "Take a picture of tree 4 because it is old and photograph tree 9.",
+    "Take a picture of tree 4 because it is old and flambé tree 9.",
+    "Take a picture of every tree because we do not want row 4.",
+    "Take a picture of tree 4 before the crew gets to row 5.",
+    "Take a picture of tree 4 before the crew and tree 5 after it.",
+    "Stop before the crew.",
+    "Take a picture of tree 4 when the crew arrives.",
+    "Take a picture of tree 4 until the crew arrives.",
+    "Take a picture of tree 4, the next one.",
+    "Take a picture of tree 4, the one to the north.",
+    "Take a picture of tree 4, not the one by the road.",
+    "Take a picture of the one by the road.",
+    "Take a picture of the tallest one.",
+    "Take CO2 at tree 4 as a video.",
+    "Skip the rest.",
+    "Take a picture of tree 4, the crooked one.",
 ]  # fmt: skip
 
 
@@ -157,3 +232,33 @@ def test_what_is_told_beside_a_command_leaves_the_plan_as_it_is(request_: str, p
 @pytest.mark.parametrize("request_", KEPT)
 def test_what_restricts_the_work_or_asks_for_more_is_never_left_out(request_: str) -> None:
     assert not isinstance(outcome_of(request_), Planned)
+
+
+@pytest.mark.parametrize(
+    ("request_", "told"),
+    [
+        ("Take a picture of tree 4 this morning.", "this morning"),
+        ("After lunch, take a picture of tree 4.", "After lunch"),
+        ("I need a picture of tree 4 before breakfast.", "before breakfast"),
+    ],
+)
+def test_the_time_of_a_mission_has_to_be_confirmed_as_the_one_of_its_approval(request_: str, told: str) -> None:
+    outcome = outcome_of(request_)
+    assert isinstance(outcome, Planned)
+    said = f"'{told}' is taken as a remark: the mission starts when it is approved."
+    assert said in outcome.task.command.warnings
+
+
+@pytest.mark.parametrize(
+    "request_",
+    [
+        "We want to see how row 5 is thriving. Photograph every tree in it.",
+        "Take a picture of tree 4, the one beside the boulder.",
+        "Take a picture of tree 4 because row 5 flourished yesterday.",
+        "Take a picture of tree 4 before the pickers arrive.",
+    ],
+)
+def test_what_is_told_has_to_be_confirmed(request_: str) -> None:
+    outcome = outcome_of(request_)
+    assert isinstance(outcome, Planned)
+    assert list(unaccounted(outcome.task))
