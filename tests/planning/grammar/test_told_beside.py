@@ -130,6 +130,9 @@ BESIDE = [
 ]  # fmt: skip
 #: Requests that restrict the work, ask for something else as well, or have no command.
 KEPT = [
+    "Photograph trees 4 and 9, the one by the road.",
+    "Photograph tree 4, that's the one in row 9.",
+    "Photograph every tree because we leave out row 5.",
     "Wait for the crew, then take a picture of tree 4.",
     "Take a picture of tree 4 if somebody is in the row.",
     "If somebody is in the row, skip it. Take a picture of tree 4.",
