@@ -31,7 +31,7 @@ _COURTESY = _words(
     """
     afternoon ah aha appreciated boss brilliant buddy cheers course dear eh er erm evening fine folks glad great
     greetings guys happy hello hey hi hmm huh kind kindly lovely madam mate mind morning much nice oh ok okay pal
-    perfect please pls replicate plz sir sure ta thank thanks uh uhm um welcome well wonder wondering yes
+    perfect please pls replicate plz sir sure ta thank thanks thx tnx uh uhm um welcome well wonder wondering yes
     """
 )
 #: Names for the robot and its equipment.

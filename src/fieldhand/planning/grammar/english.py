@@ -42,7 +42,9 @@ _SPELT_OUT = {
     "therm": "thermal",
 }
 #: Words for pictures and for taking them, by what they are to the grammar.
-_WITH_A_CAMERA = {"PICTURE": "NOUN", "THERMAL": "NOUN", "CAMERA": "ACTV"}
+_WITH_A_CAMERA = {"PICTURE": "NOUN", "THERMAL": "NOUN", "CAMERA": "ACTV", "THERMALLY": "ACTV"}
+#: Those of a thermal camera only.
+_THERMAL = frozenset({"THERMAL", "THERMALLY"})
 #: Categories of phrases that are silent in the shared vocabulary only.
 _SAY_SOMETHING = frozenset({"AVERAGEWORD", "CORRECTION", "ONEBYONE"})
 
@@ -100,7 +102,7 @@ class EnglishPhrases:
         for other in own:
             if other.kind in _WITH_A_CAMERA:
                 meant = _WITH_A_CAMERA[other.kind]
-                if self.camera is not None and meant != kind and (self.is_thermal or other.kind != "THERMAL"):
+                if self.camera is not None and meant != kind and (self.is_thermal or other.kind not in _THERMAL):
                     yield NameEntry(kind=meant, value=self.camera, plural=other.plural)
             elif other.kind != kind:
                 yield other

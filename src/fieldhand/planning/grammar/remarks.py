@@ -10,6 +10,7 @@ from itertools import pairwise
 from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.grammar.chart import PhraseEdge
 from fieldhand.planning.grammar.list_marks import list_marks
+from fieldhand.planning.grammar.people import sender, who_wants
 from fieldhand.planning.grammar.purposes import purpose
 from fieldhand.planning.grammar.tellings import WordKinds, telling
 from fieldhand.task.plan import Span
@@ -30,6 +31,7 @@ _ASKING_IN_REASON = _ASKING - {"MEASURE", "TAKE", "GO", "USE", "IF", "WHETHER", 
 #: Categories of words that an aside may have beside unknown ones ("for the lab").
 _IN_ASIDES = frozenset(
     {"DET", "FOR", "FILLER", "IT", "IS", "WHICH", "OF", "MORE", "QUESTION", "THATWORD", "AT", "AS", "TELLS", "MEASURE"}
+    | {"PAPERWORK", "PURPOSE"}
 )
 #: Categories of words that what is told of a tree may have beside unknown ones ("the one by the road").
 _IN_APPOSITIONS = frozenset({"AT", "BY", "DET", "IMPERSONAL", "IS", "OF", "VAGUEADJ", "WHICH"})
@@ -91,6 +93,7 @@ def without_remarks(
     reasons: set[int] = set()
     purposes: dict[int, int] = {}
     asides: set[int] = set()
+    hedges: set[int] = set()
     for edge in edges:
         if edge.category == "NOUN":
             for k in range(edge.start, edge.end):
@@ -101,6 +104,8 @@ def without_remarks(
             reasons.add(edge.start)
         if edge.category in ("PURPOSE", "REASON"):
             purposes[edge.start] = max(edge.end, purposes.get(edge.start, 0))
+        if edge.category == "ABOUT" and "hedges" in edge.meaning.features:
+            hedges.add(edge.end - 1)
         if edge.category == "ASIDE" and ("anywhere" in edge.meaning.features or _stands_apart(words, edge)):
             asides.update(range(edge.start, edge.end))
     likely: dict[int, set[str]] = defaultdict(set)
@@ -126,7 +131,7 @@ def without_remarks(
         said = [k for k in sentence if words[k].kind != "comma" and k not in labels | framed]
         label = _label(words, sentence, kinds)
         labels.update(label)
-        left_out.update(_wish(sentence, kinds))
+        left_out.update(who_wants(sentence, words, kinds))
         if tells:
             left_out.update(_heading(words, sentence, kinds))
             left_out.update(_for_what(said, purposes, kinds))
@@ -145,6 +150,8 @@ def without_remarks(
                 aside = clause
             if aside and len(aside) < len(said):
                 left_out.update(aside)
+    if tells:
+        left_out.update(sender(words, kinds), (k for k in hedges if _measures(k + 1, kinds)))
     corrected = [found for part in sentences if (found := _corrected_numbers(words, kinds, part))]
     left_out.update(k for one in corrected for k in one)
     left_out.update(comma for one in corrected for comma in _comma_inside(words, kinds, one))
@@ -162,6 +169,13 @@ def without_remarks(
         corrected=edited,
         topics=frozenset(at for at, k in enumerate(kept_ones) if k in topics),
     )
+
+
+def _measures(k: int, kinds: Sequence[set[str]]) -> bool:
+    """Return True for a number of metres, minutes or trees, for which "about" it will do; a reading is never one."""
+    follows = kinds[k + 1] if k + 1 < len(kinds) else set()
+    equals = k > 1 and bool(kinds[k - 2] & {"CONTRACTED", "IS", "IT"})
+    return "NUM" in kinds[k] and bool(follows & {"NOUN", "ROW", "TREE", "UNIT"}) and not equals
 
 
 def _spans(words: Sequence[Word], chosen: set[int]) -> tuple[Span, ...]:
@@ -231,17 +245,6 @@ def _numbers_from(words: Sequence[Word], kinds: Sequence[set[str]], start: int, 
     return run
 
 
-def _wish(sentence: Sequence[int], kinds: Sequence[set[str]]) -> Sequence[int]:
-    """Return the words that say who wants it ("My professor wants ...", "Boss wants ..."); empty if there are none."""
-    begin = next((at for at, k in enumerate(sentence) if "WANTS" in kinds[k]), 0)
-    person = kinds[sentence[begin - 1]] - {"ASIDE"}
-    described = begin == 2 and "DET" in kinds[sentence[0]] and not person - {"PAPERWORK"}
-    if not described and not (begin == 1 and person == {"PAPERWORK"}):
-        return ()
-    end = next((at for at in range(begin, len(sentence)) if "WANTS" not in kinds[sentence[at]]), 0)
-    return sentence[:end]
-
-
 def _heading(words: Sequence[Word], sentence: Sequence[int], kinds: Sequence[set[str]]) -> Sequence[int]:
     """Return the heading with which a sentence begins ("Systematic design: ..."); empty if there is none."""
     end = next((at for at, k in enumerate(sentence[:6]) if words[k].text == ":"), 0)
@@ -279,7 +282,9 @@ def _because(clause: Sequence[int], known: WordKinds) -> Sequence[int]:
         return ()
     for before, k in pairwise(clause[begin:]):
         joined = known.words[before].norm in ("and", "then", "but", "or")
-        if known.may_be(k, _RESTRICTING) or known.words[k].norm.endswith("n't") or known.captures.get(k):
+        if known.may_be(k, _RESTRICTING) or known.words[k].norm.endswith("n't"):
+            return ()
+        if known.captures.get(k) and "HARMLESS" not in known.kinds[k]:
             return ()
         if joined and (known.may_be(k, _VERBS) or not known.kinds[k]):
             return ()

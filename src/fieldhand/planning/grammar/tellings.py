@@ -35,6 +35,9 @@ _COMMANDS = frozenset({"GO", "MEASURE", "TAKE", "USE", "VISIT"})
 _DESCRIBING = frozenset({"DIR", "MOST", "SUPER"})
 #: Categories of the verbs of tellings.
 _VERBS = frozenset({"AUXILIARY", "IS", "STATES"})
+#: Categories of people, and endings of the adjectives by which an unknown word is told from a noun.
+_PEOPLE = frozenset({"PAPERWORK", "PEOPLE"})
+_ADJECTIVES = ("ous", "ful", "ing", "ish", "ed", "able", "ible", "ive", "ic", "less")
 #: Categories of words between a subject and its verb.
 _ADVERBS = frozenset({"FILLER", "HARMLESS", "INEACHCASE"})
 #: Categories of words that refer to what was said before.
@@ -163,7 +166,9 @@ def _has_verb(begun: Sequence[int], known: WordKinds, *, sentence: bool) -> bool
     """
     first = known.kinds[begun[0]]
     if "TELLS" not in first:
-        return False
+        return _is_about_someone(begun, known)
+    if any(_is_person_is(at, begun, known) for at in range(1, len(begun))):
+        return True
     verbs = [at for at, k in enumerate(begun) if known.kinds[k] & _VERBS or known.is_past(k)]
     if begun[0] > 0 and "BECAUSE" in known.kinds[begun[0] - 1]:
         return bool(verbs) or not all(known.kinds[k] for k in begun)
@@ -176,7 +181,23 @@ def _has_verb(begun: Sequence[int], known: WordKinds, *, sentence: bool) -> bool
         return 1 in verbs
     if sentence:
         return any(at > 0 for at in verbs) or (len(begun) > 3 and sum(not known.kinds[k] for k in begun) > 1)
-    return "OWNER" in first and any(at > 1 for at in verbs)
+    person = bool(known.kinds[begun[1]] & _PEOPLE)
+    return ("OWNER" in first or person) and any(at > 1 for at in verbs)
+
+
+def _is_person_is(at: int, begun: Sequence[int], known: WordKinds) -> bool:
+    """Return True for the "foreman's" of "my foreman's superstitious"."""
+    owner = {f"{category}POSS" for category in _PEOPLE}
+    follows = begun[at + 1] if at + 1 < len(begun) else begun[at]
+    adjective = known.words[follows].norm.endswith(_ADJECTIVES) and not known.kinds[follows]
+    return bool(known.kinds[begun[at]] & owner) and adjective
+
+
+def _is_about_someone(begun: Sequence[int], known: WordKinds) -> bool:
+    """Return True for what is told of somebody by name ("Piotr is ill"), whom nothing refers to."""
+    named = not known.kinds[begun[0]] and known.words[begun[0]].text[:1].isupper()
+    told = "AUXILIARY" in known.kinds[begun[1]] and "IS" in known.kinds[begun[1]]
+    return named and told and not _refers_back(begun[-1] + 1, known)
 
 
 def _is_question(begun: Sequence[int], known: WordKinds) -> bool:
