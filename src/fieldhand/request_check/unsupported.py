@@ -39,7 +39,8 @@ _PAST = (
     rf"{_AMOUNT} (?:hours?|days?|weeks?|months?) ago|earlier today",
 )
 _WAITING = (
-    rf"(?:wait|waits|waiting|pause|pauses|pausing|linger|lingers)(?: there| here)?"
+    r"(?<!for there i )(?<!for there we )(?<!for here i )"
+    r"(?:wait|waits|waiting|pause|pauses|pausing|linger|lingers)(?: there| here)?"
     rf"(?: (?:for )?(?:{_AMOUNT} )?(?:seconds?|minutes?|hours?|while))?",
     rf"stay (?:there |here )?for (?:{_AMOUNT} )?(?:seconds?|minutes?|hours?|while)",
 )

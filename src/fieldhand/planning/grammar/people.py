@@ -10,6 +10,8 @@ from fieldhand.planning.english.tokens import Word
 #: Categories of the words for people and what a request is made for, and of those that may stand beside them.
 _PEOPLE = frozenset({"PAPERWORK", "PEOPLE"})
 _BESIDE_PEOPLE = frozenset({"AT", "DET", "FROM", "OF", "OWNER"})
+#: Categories of the verbs of wanting.
+_WANTING = frozenset({"SAYS", "WANTS"})
 #: Words behind which a sender signs.
 _SIGNING = frozenset(
     {"best", "cheers", "faithfully", "regards", "respectfully", "sincerely", "thanks", "truly", "wishes"}
@@ -24,11 +26,11 @@ _LONGEST = 6
 
 def who_wants(sentence: Sequence[int], words: Sequence[Word], kinds: Sequence[AbstractSet[str]]) -> Sequence[int]:
     """Return the words that say who wants it ("My professor wants ...", "Ramon says ..."); empty if there are none."""
-    begin = next((at for at, k in enumerate(sentence) if "WANTS" in kinds[k]), 0)
+    begin = next((at for at, k in enumerate(sentence) if kinds[k] & _WANTING), 0)
     people = sentence[:begin]
     if not 0 < begin <= _LONGEST or not _are_people(people, words, kinds):
         return ()
-    end = next((at for at in range(begin, len(sentence)) if "WANTS" not in kinds[sentence[at]]), 0)
+    end = next((at for at in range(begin, len(sentence)) if not kinds[sentence[at]] & _WANTING), 0)
     return sentence[:end]
 
 

@@ -680,8 +680,8 @@ def act_where(verb: Lex, tests: tuple[AllTests, PlaceMeaning | None], used: int)
     return CaptureWhere(tests[0], CaptureCommand((Thing(naming.actions[0]),), None, used), used, tests[1])
 
 
-@construction("stops: [WHODOES] STOP [THERE]", "stops: MISSION [SHOULD] STOP", "stops: MISSION IS STOP", cost=0.0)
-def stops() -> str:
+@construction("halts: [WHODOES] STOP [THERE]", "halts: MISSION [SHOULD] STOP", "halts: MISSION IS STOP", cost=0.0)
+def halts() -> str:
     """Compose "the mission should stop"."""
     return "stop"
 
@@ -713,10 +713,10 @@ def soon() -> str:
 @construction(
     "until: UNTIL tests=tests",
     "until: HALTWHEN tests=tests",
-    "until: soon tests=tests [COMMA] stops",
-    "until: stops soon tests=tests",
-    "until: stops AT tests=first_tested",
-    "until: tests=first_tested [COMMA] stops [MISSION]",
+    "until: soon tests=tests [COMMA] halts",
+    "until: halts soon tests=tests",
+    "until: halts AT tests=first_tested",
+    "until: tests=first_tested [COMMA] halts [MISSION]",
     cost=0.3,
 )
 def until(used: int, tests: AllTests) -> UntilCondition:
@@ -724,7 +724,7 @@ def until(used: int, tests: AllTests) -> UntilCondition:
     return UntilCondition(tests, used)
 
 
-@construction("until: if_ tests=tests [COMMA] stops", cost=0.3)
+@construction("until: if_ tests=tests [COMMA] halts", cost=0.3)
 def until_any(used: int, tests: AllTests) -> UntilCondition | None:
     """Compose "if any of them is above 500 ppm, stop there"."""
     return UntilCondition(tests, used) if tests.of_last == "any" else None

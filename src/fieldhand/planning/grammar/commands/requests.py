@@ -481,7 +481,7 @@ def what_is_first(one: CaptureCommand | DriveCommand, used: int) -> Said | None:
     return Said((LinkedCommand(Connective(False, True, used & ~one.used), one),))
 
 
-@construction("said: before=said joint=joint tests=first_tested COMMA act=capture [COMMA] AND stops", cost=0.3)
+@construction("said: before=said joint=joint tests=first_tested COMMA act=capture [COMMA] AND halts", cost=0.3)
 def first_captured(before: Said, joint: Connective, tests: AllTests, act: CaptureCommand, used: int) -> Said:
     """Compose ". At the first one over 39 degC, measure CO2 and stop"."""
     own = used & ~act.used & ~joint.used & ~_used_by(before)
