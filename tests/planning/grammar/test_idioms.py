@@ -186,6 +186,73 @@ READ = [
         "for InRow(1, 1, north, of Rows(6, 6)): [picture]; co2 @ InRow(1, 1, south, of Rows(6, 6))",
     ),
     ("Go to the north end of row 3.", "go InRow(1, 1, north, of Rows(3, 3))"),
+    (
+        "Read CO2 at tree 95. If it comes out above 450 ppm, repeat the reading at two nearby trees; otherwise just "
+        "take a thermal image of tree 95.",
+        "co2 @ TreeIs(95) = r1; if r1 > 450 ppm: [for Nearest(Here, 2, True): [co2]] else [picture @ TreeIs(95)]",
+    ),
+    (
+        "Take a CO2 reading at tree 60. If it is high, repeat the reading at the two trees next to tree 60.",
+        "co2 @ TreeIs(60) = r1; if r1 high: [for Nearest(TreeIs(60), 2, True): [co2]]",
+    ),
+    (
+        "Measure CO2 at tree 133, and if it is under 400 ppm repeat the measurement once.",
+        "co2 @ TreeIs(133) = r1; if r1 < 400 ppm: [co2]",
+    ),
+    (
+        "Measure CO2 at tree 133, and if it is under 400 ppm repeat the measurement.",
+        "co2 @ TreeIs(133) = r1; if r1 < 400 ppm: [co2]",
+    ),
+    ("Measure CO2 at tree 133 and repeat the measurement at tree 5.", "co2 @ TreeIs(133); go TreeIs(5); co2"),
+    (
+        "Measure CO2 at trees 5 and 6 and repeat the measurement at tree 7.",
+        "for UnionOf(TreeIs(5)+TreeIs(6)): [co2]; go TreeIs(7); co2",
+    ),
+    ("Photograph trees 10 through 20 of row 6 in that order.", "for InRow(10, 20, of Rows(6, 6)) given: [picture]"),
+    (
+        "Take a picture of trees 5 through 8 in row 9, then a CO2 reading at the last of them.",
+        "for InRow(5, 8, of Rows(9, 9)): [picture]; co2 @ InRow(8, 8, of Rows(9, 9))",
+    ),
+    (
+        "Take a picture of trees 5 to 8, then a CO2 reading at the last of them only.",
+        "for UnionOf(TreeIs(5)+TreeIs(6)+TreeIs(7)+TreeIs(8)): [picture]; co2 @ TreeIs(8)",
+    ),
+    (
+        "Read the air temperature at tree 40; if it is above 35, photograph the five trees that follow it down the "
+        "row.",
+        "air @ TreeIs(40) = r1; if r1 > 35 degC: [for "
+        "UnionOf(AlongRow(1)+AlongRow(2)+AlongRow(3)+AlongRow(4)+AlongRow(5)): [picture]]",
+    ),
+    (
+        "Photograph tree 40 and the five trees after it.",
+        "for UnionOf(TreeIs(40)+AlongRow(1, TreeIs(40))+AlongRow(2, TreeIs(40))+AlongRow(3, TreeIs(40))+AlongRow(4, "
+        "TreeIs(40))+AlongRow(5, TreeIs(40))): [picture]",
+    ),
+    (
+        "Photograph tree 40 and the next five down the row.",
+        "for UnionOf(TreeIs(40)+AlongRow(1, TreeIs(40))+AlongRow(2, TreeIs(40))+AlongRow(3, TreeIs(40))+AlongRow(4, "
+        "TreeIs(40))+AlongRow(5, TreeIs(40))): [picture]",
+    ),
+    (
+        "Photograph tree 40 and then the next five trees in the row.",
+        "picture @ TreeIs(40); for UnionOf(AlongRow(1)+AlongRow(2)+AlongRow(3)+AlongRow(4)+AlongRow(5)): [picture]",
+    ),
+    (
+        "Take the air temperature at tree 40, go three trees north in the same row and take it again there.",
+        "air @ TreeIs(40); go AlongRow(3, north); air",
+    ),
+    (
+        "Take the air temperature at tree 40, go three trees north and take it again there.",
+        "air @ TreeIs(40); go AlongRow(3, north); air",
+    ),
+    (
+        "Measure CO2 at the tree in the middle of the southern edge.",
+        "co2 @ EdgeMiddle(south)",
+    ),
+    (
+        "One CO2 reading at each corner tree, whichever comes first.",
+        "for Corners: [co2]",
+    ),
 ]
 
 
