@@ -502,11 +502,13 @@ class Failing:
         used: Tokens of the phrase.
         action: Action that fails, if the phrase names it.
         at_one: True if it may fail at each of several places by itself ("at one of them").
+        place: Place that cannot be reached, if the phrase names it; it is that of the command before.
     """
 
     used: int
     action: str = ""
     at_one: bool = False
+    place: PlaceMeaning | None = None
 
 
 @dataclass(frozen=True, slots=True)

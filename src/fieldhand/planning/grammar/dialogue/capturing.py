@@ -498,7 +498,7 @@ def capture_elided(setting: Setting, state: DialogueState) -> DialogueState:
     things = state.things
     if lead.place.shape != "area":
         things = tuple(replace(thing, count=None) for thing in things)
-    elif not (_are_of_each(things) and _is_area(state.where)) and (
+    elif not (_are_of_each(things) and (state.where is None or _is_area(state.where))) and (
         lead.relation == "" or not (state.where is None or _is_area(state.where) or are_rows(state.where.selector))
     ):
         raise NotComposed(message("at every tree, or at how many?", context="fault"))
