@@ -465,6 +465,38 @@ READ = [
         "Photograph every tree in rows 3 to 5; stop and come back as soon as one of them shows more than 40 degrees.",
         "for Rows(3, 5) until r1 > 40 degC: [picture = r1] | return_to_start",
     ),
+    (
+        "Measure the air temperature at the four corners and come back if it drops below 0 degrees.",
+        "for Corners until r1 < 0 degC: [air = r1] | return_to_start",
+    ),
+    (
+        "Measure the air temperature at the four corners and come back if it is below 0 degrees.",
+        "for Corners until r1 < 0 degC: [air = r1] | return_to_start",
+    ),
+    (
+        "Measure the air temperature at each corner and come home if it is over 35.",
+        "for Corners until r1 > 35 degC: [air = r1] | return_to_start",
+    ),
+    (
+        "Photograph trees 3 to 8 and come home if it is over 38.",
+        "for UnionOf(TreeIs(3)+TreeIs(4)+TreeIs(5)+TreeIs(6)+TreeIs(7)+TreeIs(8)) until r1 > 38 degC: [picture = "
+        "r1] | return_to_start",
+    ),
+    (
+        "Photograph trees 3 to 8. If it is over 38, come home.",
+        "for UnionOf(TreeIs(3)+TreeIs(4)+TreeIs(5)+TreeIs(6)+TreeIs(7)+TreeIs(8)): [picture = r1; if r1 > 38 degC: "
+        "[stop]] | return_to_start",
+    ),
+    (
+        "Photograph trees 3 to 8. If one is over 38, come home.",
+        "for UnionOf(TreeIs(3)+TreeIs(4)+TreeIs(5)+TreeIs(6)+TreeIs(7)+TreeIs(8)): [picture = r1; if r1 > 38 degC: "
+        "[stop]] | return_to_start",
+    ),
+    (
+        "Photograph trees 3 to 8 and measure CO2 if it is over 38.",
+        "for UnionOf(TreeIs(3)+TreeIs(4)+TreeIs(5)+TreeIs(6)+TreeIs(7)+TreeIs(8)): [picture = r1; if r1 > 38 degC: "
+        "[co2]]",
+    ),
 ]
 
 
