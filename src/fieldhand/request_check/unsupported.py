@@ -54,6 +54,14 @@ _KINDS = (
     (_pattern(_PAST), message("a plan has no access to earlier missions")),
     (_pattern(_WAITING), message("a plan cannot contain waiting")),
 )
+#: Times at which a mission may be to start anyway, if they are all that a request says of time.
+_START = _pattern((r"this (?:morning|afternoon|evening)", r"(?:before|after) (?:lunch|lunchtime)"))
+#: Words for other times, which leave open what a time is the time of.
+_OTHER_TIMES = frozenset({"again", "later", "now", "then", "afterwards"})
+#: Words between which and a time something earlier is told of.
+_OF_EARLIER = frozenset({"from", "of", "since", "until"})
+#: Words with which a reason begins that may tell of the past ("because we did that row yesterday").
+_REASON = _pattern((r"because", r"since (?:we|i|it|they|he|she|the|my|our|row|tree)"))
 #: References to the past, which are harmless in a sentence without a request ("We had a leak last week.").
 _REMARKS = _KINDS[1][0]
 
@@ -71,9 +79,26 @@ def unsupported_words(facts: RequestFacts) -> Iterator[PlanMismatch]:
             sentence = facts.tokens[first].sentence
             remark = pattern is _REMARKS and not any(facts.tokens[k].sentence == sentence for k in facts.nouns)
             speed = first and facts.tokens[first - 1].text in w.LENGTHS and match[0].startswith(("per ", "a ", "an "))
-            last = first + len(match[0].split())
-            if not remark and not speed and facts.named.isdisjoint(range(first, last)):
+            told = _is_told(
+                match, facts, sentence, first, last := first + len(match[0].split()), past=pattern is _REMARKS
+            )
+            if not told and not remark and not speed and facts.named.isdisjoint(range(first, last)):
                 words = w.quoted(facts.tokens[first:last])
                 yield PlanMismatch(
                     kind="unheld", what=message("the request says '{words}', and {why}", words=words, why=why)
                 )
+
+
+def _is_told(match: re.Match[str], facts: RequestFacts, sentence: int, first: int, last: int, *, past: bool) -> bool:
+    """Return True for a time that asks for nothing: past and in a reason, or the start of the whole mission."""
+    said = [k for k, token in enumerate(facts.tokens) if token.sentence == sentence]
+    before, after = (
+        [facts.tokens[k].text for k in said if k < first],
+        [facts.tokens[k].text for k in said if k >= last],
+    )
+    if past:
+        return _REASON.search(" ".join(before)) is not None
+    if _START.fullmatch(match[0]) is None or len(_START.findall(facts.text)) > 1:
+        return False
+    other = _OTHER_TIMES & {*before, *after} or _OF_EARLIER & {*before[-1:]}
+    return not other and (not before or not [text for text in after if text not in (".", "!", ",", "please", "thanks")])

@@ -25,6 +25,10 @@ Offers = Literal["", "actions", "places", "properties"]
 
 #: Words with which no wish begins.
 _BEFORE = frozenset({"of", "for", "with", "in", "at", "to", "from", "and", "any", "on", "by", "near", "but", "so"})
+#: Words for other times than one, and those that part the work or tell of something earlier.
+_OTHER_TIMES = frozenset({"now", "again", "later", "afterwards", "earlier", "repeat", "once", "twice", "first"})
+_PARTS = frozenset({"then", "was", "were", "been", "did", "had", "has", "have", "saw", "took", "since", "until"})
+_POLITE = frozenset({",", "please", "thanks"})
 #: What stands before the first word of a clause.
 _OPENING = (
     *(". ", "; ", "! ", "? ", ", ", ": ", "and ", "then ", "or ", "but ", "please ", "also ", "you to ", "you "),
@@ -42,6 +46,7 @@ class WishKind:
         what: Template of what the words ask for.
         advice: Template of what to say instead.
         early: True if it is looked for before anything is read.
+        now: True if it is a time that may be the one at which the mission is to start anyway.
         begins: True if it is looked for at the beginning of clauses only.
         clause: True if unknown words of the same clause belong to it.
         aside: True if the rest of the request is a request without the words.
@@ -54,6 +59,7 @@ class WishKind:
     what: str
     advice: str
     early: bool
+    now: bool
     begins: bool
     clause: bool
     aside: bool
@@ -96,13 +102,43 @@ class Wish:
 
 def early_wishes(words: Sequence[Word]) -> list[Wish]:
     """Return the wishes that no reading can leave out."""
-    return _longest(_found(words, [kind for kind in wish_kinds() if kind.early]))
+    found = _longest(_found(words, [kind for kind in wish_kinds() if kind.early]))
+    times = [wish for wish in found if wish.kind.now]
+    if len(times) == 1 and _is_of_whole_request(times[0], words):
+        found.remove(times[0])
+    return found
+
+
+def says_start(words: Sequence[Word]) -> bool:
+    """Return True if words contain a time at which a mission may be to start ("this morning")."""
+    return any(True for _ in _found(words, [kind for kind in wish_kinds() if kind.now]))
+
+
+def _is_of_whole_request(wish: Wish, words: Sequence[Word]) -> bool:
+    """Return True for the only time of a request, at the beginning or the end of its first sentence.
+
+    Elsewhere it may be the time of a part of the work, or of something earlier ("the trees pruned this morning").
+    """
+    before = words[: wish.first]
+    if any(word.kind == "stop" or word.norm in _OTHER_TIMES for word in before):
+        return False
+    if any(word.norm in _OTHER_TIMES for word in words[wish.last :]):
+        return False
+    rest = [word for word in words[wish.last :] if word.norm not in _POLITE]
+    ends = not rest or rest[0].kind == "stop"
+    parted = any(word.kind == "comma" or word.norm in _PARTS or _is_past(word) for word in before)
+    return not before or (ends and not parted and before[-1].norm not in _BEFORE)
 
 
 def wishes(words: Sequence[Word], lexicon: Lexicon) -> list[Wish]:
     """Return all wishes, but for those that the robot or the site has a word for ("mow" on a robot that mows)."""
     own = _own_phrases(lexicon)
     return _longest([wish for wish in _found(words, wish_kinds()) if not _is_own(wish, words, own)])
+
+
+def _is_past(word: Word) -> bool:
+    """Return True for a word with the ending of a verb in the past."""
+    return word.norm.endswith("ed") and word.norm != "need"
 
 
 def _found(words: Sequence[Word], kinds: Sequence[WishKind]) -> Iterator[Wish]:
@@ -149,6 +185,7 @@ def wish_kinds() -> tuple[WishKind, ...]:
             what=known["what"],
             advice=known["advice"],
             early=known.get("early", False),
+            now=known.get("now", False),
             begins=known.get("begins", False),
             clause=known.get("clause", False),
             aside=known.get("aside", False),

@@ -191,9 +191,9 @@ def _more_single_words() -> frozenset[str]:
 
 
 @cache
-def _frame_pattern() -> re.Pattern[str]:
-    """Return a pattern of the polite frames of english.toml."""
-    table = _own()["frames"]
+def _pattern(name: str) -> re.Pattern[str]:
+    """Return a pattern of the phrases of a table of english.toml, at the beginning of clauses and anywhere."""
+    table = _own()[name]
     parts = {name: part for name, part in table.items() if isinstance(part, str)}
 
     def spelt_out(pattern: str) -> str:
@@ -201,16 +201,22 @@ def _frame_pattern() -> re.Pattern[str]:
             pattern = whole
         return pattern
 
-    begin, anywhere = ("|".join(map(spelt_out, table[name])) for name in ("begin", "anywhere"))
+    begin, anywhere = ("|".join(map(spelt_out, table.get(name, ()))) for name in ("begin", "anywhere"))
     clause = "|".join(f"(?<={re.escape(before)})" for before in _CLAUSE_BEGINS)
-    return re.compile(rf"(?:(?:^|{clause})(?:{begin})|(?<!\S)(?:{anywhere}))(?!\S)")
+    at_begin = rf"(?:^|{clause})(?:{begin})"
+    return re.compile(rf"(?:{at_begin}|(?<!\S)(?:{anywhere}))(?!\S)" if anywhere else rf"{at_begin}(?!\S)")
 
 
 def _frames(words: Sequence[Word]) -> Iterator[tuple[int, int]]:
     """Yield the ranges of polite frames."""
-    return ranges_of(_frame_pattern(), words)
+    return ranges_of(_pattern("frames"), words)
+
+
+def _aims(words: Sequence[Word]) -> Iterator[tuple[int, int]]:
+    """Yield the ranges of the phrases with which purposes begin."""
+    return ranges_of(_pattern("aims"), words)
 
 
 ENGLISH = GrammarLanguage(
-    code="en", words_of=words_of, phrases=phrases_for, grammar=_grammar, respelt=_respelt, frames=_frames
+    code="en", words_of=words_of, phrases=phrases_for, grammar=_grammar, respelt=_respelt, frames=_frames, aims=_aims
 )

@@ -28,6 +28,8 @@ class GrammarLanguage:
         respelt: Returns words with small misspellings mended, and what was mended as sentences; None for none.
         frames: Returns the ranges of polite frames ("would you be able to"), for requests that are not read otherwise;
             None for none.
+        aims: Returns the ranges of the phrases with which purposes begin ("I want to know how"), for such requests,
+            too; None for none.
     """
 
     code: str
@@ -36,3 +38,4 @@ class GrammarLanguage:
     grammar: Callable[[], Grammar]
     respelt: Respelling | None = None
     frames: Callable[[Sequence[Word]], Iterator[tuple[int, int]]] | None = None
+    aims: Callable[[Sequence[Word]], Iterator[tuple[int, int]]] | None = None

@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 from functools import cache
 
 from fieldhand.language import message
-from fieldhand.planning.english.tokens import Word
+from fieldhand.planning.english.tokens import Word, words_of
+from fieldhand.planning.english.wishes import says_start
 from fieldhand.planning.grammar.ambiguity import PlanQuestion, chosen_answer, not_an_answer, question_between
 from fieldhand.planning.grammar.answer_places import different_places
 from fieldhand.planning.grammar.assumptions import assumed_ways, assumed_wholes
@@ -110,7 +111,8 @@ def read(request: str, site: Site, robot: RobotProfile, language: GrammarLanguag
     edges = edges_of(words, phrases, tells=True)
     likely = edges_of(mended.words, phrases)
     frames = language.frames(words) if language.frames is not None else ()
-    told = without_remarks(words, edges, tells=True, respelt=likely, frames=frames)
+    aims = language.aims(words) if language.aims is not None else ()
+    told = without_remarks(words, edges, tells=True, respelt=likely, frames=frames, aims=aims)
     if told == plain:
         return found
     bare = read_besides(told)
@@ -452,13 +454,20 @@ def _meant(reading: RequestReading, request: str) -> Meant:
         LimitPhrase(amount=one.amount.number, unit=one.amount.unit, keep=one.keep, said=(said[0][0], said[-1][1]))
         for one, said in zip(state.limits, state.limits_said, strict=True)
     )
+    said = [request[start:end] for start, end in reading.remarks]
+    starts = [text for text in said if says_start(words_of(text))]
     remarked = tuple(
+        message("'{said}' is taken as a remark: the robot does nothing about it.", context="assumption", said=text)
+        for text in said
+        if text not in starts
+    )
+    to_confirm = tuple(
         message(
-            "'{said}' is taken as a remark: the robot does nothing about it.",
+            "'{said}' is taken as a remark: the mission starts when it is approved.",
             context="assumption",
-            said=request[start:end],
+            said=text.rstrip(" ,"),
         )
-        for start, end in reading.remarks
+        for text in starts
     )
     return Meant(
         plan=plan,
@@ -467,7 +476,7 @@ def _meant(reading: RequestReading, request: str) -> Meant:
         nominal_said=state.nominal_said,
         no_part=tuple(no_part),
         assumptions=(*state.assumed, *reading.assumed, *remarked),
-        warnings=reading.mended,
+        warnings=(*reading.mended, *to_confirm),
         read_as=_edited(request, reading.edits) if reading.edits else "",
     )
 

@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.grammar.chart import PhraseEdge
 from fieldhand.planning.grammar.list_marks import list_marks
+from fieldhand.planning.grammar.purposes import purpose
 from fieldhand.planning.grammar.tellings import WordKinds, telling
 from fieldhand.task.plan import Span
 
@@ -29,6 +31,17 @@ _ASKING_IN_REASON = _ASKING - {"MEASURE", "TAKE", "GO", "USE", "IF", "WHETHER", 
 _IN_ASIDES = frozenset(
     {"DET", "FOR", "FILLER", "IT", "IS", "WHICH", "OF", "MORE", "QUESTION", "THATWORD", "AT", "AS", "TELLS", "MEASURE"}
 )
+#: Categories of words that what is told of a tree may have beside unknown ones ("the one by the road").
+_IN_APPOSITIONS = frozenset({"AT", "BY", "DET", "IMPERSONAL", "IS", "OF", "VAGUEADJ", "WHICH"})
+#: Categories of words that restrict, forbid or command even behind "because", and of verbs that do so behind "and".
+_RESTRICTING = frozenset(
+    {
+        "ALLOW", "ASMANY", "ATLEAST", "BATTERY", "BUT", "CONTRAST", "CORRECTION", "DEMANDS", "EXCEPT", "GOHOME", "IF",
+        "IFSO", "INORDER", "INSTEAD", "INTERVAL", "ISNOT", "LEAVEOUT", "LIMIT", "NOT", "ONLY", "OTHERWISE", "REPEAT",
+        "TIMES", "TRY", "UNIT", "UNLESS", "UNTIL", "WITHOUT",
+    }
+)  # fmt: skip
+_VERBS = frozenset({"ACTV", "GO", "MEASURE", "STOP", "TAKE", "USE", "VISIT"})
 #: Categories of the words with which a request begins.
 _WHO_ASKS = frozenset({"FILLER", "MEASURE", "TAKE", "TELLS"})
 
@@ -59,6 +72,7 @@ def without_remarks(
     tells: bool = False,
     respelt: Iterable[PhraseEdge] = (),
     frames: Iterable[tuple[int, int]] = (),
+    aims: Iterable[tuple[int, int]] = (),
 ) -> Remarks:
     """Return the words without remarks: what is told beside the command, and the reasons that are given.
 
@@ -68,6 +82,7 @@ def without_remarks(
         tells: True to leave out sentences and clauses that tell something, too.
         respelt: What the words can be with misspellings mended; what may ask for something then tells nothing.
         frames: Ranges of polite frames ("would you be able to"), which are left out, too.
+        aims: Ranges of the phrases with which purposes begin ("I want to know how").
     """
     marks = list_marks(words)
     words = [replace(word, kind="stop") if k in marks.ends else word for k, word in enumerate(words)]
@@ -99,7 +114,15 @@ def without_remarks(
     ranked = [one for one in sentences if len(one) > 2 and "ORD" in kinds[one[0]] and words[one[1]].kind == "comma"]
     if len(ranked) > 1:
         labels.update(k for one in ranked for k in one[:2])  # "First: ... Second: ..."
-    for sentence in sentences:
+    openings = dict(aims)
+    for whole in sentences:
+        sentence: Sequence[int] = whole
+        if (aim := purpose(sentence, openings, known)) is not None:
+            left_out |= aim.left_out
+            topics |= set() if aim.topic is None else {aim.topic}
+            sentence = [k for k in sentence if k not in aim.left_out]
+            if not sentence:
+                continue
         said = [k for k in sentence if words[k].kind != "comma" and k not in labels | framed]
         label = _label(words, sentence, kinds)
         labels.update(label)
@@ -115,6 +138,9 @@ def without_remarks(
             continue
         for clause in _clauses(words, sentence):
             aside = _reason(clause, reasons, kinds) or _aside(clause, kinds)
+            if tells and not aside:
+                aside = _because(clause, known) or _before_people(clause, kinds)
+                aside = aside or (clause if _is_apposition(clause, said, words, kinds) else ())
             if tells and not aside and telling(clause, known, sentence=False) is not None:
                 aside = clause
             if aside and len(aside) < len(said):
@@ -244,6 +270,45 @@ def _reason(clause: Sequence[int], reasons: set[int], kinds: Sequence[set[str]])
     if begin is None or any(kinds[k] & _ASKING_IN_REASON for k in clause[begin:]):
         return ()
     return clause[begin:]
+
+
+def _because(clause: Sequence[int], known: WordKinds) -> Sequence[int]:
+    """Return what "because" begins, which may name rows and trees ("because we did that row yesterday")."""
+    begin = next((at for at, k in enumerate(clause) if known.kinds[k] & {"BECAUSE"}), None)
+    if begin is None:
+        return ()
+    for before, k in pairwise(clause[begin:]):
+        joined = known.words[before].norm in ("and", "then", "but", "or")
+        if known.may_be(k, _RESTRICTING) or known.words[k].norm.endswith("n't") or known.captures.get(k):
+            return ()
+        if joined and (known.may_be(k, _VERBS) or not known.kinds[k]):
+            return ()
+    return clause[begin:]
+
+
+def _before_people(clause: Sequence[int], kinds: Sequence[set[str]]) -> Sequence[int]:
+    """Return what somebody is going to do ("before the crew needs the machine back"); empty if nobody is."""
+    begin = next((at for at, k in enumerate(clause) if "BEFORE" in kinds[k]), None)
+    if begin is None or not any("PEOPLE" in kinds[k] for k in clause[begin + 1 : begin + 4]):
+        return ()
+    said = clause[begin + 1 :]
+    asks = any(kinds[k] & (_ASKING - {"BEFORE", "RETURN", "USE", "MEASURE", "GO"}) for k in said)
+    return () if asks or len(said) < 3 else clause[begin:]
+
+
+def _is_apposition(
+    clause: Sequence[int], said: Sequence[int], words: Sequence[Word], kinds: Sequence[set[str]]
+) -> bool:
+    """Return True for what is told of a tree behind it ("tree 4, the one by the road"), if it names no other place."""
+    if clause[0] == said[0] or not kinds[clause[0] - 2] & {"NUM", "TREEID"}:
+        return False
+    one = next((k for k in clause if words[k].norm == "one"), None)
+    if one is None or not kinds[clause[0]] & {"DET", "IMPERSONAL", "WHICH"}:
+        return False
+    if one == clause[-1] and "DET" in kinds[clause[0]]:
+        return False  # "the gnarled one" may choose among several
+    others = [k for k in clause if k != one]
+    return any(not kinds[k] for k in others) and all(not kinds[k] or kinds[k] & _IN_APPOSITIONS for k in others)
 
 
 def _aside(clause: Sequence[int], kinds: Sequence[set[str]]) -> Sequence[int]:

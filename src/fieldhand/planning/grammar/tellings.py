@@ -26,8 +26,9 @@ _PLACES = frozenset(
         "OLDS", "QUARTER", "ROW", "ROWNAME", "SOMEOFTHEM", "START", "SUPER", "TREE", "TREEID", "ZONE",
     }
 )  # fmt: skip
-#: Categories of words that a place may have beside these.
+#: Categories of words that a place may have beside these, and words that join its parts.
 _IN_PLACES = frozenset({"AT", "DET", "OF", "OLD", "PLOT", "VAGUEADJ"})
+_JOINTS = frozenset({"and", "to", "through", "with", "versus", "-", "\u2013", "&"})
 #: Categories of the verbs of commands.
 _COMMANDS = frozenset({"GO", "MEASURE", "TAKE", "USE", "VISIT"})
 #: Categories of these that describe other words as well ("most", "northern").
@@ -233,17 +234,56 @@ def _refers_back(start: int, known: WordKinds) -> bool:
 
 def _only_place(said: Sequence[int], known: WordKinds) -> Sequence[int]:
     """Return the words of the only place that a sentence names; empty if it names several or none."""
+    named = place_words(said, known)
+    return named[0] if len(named) == 1 else ()
+
+
+def place_words(said: Sequence[int], known: WordKinds) -> Sequence[Sequence[int]]:
+    """Return the runs of words that name places, with the numbers of rows and trees.
+
+    Args:
+        said: Numbers of the words of a sentence or clause.
+        known: What the words of the request can be.
+    """
     found: list[list[int]] = [[]]
-    for k in said:
-        fits = known.kinds[k] & (_PLACES | _IN_PLACES) or _is_age(k, said, known)
-        if fits and not known.kinds[k] & {"STATES", "THEREIS"} and known.words[k - 1].kind != "comma":
+    for at, k in enumerate(said):
+        fits = known.kinds[k] & (_PLACES | _IN_PLACES) or _is_age(k, said, known) or _counts(at, said, known)
+        joins = bool(found[-1]) and known.words[k].norm in _JOINTS and _goes_on(at + 1, said, known)
+        if joins or (fits and not known.kinds[k] & {"STATES", "THEREIS"} and known.words[k - 1].kind != "comma"):
             found[-1].append(k)
         else:
             found.append([])
-    named = [run for run in found if any(known.names_place(k) for k in run)]
-    if len(named) != 1:
-        return ()
-    (run,) = named
+    return [_trimmed(run, known) for run in found if any(known.names_place(k) for k in run)]
+
+
+def _counts(at: int, said: Sequence[int], known: WordKinds) -> bool:
+    """Return True for the number of a row or tree ("rows 3 and 5"), and for "two" of "two halves"."""
+    halves = at + 1 < len(said) and bool(known.kinds[said[at + 1]] & {"HALF", "QUARTER"})
+    return "NUM" in known.kinds[said[at]] and (halves or bool(head_of_number(at, said, known)))
+
+
+def head_of_number(at: int, said: Sequence[int], known: WordKinds) -> str:
+    """Return the word for the rows or trees that a number names ("row" of "rows 3 and 5"); empty if it names none.
+
+    Args:
+        at: Index of the number in the words.
+        said: Numbers of the words.
+        known: What the words of the request can be.
+    """
+    before = (k for k in reversed(said[:at]) if "NUM" not in known.kinds[k] and known.words[k].norm not in _JOINTS)
+    head = next(before, None)
+    named = head is not None and bool(known.kinds[head] & {"PLOT", "ROW", "TREE"})
+    return known.words[head].norm.removesuffix("s") if head is not None and named else ""
+
+
+def _goes_on(at: int, said: Sequence[int], known: WordKinds) -> bool:
+    """Return True if a place goes on at a word behind "and" or the like."""
+    names = (known.names_place(k) or known.kinds[k] & {"DIR", "NUM"} for k in said[at : at + 2])
+    return any(names)
+
+
+def _trimmed(run: Sequence[int], known: WordKinds) -> Sequence[int]:
+    """Return the words of a place without what stands before and behind it."""
     begin = next(at for at, k in enumerate(run) if not known.kinds[k] & {"AT", "OF"} or known.kinds[k] & _PLACES)
-    end = max(at for at, k in enumerate(run) if known.kinds[k] & _PLACES)
+    end = max(at for at, k in enumerate(run) if known.kinds[k] & (_PLACES | {"NUM", "PLOT"}))
     return run[begin : end + 1]

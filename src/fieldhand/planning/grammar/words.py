@@ -39,7 +39,7 @@ _POSSESSIVE = re.compile("(?<=.)['\N{RIGHT SINGLE QUOTATION MARK}]s$")
 _TOLD = frozenset(
     {
         "ADDS", "AUXILIARY", "BECAUSE", "DEMANDS", "HARMLESS", "HEADING", "HOPES", "IMPERSONAL", "INDEFINITE", "LATELY",
-        "OWNER", "PAPERWORK", "POINTING", "REFERRING", "SOMEOFTHEM", "STATES",
+        "OWNER", "PAPERWORK", "PEOPLE", "POINTING", "REFERRING", "SOMEOFTHEM", "STATES",
     }
 )  # fmt: skip
 #: Maximum number of words of a filler.

@@ -1,0 +1,146 @@
+"""Purposes of a request: what is to be found out or compared, beside the command that serves it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from fieldhand.planning.grammar.tellings import Telling, WordKinds, head_of_number, place_words
+
+#: Categories of words that restrict, forbid or command wherever they stand.
+_NEVER = frozenset(
+    {
+        "ALLOW", "ASMANY", "ATLEAST", "BATTERY", "BEFORE", "BUT", "CLOCKWISE", "CONTRAST", "CORRECTION", "DEMANDS",
+        "EVENLYSPACED", "EXCEPT", "GOHOME", "IF", "IFSO", "INCASE", "INORDER", "INSTEAD", "INTERVAL", "ISNOT",
+        "LEAVEOUT", "LIMIT", "MAXIMISE", "MUST", "NOORDER", "NOT", "ONLY", "OTHERWISE", "REVERSE",
+        "TRY", "UNIT", "UNLESS", "UNTIL", "WITHOUT",
+    }
+)  # fmt: skip
+#: Categories of the verbs of commands, which ask for something only where a verb may begin.
+_VERBS = frozenset(
+    {
+        "ACTV", "CLIP", "GO", "KEEP", "MEASURE", "PASSON", "REPEAT", "RETURN", "SORT", "STAY", "STOP", "TAKE", "USE",
+        "VISIT",
+    }
+)  # fmt: skip
+#: Categories of words with which a command begins behind a comma.
+_BEGINS = frozenset({"ACTV", "GO", "MEASURE", "TAKE", "USE", "VISIT"})
+#: Words that join a command to its purpose, and verbs of what is found out that demand nothing.
+_JOINTS = frozenset({"so", "therefore", "hence", "please", "and", "then"})
+_OF_PLANTS = frozenset({"need", "needs", "change", "changes", "changed", "wrong", "mean", "means", "slow", "first"})
+_ASKS = frozenset({"how", "whether", "what", "which", "why", "where", "when"})
+#: Marks that set a command off from what it is for.
+_COLONS = frozenset({":", " - ", " \u2013 ", "\u2014", " \u2014 "})
+_BACK = frozenset({"IT", "ITS", "SAME", "THERE"})
+#: Categories of the words that may stand before a purpose.
+_OPENING = frozenset({"AND", "ASIDE", "DOES", "FILLER", "OPENER"})
+
+
+def purpose(sentence: Sequence[int], openings: Mapping[int, int], known: WordKinds) -> Telling | None:
+    """Return what a sentence says to be the purpose of a command; None if it says none, or may ask for something else.
+
+    A purpose begins with who wants to know something ("we want to see how", "I am comparing") and ends with the
+    sentence, at a colon, or where a command begins. The places that it names are named by the command, too, or the
+    command refers to the only one ("there"), which is kept as what the request is about.
+
+    Args:
+        sentence: Numbers of the words of the sentence, its commas among them.
+        openings: Ends of the phrases with which purposes begin, by their first words.
+        known: What the words of the request can be.
+    """
+    begin = next((at for at, k in enumerate(sentence) if k in openings), None)
+    if begin is None:
+        return None
+    said = sentence[begin:]
+    start = sum(k < openings[said[0]] for k in said)
+    end = next((at for at in range(start, len(said)) if _ends(at, said, known)), len(said))
+    body = said[start:end]
+    places = _places(body, known)
+    compares = known.words[said[start - 1]].norm == "compare"
+    if compares and any("LATELY" in known.kinds[k] for k in body):
+        return None  # "compare it with last year"
+    if not all(_is_harmless(at, body, {k for run in places for k in run}, known) for at in range(len(body))):
+        return None
+    command = next((at for at in range(end, len(said)) if known.words[said[at]].norm not in _JOINTS | {",", ":"}), end)
+    marks = [k for k in said[end : end + 1] if known.words[k].kind == "comma"]
+    opens = all(known.kinds[k] & _OPENING or known.words[k].kind == "comma" for k in sentence[:begin])
+    return _about(places, frozenset({*said[:command], *marks}), said, known, opens=opens)
+
+
+def _ends(at: int, said: Sequence[int], known: WordKinds) -> bool:
+    """Return True for a mark or a word with which a purpose ends before a command."""
+    word = known.words[said[at]]
+    follows = known.words[said[at + 1]] if at + 1 < len(said) else None
+    if word.text in _COLONS or follows is None:
+        return word.text in _COLONS
+    if word.norm == "so" or word.kind == "comma":
+        later = (k for k in said[at + 1 :] if known.words[k].norm not in _JOINTS)
+        begins = bool(known.kinds[next(later, said[at])] & _BEGINS)
+        return begins or (word.kind == "comma" and follows.norm == "so")
+    return False
+
+
+def _is_harmless(at: int, body: Sequence[int], placed: set[int], known: WordKinds) -> bool:
+    """Return True for a word of what is to be found out that neither asks for something nor restricts the work."""
+    k = body[at]
+    word, kinds = known.words[k], known.kinds[k]
+    before = known.words[body[at - 1]] if at > 0 else None
+    joined = before is not None and (before.kind == "comma" or before.norm in ("and", "or", "then", "to"))
+    if k in placed or word.norm in _ASKS:
+        return True
+    if (word.norm in _OF_PLANTS or "HARMLESS" in kinds) and not joined:
+        return True
+    if word.norm.endswith("n't") or word.kind in ("number", "rank", "unit") or known.may_be(k, _NEVER):
+        return False
+    if word.kind == "comma":
+        follows = [known.words[one].norm for one in body[at + 1 : at + 3]]
+        return bool(follows) and bool({*follows} & _ASKS or {"TELLS"} & known.kinds[body[at + 1]])
+    if known.captures.get(k):
+        others = {one for n, found in known.captures.items() if n not in body for one in found}
+        return bool(known.captures[k] & others)
+    acts = not kinds and at + 1 < len(body) and bool(known.kinds[body[at + 1]] & {"DET", "IT"})
+    return not (joined and (acts or known.may_be(k, _VERBS)))
+
+
+def _places(body: Sequence[int], known: WordKinds) -> Sequence[Sequence[int]]:
+    """Return the runs of words that name places, but for "the trees" and the like."""
+    return [
+        run for run in place_words(body, known) if not all(known.kinds[k] & {"AT", "DET", "OF", "TREE"} for k in run)
+    ]
+
+
+def _named(run: Sequence[int], known: WordKinds) -> Iterator[tuple[str, str]]:
+    """Yield the words that name a place, each number with the word for what it counts."""
+    for at, k in enumerate(run):
+        if "NUM" in known.kinds[k]:
+            yield known.words[k].norm, head_of_number(at, run, known)
+        elif known.kinds[k] and not known.kinds[k] & {"AND", "AT", "DET", "OF", "WITH"}:
+            yield known.words[k].norm.removesuffix("s"), ""
+
+
+def _about(
+    places: Sequence[Sequence[int]], left_out: frozenset[int], said: Sequence[int], known: WordKinds, *, opens: bool
+) -> Telling | None:
+    """Return a purpose with the place that its command refers to, if it names one; None if the command may need it."""
+    refers = opens and _refers_back(max(left_out) + 1, known)
+    if refers and len(places) == 1:
+        (place,) = places
+        return Telling(left_out=left_out - {said[0], *place}, topic=said[0])
+    others = {*_named([k for k in range(len(known.words)) if k not in left_out], known)}
+    if not all(word in others for run in places for word in _named(run, known)):
+        return None
+    first = not any("TELLS" in known.kinds[k] for k in range(said[0]))
+    return Telling(left_out=left_out) if places or first or not refers else None
+
+
+def _refers_back(start: int, known: WordKinds) -> bool:
+    """Return True if the next sentence refers to a place before it names one."""
+    for k in range(start, len(known.words)):
+        kinds, follows = known.kinds[k], known.words[k + 1 : k + 2]
+        if kinds & _BACK and not kinds & {"FILLER", "ASIDE", "INDEFINITE"}:
+            return True
+        if "EACH" in kinds and (not follows or follows[0].kind in ("comma", "stop")):
+            return True
+        tree = "TREE" in kinds and not any(one.kind == "number" for one in follows)
+        if known.names_place(k) and not tree:
+            return False
+    return False
