@@ -31,6 +31,15 @@ _ASKS = frozenset({"how", "whether", "what", "which", "why", "where", "when"})
 #: Marks that set a command off from what it is for.
 _COLONS = frozenset({":", " - ", " \u2013 ", "\u2014", " \u2014 "})
 _BACK = frozenset({"IT", "ITS", "SAME", "THERE"})
+#: Categories of words that name no part of a place before which they stand.
+_BEFORE_PLACES = frozenset(
+    {"AT", "AUXILIARY", "HARMLESS", "HOW", "IS", "IT", "LIMITEDTO", "OF", "QUESTION", "STATES", "WHETHER", "WITH"}
+)
+#: Words behind a place that begin a description of its trees.
+_DESCRIBES = frozenset({"that", "which", "who", "whose", "where", "with", "without", "behind", "beside", "near", "by"})
+_RELATIVES = frozenset({"that", "which", "who", "whose"})
+#: Pronouns that may refer to a thing as well as to where it is.
+_PRONOUNS = frozenset({"them", "they", "these", "those", "each", "one"})
 #: Categories of the words that may stand before a purpose.
 _OPENING = frozenset({"AND", "ASIDE", "DOES", "FILLER", "OPENER"})
 
@@ -63,7 +72,10 @@ def purpose(sentence: Sequence[int], openings: Mapping[int, int], known: WordKin
     command = next((at for at in range(end, len(said)) if known.words[said[at]].norm not in _JOINTS | {",", ":"}), end)
     marks = [k for k in said[end : end + 1] if known.words[k].kind == "comma"]
     opens = all(known.kinds[k] & _OPENING or known.words[k].kind == "comma" for k in sentence[:begin])
-    return _about(places, frozenset({*said[:command], *marks}), said, known, opens=opens)
+    told = frozenset({*said[:command], *marks})
+    if opens and len(places) == 1 and _refers_back(max(told) + 1, known) and _is_whole(places[0], body, known):
+        return Telling(left_out=told - {said[0], *places[0]}, topic=said[0])
+    return _named_again(places, told, said, known)
 
 
 def _ends(at: int, said: Sequence[int], known: WordKinds) -> bool:
@@ -93,7 +105,8 @@ def _is_harmless(at: int, body: Sequence[int], placed: set[int], known: WordKind
         return False
     if word.kind == "comma":
         follows = [known.words[one].norm for one in body[at + 1 : at + 3]]
-        return bool(follows) and bool({*follows} & _ASKS or {"TELLS"} & known.kinds[body[at + 1]])
+        tells = bool(follows) and "TELLS" in known.kinds[body[at + 1]] and "DET" not in known.kinds[body[at + 1]]
+        return tells or bool({*follows} & _ASKS)
     if known.captures.get(k):
         others = {one for n, found in known.captures.items() if n not in body for one in found}
         return bool(known.captures[k] & others)
@@ -108,6 +121,30 @@ def _places(body: Sequence[int], known: WordKinds) -> Sequence[Sequence[int]]:
     ]
 
 
+def _is_whole(place: Sequence[int], body: Sequence[int], known: WordKinds) -> bool:
+    """Return True unless a purpose may be about a part of a place, or about something there that a pronoun refers to.
+
+    "Both ends of row 5" and "the gnarled trees" are parts; "the gaps in row 5" are what "photograph them" refers to.
+    """
+    at = body.index(place[0])
+    inside = at > 1 and "AT" in known.kinds[body[at - 1]]
+    thing = body[at - 2] if inside and not known.kinds[body[at - 2]] else None
+    after = body[at + len(place) :]
+    described = bool(after) and (known.words[after[0]].norm in _DESCRIBES or known.is_past(after[0]))
+    described = described or any(known.words[k].norm in _RELATIVES for k in after)
+    if described or any(k != thing and _is_of_place(k, known) for k in body[max(0, at - 3) : at]):
+        return False
+    return thing is None or not any(word.norm in _PRONOUNS for word in known.words[body[-1] + 1 :])
+
+
+def _is_of_place(k: int, known: WordKinds) -> bool:
+    """Return True for a word before a place that may be a part of its name."""
+    word, kinds = known.words[k], known.kinds[k]
+    if word.norm in _ASKS or known.captures.get(k) or word.kind == "comma":
+        return False
+    return "DET" not in kinds and (not kinds & _BEFORE_PLACES or "INDEFINITE" in kinds)
+
+
 def _named(run: Sequence[int], known: WordKinds) -> Iterator[tuple[str, str]]:
     """Yield the words that name a place, each number with the word for what it counts."""
     for at, k in enumerate(run):
@@ -117,19 +154,15 @@ def _named(run: Sequence[int], known: WordKinds) -> Iterator[tuple[str, str]]:
             yield known.words[k].norm.removesuffix("s"), ""
 
 
-def _about(
-    places: Sequence[Sequence[int]], left_out: frozenset[int], said: Sequence[int], known: WordKinds, *, opens: bool
+def _named_again(
+    places: Sequence[Sequence[int]], told: frozenset[int], said: Sequence[int], known: WordKinds
 ) -> Telling | None:
-    """Return a purpose with the place that its command refers to, if it names one; None if the command may need it."""
-    refers = opens and _refers_back(max(left_out) + 1, known)
-    if refers and len(places) == 1:
-        (place,) = places
-        return Telling(left_out=left_out - {said[0], *place}, topic=said[0])
-    others = {*_named([k for k in range(len(known.words)) if k not in left_out], known)}
+    """Return a purpose of which the command needs nothing: it names all of the places itself; None otherwise."""
+    others = {*_named([k for k in range(len(known.words)) if k not in told], known)}
     if not all(word in others for run in places for word in _named(run, known)):
         return None
     first = not any("TELLS" in known.kinds[k] for k in range(said[0]))
-    return Telling(left_out=left_out) if places or first or not refers else None
+    return Telling(left_out=told) if places or first or not _refers_back(max(told) + 1, known) else None
 
 
 def _refers_back(start: int, known: WordKinds) -> bool:

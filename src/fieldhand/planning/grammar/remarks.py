@@ -302,6 +302,8 @@ def _is_apposition(
     """Return True for what is told of a tree behind it ("tree 4, the one by the road"), if it names no other place."""
     if clause[0] == said[0] or not kinds[clause[0] - 2] & {"NUM", "TREEID"}:
         return False
+    if clause[0] > 2 and kinds[clause[0] - 3] & {"AND", "COMMA"}:
+        return False  # "trees 4 and 9, the one by the road"
     one = next((k for k in clause if words[k].norm == "one"), None)
     if one is None or not kinds[clause[0]] & {"DET", "IMPERSONAL", "WHICH"}:
         return False
