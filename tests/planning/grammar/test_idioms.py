@@ -497,6 +497,38 @@ READ = [
         "for UnionOf(TreeIs(3)+TreeIs(4)+TreeIs(5)+TreeIs(6)+TreeIs(7)+TreeIs(8)): [picture = r1; if r1 > 38 degC: "
         "[co2]]",
     ),
+    (
+        "Take a picture at tree 4. Take another one at tree 4.",
+        "picture @ TreeIs(4); picture @ TreeIs(4)",
+    ),
+    (
+        "Measure CO2 at trees 5 and 6. One reading at tree 7.",
+        "for UnionOf(TreeIs(5)+TreeIs(6)): [co2]; co2 @ TreeIs(7)",
+    ),
+    (
+        "Measure CO2 at trees 5 and 6, one reading at each.",
+        "for UnionOf(TreeIs(5)+TreeIs(6)): [co2]",
+    ),
+    (
+        "Measure CO2 at trees 5 and 6. Three readings at each.",
+        "for UnionOf(TreeIs(5)+TreeIs(6)): [co2 x3]",
+    ),
+    (
+        "In the next 15 minutes, get thermal pictures of as many Carmel trees as you can.",
+        "for Where(variety, eq, Carmel) optional: [picture] | duration_s 900",
+    ),
+    (
+        "Photograph trees 4 to 9 except tree 6.",
+        "for Excluding(TreeIs(6), of UnionOf(TreeIs(4)+TreeIs(5)+TreeIs(6)+TreeIs(7)+TreeIs(8)+TreeIs(9))): [picture]",
+    ),
+    (
+        "I need the air temperature at trees 4 to 9 of row 2, leaving out tree 6.",
+        "for Excluding(InRow(6, 6, of Rows(2, 2)), of InRow(4, 9, of Rows(2, 2))): [air]",
+    ),
+    (
+        "Photograph trees 4 to 9 of row 2 except tree 6.",
+        "for Excluding(InRow(6, 6, of Rows(2, 2)), of InRow(4, 9, of Rows(2, 2))): [picture]",
+    ),
 ]
 
 
