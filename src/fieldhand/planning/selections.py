@@ -225,6 +225,16 @@ def as_zone(selector: s.Selector) -> s.InZone | None:
     return selector if isinstance(selector, s.InZone) else None
 
 
+def is_extreme(selector: s.Selector) -> bool:
+    """Return True for the trees farthest to a side."""
+    return isinstance(selector, s.Extreme)
+
+
+def is_drawn(selector: s.Selector) -> bool:
+    """Return True for trees that are drawn at random."""
+    return isinstance(selector, s.RandomSample)
+
+
 def as_corners(selector: s.Selector) -> s.Corners | None:
     """Return the selector if it selects corner trees, None otherwise."""
     return selector if isinstance(selector, s.Corners) else None

@@ -157,12 +157,21 @@ class ParameterValue:
 
 @dataclass(frozen=True, slots=True)
 class Thing:
-    """One kind of capture: its action, how many if the phrase says so, and the parameters that it gives."""
+    """One kind of capture.
+
+    Attributes:
+        action: Action.
+        count: Number of captures, if the phrase says it.
+        plural: True for a noun in the plural.
+        parameters: Parameters that the phrase gives.
+        more: True for "another" and "two more", which are taken besides those before.
+    """
 
     action: str
     count: int | None = None
     plural: bool = False
     parameters: tuple[tuple[str, str | float], ...] = ()
+    more: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -502,11 +511,13 @@ class Failing:
         used: Tokens of the phrase.
         action: Action that fails, if the phrase names it.
         at_one: True if it may fail at each of several places by itself ("at one of them").
+        place: Place that cannot be reached, if the phrase names it; it is that of the command before.
     """
 
     used: int
     action: str = ""
     at_one: bool = False
+    place: PlaceMeaning | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -26,6 +26,8 @@ _COMPLETE = frozenset({"place", "rows", "region", "said"})
 _COMMANDS = frozenset({"TAKE", "MEASURE", "ACTV", "NOUN", "GO", "VISIT", "RETURN", "GOHOME", "REPEAT", "STOP"})
 #: Kind of the words that are known, and that no plan can express yet.
 _NOT_YET = "NOTYET"
+#: Category of "instead of", which is read before a marker only.
+_OF_MARKERS = "RATHERTHAN"
 #: Maximum number of words of a reason that are quoted, and of characters of a sentence.
 _MOST_WORDS, _MOST_CHARACTERS = 4, 120
 _SAY_WHAT = message("say what to take or measure, and at which trees")
@@ -92,7 +94,7 @@ def _impossible(words: Sequence[Word], chart: Chart, request: str) -> Iterator[R
 
 def _not_yet(words: Sequence[Word], edges: Sequence[PhraseEdge]) -> Iterator[Reason]:
     """Yield a reason for each phrase that no plan can express yet, if its words are nothing else."""
-    others = [edge for edge in edges if edge.category != _NOT_YET]
+    others = [edge for edge in edges if edge.category not in (_NOT_YET, _OF_MARKERS)]
     for edge in edges:
         if edge.category != _NOT_YET or any(_explains(one, edge) for one in others):
             continue

@@ -47,6 +47,8 @@ def _again(command: CaptureCommand, _: None) -> CaptureCommand | None:
 
 def _each(command: CaptureCommand, things: tuple[Thing, ...] | int | None) -> CaptureCommand | None:
     """Return a command with so many captures, or those of ``things``, at each of several places."""
+    if isinstance(things, tuple) and len(things) == 1 and things[0].action in (UNSAID_THING, LAST_THING):
+        things = things[0].count or 1  # "measure CO2 at trees 5 and 6, one reading at each"
     if things == 1 and command.place is None:
         return command  # "of the yellow trees let the temperature be taken, each once"
     if isinstance(things, int):
@@ -87,11 +89,13 @@ def once_more() -> Adjunct:
     "adjunct: EACH times=often",
     "adjunct: times=count EACH",
     "adjunct: number=things EACH",
+    "adjunct: number=things INEACH",
     cost=0.2,
 )
 def of_each(times: int | None = None, number: tuple[Thing, ...] | None = None) -> Adjunct:
     """Compose "each" behind "two pictures", "twice each", "one each" and "two pictures each"."""
-    return Adjunct(_each, times or number)
+    specifies = number is not None and [one.action for one in number] in ([UNSAID_THING], [LAST_THING])
+    return Adjunct(_each, times or number, is_sentence=specifies)
 
 
 # At which trees of the place.

@@ -143,6 +143,12 @@ def repeat_part() -> Clause:
     return _part("v")
 
 
+@construction("part: REPEAT DET reading=READING", cost=0.3)
+def repeat_reading_part(reading: Lex) -> Clause | None:
+    """Compose "repeat the measurement", the one taken last."""
+    return None if reading.plural else Clause("vt", things=(Thing(LAST_THING),))
+
+
 @construction("part: verb=ACTV", cost=0.1)
 def act_part(verb: Lex) -> Clause:
     """Compose "photograph"."""

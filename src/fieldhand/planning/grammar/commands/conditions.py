@@ -479,6 +479,23 @@ def failing(
     return Failing(used, action=things[0].action if things else "" if reading is None else LAST_THING)
 
 
+@construction(
+    "failing: IF [IT] CANNOTREACH place=place",
+    "failing: IF [DOES] CANNOTREACH place=place",
+    "failing: IF place=place CANNOT",
+    cost=0.2,
+)
+def place_failing(place: PlaceMeaning, used: int) -> Failing | None:
+    """Compose "if you can't get to tree 45"."""
+    return Failing(used, place=place) if place.shape == "one" else None
+
+
+@construction("failing: IF [DOES] CANNOTREACH trees=numbers", cost=0.4, given=("site",))
+def number_failing(trees: tuple[str, ...], used: int, site: Site) -> Failing | None:
+    """Compose "if you can't get to 45", on a site whose trees have numbers."""
+    return Failing(used, place=named_trees(trees)) if len(trees) == 1 and trees[0] in site.by_id else None
+
+
 @construction("failing: FAILINGTHAT", "failing: one=failing [COMMA] other=failing", cost=0.9)
 def failing_that(used: int, one: Failing | None = None, other: Failing | None = None) -> Failing | None:
     """Compose "failing that", which may be another case of a condition as well."""
@@ -583,6 +600,16 @@ def among_trees(inner: Nominal) -> PlaceMeaning | None:
 
 
 @construction(
+    "among_trees: ANY OF whole=place", "among_trees: ANY whole=place", "among_trees: word=DET OF whole=place", cost=0.3
+)
+def among_those(whole: PlaceMeaning, word: Lex | None = None) -> PlaceMeaning | None:
+    """Compose "any of trees 4 to 8" and "those of trees 4 to 8" before what they are like."""
+    if whole.shape != "several" or whole.optional or whole.at_most or whole.per is not None:
+        return None
+    return replace(whole, each=True) if word is None or "those" in word.features else None
+
+
+@construction(
     "tested: among [WHICH] [IS] test=predicate",
     "tested: among WHERE [IT] [IS] test=predicate",
     "tested: among WHICH noun=NOUN [IS] test=predicate",
@@ -591,6 +618,7 @@ def among_trees(inner: Nominal) -> PlaceMeaning | None:
     "tested: test=predicate noun=ONE",
     "tested: area=among_trees WHICH [IS] test=predicate",
     "tested: area=among_trees WHERE [IT] [IS] test=predicate",
+    "tested: area=among_trees WHICH noun=NOUN [IS] test=predicate",
     "tested: those=tested by=measured_by",
     cost=0.2,
 )
@@ -738,7 +766,7 @@ def while_it_holds(tests: AllTests, used: int) -> UntilCondition | None:
     return UntilCondition(AllTests((replace(tests.tests[0], negated=not tests.tests[0].negated),)), used)
 
 
-@construction("when: those=tested [SHOULD]", cost=0.5)
+@construction("when: those=tested [SHOULD]", "when: relation those=tested", "when: FOR those=tested", cost=0.5)
 def those_that_are(those: tuple[AllTests, PlaceMeaning | None], used: int) -> When | None:
     """Compose "those hotter than 35 degC should get"."""
     reading = not any(test.attribute for test in those[0].tests)
@@ -787,7 +815,8 @@ def group(every: Lex | None = None, none: Lex | None = None, n: int = 0, bound: 
 
 
 @construction(
-    "tests: of=group [IS] test=predicate",
+    "tests: [IT] of=group [IS] test=predicate",
+    "tests: IT IS of=group test=predicate",
     "tests: of=group noun=NOUN [READING] [IS] test=predicate",
     "tests: AT of=group [COMMA] test=test",
     "tests: test=test AT of=group",

@@ -381,10 +381,17 @@ def return_to(marker: s.Selector, used: int) -> Home | None:
     return Home("return_to_start" if marker.named_marker == "start" else "return_to_end", used)
 
 
-@construction("home: way=home [COMMA] [AND] NOT [AT] other=marker", cost=0.2)
+@construction("home: way=home [COMMA] [AND] RATHERTHAN [AT] other=marker", cost=0.2)
 def home_and_not(way: Home, other: s.Selector, used: int) -> Home | None:
     """Compose "come back to the start, not the end"."""
     known = {"return_to_start": "start", "return_to_end": "end"}.get(way.then or "")
+    return replace(way, used=used) if known and other.named_marker not in ("", known) else None
+
+
+@construction("drive: way=drive [COMMA] [AND] RATHERTHAN [AT] other=marker", cost=0.3)
+def there_and_not(way: DriveCommand, other: s.Selector, used: int) -> DriveCommand | None:
+    """Compose "finish at the charger rather than at the end marker"."""
+    known = way.place.selector.named_marker
     return replace(way, used=used) if known and other.named_marker not in ("", known) else None
 
 

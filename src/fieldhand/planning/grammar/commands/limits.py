@@ -303,6 +303,7 @@ def as_many_of_them(used: int) -> VisitLimit:
     return VisitLimit(None, used)
 
 
+@construction("place: ASMANY [OF] [OTHER] whole=place", cost=2.0)
 @construction(
     "place: ASMANY as_can OF whole=place",
     "place: ASMANY [OF] [OTHER] whole=place as_can",

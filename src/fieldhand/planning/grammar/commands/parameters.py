@@ -283,6 +283,9 @@ def one_of_several_values(how: ParameterValue) -> ParameterValue | None:
 
 @construction(
     "and_again: [COMMA] AND [then] [AGAIN]",
+    "and_again: [COMMA] AND [then] ANOTHER",
+    "and_again: [COMMA] AND [then] ANOTHER ONE",
+    "and_again: [COMMA] AND [then] ANOTHER READING",
     "and_again: COMMA [then] [AGAIN]",
     "and_again: then [AGAIN]",
     cost=0.0,

@@ -76,20 +76,20 @@ def readings_of(n: int, noun: Lex) -> Thing | None:
     "thing: n=count",
     "thing: n=count ONE",
     "thing: n=count READING",
-    "thing: n=count MORE READING",
-    "thing: ANOTHER n=count [READING]",
-    "thing: IT [THERE] n=more_times",
+    "thing: n=count more=MORE READING",
+    "thing: more=ANOTHER n=count [READING]",
+    "thing: more=IT [THERE] n=more_times",
     cost=1.5,
 )
-def so_many_of_them(n: int) -> Thing:
+def so_many_of_them(n: int, more: Lex | None = None) -> Thing:
     """Compose "two more"."""
-    return Thing(LAST_THING, count=n, plural=n > 1)
+    return Thing(LAST_THING, count=n, plural=n > 1, more=more is not None)
 
 
 @construction("thing: ANOTHER", "thing: ANOTHER ONE", "thing: ANOTHER READING", cost=1.5)
 def another_of_them() -> Thing:
     """Compose "another one"."""
-    return Thing(LAST_THING, count=1)
+    return Thing(LAST_THING, count=1, more=True)
 
 
 @construction("thing: [DET] rank=ORD noun=NOUN", cost=0.3)

@@ -77,6 +77,8 @@ def failing(setting: Setting, state: DialogueState, command: Failing) -> Dialogu
     steps = state.block.steps
     if not steps:
         raise NotComposed(message("it is not clear what may fail", context="fault"))
+    if command.place is not None and command.place.selector not in [node.selector for node in p.walk(steps[-1])]:
+        raise NotComposed(message("it is not clear what may fail", context="fault"))
     if (command.action or command.at_one) and state.loop is not None and state.captured is not None:
         return _failing_at_each(setting, state, command, state.captured)
     last = steps[-1].act

@@ -117,6 +117,8 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
             line, once = spaced(setting, None, things, command.spacing, command.used)
             return _lines_at_each(state, replace(command, things=once), place, line, whole)
         place, things = spaced(setting, place, things, command.spacing, command.used)
+    if _may_be_the_same(state, command, place):
+        raise NotComposed(message("it is not clear whether it is taken once more", context="fault"))
     same = same or _is_one_more(command)
     if same and place is not None and state.where is not None and place.shape == "one":
         mark = landmark_of(state.where.selector, place.selector)  # "the tree next to the pond and one farthest from it"
@@ -159,6 +161,13 @@ def _along_from_its_end(state: DialogueState, command: CaptureCommand) -> tuple[
     order = InAnOrder(AWAY_FROM[end.counted_from], "", False, command.used)
     begun = replace(state, plan=EMPTY, where=None, loop=None, captured=None, order=order)
     return replace(begun, lead=Lead(PlaceMeaning(end.of, "area"), 0)), steps[0].said
+
+
+def _may_be_the_same(state: DialogueState, command: CaptureCommand, place: PlaceMeaning | None) -> bool:
+    """Return True for "one reading at each corner" as a sentence behind one that names a reading at the corners."""
+    counted = any(one.action == LAST_THING and one.count and not one.more for one in command.things)
+    known = None if state.where is None else state.where.selector
+    return counted and not state.commands_in_sentence and place is not None and place.selector == known
 
 
 def _is_one_more(command: CaptureCommand) -> bool:
@@ -498,7 +507,7 @@ def capture_elided(setting: Setting, state: DialogueState) -> DialogueState:
     things = state.things
     if lead.place.shape != "area":
         things = tuple(replace(thing, count=None) for thing in things)
-    elif not (_are_of_each(things) and _is_area(state.where)) and (
+    elif not (_are_of_each(things) and (state.where is None or _is_area(state.where))) and (
         lead.relation == "" or not (state.where is None or _is_area(state.where) or are_rows(state.where.selector))
     ):
         raise NotComposed(message("at every tree, or at how many?", context="fault"))

@@ -61,6 +61,7 @@ from fieldhand.planning.selections import as_some
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
+from fieldhand.task.frames import Then
 
 #: Comparisons to the other side of a threshold, by comparison.
 _OPPOSITES: Mapping[Check, tuple[Check, ...]] = {
@@ -463,6 +464,8 @@ def _decide_last(setting: Setting, state: DialogueState, command: When, said: Sp
     inside = (*state.scope, len(steps) - 1)
     if (at_each := _decide_last_at_each(setting, state, command, said)) is not None:
         return at_each
+    if (ended := _home_from_visits(setting, state, command, said)) is not None:
+        return ended
     state = replace(state, captured=reading_before(state.plan, inside, robot))
     condition, state = condition_of(setting, state, command.tests)
     if all(test.attribute for test in command.tests.tests):
@@ -472,6 +475,27 @@ def _decide_last(setting: Setting, state: DialogueState, command: When, said: Sp
     last = p.InOrder(id="", steps=state.block.steps[-1:])
     state = with_last_step(state, p.If(id="", condition=condition, then=last, said=said))
     return replace(state, choice=inside, decided=command.tests, loop=None, tested_at=(state.where, state.where_scope))
+
+
+def _home_from_visits(setting: Setting, state: DialogueState, command: When, said: Spans) -> DialogueState | None:
+    """Return the state in which a reading at one of several places ends the visits ("... and come home if it is hot").
+
+    None if the last command is no return, or the reading was not taken at each of the places before it.
+    """
+    *before, last = state.block.steps
+    marker = last.selector.named_marker if last.only_drives and last.selector is not None else ""
+    if marker not in ("start", "end") or not before or not before[-1].visits_each or state.scope:
+        return None
+    visits = (len(before) - 1,)
+    reading = reading_before(state.plan, (len(before),), setting.robot)
+    if reading is None or not is_inside(reading, visits):
+        return None
+    plan = replace(state.plan, steps=tuple(before))
+    condition, state = condition_of(setting, replace(state, plan=plan, captured=reading), command.tests)
+    loop = for_each_at(state.plan, visits)
+    plan = with_node(state.plan, visits, replace(loop, until=condition, said=(*loop.said, *said)))
+    nominal: Then = "return_to_start" if marker == "start" else "return_to_end"
+    return replace(state, plan=plan, nominal=nominal, nominal_said=last.said, loop=None, ended_by=condition)
 
 
 def _of_reading_there(

@@ -227,6 +227,10 @@ def _nth(state: DialogueState, like: Likewise) -> s.Selector:
     counted = None if last is None else as_in_row(last)
     if counted is not None and counted.first == counted.last and is_one_row(counted.of):
         return replace(counted, first=number, last=number)  # "at the first tree of row 4, then at the last one"
+    if counted is not None and 0 < counted.first < counted.last and is_one_row(counted.of):
+        which = counted.last if number == -1 else counted.first + number - 1
+        if which <= counted.last:
+            return replace(counted, first=which, last=which)  # "trees 5 to 8 of row 9, then the last of them"
     named = () if last is None else named_places(last)
     known = len(named) if before is None or before.count is None else before.count
     if like.of_number and known != like.of_number:

@@ -27,7 +27,7 @@ from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed
 from fieldhand.planning.grammar.meaning import NTH_READING, AllTests, Check, PlaceMeaning, Test
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.places.numbered import ids_of
-from fieldhand.planning.selections import named_places
+from fieldhand.planning.selections import as_in_row, named_places
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
@@ -267,7 +267,7 @@ def readings_at(setting: Setting, state: DialogueState, test: Test) -> tuple[Dia
 
 def _says_side(place: s.Selector, side: str) -> bool:
     """Return True if a place names a side, or is a corner or an end of a row."""
-    return side not in SIDES or any(side in part.sides or isinstance(part, s.InRow) for part in place.walk())
+    return side not in SIDES or any(side in part.sides or as_in_row(part) is not None for part in place.walk())
 
 
 def _said_to_side(step: p.Node, place: s.Selector, side: str, places: Sequence[s.Selector]) -> p.Node:

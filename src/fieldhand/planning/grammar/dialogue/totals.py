@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from fieldhand.language import message
+from fieldhand.planning.grammar.dialogue.plans import as_for_each
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, Spans
 from fieldhand.planning.grammar.meaning import Total
 from fieldhand.planning.grammar.places.numbered import ids_of
@@ -36,10 +37,12 @@ def _number(setting: Setting, node: p.Node, action: str) -> int | None:
     numbers = [one for one in inner if one is not None]
     if len(numbers) < len(inner) or not any(numbers):
         return None if len(numbers) < len(inner) else 0
-    if isinstance(node, p.ForEach):
-        ids = ids_of(node.select, setting.site)
-        fixed = not node.optional and node.at_most is None and node.until is None
+    loop = as_for_each(node)
+    if loop is not None:
+        ids = ids_of(loop.select, setting.site)
+        fixed = not loop.optional and loop.at_most is None and loop.until is None
         return len(ids) * sum(numbers) if ids and fixed else None
-    if isinstance(node, p.Repeat):
-        return node.times * sum(numbers)
-    return sum(numbers) if isinstance(node, p.InOrder) else None
+    if node.is_series:
+        return sum(numbers)
+    rounds = getattr(node, "times", None) if getattr(node, "until", None) is None else None
+    return None if rounds is None else rounds * sum(numbers)

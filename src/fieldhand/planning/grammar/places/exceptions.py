@@ -185,7 +185,8 @@ def without(whole: PlaceMeaning, out: Omission, site: Site) -> list[PlaceMeaning
     if out.positions and out.rows is not None:
         return except_positions(whole, out.positions, out.rows)
     parts = _parts_out(whole, out, site)
-    whole = replace(whole, count=None) if named_places(whole.selector) else whole
+    listed = named_places(whole.selector) or as_in_row(whole.selector) is not None
+    whole = replace(whole, count=None) if listed else whole
     if whole.count is not None or whole.per is not None:
         return None
     if out.as_trees and not parts and ids_of(whole.selector, site) is not None:
@@ -218,6 +219,11 @@ def _parts_out(whole: PlaceMeaning, out: Omission, site: Site) -> list[s.Selecto
         return [all_of(named)] if len(named) < len(of.members) else []
     if of == s.Trees():
         return [] if out.or_so_many else [all_of(named)]
+    counted = as_in_row(of)
+    if counted is not None and is_one_row(counted.of) and all(name.isdigit() for name in out.trees):
+        numbers = [int(name) for name in out.trees]
+        if all(counted.first <= number <= counted.last for number in numbers):  # "trees 4 to 9 of row 2 except tree 6"
+            return [all_of([replace(counted, first=number, last=number) for number in numbers])]
     ways = numbered(out.trees, of, site) if out.as_trees or is_one_row(of) else []
     if of.relative and all(name.isdigit() for name in out.trees):
         ways.append(all_of(named))

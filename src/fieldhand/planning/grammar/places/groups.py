@@ -17,6 +17,7 @@ from fieldhand.planning.selections import (
     as_top,
     chooses_from_trees,
     is_description,
+    is_drawn,
     is_end_of_site,
     landmark_of,
     leaves_out,
@@ -167,7 +168,7 @@ def both(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | list[Place
     count = None if None in counts else sum(c for c in counts if c is not None)
     whole = PlaceMeaning(s.UnionOf(parts=parts), "several", count=count, beside=first.beside)
     counted = next((one for part in parts if (one := as_in_row(part)) is not None), None)
-    drawn = tuple(_drawn(part) for part in parts) if isinstance(parts[-1], s.RandomSample) else parts
+    drawn = tuple(_drawn(part) for part in parts) if is_drawn(parts[-1]) else parts
     if drawn != parts:  # "ten old and ten young trees at random": the ten old ones, too?
         return [replace(whole, selector=s.UnionOf(parts=drawn)), whole]
     if counted is None or not any(is_end_of_site(part) for part in parts):

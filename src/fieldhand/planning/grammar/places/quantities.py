@@ -64,7 +64,7 @@ def quantified(quantity: Determiner, inner: Nominal, site: Site) -> list[PlaceMe
     """Compose "the three yellow trees", "any tree of row 4" and "every corner"."""
     kind, n = quantity.kind, quantity.n
     if inner.single:
-        return [PlaceMeaning(inner.selector, "one")] if n is None and kind not in ("any", "each", "all") else None
+        return [PlaceMeaning(inner.selector, "one")] if n in (None, 1) and kind not in ("any", "each", "all") else None
     if kind in ("each", "all"):
         return _all_of(quantity, inner, site)
     if kind in ("any", "whichever"):

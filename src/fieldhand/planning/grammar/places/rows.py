@@ -18,6 +18,7 @@ from fieldhand.planning.selections import (
     as_rows,
     chooses_from_trees,
     counts_in_row,
+    is_extreme,
     is_in_block,
     is_one_row,
     over,
@@ -438,6 +439,14 @@ def trees_of_each_row(inner: Nominal, rows: s.Selector, each: Lex | None = None)
             return None  # "the last tree of each row" is counted along it
         return PlaceMeaning(inner.selector, "several", each=True, per=rows)
     return PlaceMeaning(over(inner.selector, rows), "several") if inner.plural or each is not None else None
+
+
+@construction("place: DET inner=nominal in_ rows=row_list", cost=0.4)
+def extreme_of_each_row(inner: Nominal, rows: tuple[s.Rows, ...]) -> PlaceMeaning | None:
+    """Compose "the northernmost tree of rows 1, 3 and 5": of each of them, or of all of them?"""
+    if not inner.single or not is_extreme(inner.selector) or len(rows) < 2:
+        return None
+    return PlaceMeaning(inner.selector, "several", each=True, per=s.UnionOf(parts=rows))
 
 
 @construction(

@@ -95,7 +95,13 @@ def across_the_aisle(word: Lex, side: CountedFrom = "usual") -> PlaceMeaning | N
     return PlaceMeaning(s.Across(origin=s.Here(), side=side), "one") if "over_aisle" in word.features else None
 
 
-@construction("way: word=ALONG", "way: word=ALONG DET ROW", "way: word=ALONG THATROW", cost=0.1)
+@construction("that_row: DET ROW", "that_row: ITS ROW", "that_row: DET SAME ROW", "that_row: THATROW", cost=0.0)
+def that_row() -> str:
+    """Compose "the row" and "its row", of the place spoken of."""
+    return "row"
+
+
+@construction("way: word=ALONG", "way: word=ALONG that_row", cost=0.1)
 def way_along(word: Lex) -> Towards | None:
     """Compose "down the row"."""
     return "down" if "downwards" in word.features else "up" if "upwards" in word.features else None
@@ -110,6 +116,8 @@ def further() -> Towards:
 @construction(
     "way: AT DET side=DIR",
     "way: side=DIR",
+    "way: side=DIR ALONG that_row",
+    "way: ALONG that_row side=DIR",
     "way: MORE side=DIR",
     "way: MORE AT DET side=DIR",
     "way: WAY AT DET side=DIR",
@@ -314,13 +322,19 @@ def nth_along_row(rank: Lex, way: Towards, to: PlaceMeaning | None = None) -> Pl
 
 @construction(
     "place: DET NEXTONE n=count inner=nominal",
-    "place: DET NEXTONE n=count inner=nominal way=way",
+    "place: DET NEXTONE n=count [inner=nominal] way=way",
     "place: DET NEXTONE n=count inner=nominal in_ rows=rows",
+    "place: DET n=count inner=nominal FOLLOWING [way=way]",
+    "place: DET n=count FOLLOWING inner=nominal [way=way]",
     cost=0.2,
 )
-def next_trees(n: int, inner: Nominal, way: Towards = "down", rows: s.Selector | None = None) -> PlaceMeaning | None:
-    """Compose "the next three trees"."""
-    if inner.single or inner.selector != s.Trees() or n < 2 or rows not in (None, s.RowOf()):
+def next_trees(
+    n: int, inner: Nominal | None = None, way: Towards = "down", rows: s.Selector | None = None
+) -> PlaceMeaning | None:
+    """Compose "the next three trees" and "the three trees that follow it down the row"."""
+    if inner is not None and (inner.single or inner.selector != s.Trees()):
+        return None
+    if n < 2 or rows not in (None, s.RowOf()):
         return None
     return PlaceMeaning(
         s.UnionOf(parts=tuple(s.AlongRow(trees=k, towards=way) for k in range(1, n + 1))), "several", count=n
