@@ -8,7 +8,7 @@ from itertools import zip_longest
 from typing import Literal
 
 from fieldhand.request_check import words as w
-from fieldhand.request_check.numbers import Number, numbers
+from fieldhand.request_check.numbers import StatedNumber, numbers
 from fieldhand.request_check.words import Token
 
 AmountKind = Literal[
@@ -94,7 +94,9 @@ def numbers_of(amount: StatedAmount) -> set[int]:
     return found | set(range(int(amount.values[0]), min(amount.through, int(amount.values[0]) + 10_000) + 1))
 
 
-def _amount(tokens: Sequence[Token], number: Number, nouns: dict[int, Noun], units: frozenset[str]) -> StatedAmount:
+def _amount(
+    tokens: Sequence[Token], number: StatedNumber, nouns: dict[int, Noun], units: frozenset[str]
+) -> StatedAmount:
     value, k = number.value, number.end
     if [token.text for token in tokens[k : k + 1]] == ["-"]:
         k += 1  # "two-year-old"
@@ -217,7 +219,7 @@ def _compared(tokens: Sequence[Token], index: int) -> str:
     return ""
 
 
-def _listed(tokens: Sequence[Token], before: StatedAmount, number: Number) -> bool:
+def _listed(tokens: Sequence[Token], before: StatedAmount, number: StatedNumber) -> bool:
     """Return True if a bare number continues a list of names: "trees 4, 9 and 12"."""
     if before.kind not in ("id", "row", "name") or number.ordinal:
         return False

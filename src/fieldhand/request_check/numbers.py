@@ -20,7 +20,7 @@ _AND_A_HALF = (["and", "a", "half"], ["-", "and", "-", "a", "-", "half"])
 
 
 @dataclass(frozen=True, kw_only=True)
-class Number:
+class StatedNumber:
     """A number of the request, at the tokens from ``start`` to ``end``, the latter excluded."""
 
     value: float
@@ -29,7 +29,7 @@ class Number:
     ordinal: bool = False
 
 
-def numbers(tokens: Sequence[Token]) -> Iterator[Number]:
+def numbers(tokens: Sequence[Token]) -> Iterator[StatedNumber]:
     """Yield numbers in digits and words."""
     k = 0
     while k < len(tokens):
@@ -39,27 +39,31 @@ def numbers(tokens: Sequence[Token]) -> Iterator[Number]:
         k = k + 1 if number is None else number.end
 
 
-def _number(tokens: Sequence[Token], start: int) -> Number | None:
+def _number(tokens: Sequence[Token], start: int) -> StatedNumber | None:
     """Return the number that begins at a token; None if there is none."""
     text = tokens[start].text
     if (times := _TIMES.fullmatch(text)) is not None:
-        return Number(value=float(times[1]), start=start, end=start + 1)
+        return StatedNumber(value=float(times[1]), start=start, end=start + 1)
     if w.is_number(text) and len(text) <= _LONGEST:
         value, end = float(text.replace(",", "")), start + 1
         joined = tokens[end].text if end < len(tokens) and tokens[end].joined else ""
         if joined in _RANK_ENDINGS:
-            return Number(value=value, start=start, end=end + 1, ordinal=True)
+            return StatedNumber(value=value, start=start, end=end + 1, ordinal=True)
         value, end = (value * 1000, end + 1) if joined == "k" else (value, end)
     elif text in w.ORDINALS:
-        return Number(value=float(w.ORDINALS[text]), start=start, end=start + 1, ordinal=True)
+        return StatedNumber(value=float(w.ORDINALS[text]), start=start, end=start + 1, ordinal=True)
     elif text in w.NUMBERS or text in _SCALES:
         value, end = _in_parts(tokens, start) or _spelt(tokens, start)
         if (rank := _rank_behind(value, tokens, end)) is not None:
-            return Number(value=value + rank[0], start=start, end=rank[1], ordinal=True)
+            return StatedNumber(value=value + rank[0], start=start, end=rank[1], ordinal=True)
     else:
         return None
     half = next((len(said) for said in _AND_A_HALF if [t.text for t in tokens[end : end + len(said)]] == said), 0)
-    return Number(value=value + 0.5, start=start, end=end + half) if half else Number(value=value, start=start, end=end)
+    return (
+        StatedNumber(value=value + 0.5, start=start, end=end + half)
+        if half
+        else StatedNumber(value=value, start=start, end=end)
+    )
 
 
 def _spelt(tokens: Sequence[Token], start: int) -> tuple[float, int]:
