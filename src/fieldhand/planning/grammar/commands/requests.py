@@ -300,7 +300,7 @@ def before_doing(word: Lex, used: int) -> Connective | None:
 
 
 @construction("then: ONTHEWAY", cost=0.1)
-def on_the_way() -> str:
+def then_on_the_way() -> str:
     """Compose "on the way back" before what is done then."""
     return "then"
 

@@ -19,7 +19,7 @@ from fieldhand.planning.grammar.meaning import (
     PlaceMeaning,
 )
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
-from fieldhand.planning.grammar.places.groups import of_that_kind
+from fieldhand.planning.grammar.places.groups import kind_in_area
 from fieldhand.planning.selections import (
     are_rows,
     as_in_row,
@@ -63,7 +63,7 @@ def with_known_place(setting: Setting, state: DialogueState, command: Command) -
     if place.like is not None and place.like.kind == "those":
         before = state.where
         kind = before.selector if before is not None and before.shape == "several" else s.Trees()
-        return replace(command, place=replace(place, selector=of_that_kind(kind, place.selector), like=None))
+        return replace(command, place=replace(place, selector=kind_in_area(kind, place.selector), like=None))
     if place.like is not None and place.like.kind == "extreme":
         return replace(command, place=_extreme(state, replace(place, like=None), place.like.side))
     if place.like is not None and place.like.kind == "rest":

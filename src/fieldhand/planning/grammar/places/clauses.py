@@ -12,7 +12,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.areas import inside
 from fieldhand.planning.grammar.places.chosen import Chosen
-from fieldhand.planning.grammar.places.nouns import AttributeTest, that_pass
+from fieldhand.planning.grammar.places.nouns import AttributeCheck, AttributeTest, that_pass
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_every_nth, as_zone, chooses_from_trees, over
 
@@ -21,7 +21,16 @@ construction = GRAMMAR.construction
 
 _ANYWHERE = s.Trees()
 #: Tests that pass where another one fails.
-_OPPOSITE = {"lt": "ge", "ge": "lt", "gt": "le", "le": "gt", "eq": "ne", "ne": "eq", "any": "none", "none": "any"}
+_OPPOSITE: dict[AttributeCheck, AttributeCheck] = {
+    "lt": "ge",
+    "ge": "lt",
+    "gt": "le",
+    "le": "gt",
+    "eq": "ne",
+    "ne": "eq",
+    "any": "none",
+    "none": "any",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +92,7 @@ def denied(trait: Trait) -> Clause | None:
     if trait.test is None:
         return None if trait.outside else (replace(trait, outside=True, denied=True),)
     name, check, value = trait.test
-    return (Trait((name, _OPPOSITE[check], value), denied=True),) if check in _OPPOSITE else None  # type: ignore[arg-type]
+    return (Trait((name, _OPPOSITE[check], value), denied=True),) if check in _OPPOSITE else None
 
 
 @construction("traits: NEITHER first=trait NOR then=trait", cost=0.0)

@@ -143,7 +143,7 @@ def both(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | list[Place
     if first.per is not None or second.per is not None or first.like is not None:
         return None
     if second.like is not None and second.like.kind == "those":
-        second = replace(second, selector=of_that_kind(first.selector, second.selector), like=None)
+        second = replace(second, selector=kind_in_area(first.selector, second.selector), like=None)
     if second.like is not None and second.like.kind == "extreme":
         second = replace(second, like=None)
     if second.like is not None:
@@ -184,7 +184,7 @@ def _drawn(selector: s.Selector) -> s.Selector:
     return selector if some is None else s.RandomSample(count=some.count, of=some.of)
 
 
-def of_that_kind(first: s.Selector, area: s.Selector) -> s.Selector:
+def kind_in_area(first: s.Selector, area: s.Selector) -> s.Selector:
     """Return the trees of an area that fit the description of others: "those in row 5" behind "the yellow trees"."""
     if not is_description(first):
         return area

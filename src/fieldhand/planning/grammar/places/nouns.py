@@ -17,8 +17,10 @@ from fieldhand.terms import Test
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
-#: Attribute, test and value: a pair for "between", alternatives for "any".
-AttributeTest = tuple[str, Test | Literal["between", "any", "none"], Any]
+#: Test of an attribute: one with a value, with a pair for "between", or with alternatives.
+AttributeCheck = Test | Literal["between", "any", "none"]
+#: Attribute, test and value.
+AttributeTest = tuple[str, AttributeCheck, Any]
 
 #: Test, value, unit, and the attribute if the words name it ("older than").
 Comparison = tuple[Test | Literal["between"], Any, str, str]
@@ -244,10 +246,11 @@ def of_that_kind(
 ) -> list[AttributeTest] | None:
     """Compose "aged over 5", "between 5 and 10 years old", "yielded less than 5 kg" and "two years old"."""
     number, unit = value if exact is None else (exact.number, exact.unit)
-    check, wanted, unit, attribute = ("eq", number, unit, "") if by is None else by
+    told: Comparison = ("eq", number, unit, "") if by is None else by
+    check, wanted, unit, attribute = told
     if attribute or unit not in ("", kind):
         return None
-    return [(name, check, wanted) for name in hinted_attributes(_ATTRIBUTE_BY_UNIT[kind], site)]  # type: ignore[misc]
+    return [(name, check, wanted) for name in hinted_attributes(_ATTRIBUTE_BY_UNIT[kind], site)]
 
 
 @construction("nominal: old=amount [DASH] OLD inner=nominal", cost=0.2, given=("site",))

@@ -447,10 +447,10 @@ def from_side_and_on(to: Lex, side: Side | None = None, begin: Lex | None = None
     "place: DET side=DIR noun=FINISH",
     "place: DET TREE AT DET side=DIR noun=FINISH",
     "place: DET ONE AT DET side=DIR noun=FINISH",
-    "place: poss=ITS side=DIR noun=FINISH",
+    "place: ITS side=DIR noun=FINISH",
     cost=1.2,
 )
-def end_of_that_row(side: Lex, noun: Lex, poss: Lex | None = None) -> PlaceMeaning | None:  # noqa: ARG001
+def end_of_that_row(side: Lex, noun: Lex) -> PlaceMeaning | None:
     """Compose "the south end", of the row that was spoken of."""
     if side.value not in SIDES or noun.plural:
         return None
