@@ -22,6 +22,7 @@ from fieldhand.task.frames import (
     Variable,
 )
 from fieldhand.task.plan import Node, Span, acts
+from fieldhand.task.timing import Timing
 
 #: Default exits on faults.
 FAULTED_EXITS = (
@@ -52,6 +53,7 @@ def make_task(
     no_part: tuple[Span, ...] = (),
     read_as: str = "",
     warnings: tuple[str, ...] = (),
+    timing: Timing | None = None,
 ) -> Task:
     """Return a Task whose ids, goals and variables are derived from its plan.
 
@@ -68,12 +70,16 @@ def make_task(
         no_part: Ranges of the request that have no part in the plan.
         read_as: The request with the answers to clarifying questions; empty without questions.
         warnings: Warnings to confirm before approval, as sentences.
+        timing: Time at which the mission begins, or its schedule.
 
     Returns:
         The Task; its id is a hash of request, plan and resources, so equal arguments give equal Tasks.
     """
     numbered = number(plan)
-    digest = hashlib.sha256(repr((request, numbered, resources, constraints, nominal)).encode()).hexdigest()
+    identity: tuple[object, ...] = (request, numbered, resources, constraints, nominal)
+    if timing is not None:
+        identity = (*identity, timing)
+    digest = hashlib.sha256(repr(identity).encode()).hexdigest()
     return Task(
         id=f"task-{digest[:12]}",
         command=Command(
@@ -88,6 +94,7 @@ def make_task(
         composition=Composition(plan=numbered, nominal=nominal, nominal_said=nominal_said, faulted=faulted),
         constraints=constraints or Constraints(),
         resources=resources,
+        timing=timing,
     )
 
 

@@ -25,6 +25,7 @@ from fieldhand.places.sources.union_of import UnionOf
 from fieldhand.task.conditions import Condition
 from fieldhand.task.frames import Command, Composition, FaultedExit, Task, Then
 from fieldhand.task.plan import Act, InOrder, Node, OptionalStep, Span, StopMission
+from fieldhand.task.timing import Timing
 from fieldhand.terms import Value
 
 NAMESPACE = "urn:fieldhand:task:1"
@@ -155,6 +156,7 @@ FAMILIES: dict[tuple[type, ...], str] = {
     SELECTORS: "selector",
     get_args(Condition): "condition",
     get_args(Node): "node",
+    get_args(Timing): "timing",
 }
 
 

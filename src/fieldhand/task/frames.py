@@ -12,6 +12,7 @@ from typing import Literal
 
 from fieldhand.short_repr import short_repr
 from fieldhand.task.plan import Node, Span
+from fieldhand.task.timing import Timing
 
 Then = Literal["return_to_end", "return_to_start", "stay"]
 Fault = Literal["action_failed", "drive_failed", "low_budget", "aborted"]
@@ -169,6 +170,7 @@ class Task:
         composition: Plan and exits.
         constraints: Budgets, reserve and maximum speed.
         resources: Site and robot for which the Task was planned.
+        timing: Time at which it begins, or schedule of a standing mission; None to begin when it is started.
     """
 
     id: str
@@ -176,6 +178,7 @@ class Task:
     composition: Composition
     constraints: Constraints = Constraints()
     resources: tuple[Resource, ...] = ()
+    timing: Timing | None = None
 
     __repr__ = short_repr
 

@@ -40,6 +40,11 @@ _FACETS: dict[str, dict[str, str]] = {
     "failure_probability": {"minExclusive": "0", "maxExclusive": "1"},
     "reserve_percent": {"minInclusive": "0", "maxExclusive": "100"},
     "reward": {"minInclusive": "0"},
+    "every_min": {"minInclusive": "0", "maxInclusive": "1440"},
+    "every_days": {"minInclusive": "1", "maxInclusive": "366"},
+    "late_min": {"minInclusive": "0", "maxInclusive": "10080"},
+    "done_by_min": {"minInclusive": "0", "maxInclusive": "10080"},
+    "offset_min": {"minInclusive": "-1440", "maxInclusive": "1440"},
     "speed_m_s": {"minInclusive": "0.01", "maxInclusive": "20"},
 }
 

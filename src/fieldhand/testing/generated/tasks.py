@@ -30,6 +30,7 @@ from fieldhand.task.codec_shapes import hints_of
 from fieldhand.task.conditions import Between, Compare, Condition, Level
 from fieldhand.task.frames import Budget, Constraints, FaultedExit, Resource, Task
 from fieldhand.task.plan import Act, Node, Span
+from fieldhand.task.timing import Timing
 from fieldhand.terms import Value
 
 #: A robot with every kind of parameter, an action that measures two quantities and a quantity without level words.
@@ -70,6 +71,11 @@ _BY_FIELD: dict[str, st.SearchStrategy[Any]] = {
     "failure_probability": st.floats(0, 1, exclude_min=True, exclude_max=True),
     "reserve_percent": st.floats(0, 100, exclude_max=True),
     "speed_m_s": st.floats(0.01, 20),
+    "every_min": st.integers(0, 1440),
+    "every_days": st.integers(1, 366),
+    "late_min": st.integers(0, 10080),
+    "done_by_min": st.integers(0, 10080),
+    "offset_min": st.floats(-1440, 1440),
 }
 _spans = st.lists(st.tuples(st.integers(0, 999), st.integers(0, 999)), max_size=2).map(tuple)
 
@@ -183,6 +189,7 @@ class Parts:
             plan=self.plans,
             measures=st.just(measures),
             resources=st.lists(self.instance(Resource), max_size=2).map(tuple),
+            timing=st.one_of(st.none(), self.one_of(get_args(Timing), 1)),
             constraints=st.builds(
                 Constraints,
                 budgets=st.lists(self.instance(Budget), max_size=2).map(tuple),
