@@ -24,8 +24,9 @@ FileCommand = Literal["pause", "continue", "return", "abort"]
 #: Commands that can be given in memory: they stop the robot or bring it home.
 StoppingCommand = Literal["pause", "return", "abort"]
 
-#: Commands that a robot's agent accepts over the network; its ``resume`` is ``continue`` in the file.
-AgentCommand = Literal["start", "pause", "resume", "return", "abort"]
+#: Commands that a robot's agent accepts over the network; its ``resume`` is ``continue`` in the file. ``cancel``: keep
+#: the timetable of a mission no longer, or leave out a run that has not begun.
+AgentCommand = Literal["start", "pause", "resume", "return", "abort", "cancel"]
 AGENT_COMMANDS: tuple[AgentCommand, ...] = get_args(AgentCommand)
 
 #: Commands that may follow each command.
