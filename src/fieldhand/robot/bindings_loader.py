@@ -23,6 +23,7 @@ from fieldhand.robot.bindings import (
     PositionBinding,
     Ros2Bindings,
     StopBinding,
+    SwitchBinding,
     TopicBinding,
 )
 from fieldhand.robot.bindings_document import (
@@ -35,6 +36,7 @@ from fieldhand.robot.bindings_document import (
     ReadingDocument,
     Ros2Document,
     StopDocument,
+    SwitchDocument,
 )
 from fieldhand.robot.units import STANDARD_FIELDS, conversion, known_units
 
@@ -97,6 +99,7 @@ def _binding_problems(document: ProfileDocument, ros2: Ros2Document) -> Iterator
             )
             continue
         yield from _requests(bound, action, where)
+        yield from _switches(bound, action, where)
         yield from _sources(bound, action, where)
         call = bound.action or bound.service
         for quantity, reading in call.readings.items() if call is not None else ():
@@ -120,6 +123,29 @@ def _requests(bound: ActionBindingDocument, action: ActionDocument, where: str) 
                 what=f"{value!r} is neither a parameter of the action nor the place",
                 advice=_nearest(value, known),
             )
+
+
+def _switches(bound: ActionBindingDocument, action: ActionDocument, where: str) -> Iterator[ProfileProblem]:
+    """Yield an implement without a switch, a switch without an implement, and unknown references in its values."""
+    if (bound.switch is None) != (action.implement is None):
+        implement = action.implement is not None
+        yield ProfileProblem(
+            path=where,
+            what="the action is on while driving, but has no switch" if implement else "only an implement has a switch",
+            advice="give switch with a service or a topic" if implement else "give action, service or topics",
+        )
+        return
+    if bound.switch is None:
+        return
+    known = [f"${name}" for name in action.parameters]
+    for key, values in (("enable", bound.switch.enable), ("disable", bound.switch.disable)):
+        for path, value in values.items():
+            if isinstance(value, str) and value.startswith("$") and value not in known:
+                yield ProfileProblem(
+                    path=f"{where}.switch.{key}.{path}",
+                    what=f"{value!r} is not a parameter of the action",
+                    advice=_nearest(value, known) if known else "give a constant",
+                )
 
 
 def _sources(bound: ActionBindingDocument, action: ActionDocument, where: str) -> Iterator[ProfileProblem]:
@@ -187,13 +213,16 @@ def _topic(document: PositionDocument | BatteryDocument | OdometryDocument | Sto
 
 def _navigation(document: NavigationDocument) -> NavigationBinding:
     datum = document.datum
-    values = document.model_dump(exclude={"datum", "action", "from_ll", "speed_limit"})
+    values = document.model_dump(exclude={"datum", "action", "from_ll", "speed_limit", "working", "working_action"})
+    working = document.working or ""
     return NavigationBinding(
         **values,
         action=document.action or _USUAL_NAMES[document.type],
         datum=None if datum is None else Datum(lat=datum.lat, lon=datum.lon, heading_deg=datum.heading_deg),
         from_ll=document.from_ll or "",
         speed_limit=document.speed_limit or "",
+        working=working,
+        working_action=document.working_action or (_USUAL_NAMES[working] if working else ""),
     )
 
 
@@ -202,12 +231,14 @@ _USUAL_NAMES = {
     "nav2_msgs/action/NavigateToPose": "navigate_to_pose",
     "nav2_msgs/action/NavigateThroughPoses": "navigate_through_poses",
     "nav2_msgs/action/FollowGPSWaypoints": "follow_gps_waypoints",
+    "nav2_msgs/action/FollowPath": "follow_path",
 }
 
 
 def _action(bound: ActionBindingDocument, action: ActionDocument, units: dict[str, str]) -> ActionBinding:
     return ActionBinding(
         call=_call(bound, action, units),
+        switch=None if bound.switch is None else _switch(bound.switch),
         topics={
             name: NextMessage(
                 topic=message.topic,
@@ -234,6 +265,20 @@ def _call(bound: ActionBindingDocument, action: ActionDocument, units: dict[str,
         success=call.success or "",
         message=call.message or "",
         within_s=call.within_s or max(_LEAST_S, _TIMES * action.duration_s),
+    )
+
+
+def _switch(switch: SwitchDocument) -> SwitchBinding:
+    on, off, success, message = switch.values
+    return SwitchBinding(
+        kind="service" if switch.service is not None else "topic",
+        name=switch.service or switch.topic or "",
+        type=switch.whole_type,
+        on=on,
+        off=off,
+        success=success,
+        message=message,
+        within_s=switch.within_s,
     )
 
 

@@ -19,11 +19,13 @@ from fieldhand.plugins import Plugin, active
 from fieldhand.robot.bindings_loader import ProfileProblem, binding_problems, bindings_of
 from fieldhand.robot.document import (
     ActionDocument,
+    ImplementDocument,
     LevelDocument,
     ParameterDocument,
     ProfileDocument,
     QuantityDocument,
 )
+from fieldhand.robot.implement import Implement
 from fieldhand.robot.model import Action, Energy, LegCost, LevelThreshold, Parameter, Patience, Quantity, RobotProfile
 from fieldhand.strict_yaml import YamlFault, read_yaml
 
@@ -298,21 +300,31 @@ def _level(document: LevelDocument) -> LevelThreshold:
     return LevelThreshold(direction="above", value=document.above)
 
 
+#: Duration in the model of an action that is on while driving, whose time is that of the path.
+_SWITCH_S = 1.0
+
+
 def _action(name: str, document: ActionDocument) -> Action:
     return Action(
         name=name,
         words=document.words,
         verbs=document.verbs,
         measures=document.measures,
-        duration_s=document.duration_s,
-        energy_j=document.energy_j,
+        duration_s=_SWITCH_S if document.duration_s is None else document.duration_s,
+        energy_j=document.energy_j or 0.0,
         parameters=tuple(_parameter(key, p) for key, p in document.parameters.items()),
         description=document.description,
         labels=document.labels,
         retries=document.retries,
         retry_wait_s=document.retry_wait_s,
         in_doubt=document.in_doubt,
+        implement=None if document.implement is None else _implement(document.implement),
     )
+
+
+def _implement(document: ImplementDocument) -> Implement:
+    values = document.model_dump()
+    return Implement(**values | {"rate": document.rate or ""})
 
 
 def _parameter(name: str, document: ParameterDocument) -> Parameter:

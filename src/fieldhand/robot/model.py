@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from fieldhand.robot.bindings import Ros2Bindings
+from fieldhand.robot.implement import Implement
 from fieldhand.short_repr import short_repr
 
 Direction = Literal["below", "above"]
@@ -89,6 +90,7 @@ class Action:
         retry_wait_s: Seconds between two attempts; None for :attr:`Patience.retry_wait_s`.
         in_doubt: Handling of a capture interrupted by a power cut: ``repeat``, or ``skip`` if doing it twice does harm,
             as cutting a leaf.
+        implement: Properties of an action that is on while the robot drives; None for one that is done at a place.
     """
 
     name: str
@@ -103,6 +105,7 @@ class Action:
     retries: int | None = None
     retry_wait_s: float | None = None
     in_doubt: InDoubtPolicy = "repeat"
+    implement: Implement | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -253,6 +256,11 @@ class RobotProfile:
     def action(self) -> Mapping[str, Action]:
         """Return the actions by name."""
         return {a.name: a for a in self.actions}
+
+    @cached_property
+    def implements(self) -> Mapping[str, Action]:
+        """Return the actions that are on while the robot drives, by name."""
+        return {a.name: a for a in self.actions if a.implement is not None}
 
     @cached_property
     def quantity(self) -> Mapping[str, Quantity]:
