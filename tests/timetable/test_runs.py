@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from datetime import UTC, date, datetime, timedelta
 from itertools import islice, pairwise
+from pathlib import Path
 from zoneinfo import ZoneInfo
 
 import pytest
@@ -13,7 +14,7 @@ from hypothesis import strategies as st
 
 from fieldhand.errors import TaskError
 from fieldhand.task.timing import WEEKDAYS, DayTime, Schedule, StartTime
-from fieldhand.timetable.day_times import Locality, instant
+from fieldhand.timetable.day_times import Locality, instant, local_zone
 from fieldhand.timetable.days import day_of
 from fieldhand.timetable.runs import Calendar, DueRun
 
@@ -250,3 +251,14 @@ def test_a_single_mission_begins_in_its_window(start: StartTime, window: tuple[s
 def test_a_window_that_has_passed_has_no_run() -> None:
     past = StartTime(day="today", not_before=DayTime(clock="06:00"), not_after=DayTime(clock="06:15"))
     assert list(calendar(MONDAY).runs(past, MONDAY - timedelta(days=1))) == []
+
+
+def test_the_zone_of_a_machine_has_its_rules(tmp_path: Path) -> None:
+    summer, winter = datetime(2027, 7, 1, tzinfo=UTC), datetime(2027, 1, 1, tzinfo=UTC)
+    for environ in ({"TZ": "Europe/Rome"}, {"TZ": ":Europe/Rome"}):
+        zone = local_zone(environ)
+        assert summer.astimezone(zone).utcoffset() != winter.astimezone(zone).utcoffset()
+    assert local_zone({"TZ": "nowhere"}) is UTC
+    assert local_zone({}, tmp_path / "missing") is UTC
+    (tmp_path / "broken").write_bytes(b"no zone")
+    assert local_zone({}, tmp_path / "broken") is UTC

@@ -17,6 +17,7 @@ from fieldhand.approval.branch_checks import branch_problems, exit_problems
 from fieldhand.approval.budget import budget_problems
 from fieldhand.approval.problem import PlanProblem, node_in, with_words
 from fieldhand.approval.request_warnings import request_warnings
+from fieldhand.approval.timing import timing_problems
 from fieldhand.errors import FieldhandError, PlaceError, TaskError
 from fieldhand.forecast.estimate import Estimate, estimate, explore
 from fieldhand.forecast.visit_order import drives_for, start_place
@@ -108,6 +109,7 @@ def examine(
                 problems.extend(exit_problems(forecast, site))
                 problems.extend(budget_problems(task, site, robot, forecast))
                 problems.extend(battery_problems(task, robot))
+                problems.extend(timing_problems(task, site, forecast))
     once = dict.fromkeys(with_words(problem, task) for problem in problems)
     found = tuple(sorted(once, key=lambda p: p.severity != "error"))
     return Examination(task=task, site=site, robot=robot, problems=found, estimate=forecast)

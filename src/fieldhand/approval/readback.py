@@ -23,6 +23,7 @@ from fieldhand.task.frames import Budget, FaultedExit, Task, Then
 from fieldhand.wording.branches import FAULTS, say_decisions
 from fieldhand.wording.resolved_places import gather
 from fieldhand.wording.steps import ReadBackLine, say_exit_after, write_lines
+from fieldhand.wording.timing import say_timing
 
 __all__ = ["ReadBack", "ReadBackLine", "Totals", "read_back"]
 
@@ -52,6 +53,7 @@ class ReadBack:
 
     Attributes:
         lines: The steps and the exit.
+        times: Times at which the mission begins or runs again, one sentence each; empty if it begins when started.
         limits: Budgets and reserve, one sentence each.
         faults: Behaviour on faults, one sentence each.
         assumptions: Assumptions made in interpreting the request.
@@ -67,6 +69,7 @@ class ReadBack:
     notes: tuple[str, ...]
     totals: Totals
     usual: frozenset[str] = frozenset()
+    times: tuple[str, ...] = ()
 
     __repr__ = short_repr
 
@@ -80,6 +83,7 @@ class ReadBack:
         return (
             *(_numbered(line) for line in self.lines),
             "",
+            *(_indented(message("When: {text}", text=text)) for text in self.times),
             *(_indented(message("Limit: {text}", text=text)) for text in self.limits if text not in left_out),
             *(_indented(text) for text in self.faults if text not in left_out),
             *(_indented(message("Assumed: {text}", text=text)) for text in self.assumptions),
@@ -107,6 +111,7 @@ def read_back(task: Task, site: Site, robot: RobotProfile, estimate: Estimate) -
         notes=_notes(walks, site),
         totals=_totals(estimate, task, robot),
         usual=_usual(task, limits, faults),
+        times=() if task.timing is None else say_timing(task.timing),
     )
 
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import UTC, date, datetime, timedelta, timezone, tzinfo
+from pathlib import Path
 from zoneinfo import ZoneInfo
 
 from fieldhand.errors import TaskError
@@ -47,6 +49,23 @@ def zone_of(name: str, otherwise: tzinfo) -> tzinfo:
             message("there is no time zone {name}", name=repr(name)),
             advice=message("use a name such as Europe/Rome or America/Los_Angeles"),
         ) from None
+
+
+def local_zone(environ: Mapping[str, str], settings: Path = Path("/etc/localtime")) -> tzinfo:
+    """Return the time zone of this machine with its rules for summer time: of ``TZ``, else of the system, else UTC.
+
+    Args:
+        environ: Environment variables.
+        settings: The system's file of its time zone.
+    """
+    name = environ.get("TZ", "").removeprefix(":")
+    try:
+        if name:
+            return ZoneInfo(name)
+        with settings.open("rb") as file:
+            return ZoneInfo.from_file(file)
+    except (KeyError, OSError, ValueError):
+        return UTC
 
 
 def instant(at: DayTime, day: date, locality: Locality) -> datetime | None:
