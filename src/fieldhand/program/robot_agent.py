@@ -191,7 +191,7 @@ def compose_robot_agent(
 
 
 class _Times(TypedDict):
-    """How the supervisor of missions tells the time."""
+    """Clock, time zone and durations for the supervisor of missions."""
 
     now: Callable[[], datetime]
     zone: tzinfo
