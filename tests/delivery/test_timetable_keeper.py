@@ -135,7 +135,7 @@ def test_thirty_days_with_power_cuts_and_a_change_of_the_clock(
     rng = random.Random(f"{approved} {missed}")
     begin = local(approved)
     farm = Farm(tmp_path, begin)
-    schedule = Schedule(at=DayTime(clock="00:30"), every_min=240, late_min=45, missed=missed)
+    schedule = Schedule(at=(DayTime(clock="00:30"),), every_min=240, late_min=45, missed=missed)
     received = farm.upload(mission(schedule, begin))
     end = begin + timedelta(days=30)
     cuts = 0
@@ -180,14 +180,14 @@ def test_thirty_days_with_power_cuts_and_a_change_of_the_clock(
 def test_a_run_waits_for_the_mission_under_way_and_is_missed_when_it_is_too_late(tmp_path: Path) -> None:
     begin = local("2027-05-03T12:00")
     farm = Farm(tmp_path, begin)
-    first = farm.upload(mission(Schedule(at=DayTime(clock="14:00"), late_min=30), begin))
+    first = farm.upload(mission(Schedule(at=(DayTime(clock="14:00"),), late_min=30), begin))
     farm.agent.upload(mission(StartTime(), begin, 7))  # not started
     farm.agent.carry = lambda _: None  # it never comes to an end
     farm.now = local("2027-05-03T14:05")
     farm.look()
     (run,) = farm.runs(first)
     assert farm.agent.supervisor.status_of(run).state == "interrupted"
-    second = farm.upload(mission(Schedule(at=DayTime(clock="14:10"), late_min=30), begin, 8))
+    second = farm.upload(mission(Schedule(at=(DayTime(clock="14:10"),), late_min=30), begin, 8))
     farm.now = local("2027-05-03T14:11")
     farm.look()
     (waiting,) = farm.runs(second)
@@ -202,7 +202,7 @@ def test_a_run_waits_for_the_mission_under_way_and_is_missed_when_it_is_too_late
 def test_a_clock_that_is_set_back_makes_no_run_due_again(tmp_path: Path) -> None:
     begin = local("2027-05-03T12:00")
     farm = Farm(tmp_path, begin)
-    received = farm.upload(mission(Schedule(at=DayTime(clock="06:00")), begin))
+    received = farm.upload(mission(Schedule(at=(DayTime(clock="06:00"),)), begin))
     for at in ("2027-05-04T06:10", "2027-05-04T05:00", "2027-05-04T06:20", "2027-05-03T13:00", "2027-05-05T06:00"):
         farm.now = local(at)
         farm.look()
@@ -238,7 +238,7 @@ def test_a_mission_whose_time_has_passed_is_not_started(tmp_path: Path) -> None:
 def test_a_revoked_key_ends_the_runs(tmp_path: Path) -> None:
     begin = local("2027-05-03T12:00")
     farm = Farm(tmp_path, begin)
-    received = farm.upload(mission(Schedule(at=DayTime(clock="06:00")), begin))
+    received = farm.upload(mission(Schedule(at=(DayTime(clock="06:00"),)), begin))
     farm.now = local("2027-05-04T06:00")
     farm.look()
     farm.agent.trusted.revoke(next(iter(farm.agent.trusted.known())), at=farm.now)
@@ -255,7 +255,7 @@ def test_a_revoked_key_ends_the_runs(tmp_path: Path) -> None:
 def test_runs_are_listed_left_out_and_cancelled(tmp_path: Path) -> None:
     begin = local("2027-05-03T12:00")
     farm = Farm(tmp_path, begin)
-    data = mission(Schedule(at=DayTime(clock="06:00")), begin)
+    data = mission(Schedule(at=(DayTime(clock="06:00"),)), begin)
     farm.upload(data, start=False)
     client: RobotClient = farm.agent.link()
     sha256 = sha256_of(data)
@@ -315,7 +315,7 @@ def test_a_store_of_the_first_format_is_read(tmp_path: Path) -> None:
 def test_a_disk_that_fails_leaves_the_run_for_the_next_look(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     begin = local("2027-05-03T12:00")
     farm = Farm(tmp_path, begin)
-    received = farm.upload(mission(Schedule(at=DayTime(clock="06:00")), begin))
+    received = farm.upload(mission(Schedule(at=(DayTime(clock="06:00"),)), begin))
     farm.now = local("2027-05-04T06:00")
 
     def full(*_: object, **__: object) -> None:

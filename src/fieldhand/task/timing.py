@@ -39,8 +39,9 @@ class StartTime:
     """The time at which a mission that runs once begins and is done.
 
     Attributes:
-        day: ``today``, ``tomorrow`` or a weekday (``mon``), counted from the day of approval, or an ISO 8601 date
-            (``2027-03-01``, or ``--03-01`` in the next 12 months); empty for the next day on which the times lie ahead.
+        day: ``today``, ``tomorrow``, a weekday (``mon``) or a number of days (``+3``), counted from the day of approval, or
+            an ISO 8601 date (``2027-03-01``, or ``--03-01`` in the next 12 months); empty for the next day on which the
+            times lie ahead.
         not_before: Earliest beginning.
         not_after: Latest beginning.
         done_by: End of the mission, including the way home.
@@ -64,8 +65,8 @@ class Schedule:
     a day a run is due at ``at``, and with ``every_min`` again after each such number of minutes until ``until``.
 
     Attributes:
-        at: Time of the first run of a day; None for midnight.
-        every_min: Minutes between two runs of a day; 0 for one run a day.
+        at: Times of the runs of a day; none for one at midnight.
+        every_min: Minutes after the first of these times at which another run is due, again and again; 0 for none.
         until: Latest time of a run of the day; None for the end of the day.
         weekdays: Days of the week; empty for all.
         every_days: 2 for every other day.
@@ -79,7 +80,7 @@ class Schedule:
         said: Character ranges of the request that state it.
     """
 
-    at: DayTime | None = None
+    at: tuple[DayTime, ...] = ()
     every_min: int = 0
     until: DayTime | None = None
     weekdays: tuple[Weekday, ...] = ()

@@ -30,12 +30,14 @@ def day_of(words: str, approved: date) -> date:
     if words in WEEKDAYS:
         return approved + timedelta(days=(WEEKDAYS.index(words) - approved.weekday() - 1) % 7 + 1)
     try:
+        if words.startswith("+"):
+            return approved + timedelta(days=int(words[1:]))
         yearly = _YEARLY.fullmatch(words)
         if yearly is None:
             return date.fromisoformat(words)
         month, day = (int(part) for part in yearly.groups())
         return next(_dates(approved, month, day))
-    except (ValueError, StopIteration):
+    except (OverflowError, ValueError, StopIteration):
         raise TaskError(
             message("{day} is no day", day=repr(words)),
             advice=message("write 'today', 'tomorrow', 'mon' to 'sun', or a date such as 2027-03-01"),

@@ -127,10 +127,7 @@ class Calendar:
             day += timedelta(days=1)
 
     def _of_day(self, schedule: Schedule, day: date, locality: Locality) -> tuple[DueRun, ...]:
-        dues: list[datetime] = []
-        for at in _clock_times(schedule, day, locality):
-            if not dues or at > dues[-1]:  # a time that the clock skips may coincide with the next one
-                dues.append(at)
+        dues = _clock_times(schedule, day, locality)
         done = timedelta(minutes=schedule.done_by_min)
         return tuple(
             DueRun(
@@ -142,19 +139,23 @@ class Calendar:
         )
 
 
-def _clock_times(schedule: Schedule, day: date, locality: Locality) -> Iterator[datetime]:
-    """Yield the instants of a day at which a run is due: by the clock, also on a day on which it is changed."""
-    first = instant(schedule.at or _MIDNIGHT, day, locality)
+def _clock_times(schedule: Schedule, day: date, locality: Locality) -> list[datetime]:
+    """Return the instants of a day at which a run is due, in order; by the clock, also when it is changed."""
+    found = [instant(at, day, locality) for at in schedule.at or (_MIDNIGHT,)]
+    first = min((at for at in found if at is not None), default=None)
     if first is None:
-        return
-    yield first
-    if not schedule.every_min:
-        return
-    until = None if schedule.until is None else instant(schedule.until, day, locality)
+        return []
+    again = _again(schedule, first, locality) if schedule.every_min else ()
+    return sorted({at for at in (*found, *again) if at is not None})
+
+
+def _again(schedule: Schedule, first: datetime, locality: Locality) -> Iterator[datetime]:
+    """Yield the instants of the day after a first one at which the clock shows further times of a schedule."""
     local = first.astimezone(locality.zone)
-    begin = local.hour * 60 + local.minute
+    until = None if schedule.until is None else instant(schedule.until, local.date(), locality)
     # Seconds of an event of the sun are kept, so that "every hour from sunrise on" is evenly spaced.
     rest = timedelta(seconds=local.second, microseconds=local.microsecond)
+    begin = local.hour * 60 + local.minute
     for minutes in range(begin + schedule.every_min, 24 * 60, schedule.every_min):
         clock = DayTime(clock=f"{minutes // 60:02d}:{minutes % 60:02d}")
         at = instant(clock, local.date(), locality)

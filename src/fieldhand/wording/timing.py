@@ -67,6 +67,8 @@ def say_day(words: str) -> str:
             return message("on the day of approval")
         case "tomorrow":
             return message("on the day after approval")
+    if words.startswith("+") and words[1:].isdecimal():
+        return counted("on the day after approval", "{count} days after approval", int(words[1:]))
     if words in _WEEKDAYS:
         return message("on the next {weekday} after approval", weekday=_WEEKDAYS[words])
     return message("on {date}", date=_date(words))
@@ -133,7 +135,7 @@ def _days(schedule: Schedule) -> str:
 
 
 def _times(schedule: Schedule) -> str:
-    at = message("midnight") if schedule.at is None else say_day_time(schedule.at)
+    at = listed([say_day_time(one) for one in schedule.at]) if schedule.at else message("midnight")
     if not schedule.every_min:
         return message("at {time}", time=at)
     every = say_duration(schedule.every_min * _MINUTE_S)
