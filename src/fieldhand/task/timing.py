@@ -39,9 +39,9 @@ class StartTime:
     """The time at which a mission that runs once begins and is done.
 
     Attributes:
-        day: ``today``, ``tomorrow``, a weekday (``mon``) or a number of days (``+3``), counted from the day of approval, or
-            an ISO 8601 date (``2027-03-01``, or ``--03-01`` in the next 12 months); empty for the next day on which the
-            times lie ahead.
+        day: ``today``, ``tomorrow``, a weekday (``mon``) or a number of days (``+3``), counted from the day of
+            approval, or an ISO 8601 date (``2027-03-01``, or ``--03-01`` in the next 12 months); empty for the next day
+            on which the times lie ahead.
         not_before: Earliest beginning.
         not_after: Latest beginning.
         done_by: End of the mission, including the way home.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from fieldhand.errors import RequestError
 from fieldhand.language import Number, message
@@ -10,7 +11,7 @@ from fieldhand.planning.english.missing_blocks import missing_blocks
 from fieldhand.planning.english.tokens import Word, words_of
 from fieldhand.planning.english.wishes import early_wishes
 from fieldhand.planning.grammar.planned import NAME
-from fieldhand.planning.planner import Answer, Outcome, Refused
+from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Refused
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.codec_text import hidden_character
@@ -52,6 +53,8 @@ class EnglishPlanner:
         """Plan a request without help if it is refused."""
         check_request(request)
         words = words_of(request)
+        if (timed := self._timed(request, words, site, robot, answers)) is not None:
+            return timed
         if found := early_wishes(words):
             from fieldhand.planning.refusals.helping import wish_reasons
 
@@ -61,6 +64,39 @@ class EnglishPlanner:
         from fieldhand.planning.grammar.reader import composed
 
         return composed(request, site, robot, answers=answers)
+
+    def _timed(
+        self, request: str, words: Sequence[Word], site: Site, robot: RobotProfile, answers: tuple[Answer, ...]
+    ) -> Outcome | None:
+        """Plan a request that says when the mission runs; None if it says no such time."""
+        from fieldhand.planning.grammar.reader import composed
+        from fieldhand.planning.grammar.times import asked_time, with_answer, without_times
+
+        times = without_times(words)
+        if times is None or early_wishes(times.words) or tuple(missing_blocks(times.words, site)):
+            return None
+        answered = with_answer(times.part, answers)
+        part = times.part if answered is None else answered[0]
+        timing = part.timing(times.said, zone="")
+        if timing is None:
+            return None
+        outcome = composed(request, site, robot, answers=answers, words=times.words, timing=timing)
+        if not isinstance(outcome, Planned):
+            return outcome
+        if any(
+            start <= first and last <= end
+            for start, end in outcome.task.command.no_part
+            for first, last in times.beside
+        ):
+            return None
+        asked = asked_time(part)
+        if asked is not None:
+            return Clarify(question=asked[0], choices=asked[1], planner=NAME, free=True)
+        if answered is None:
+            return outcome
+        command = outcome.task.command
+        told = replace(command, assumptions=(answered[1].sentence(), *command.assumptions))
+        return replace(outcome, task=replace(outcome.task, command=told))
 
 
 def check_request(request: str) -> None:

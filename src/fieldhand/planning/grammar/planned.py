@@ -20,6 +20,7 @@ from fieldhand.site.model import Site
 from fieldhand.task import plan as p
 from fieldhand.task.build import make_task
 from fieldhand.task.frames import Budget, BudgetKind, Constraints, Resource, Then
+from fieldhand.task.timing import Timing
 
 NAME = "english"
 KINDS: dict[str, BudgetKind] = {"metres": "distance_m", "seconds": "duration_s", "percent": "energy_percent"}
@@ -55,6 +56,7 @@ class Meant:
         assumptions: What was assumed, as sentences.
         warnings: What has to be confirmed before the Task is approved, as sentences.
         read_as: The request with its corrections made; empty if it has none.
+        timing: When the mission runs; None if it begins when it is started.
     """
 
     plan: p.Node
@@ -65,6 +67,7 @@ class Meant:
     assumptions: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
     read_as: str = ""
+    timing: Timing | None = None
 
 
 def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> Outcome:
@@ -89,6 +92,7 @@ def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> O
         faulted=faulted_exits(nominal),
         assumptions=tuple(dict.fromkeys(meant.assumptions)),
         warnings=meant.warnings,
+        timing=meant.timing,
     )
     problems = tuple(_impossible(task.composition.plan, site))
     if problems:
