@@ -8,6 +8,7 @@ from fieldhand.places import selectors as s
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
 from fieldhand.task.frames import Task
+from fieldhand.task.timing import DayTime, Schedule, StartTime
 
 SHORT = {"take_thermal_picture": "picture", "take_picture": "picture", "read_co2": "co2"}
 SHORT |= {"read_ambient_temperature": "air", "read_soil_moisture": "moisture", "read_soil_nitrate": "nitrate"}
@@ -20,7 +21,27 @@ def outline(task: Task) -> str:
     if task.constraints.reserve_percent is not None:
         limits += f" | reserve {task.constraints.reserve_percent:g}"
     exit_ = "" if task.composition.nominal == "return_to_end" else f" | {task.composition.nominal}"
-    return node(task.composition.plan) + limits + exit_
+    times = "" if task.timing is None else " | " + " ".join(timing(task.timing))
+    return node(task.composition.plan) + limits + times + exit_
+
+
+def timing(when: StartTime | Schedule) -> list[str]:
+    """The fields of a timing that are not their defaults."""
+    said = []
+    for field in fields(when):
+        value = getattr(when, field.name)
+        if field.name in ("said", "zone") or value == field.default:
+            continue
+        many = value if isinstance(value, tuple) else (value,)
+        said.append(f"{field.name}={','.join(day_time(v) if isinstance(v, DayTime) else str(v) for v in many)}")
+    return said
+
+
+def day_time(at: DayTime) -> str:
+    """A time of day."""
+    if at.sun is None:
+        return at.clock
+    return f"{at.sun}{at.offset_min:+g}" if at.offset_min else at.sun
 
 
 def node(n: p.Node) -> str:

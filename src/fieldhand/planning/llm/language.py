@@ -21,12 +21,13 @@ from fieldhand.task.codec_shapes import FAMILIES, Attribute, Child, Shape, all_s
 from fieldhand.task.conditions import Condition
 from fieldhand.task.frames import Budget, Constraints, FaultedExit
 from fieldhand.task.plan import Node
+from fieldhand.task.timing import DayTime, Timing
 
 #: Letters that stand for any element of a family in the forms.
 LETTERS = {"node": "N", "condition": "C", "selector": "S"}
 
 #: Attributes that only the program writes.
-DERIVED = frozenset({"id", "said", "at-said", "reserve-said", "nominal-said", "no-part", "seed"})
+DERIVED = frozenset({"id", "said", "at-said", "reserve-said", "nominal-said", "no-part", "seed", "zone"})
 
 _KINDS = {"text": "name", "integer": "int", "number": "number", "flag": "true", "value": "value"}
 
@@ -36,7 +37,7 @@ ABBREVIATED = {"SIDE": "north|east|south|west", "TEST": "lt|le|gt|ge|eq|ne"}
 
 @cache
 def describe_language() -> str:
-    """Return the nodes, conditions, selectors and constraints, one element per paragraph.
+    """Return the nodes, conditions, selectors, constraints and times, one element per paragraph.
 
     Raises:
         ModelError: Python runs with ``-OO``, which removes the docstrings that the description is made from.
@@ -52,6 +53,7 @@ def describe_language() -> str:
         ("Conditions (C), what an if or an until tests", get_args(Condition)),
         ("Selectors (S), how places are named", SELECTORS),
         ("Constraints", (Constraints, Budget, FaultedExit)),
+        ("Times, when the whole mission runs", (*get_args(Timing), DayTime)),
     )
     rendered = [
         f"## {title}\n" + "\n".join(_paragraph(shape_of(cls)) for cls in classes) for title, classes in sections

@@ -302,6 +302,12 @@ def part_of_a_day(said: Lex, when: Lex) -> TimePart:
     return TimePart(day=said.value, choices=_times(when.value))
 
 
+@construction("part: TONIGHT", cost=0.1)
+def tonight() -> TimePart:
+    """Compose "tonight"."""
+    return TimePart(day="today", choices=_times(("20:00", "22:00", "dusk")))
+
+
 @construction("part: IN THE when=DAYPART", "part: AT when=DAYPART", "part: DURING THE when=DAYPART", cost=0.3)
 def in_part_of_day(when: Lex) -> TimePart:
     """Compose "in the morning"."""
@@ -403,6 +409,13 @@ def days_to_day(first: Lex, last: Lex) -> tuple[str, ...] | None:
     """Compose "Monday to Friday"."""
     begin, end = WEEKDAYS.index(first.value), WEEKDAYS.index(last.value)
     return WEEKDAYS[begin : end + 1] if begin < end else None
+
+
+@construction("part: first=WEEKDAY TO last=WEEKDAY", "part: FROM first=WEEKDAY TO last=WEEKDAY", cost=0.3)
+def from_weekday_to_weekday(first: Lex, last: Lex) -> TimePart | None:
+    """Compose "Monday to Friday" without a preposition."""
+    days = days_to_day(first, last)
+    return None if days is None else _repeated(days, None)
 
 
 @construction("part: EVERY days=dayset", "part: EVERY days=dayset when=DAYPART", cost=0.0)

@@ -105,16 +105,26 @@ def _phrases(words: Sequence[Word]) -> Iterator[PhraseEdge]:
     """Yield the phrases that say a time, from left to right, each as long as it can be."""
     chart = Chart(GRAMMAR, len(words), frozenset(), given={})
     chart.parse(time_edges(words))
-    best: dict[int, PhraseEdge] = {}
-    for edge in chart.of_category("part"):
+    best: dict[int, list[PhraseEdge]] = {}
+    for edge in (edge for edge in chart.all_edges() if edge.category == "part"):
         known = best.get(edge.start)
-        if known is None or (-edge.end, edge.cost) < (-known.end, known.cost):
-            best[edge.start] = edge
+        if known is None or (-edge.end, edge.cost) < (-known[0].end, known[0].cost):
+            best[edge.start] = [edge]
+        elif (edge.end, edge.cost) == (known[0].end, known[0].cost):
+            known.append(edge)
     at = 0
     for start in sorted(best):
         if start >= at:
-            yield best[start]
-            at = best[start].end
+            yield _either(best[start])
+            at = best[start][0].end
+
+
+def _either(edges: Sequence[PhraseEdge]) -> PhraseEdge:
+    """Return a phrase with the times of all its readings to choose from ("at 6 o'clock")."""
+    times = tuple(dict.fromkeys(at for edge in edges for at in edge.meaning.at))
+    if len(edges) == 1 or len({replace(edge.meaning, at=()) for edge in edges}) > 1:
+        return edges[0]
+    return replace(edges[0], meaning=replace(edges[0].meaning, at=(), choices=times))
 
 
 def _is_of_mission(phrase: PhraseEdge, words: Sequence[Word]) -> bool:
