@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     from fieldhand.approval.bundle.opening import Bundle
     from fieldhand.execution.drivers.simulation.world import World
-    from fieldhand.execution.operator_commands import AgentCommand, OperatorCommand, StoppingCommand
+    from fieldhand.execution.operator_commands import AgentCommand, MissionCommand, OperatorCommand, StoppingCommand
 
 log = logging.getLogger("fieldhand.agent")
 
@@ -263,7 +263,7 @@ class MissionSupervisor:
             The command, which has yet to be written to the mission's folder; None if the mission is not running here,
             the command neither stops the robot nor calls it back, or comes too late.
         """
-        if self.active != sha256 or command in ("start", "resume", "cancel"):
+        if self.active != sha256 or command == "start" or command == "resume" or command == "cancel":
             return None
         orders = self._direct
         order = orders.give(command, reason)
@@ -353,7 +353,7 @@ class MissionSupervisor:
             self._faults[received.sha256] = str(error)
             raise
 
-    def _go_on(self, received: ReceivedMission, folder: Path, command: AgentCommand, reason: str) -> bool:
+    def _go_on(self, received: ReceivedMission, folder: Path, command: MissionCommand, reason: str) -> bool:
         """Resume a mission that no process carries out; the command takes effect at its first tick."""
         if missions.status(folder).now.state == "ended":
             raise ExecutionError("the mission has ended", where=received.name)

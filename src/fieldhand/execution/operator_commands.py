@@ -26,8 +26,9 @@ StoppingCommand = Literal["pause", "return", "abort"]
 
 #: Commands that a robot's agent accepts over the network; its ``resume`` is ``continue`` in the file. ``cancel``: keep
 #: the timetable of a mission no longer, or leave out a run that has not begun.
-AgentCommand = Literal["start", "pause", "resume", "return", "abort", "cancel"]
-AGENT_COMMANDS: tuple[AgentCommand, ...] = get_args(AgentCommand)
+MissionCommand = Literal["start", "pause", "resume", "return", "abort"]
+AgentCommand = MissionCommand | Literal["cancel"]
+AGENT_COMMANDS: tuple[AgentCommand, ...] = (*get_args(MissionCommand), "cancel")
 
 #: Commands that may follow each command.
 _AFTER: dict[str, frozenset[str]] = {

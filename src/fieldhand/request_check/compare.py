@@ -21,6 +21,7 @@ from fieldhand.request_check.plan_facts import PlanFacts, PlannedCaptures, Plann
 from fieldhand.request_check.request_facts import RequestFacts, hints, request_facts
 from fieldhand.request_check.selector_sizes import SelectorSizes
 from fieldhand.request_check.thresholds import threshold_mismatches
+from fieldhand.request_check.times import without_stated_times
 from fieldhand.request_check.unsupported import unsupported_words
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -40,7 +41,7 @@ def mismatches(task: Task, site: Site, robot: RobotProfile) -> tuple[PlanMismatc
 
     A plan without contradictions may still be wrong.
     """
-    request = task.command.read_as or task.command.request
+    request = without_stated_times(task.command.read_as or task.command.request, task)
     sizes = SelectorSizes(task, site)
     facts, plan = request_facts(request, robot, site), plan_facts(task, sizes.of_node)
     found = [
@@ -49,7 +50,7 @@ def mismatches(task: Task, site: Site, robot: RobotProfile) -> tuple[PlanMismatc
         *threshold_mismatches(facts, plan, robot),
         *limit_mismatches(facts, plan),
         *place_mismatches(facts, plan, site),
-        *unsupported_words(facts, task.timing),
+        *unsupported_words(facts),
     ]
     return tuple(dict.fromkeys(found))
 

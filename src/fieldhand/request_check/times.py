@@ -6,10 +6,22 @@ import re
 from collections.abc import Iterator
 
 from fieldhand.request_check import words as w
+from fieldhand.task.frames import Task
 from fieldhand.task.timing import WEEKDAYS, DayTime, Schedule, StartTime, Timing
 
 _NUMBER = re.compile(r"\d+")
 _WEEKDAY = re.compile(r"\b(mon|tues|wednes|thurs|fri|satur|sun)day")
+
+
+def without_stated_times(request: str, task: Task) -> str:
+    """Return a request without the words from which the times of its plan come, if these times are what they say."""
+    if task.timing is None:
+        return request
+    for start, end in task.timing.said:
+        words = task.command.request[start:end]
+        if states(words.lower(), task.timing):
+            request = request.replace(words, " ", 1)
+    return request
 
 
 def states(words: str, timing: Timing) -> bool:

@@ -12,8 +12,6 @@ from fieldhand.language import message
 from fieldhand.request_check import words as w
 from fieldhand.request_check.mismatch import PlanMismatch
 from fieldhand.request_check.request_facts import RequestFacts
-from fieldhand.request_check.times import states
-from fieldhand.task.timing import Timing
 
 _PARTS = "morning|afternoon|evening|night|midnight|noon|midday|lunch|lunchtime|dawn|dusk|sunrise|sunset|nightfall"
 _UNITS = "day|night|week|weekend|fortnight|month|year|season|hour|minute"
@@ -52,9 +50,8 @@ def _pattern(forms: tuple[str, ...]) -> re.Pattern[str]:
     return re.compile(rf"(?<!\S)(?:{'|'.join(forms)})(?!\S)")
 
 
-_TIMES = _pattern(_SCHEDULES)
 _KINDS = (
-    (_TIMES, message("the plan says nothing of it, or another time")),
+    (_pattern(_SCHEDULES), message("the plan says nothing of it, or another time")),
     (_pattern(_PAST), message("a plan has no access to earlier missions")),
     (_pattern(_WAITING), message("a plan cannot contain waiting")),
 )
@@ -70,13 +67,8 @@ _REASON = _pattern((r"because", r"since (?:we|i|it|they|he|she|the|my|our|row|tr
 _REMARKS = _KINDS[1][0]
 
 
-def unsupported_words(facts: RequestFacts, timing: Timing | None = None) -> Iterator[PlanMismatch]:
-    """Yield a contradiction for each part of the request that no plan can express, or that this one does not.
-
-    Args:
-        facts: Facts of the request.
-        timing: Times of the plan.
-    """
+def unsupported_words(facts: RequestFacts) -> Iterator[PlanMismatch]:
+    """Yield a contradiction for each part of the request that no plan can express, and for times that it lacks."""
     starts: dict[int, int] = {}
     at = 0
     for k, token in enumerate(facts.tokens):
@@ -86,8 +78,6 @@ def unsupported_words(facts: RequestFacts, timing: Timing | None = None) -> Iter
         for match in pattern.finditer(facts.text):
             first = starts[match.start()]
             sentence = facts.tokens[first].sentence
-            if pattern is _TIMES and timing is not None and states(match[0], timing):
-                continue
             remark = pattern is _REMARKS and not any(facts.tokens[k].sentence == sentence for k in facts.nouns)
             speed = first and facts.tokens[first - 1].text in w.LENGTHS and match[0].startswith(("per ", "a ", "an "))
             told = _is_told(

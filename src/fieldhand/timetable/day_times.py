@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from datetime import UTC, date, datetime, timedelta, timezone, tzinfo
 from pathlib import Path
@@ -107,9 +107,14 @@ def _sun(at: DayTime, day: date, locality: Locality) -> datetime | None:
 
     solar = timezone(timedelta(hours=round(locality.lon / 15.0)))
     observer = Observer(latitude=locality.lat, longitude=locality.lon)
-    of_event = {"dawn": sun.dawn, "sunrise": sun.sunrise, "sunset": sun.sunset, "dusk": sun.dusk}[at.sun or "sunrise"]
+    of_event: dict[str, Callable[..., datetime]] = {
+        "dawn": sun.dawn,
+        "sunrise": sun.sunrise,
+        "sunset": sun.sunset,
+        "dusk": sun.dusk,
+    }
     try:
-        found = of_event(observer, date=day, tzinfo=solar)
+        found = of_event[at.sun or "sunrise"](observer, date=day, tzinfo=solar)
     except ValueError:
         return None
     return found.astimezone(UTC) + timedelta(minutes=at.offset_min)

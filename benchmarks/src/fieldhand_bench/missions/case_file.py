@@ -127,6 +127,7 @@ def _case(form: CaseForm, book: BookForm, path: Path, loaders: _Loaders) -> Case
         robot=robot_name,
         worlds=tuple(worlds),
         asks=form.ask,
+        runs=form.runs,
         source=str(path),
     )
 
