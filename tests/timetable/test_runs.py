@@ -100,7 +100,7 @@ def test_other_words_are_no_time(clock: str) -> None:
 
 def test_an_unknown_time_zone_is_refused() -> None:
     with pytest.raises(TaskError, match="no time zone"):
-        next(calendar(MONDAY).runs(Schedule(zone="Europe/Atlantis"), MONDAY))
+        next(calendar(MONDAY).runs(Schedule(time_zone="Europe/Atlantis"), MONDAY))
 
 
 # --- the sun ------------------------------------------------------------------------------------------------------
@@ -189,7 +189,7 @@ def test_every_day_of_a_schedule_has_its_runs_once(
     approved = start.replace(tzinfo=UTC)
     where = ZoneInfo(zone)
     chosen = tuple(day for day in WEEKDAYS if day in weekdays)
-    schedule = Schedule(at=(DayTime(clock=f"{hour:02d}:00"),), every_min=every, weekdays=chosen, zone=zone)
+    schedule = Schedule(at=(DayTime(clock=f"{hour:02d}:00"),), every_min=every, weekdays=chosen, time_zone=zone)
     when = calendar(approved, days=9)
     runs = list(when.runs(schedule, approved))
     dues = [run.due for run in runs]

@@ -45,7 +45,7 @@ class StartTime:
         not_before: Earliest beginning.
         not_after: Latest beginning.
         done_by: End of the mission, including the way home.
-        zone: Time zone as in the IANA database (``Europe/Rome``); empty for that of the robot.
+        time_zone: Time zone as in the IANA database (``Europe/Rome``); empty for that of the robot.
         said: Character ranges of the request that state it.
     """
 
@@ -53,7 +53,7 @@ class StartTime:
     not_before: DayTime | None = None
     not_after: DayTime | None = None
     done_by: DayTime | None = None
-    zone: str = ""
+    time_zone: str = ""
     said: tuple[Span, ...] = ()
 
 
@@ -76,7 +76,7 @@ class Schedule:
         missed: ``skip`` leaves out a run that could not begin in time; ``late`` makes up for it as soon as possible,
             until the next one is due.
         done_by_min: Minutes after a run is due by which it is done; 0 for no such limit.
-        zone: As in :class:`StartTime`.
+        time_zone: As in :class:`StartTime`.
         said: Character ranges of the request that state it.
     """
 
@@ -90,7 +90,7 @@ class Schedule:
     late_min: int = 60
     missed: MissedRule = "skip"
     done_by_min: int = 0
-    zone: str = ""
+    time_zone: str = ""
     said: tuple[Span, ...] = ()
 
 

@@ -63,7 +63,7 @@ class Calendar:
         Raises:
             TaskError: A day, a time or the time zone does not exist, or the schedule never ends a day.
         """
-        locality = Locality(zone=zone_of(timing.zone, self.zone), lat=self.lat, lon=self.lon)
+        locality = Locality(zone=zone_of(timing.time_zone, self.zone), lat=self.lat, lon=self.lon)
         every = (
             self._once(timing, locality) if isinstance(timing, StartTime) else self._standing(timing, locality, after)
         )

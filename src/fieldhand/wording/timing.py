@@ -40,8 +40,8 @@ def say_timing(timing: StartTime | Schedule) -> tuple[str, ...]:
     """Return the times of a mission as sentences."""
     sentences = _start(timing) if isinstance(timing, StartTime) else _schedule(timing)
     zone = (
-        message("Times are those of the time zone {zone}.", zone=timing.zone)
-        if timing.zone
+        message("Times are those of the time zone {zone}.", zone=timing.time_zone)
+        if timing.time_zone
         else message("Times are those of the robot's time zone.")
     )
     return (*sentences, zone)

@@ -30,7 +30,7 @@ def timing(when: StartTime | Schedule) -> list[str]:
     said = []
     for field in fields(when):
         value = getattr(when, field.name)
-        if field.name in ("said", "zone") or value == field.default:
+        if field.name in ("said", "time_zone") or value == field.default:
             continue
         many = value if isinstance(value, tuple) else (value,)
         said.append(f"{field.name}={','.join(day_time(v) if isinstance(v, DayTime) else str(v) for v in many)}")

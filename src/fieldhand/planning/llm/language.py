@@ -27,7 +27,7 @@ from fieldhand.task.timing import DayTime, Timing
 LETTERS = {"node": "N", "condition": "C", "selector": "S"}
 
 #: Attributes that only the program writes.
-DERIVED = frozenset({"id", "said", "at-said", "reserve-said", "nominal-said", "no-part", "seed", "zone"})
+DERIVED = frozenset({"id", "said", "at-said", "reserve-said", "nominal-said", "no-part", "seed", "time-zone"})
 
 _KINDS = {"text": "name", "integer": "int", "number": "number", "flag": "true", "value": "value"}
 

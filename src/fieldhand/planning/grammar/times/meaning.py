@@ -88,7 +88,9 @@ class TimePart:
             return None
         begin = self.at[0] if self.at else self.not_before
         latest = _later(self.at[0], self.late_min or PUNCTUAL_MIN) if self.at else None
-        return StartTime(day=self.day, not_before=begin, not_after=latest, done_by=self.done_by, zone=zone, said=said)
+        return StartTime(
+            day=self.day, not_before=begin, not_after=latest, done_by=self.done_by, time_zone=zone, said=said
+        )
 
     def _standing(self, said: tuple[Span, ...], zone: str) -> Schedule | None:
         at = self.at or (() if self.not_before is None else (self.not_before,))
@@ -110,7 +112,7 @@ class TimePart:
             last_day=self.last_day,
             late_min=self.late_min or (min(60, self.every_min) if self.every_min else 60),
             done_by_min=within,
-            zone=zone,
+            time_zone=zone,
             said=said,
         )
 
