@@ -40,6 +40,7 @@ _FACETS: dict[str, dict[str, str]] = {
     "failure_probability": {"minExclusive": "0", "maxExclusive": "1"},
     "reserve_percent": {"minInclusive": "0", "maxExclusive": "100"},
     "reward": {"minInclusive": "0"},
+    "seconds": {"minExclusive": "0", "maxInclusive": "86400"},
     "speed_m_s": {"minInclusive": "0.01", "maxInclusive": "20"},
 }
 

@@ -69,6 +69,7 @@ _BY_FIELD: dict[str, st.SearchStrategy[Any]] = {
     "limit": st.floats(0, 1e6, exclude_min=True),
     "failure_probability": st.floats(0, 1, exclude_min=True, exclude_max=True),
     "reserve_percent": st.floats(0, 100, exclude_max=True),
+    "seconds": st.floats(0, 86400, exclude_min=True),
     "speed_m_s": st.floats(0.01, 20),
 }
 _spans = st.lists(st.tuples(st.integers(0, 999), st.integers(0, 999)), max_size=2).map(tuple)
