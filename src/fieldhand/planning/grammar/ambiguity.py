@@ -46,7 +46,8 @@ def question_between(plans: Sequence[Planned], request: str, site: Site, robot: 
     if first is None:
         return _question_of_branch(plans, written, request)
     last = 0
-    while all(len(text) > first + 1 + last for text in texts) and len({text[-1 - last] for text in texts}) == 1:
+    ends = [[(line.indent, line.text) for line in lines] for lines in written]
+    while all(len(end) > first + 1 + last for end in ends) and len({end[-1 - last] for end in ends}) == 1:
         last += 1
     while last and any(text[-1 - last].endswith(":") for text in texts):
         last -= 1  # what a condition decides is told with it
