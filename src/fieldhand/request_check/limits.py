@@ -32,7 +32,9 @@ _CLOSE = 0.02
 #: Words that ask for a speed by other means than its number.
 _SPEEDS = frozenset({"slow", "slowly", "slower", "speed", "pace", "fast", "faster", "throttle"})
 #: Words of waits, and the number of words behind one within which its time is stated.
-_WAITS = words_in("wait waits waiting pause pauses pausing linger lingering dwell settle settling stay staying stop stopping")
+_WAITS = words_in(
+    "wait waits waiting pause pauses pausing linger lingering dwell settle settling stay staying stop stopping"
+)
 _NEAR = 4
 _PARTS = {"half": 0.5, "quarter": 0.25, "third": 1 / 3}
 
@@ -119,8 +121,9 @@ def _waits(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
     planned = [node for node in plan.nodes if node.dwell_s]
     if not planned:
         for amount in facts.amounts:
-            before = [t.text for t in facts.tokens[max(0, amount.index - _NEAR) : amount.index] if t.sentence == amount.sentence]
-            if amount.kind == "time" and _WAITS & {*before} and not facts.negated(amount.index):
+            near = facts.tokens[max(0, amount.index - _NEAR) : amount.index]
+            before = {token.text for token in near if token.sentence == amount.sentence}
+            if amount.kind == "time" and _WAITS & before and not facts.negated(amount.index):
                 what = message(
                     "the request says '{words}', but nothing in the plan waits",
                     words=quoted(facts.tokens[amount.index - 1 : amount.index + 2]),

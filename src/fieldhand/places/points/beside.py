@@ -103,7 +103,7 @@ def _sided(group: PlaceGroup, side: TreeSide) -> Iterator[Place]:
             if side not in sides:
                 raise PlaceError(
                     message(
-                        "{tree} has no {side} side: its row runs along it, so it has a {one} and a {other} side",
+                        "{tree} has no {side} side: by the direction of its row its sides are {one} and {other}",
                         tree=say_tree(place.id),
                         side=COMPASS[side],
                         one=COMPASS[sides[0]],

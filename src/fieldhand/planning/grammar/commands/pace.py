@@ -111,7 +111,9 @@ def pace(how: PaceClause, used: int) -> PaceClause:
     return replace(how, used=used)
 
 
-@construction("drive: GO how=manner [COMMA] [AT] place=place", "drive: GO how=manner [COMMA] ALONG place=place", cost=0.4)
+@construction(
+    "drive: GO how=manner [COMMA] [AT] place=place", "drive: GO how=manner [COMMA] ALONG place=place", cost=0.4
+)
 def drive_at_pace(how: PaceClause, place: PlaceMeaning, used: int) -> DriveCommand | None:
     """Compose "drive slowly to tree 4"."""
     drives = place.shape in ("one", "several", "area", "step")

@@ -28,9 +28,7 @@ def both_sides() -> TreeSide:
     return "both"
 
 
-@construction(
-    "own_side: [DET] side=DIR SIDE", "own_side: ITS side=DIR SIDE", cost=0.1
-)
+@construction("own_side: [DET] side=DIR SIDE", "own_side: ITS side=DIR SIDE", cost=0.1)
 def compass_side(side: Lex) -> TreeSide | None:
     """Compose "the east side"."""
     return side.value if side.value in SIDES else None

@@ -23,7 +23,7 @@ GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
 #: The longest wait of a plan in seconds.
-_LONGEST_S = 86_400.0
+LONGEST_WAIT_S = 86_400.0
 
 
 @construction(
@@ -35,7 +35,7 @@ _LONGEST_S = 86_400.0
 )
 def duration(time: Amount) -> float | None:
     """Compose "for 10 minutes"."""
-    return time.number if time.unit == "seconds" and 0.0 < time.number <= _LONGEST_S else None
+    return time.number if time.unit == "seconds" and 0.0 < time.number <= LONGEST_WAIT_S else None
 
 
 @construction(
@@ -61,6 +61,16 @@ def wait(time: float) -> float:
 def wait_noun(time: Amount) -> float | None:
     """Compose "a pause of 10 minutes", "make a 30-second stop" and "spend half an hour"."""
     return duration(time)
+
+
+@construction(
+    "wait: [verb] DET number=NUM [DASH] unit=ORD [DASH] WAITN",
+    "wait: [verb] number=NUM [DASH] unit=ORD [DASH] WAITN",
+    cost=0.2,
+)
+def wait_of_seconds(number: Lex, unit: Lex) -> float | None:
+    """Compose "a 30-second pause", whose unit is an ordinal as well."""
+    return duration(Amount(number=float(number.value), unit="seconds")) if unit.value == 2 else None
 
 
 @construction("capture: time=wait", cost=0.2)
@@ -100,6 +110,12 @@ def stay_there(time: float, used: int) -> CaptureCommand:
 def wait_at(time: float, word: str, place: PlaceMeaning, used: int) -> CaptureCommand | None:
     """Compose "wait 10 minutes at tree 4" and "stay at the charger for half an hour"."""
     return None if word in ("of", "lead") else CaptureCommand((wait_thing(time),), place, used)
+
+
+@construction("capture: WAITV", "capture: WAITV place=here", "capture: WAITV relation place=place", cost=2.5)
+def wait_for_how_long(used: int, place: PlaceMeaning | None = None) -> CaptureCommand:
+    """Compose "wait at tree 4", which leaves open for how long."""
+    return CaptureCommand((wait_thing(0.0),), place, used)
 
 
 @construction("capture: GO [towards] place=place FOR time=amount", cost=0.4)

@@ -7,7 +7,14 @@ from dataclasses import replace
 from fieldhand.language import message
 from fieldhand.planning.grammar.dialogue.capturing import capture
 from fieldhand.planning.grammar.dialogue.plans import block_at, walk
-from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, Spans, with_step
+from fieldhand.planning.grammar.dialogue.state import (
+    DialogueState,
+    NotComposed,
+    OpenQuestion,
+    Setting,
+    Spans,
+    with_step,
+)
 from fieldhand.planning.grammar.meaning import (
     LAST_THING,
     UNSAID_THING,
@@ -19,14 +26,15 @@ from fieldhand.planning.grammar.meaning import (
 from fieldhand.task import plan as p
 
 
-def waited(
-    setting: Setting, state: DialogueState, command: CaptureCommand, joint: Connective | None
-) -> DialogueState:
+def waited(setting: Setting, state: DialogueState, command: CaptureCommand, joint: Connective | None) -> DialogueState:
     """Return the state after a wait, which is placed as a capture is.
 
     What was captured before it stays what later clauses refer to. A wait without a place behind several places may be
     at each of them or once at the end.
     """
+    if any(wait_seconds(thing.action) == 0.0 for thing in command.things):
+        asked = message("'{said}': for how long?", said=setting.quoted(command.used))
+        raise OpenQuestion(asked, command.used)
     place = command.place
     unplaced = place is None or place.shape == "here"
     loop = state.loop if state.lead is None and state.area is None else None
