@@ -46,19 +46,21 @@ from fieldhand.task.plan import (
     If,
     Node,
     OptionalStep,
+    Pace,
     Repeat,
     StopMission,
     Try,
+    Wait,
     acts,
     walk,
 )
 from fieldhand.task.plan import (
     InOrder as Steps,
 )
-from fieldhand.task.results import Acted, Arrived, Decided, Ended, Event, Exited, Visiting
+from fieldhand.task.results import Acted, Arrived, Decided, Dwelt, Ended, Event, Exited, Visiting
 from support.missions.rig import approved, husky, orchard, task_for
 
-#: What happens: kind ("drive", "capture", "failure"), id of the node, id of the place.
+#: What happens: kind ("drive", "capture", "failure", "wait"), id of the node, id of the place (of a wait the seconds).
 Trace = list[tuple[str, str, str]]
 
 #: Fails at some trees, and stands only where a try catches that.
@@ -122,6 +124,8 @@ class Drawn:
         if depth == 0 or self._chance(0.15):
             if self._chance(0.15):
                 return GoTo(id="", place=self._place(label))
+            if self._chance(0.1):
+                return Wait(id="", seconds=float(self._rng.integers(1, 90)))
             return self._act(tried=tried, label=label)
 
         def inner(*, also_tried: bool = False, also_optional: bool = False, named: str = "") -> Node:
@@ -129,7 +133,7 @@ class Drawn:
                 depth - 1, tried=tried or also_tried, optional=optional or also_optional, label=named or label
             )
 
-        match int(self._rng.integers(9)):
+        match int(self._rng.integers(10)):
             case 0 | 1:
                 return Steps(id="", steps=tuple(inner() for _ in range(int(self._rng.integers(1, 4)))))
             case 2:
@@ -147,6 +151,8 @@ class Drawn:
                 chosen = If(id="", condition=self._condition(), then=then, otherwise=otherwise)
                 return Steps(id="", steps=(first, chosen))
             case 7:
+                return Pace(id="", body=inner(), speed_m_s=float(self._rng.choice([0.3, 0.5, 0.9])))
+            case 8:
                 return Try(id="", body=inner(also_tried=True), otherwise=inner())
             case _:
                 return inner() if optional else OptionalStep(id="", body=inner(also_optional=True))
@@ -201,6 +207,8 @@ class Simulated:
         for event in self._of_plan():
             if isinstance(event, Arrived):
                 found.append(("drive", event.node, event.place))
+            elif isinstance(event, Dwelt):
+                found.append(("wait", event.node, f"{event.seconds:.3f}"))
             elif isinstance(event, Acted) and event.status == "success":
                 found.append(("capture", event.node, event.place))
             elif isinstance(event, Acted):
@@ -346,6 +354,8 @@ def trace_of(walked: Walk) -> Trace:
     for step in walked.steps:
         if step.kind == "drive":
             found.append(("drive", step.node.id, step.places[0].id))
+        elif step.kind == "wait":
+            found.append(("wait", step.node.id, f"{step.seconds:.3f}"))
         elif step.kind == "act" and step.node.act is not None:
             place = step.places[0].id
             found += [("capture", step.node.id, place)] * step.captures
@@ -438,6 +448,10 @@ class Interpreter:
         match element.tag:
             case "GoToPlace":
                 self._go(element)
+            case "LimitSpeed":
+                return self._tick(element[0]) is not False
+            case "Wait":
+                self.trace.append(("wait", _node(element), f"{float(element.get('wait_duration')):.3f}"))
             case "ResolvePlaces":
                 self._entries[_entry(element.get("places"))] = self._resolved(element)
             case "OrderSteps":

@@ -91,7 +91,7 @@ class _Gatherer:
                 way: Certainty = "budget" if from_optional else certainty
                 self.legs.setdefault(step.drive.points, Leg(points=step.drive.points, certainty=way))
                 from_optional = step.node.id in self._optional
-            if step.kind in ("drive", "act"):
+            if step.kind in ("drive", "act", "wait"):
                 self._stop(step, certainty, visits)
 
     def _certainty(self, step: WalkStep, after_optional: bool) -> Certainty:

@@ -26,6 +26,7 @@ from fieldhand.task.results import (
     ClockSet,
     Decided,
     Driving,
+    Dwelt,
     Ended,
     Event,
     Exited,
@@ -50,14 +51,14 @@ class _ReplayedVisits:
     """The visits of a for-each, as the log lists them; the one of an optional step.
 
     Attributes:
-        listed: The places.
+        listed: The places; a tree worked on from both sides is listed twice.
         most: Number of them that may be visited.
         begun: Visits begun, without those given up half-way.
         shed: Number of places given up.
         before: The counts when the current visit began.
     """
 
-    listed: frozenset[str] = frozenset()
+    listed: tuple[str, ...] = ()
     most: int
     begun: int = 0
     shed: int = 0
@@ -118,7 +119,7 @@ class _Replay:
         visits = self._run.frame.tour
         if isinstance(visits, _ReplayedVisits):
             # Places that were closed when the loop began are shed, and not among those to visit.
-            visits.shed += len(visits.listed.intersection(event.places))
+            visits.shed += sum(place in visits.listed for place in event.places)
         self._counts.shed(node, event)
         return True
 
@@ -153,6 +154,8 @@ class _Replay:
         match request:
             case ask.Capture(node=act):
                 self._capture(act)
+            case ask.WaitFor(node=node):
+                self._wait(node)
             case ask.DriveTo(node=node, tour=None) if node.act is None:
                 self._drive(node)
             case ask.Decide(node=node):
@@ -206,6 +209,15 @@ class _Replay:
             count.failed += failed_at > 0
             raise self._lost()
 
+    def _wait(self, node: Node) -> None:
+        """Consume the wait of the node."""
+        over = False
+        while not over and (event := self._peek_own(node)) is not None:
+            self._next += 1
+            over = isinstance(event, Dwelt)
+        if not over:
+            raise self._lost()
+
     def _drive(self, node: Node) -> None:
         """Consume the drive of the node; a drive to the current place has no event."""
         step, failed = self._run.optional, False
@@ -237,7 +249,7 @@ class _Replay:
             raise self._absent(node)
         self._next += 1
         most = len(event.places) if node.at_most is None else min(len(event.places), node.at_most)
-        return _ReplayedVisits(listed=frozenset(event.places), most=most)
+        return _ReplayedVisits(listed=event.places, most=most)
 
     def _visit(self, node: Node, visits: _ReplayedVisits) -> bool | None:
         """Begin the next visit if the log has one."""
@@ -345,4 +357,6 @@ class _Replay:
 
 def _is_silent(node: Node) -> bool:
     """Return True if a node that does not fail may leave no trace in the log."""
+    if node.dwell_s:
+        return False
     return node.act is None and not node.is_choice and all(map(_is_silent, node.caught or node.children))

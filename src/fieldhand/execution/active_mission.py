@@ -25,6 +25,7 @@ from fieldhand.execution.time_of_day import TimeOfDay
 from fieldhand.forecast.conditions import ConditionInputs
 from fieldhand.forecast.mission_state import MissionState, Spent
 from fieldhand.forecast.optional_visits import OptionalVisits
+from fieldhand.forecast.resource_limits import speed_of
 from fieldhand.forecast.visit_order import start_place
 from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve, resolve_one
@@ -65,6 +66,7 @@ class ActiveMission:
         controller: Carries out the current goal.
         guard: The budget guard.
         clock: Mission clock.
+        dwells_until_s: Time of the mission clock at which a wait of the plan ends; None if the robot does not wait.
         halted: True while nothing new may begin because the mission is about to turn home.
         blockages: Blocked stretches found so far.
         here: The plan's current place (:mod:`fieldhand.task.plan`).
@@ -95,12 +97,19 @@ class ActiveMission:
         self.guard: Guard = inputs
         self.clock: Clock = inputs
         self.controller = DriveController(
-            inputs, site, robot, ways=lambda: self.drives, on_restart=self._restarted, on_doubt=self._in_doubt
+            inputs,
+            site,
+            robot,
+            ways=lambda: self.drives,
+            speed=self._speed_m_s,
+            on_restart=self._restarted,
+            on_doubt=self._in_doubt,
         )
         self.blockages = Blockages(drives)
         self._begun_s = self.clock.now()
         self.time_of_day = TimeOfDay(inputs)
         self._wake_s: float | None = None
+        self.dwells_until_s: float | None = None
         self.action_j = 0.0
         self._full = self.observation.charge_percent
         self._cuts = 0
@@ -202,7 +211,7 @@ class ActiveMission:
         Raises:
             DriveFault: There is no way to it.
         """
-        if (self.standing.kind, self.standing.id) == (place.kind, place.id):
+        if self.standing.serves(place):
             return self.standing
         return self.way_to(place).end
 
@@ -263,7 +272,7 @@ class ActiveMission:
 
     def is_at(self, place: Place) -> bool:
         """Return True if the robot has stopped at a place and is still there."""
-        return self.arrived_at is not None and (self.arrived_at.kind, self.arrived_at.id) == (place.kind, place.id)
+        return self.arrived_at is not None and self.arrived_at.serves(place)
 
     def stop_at(self, place: Place) -> None:
         """Record that the robot has reached a place."""
@@ -277,12 +286,14 @@ class ActiveMission:
         Raises:
             DriveFault, PlaceError: There is no way to the place.
         """
-        wanted = self.task.constraints.speed_m_s
-        speed_m_s = self.robot.speed_m_s if wanted is None else min(wanted, self.robot.speed_m_s)
-        goal = drive_goal(self.site, self.way_to(place), speed_m_s)
+        goal = drive_goal(self.site, self.way_to(place), self._speed_m_s())
         self._emit_driving(node, goal)
         self._open = OpenDrive(node=node, goal=goal)
         self.controller.start(goal)
+
+    def _speed_m_s(self) -> float:
+        """Return the speed limit of a drive that begins now."""
+        return speed_of(self.task.constraints, self.robot, self.run.pace_m_s)
 
     def start_capture(self, node: str, action: str, parameters: Mapping[str, str | float], number: int) -> None:
         """Start the ``number``-th attempt at a capture."""
@@ -318,6 +329,11 @@ class ActiveMission:
         return min(found, default=None)
 
     @property
+    def dwell_left_s(self) -> float:
+        """Seconds left of a wait of the plan; 0 if the robot does not wait."""
+        return 0.0 if self.dwells_until_s is None else max(0.0, self.dwells_until_s - self.clock.now())
+
+    @property
     def busy(self) -> bool:
         """True if there is a goal whose end is not recorded yet."""
         return self._open is not None
@@ -343,6 +359,7 @@ class ActiveMission:
                 node=node,
                 kind=place.kind,
                 place=place.id,
+                side=place.side,
                 lat=position.lat,
                 lon=position.lon,
                 leg_m=leg_m,
@@ -360,6 +377,7 @@ class ActiveMission:
                 node=node,
                 kind=goal.place.kind,
                 place=goal.place.id,
+                side=goal.place.side,
                 planned_m=goal.length_m,
                 path=goal.path_degrees,
                 speed_m_s=goal.speed_m_s,
@@ -383,6 +401,7 @@ class ActiveMission:
                 then=then,
                 kind=place.kind,
                 place=place.id,
+                side=place.side,
                 lat=place.lat,
                 lon=place.lon,
                 attempt=doing.number if isinstance(doing, OpenCapture) else 1,
@@ -419,6 +438,7 @@ class ActiveMission:
                 status="success" if done else "failed",
                 kind=here.kind,
                 place=here.id,
+                side=here.side,
                 lat=here.lat,
                 lon=here.lon,
                 attempt=open_.number,

@@ -78,7 +78,9 @@ class ForEachVisits:
             self.left = [mandatory_visit(mission, place, node.body) for place in ordered]
             self.cut_off = [mandatory_visit(mission, place, node.body) for place in cut_off]
         ids = tuple(place.id for place in (*ordered, *cut_off))
-        mission.emit(Visiting(t=mission.t, node=node.id, places=ids, optional=node.optional))
+        sides = tuple(place.side for place in (*ordered, *cut_off))
+        sides = sides if any(sides) else ()
+        mission.emit(Visiting(t=mission.t, node=node.id, places=ids, optional=node.optional, sides=sides))
         if closed:
             why = f"{closed[0].kind} {closed[0].id} is {mission.drives.problem(closed[0])}"
             self._give_up(closed, f"cannot be reached: {why}")
@@ -176,7 +178,7 @@ class ForEachVisits:
         self._ways = mission.blockages.version
         if not mission.blockages.stretches and not self.cut_off:
             return
-        visits = {(v.place.kind, v.place.id): v for v in (*self.left, *self.cut_off)}
+        visits = {v.place.key: v for v in (*self.left, *self.cut_off)}
         near, far = self._parted([v.place for v in visits.values()])
         if node.optional and far:
             self._give_up(far, "no way to it is left: obstacles that the robot found block it")
@@ -185,8 +187,8 @@ class ForEachVisits:
         ordered = with_stands(mission.drives, mission.standing, open_)
         if node.order == "best" and not node.optional:
             ordered = tuple(ordered[k] for k in order_visits(mission.drives, mission.standing, ordered, self._home()))
-        self.left = [replace(visits[p.kind, p.id], place=p) for p in ordered]
-        self.cut_off = [replace(visits[p.kind, p.id], place=replace(p, stand=None)) for p in far]
+        self.left = [replace(visits[p.key], place=p) for p in ordered]
+        self.cut_off = [replace(visits[p.key], place=replace(p, stand=None)) for p in far]
 
     def _in_order(self) -> Place:
         """Return the next visit in planned order, if the guard permits it."""

@@ -19,6 +19,7 @@ from fieldhand.execution.shed_work import (
     report_shed,
     shed_unreachable,
 )
+from fieldhand.execution.waiting import dwell
 from fieldhand.forecast.conditions import evaluate
 from fieldhand.forecast.mission_state import VisitChoice
 from fieldhand.forecast.visit_order import home_if_last, steps_in_order
@@ -102,6 +103,10 @@ class PlanExecutor:
                 self.mission.bind(label, places)
             case instructions.Capture(node=act):
                 return (yield from self._capture(act))
+            case instructions.WaitFor(node=node, seconds=seconds):
+                here = self.place = self.mission.standing
+                admit(self.mission, mandatory_visit(self.mission, here, node), refused=[here])
+                yield from dwell(self.mission, node.id, seconds)
             case instructions.ForgetReading(reading=reading):
                 self.mission.readings.pop(reading, None)
             case instructions.SetReading(reading=reading, value=value):

@@ -24,7 +24,7 @@ class PlanOver(Exception):
 def mandatory_visit(mission: ActiveMission, place: Place, work: Node) -> Visit:
     """Return a mandatory visit in the form that the guard expects."""
     seconds, joules = service_of(work, mission.robot)
-    return Visit(place=place, service_s=seconds, service_j=joules)
+    return Visit(place=place, service_s=seconds, service_j=joules, pace_m_s=mission.run.pace_m_s)
 
 
 def mandatory_visits_left(mission: ActiveMission) -> list[Visit]:

@@ -133,7 +133,7 @@ def _several(
     from fieldhand.orienteering.preview import preview
 
     robot = walker.robot
-    resources = resource_limits(walker.task.constraints, robot, walker.charge_percent)
+    resources = resource_limits(walker.task.constraints, robot, walker.charge_percent, pace_m_s=walker.plan.pace_m_s)
     problem = visits_problem(
         legs=visit_distances(walker.context.here, visits, rest, walker.drives),
         rewards=[v.reward for v in visits],
@@ -158,7 +158,9 @@ def _one(
     here, costs = walker.context.here, cost_model(walker.robot)
     there = _length(walker, here, visit.place)
     back, home = (0.0 if rest.first is None else _length(walker, at, rest.first) for at in (visit.end, here))
-    resources = resource_limits(walker.task.constraints, walker.robot, walker.charge_percent)
+    resources = resource_limits(
+        walker.task.constraints, walker.robot, walker.charge_percent, pace_m_s=walker.plan.pace_m_s
+    )
     with_it, without = (
         overrun_chances(way + rest.way, resources, walker.robot, walker.spent, used)
         for way in (route_cost([there, back], visit.work), route_cost([home]))
@@ -212,4 +214,4 @@ def _way_on(walker: ForecastHandler, here: Place, rest: RemainingWork) -> RouteC
 
 
 def _length(walker: ForecastHandler, a: Place, b: Place) -> float:
-    return 0.0 if a.xy == b.xy else walker.drives.between(a, b).length_m
+    return 0.0 if a.covers(b) else walker.drives.between(a, b).length_m

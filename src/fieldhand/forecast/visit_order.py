@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -48,8 +49,13 @@ def start_place(drives: Drives) -> Place:
 
 def with_stands(drives: Drives, here: Place, places: Sequence[Place]) -> tuple[Place, ...]:
     """Return the places with the robot's stand at each; it stays put for the current place."""
-    at = {p.xy: here for p in (here,) if here.stand is not None and p.kind != "point"}
-    return drives.stands([at.get(p.xy, p) for p in places], here)
+    stands = here.stand is not None and here.kind != "point"
+    return drives.stands([_stay(here, p) if stands and here.covers(p) else p for p in places], here)
+
+
+def _stay(here: Place, place: Place) -> Place:
+    """Return a place with the stand at which the robot is already."""
+    return replace(place, stand=here.stand)
 
 
 def reachable(drives: Drives, places: Sequence[Place]) -> tuple[tuple[Place, ...], tuple[Place, ...]]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from fieldhand.forecast import visit_order
 from fieldhand.forecast.mission_state import Spent, Work
 from fieldhand.forecast.possible_answers import BranchReadings
-from fieldhand.forecast.resource_limits import speed_of
+from fieldhand.forecast.resource_limits import slower_s_per_m, speed_of
 from fieldhand.forecast.sampled_costs import MissionSamples
 from fieldhand.forecast.walk_steps import Decision, DecisionKind, NodeAnswer, StepKind, WalkStep, never
 from fieldhand.places.context import Context, VisitedIds
@@ -102,7 +102,7 @@ class WalkState:
         self.stops: list[Place] = []
 
     def _drive_to(self, node: Node, place: Place) -> None:
-        if place.xy != self.context.here.xy or self._stuck:
+        if not self.context.here.covers(place) or self._stuck:
             leg = self._leg(node, "drive", place)
             if self.plan.is_caught and self.decide(node, "blocked"):
                 # Worst case: the whole way is driven, and the robot stops just before the place.
@@ -131,6 +131,11 @@ class WalkState:
         self._stand(Context(here=home, visited=self.context.visited, bound=self.context.bound))
 
     @property
+    def slower_s_per_m(self) -> float:
+        """Return the seconds per metre that the pace of the current nodes adds to those of the mission."""
+        return slower_s_per_m(self.task.constraints, self.robot, self.plan.pace_m_s)
+
+    @property
     def _stuck(self) -> bool:
         return self._standing is not self.context.here
 
@@ -140,14 +145,16 @@ class WalkState:
     def _leg(self, node: Node, kind: StepKind, place: Place) -> WalkStep:
         self.bound_for = node.id
         drive = self.drives.between(self._standing, place)
+        slower = 0.0 if kind == "exit" else self.slower_s_per_m
         return WalkStep(
             node=node,
             kind=kind,
             context=self.context,
             places=(drive.end,),
             drive=drive,
-            seconds=drive.length_m / self._speed,
+            seconds=drive.length_m * (1.0 / self._speed + slower),
             joules=drive.length_m * self.robot.energy.drive_j_per_m,
+            slower_s_per_m=slower,
         )
 
     def decide(self, node: Node, kind: DecisionKind) -> bool:
@@ -178,8 +185,8 @@ class WalkState:
         metres = 0.0 if step.drive is None else step.drive.length_m
         if self.samples is not None and self.plan.optional is None:
             if step.drive is not None:
-                self.samples.drive(metres)
-            elif step.kind == "act":
+                self.samples.drive(metres, step.slower_s_per_m)
+            elif step.kind in ("act", "wait"):
                 self.samples.work(Work(seconds=step.seconds, joules=step.joules))
         self.spent += Spent(
             metres=metres, seconds=step.seconds, percent=self.robot.percent(0.0, step.seconds, step.joules)

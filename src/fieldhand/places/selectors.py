@@ -38,6 +38,7 @@ from fieldhand.places.picks.random_sample import RandomSample
 from fieldhand.places.picks.spread import Spread
 from fieldhand.places.picks.take import Take
 from fieldhand.places.picks.top import Top
+from fieldhand.places.points.beside import Beside
 from fieldhand.places.points.points_in import PointsIn
 from fieldhand.places.points.spaced import Spaced
 from fieldhand.places.rows.across import Across
@@ -99,5 +100,6 @@ SELECTORS: tuple[type[Selector], ...] = (
     Spaced,
     Apart,
     PointsIn,
+    Beside,
     UnionOf,
 )

@@ -38,12 +38,6 @@ _PAST = (
     rf"yesterday(?: (?:{_PARTS}))?|last (?:{_PARTS}|{_DAYS}|week|month|time)",
     rf"{_AMOUNT} (?:hours?|days?|weeks?|months?) ago|earlier today",
 )
-_WAITING = (
-    r"(?<!for there i )(?<!for there we )(?<!for here i )"
-    r"(?:wait|waits|waiting|pause|pauses|pausing|linger|lingers)(?: there| here)?"
-    rf"(?: (?:for )?(?:{_AMOUNT} )?(?:seconds?|minutes?|hours?|while))?",
-    rf"stay (?:there |here )?for (?:{_AMOUNT} )?(?:seconds?|minutes?|hours?|while)",
-)
 
 
 def _pattern(forms: tuple[str, ...]) -> re.Pattern[str]:
@@ -53,7 +47,6 @@ def _pattern(forms: tuple[str, ...]) -> re.Pattern[str]:
 _KINDS = (
     (_pattern(_SCHEDULES), message("the plan says nothing of it, or another time")),
     (_pattern(_PAST), message("a plan has no access to earlier missions")),
-    (_pattern(_WAITING), message("a plan cannot contain waiting")),
 )
 #: Times at which a mission may be to start anyway, if they are all that a request says of time.
 _START = _pattern((r"this (?:morning|afternoon|evening)", r"(?:before|after) (?:lunch|lunchtime)"))

@@ -258,6 +258,7 @@ class ProfileDocument(Keyed):
     speed_m_s: Positive
     width_m: Breadth
     standoff_m: Breadth | None = None
+    slow_m_s: Positive | None = None
     retries: Retries = 1
     patience: PatienceDocument = PatienceDocument()
     energy: EnergyDocument
@@ -268,6 +269,8 @@ class ProfileDocument(Keyed):
 
     @model_validator(mode="after")
     def _stands_beside_the_tree(self) -> ProfileDocument:
+        if self.slow_m_s is not None and self.slow_m_s > self.speed_m_s:
+            raise ValueError(f"slow_m_s {self.slow_m_s:g} is more than speed_m_s ({self.speed_m_s:g})")
         if self.standoff_m is not None and self.standoff_m < self.width_m / 2:
             raise ValueError(
                 f"standoff_m {self.standoff_m:g} is less than half of width_m ({self.width_m / 2:g}): the robot would"

@@ -216,6 +216,7 @@ class RobotProfile:
         source: Name or path from which the profile was loaded.
         patience: Waiting times for faults.
         ros2: ROS 2 interfaces; None for a robot that is only simulated.
+        slow_m_s: Driving speed that "slowly" means in a request, in metres per second; None to ask.
     """
 
     name: str
@@ -232,6 +233,7 @@ class RobotProfile:
     source: str = ""
     patience: Patience = Patience()
     ros2: Ros2Bindings | None = None
+    slow_m_s: float | None = None
 
     __repr__ = short_repr
 

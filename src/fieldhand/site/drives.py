@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from fieldhand.errors import DriveFault
 from fieldhand.language import message
-from fieldhand.language.words import say_marker, say_number, say_tree
+from fieldhand.language.words import say_marker, say_number, say_side, say_tree
 from fieldhand.site.driving.lane_choice import RowVisits, choose_lanes, pick_candidate
 from fieldhand.site.driving.layout import Layout, Spot
 from fieldhand.site.driving.network import DrivableNetwork, network_of
@@ -27,7 +27,7 @@ from fieldhand.site.driving.stands import Candidate, StandCandidates
 from fieldhand.site.model import Place, Site
 
 XY = tuple[float, float]
-DriveKey = tuple[str, str, XY, XY | None]
+DriveKey = tuple[tuple[str, str, str], XY, XY | None]
 
 #: Number of drives that are kept; guards look again and again at the drives between the stops that remain.
 _MOST_DRIVES = 20_000
@@ -102,7 +102,7 @@ class Drives:
 
     def _shortest(self, a: Place, b: Place) -> Drive:
         self._check((a, b))
-        if a.stand is None and b.stand is None and a.xy == b.xy:
+        if a.stand is None and b.stand is None and a == b:
             a = b = self.stands((a,))[0]
         best: tuple[tuple[XY, ...], float] | None = None
         for one in self._able(a):
@@ -362,10 +362,10 @@ class Drives:
 
 
 def _key(place: Place) -> DriveKey:
-    return place.kind, place.id, place.xy, place.stand
+    return place.key, place.xy, place.stand
 
 
 def _called(place: Place) -> str:
     if place.kind == "tree":
-        return say_tree(place.id)
+        return say_side(place.id, place.side) if place.side else say_tree(place.id)
     return say_marker(place.id) if place.kind == "marker" else place.id

@@ -74,6 +74,14 @@ class Capture:
 
 
 @dataclass(frozen=True, kw_only=True)
+class WaitFor:
+    """Ask permission to stand still for some seconds, and do so. Result: none; a refusal is as that of ``Permit``."""
+
+    node: Node
+    seconds: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class ForgetReading:
     """Clear a reading. Result: none."""
 
@@ -142,6 +150,7 @@ Instruction = (
     | DriveTo
     | BindLabel
     | Capture
+    | WaitFor
     | ForgetReading
     | SetReading
     | Decide

@@ -43,18 +43,22 @@ class Started:
 
 @dataclass(frozen=True, kw_only=True)
 class Visiting:
-    """A for-each resolved its selector: ids of its places in the planned order."""
+    """A for-each resolved its selector: ids of its places in the planned order; their sides, if the plan names any."""
 
     event: ClassVar[str] = "visiting"
     t: float
     node: str
     places: tuple[str, ...]
     optional: bool = False
+    sides: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
 class Driving:
-    """A drive begins. ``path`` lists its corners as (lat, lon), ``speed_m_s`` is the commanded speed."""
+    """A drive begins. ``path`` lists its corners as (lat, lon), ``speed_m_s`` is the commanded speed.
+
+    ``side``, here and in the events below, is the side of the tree on which the robot is to stand, if the plan says so.
+    """
 
     event: ClassVar[str] = "drive"
     t: float
@@ -64,6 +68,7 @@ class Driving:
     planned_m: float
     path: tuple[tuple[float, float], ...]
     speed_m_s: float | None = None
+    side: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -80,6 +85,7 @@ class Arrived:
     leg_m: float
     travelled_m: float
     charge_percent: float
+    side: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -105,6 +111,7 @@ class Acted:
     units: Mapping[str, str] = field(default_factory=dict)
     what: str = ""
     charge_percent: float = 100.0
+    side: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -129,6 +136,7 @@ class InDoubt:
     attempt: int = 1
     what: str = ""
     charge_percent: float = 100.0
+    side: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -217,6 +225,26 @@ class Obstructed:
     unreachable: tuple[str, ...] = ()
     free: bool = False
     what: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Dwelling:
+    """The robot begins to stand still for some seconds, because the plan says so."""
+
+    event: ClassVar[str] = "waiting"
+    t: float
+    node: str
+    seconds: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Dwelt:
+    """The robot has stood still for some seconds, because the plan says so."""
+
+    event: ClassVar[str] = "waited"
+    t: float
+    node: str
+    seconds: float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -331,6 +359,8 @@ Event = (
     | Decided
     | Shed
     | Obstructed
+    | Dwelling
+    | Dwelt
     | Waited
     | LimitCrossed
     | ClockSet

@@ -45,6 +45,7 @@ _FACETS: dict[str, dict[str, str]] = {
     "late_min": {"minInclusive": "0", "maxInclusive": "10080"},
     "done_by_min": {"minInclusive": "0", "maxInclusive": "10080"},
     "offset_min": {"minInclusive": "-1440", "maxInclusive": "1440"},
+    "seconds": {"minExclusive": "0", "maxInclusive": "86400"},
     "speed_m_s": {"minInclusive": "0.01", "maxInclusive": "20"},
 }
 

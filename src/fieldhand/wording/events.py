@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from fieldhand.clock import clock_time
 from fieldhand.language import counted, joined, kept_in_log, message, named, shaped
-from fieldhand.language.words import capitalised, say_name, say_number, say_place, say_unit, some_names
+from fieldhand.language.words import capitalised, say_name, say_number, say_place, say_unit, say_wait, some_names
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.exceeded import say_status
 from fieldhand.task.frames import Task
@@ -16,6 +16,8 @@ from fieldhand.task.results import (
     ClockSet,
     Continued,
     Decided,
+    Dwelling,
+    Dwelt,
     Ended,
     Event,
     Exited,
@@ -65,7 +67,7 @@ class EventText:
                     "{robot} starts on {site}, battery at {charge} %", robot=event.robot, site=event.site, charge=charge
                 )
             case Visiting():
-                names = _names(event.places)
+                names = _names(tuple(dict.fromkeys(event.places)))
                 return counted(
                     "{count} place to visit: {names}",
                     "{count} places to visit: {names}",
@@ -75,7 +77,7 @@ class EventText:
             case Arrived():
                 return message(
                     "at {place} ({metres} m, battery at {charge} %)",
-                    place=say_place(event.kind, event.place),
+                    place=say_place(event.kind, event.place, event.side),
                     metres=f"{event.travelled_m:.0f}",
                     charge=f"{event.charge_percent:.0f}",
                 )
@@ -99,6 +101,10 @@ class EventText:
                 return _shed(event)
             case Obstructed():
                 return _obstructed(event)
+            case Dwelling():
+                return message("waits {time}", time=say_wait(event.seconds))
+            case Dwelt():
+                return message("waited {time}", time=say_wait(round(event.seconds)))
             case Waited():
                 return _waited(event)
             case LimitCrossed():

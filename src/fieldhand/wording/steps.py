@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from fieldhand.language import counted, message, shaped
-from fieldhand.language.words import say_marker, say_name, say_number, say_times, say_tree
+from fieldhand.language.words import say_marker, say_name, say_number, say_side, say_times, say_tree, say_wait
 from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import Trees
 from fieldhand.places.wording import SelectorWording, say_places, say_selector
@@ -14,7 +14,21 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.conditions import Condition
 from fieldhand.task.frames import Task, Then
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, InOrder, Node, OptionalStep, Repeat, StopMission, Try
+from fieldhand.task.plan import (
+    Act,
+    AnyOrder,
+    ForEach,
+    GoTo,
+    If,
+    InOrder,
+    Node,
+    OptionalStep,
+    Pace,
+    Repeat,
+    StopMission,
+    Try,
+    Wait,
+)
 from fieldhand.wording.conditions import say_act, say_condition
 from fieldhand.wording.resolved_places import ResolvedPlaces
 from fieldhand.wording.step_places import in_order, say_expected, say_expected_visits, say_ids
@@ -43,7 +57,7 @@ class ReadBackLine:
 def say_place(place: Place) -> str:
     """Return the name of a place in the read-back: "tree 81", "the end marker"."""
     if place.kind == "tree":
-        return say_tree(place.id)
+        return say_side(place.id, place.side) if place.side else say_tree(place.id)
     return say_marker(place.id) if place.kind == "marker" else place.id
 
 
@@ -147,6 +161,17 @@ class _LineWriter:
                 self._arrived(node.label, node.id, number)
             case Act():
                 self._act(node, indent)
+            case Wait(seconds=seconds):
+                time = say_wait(seconds)
+                there = message("Wait there for {time}.", time=time)
+                self.step(
+                    node.id, indent, there if self._moved else message("Wait at the start for {time}.", time=time)
+                )
+            case Pace(body=body, speed_m_s=speed):
+                self._open(
+                    node.id, indent, message("Drive no faster than {speed} m/s for this:", speed=say_number(speed))
+                )
+                self.node(body, indent + 1)
             case StopMission(exit=taken):
                 failed = message("End the mission here, which counts as failed.")
                 self.step(node.id, indent, message("End the mission here.") if taken == "nominal" else failed)

@@ -20,6 +20,8 @@ def outline(task: Task) -> str:
     limits = "".join(f" | {b.kind} {b.limit:g}" for b in task.constraints.budgets)
     if task.constraints.reserve_percent is not None:
         limits += f" | reserve {task.constraints.reserve_percent:g}"
+    if task.constraints.speed_m_s is not None:
+        limits += f" | speed {task.constraints.speed_m_s:g}"
     exit_ = "" if task.composition.nominal == "return_to_end" else f" | {task.composition.nominal}"
     times = "" if task.timing is None else " | " + " ".join(timing(task.timing))
     return node(task.composition.plan) + limits + times + exit_
@@ -76,6 +78,10 @@ def node(n: p.Node) -> str:
             return "; ".join(node(step) for step in n.steps)
         case p.StopMission():
             return "stop"
+        case p.Wait():
+            return f"wait {n.seconds:g}"
+        case p.Pace():
+            return f"at {n.speed_m_s:g} m/s: [{node(n.body)}]"
         case _:
             raise AssertionError(n)
 

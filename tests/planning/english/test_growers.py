@@ -87,9 +87,6 @@ Every morning take pictures of row 12 of the north block.
 Daily, measure CO2 at vine N250.
 Take pictures of row 12 of the north block tomorrow.
 Take a picture of every second vine in row 5 of the north block, but only on weekdays.
-Take pictures of north block rows 1 and 2, slowly, at 0.3 m/s.
-Go to vine N250 and wait there for 10 minutes.
-Take a picture of vine N250, wait 30 seconds, and take another.
 Measure CO2 at vines N1, N2 and N3; if the average is above 450 ppm, take a picture of vine N4.
 Measure CO2 at every vine of row 5 of the north block. If the mean is above 450 ppm, take a picture of vine N4.
 Drive down rows 3 to 8 of the north block and spray.
@@ -99,7 +96,6 @@ Take pictures of the missing vines in the south block.
 Take pictures of a few vines in the north block.
 Take pictures of the 10 worst vines.
 Take pictures on the left side of row 4 of the north block.
-Take pictures of both sides of vine N250.
 Skip the ones you did yesterday and take pictures of the rest of row 5 in the north block.
 Sample 5 vines per variety.
 Take pictures of the Merlot but avoid the pond and drive around the south block.
@@ -223,13 +219,13 @@ Take pictures of as many vines in the north block as you can without driving mor
 MODIFIERS = """
 slowly; carefully; quickly; gently; tomorrow; daily; hourly; regularly; tonight; yesterday; sometimes; weekly; every morning; each week
 on weekdays; at 6 am; before sunrise; at noon; in the morning; after the rain; during lunch; next week; last week; on Monday; in June
-once a day; every hour; for powdery mildew; for pests; for water stress; for the lab; with flash; in colour; from above; from both sides
+once a day; every hour; for powdery mildew; for pests; for water stress; for the lab; with flash; in colour; from above
 on the left side; facing north; in the shade; without flash; weak; sick; healthy; missing; ripe; sprayed; pruned; thirsty; infected
 flowering; shaded; a few; several; on average; at the median; per variety; unless it rains; if the weather is fine
-weather permitting; avoiding the pond; except the weak ones; and wait 10 minutes; and spray; and mow; and count the grapes; and prune
+weather permitting; avoiding the pond; except the weak ones; and spray; and mow; and count the grapes; and prune
 and water it; and take a leaf sample; and record a video; and call me; the ones you did yesterday; starting at the pond; via the barn
-along the road; near the fence; backwards; diagonally; in a zigzag; clockwise; from 2 m away; at half speed; with the drone; by hand
-silently; urgently; secretly; until dark; for 10 minutes; with two robots; at 0.3 m/s; twice a day; every 10 minutes
+along the road; near the fence; backwards; diagonally; in a zigzag; clockwise; from 2 m away; with the drone; by hand
+silently; urgently; secretly; until dark; for 10 minutes; with two robots; twice a day; every 10 minutes
 """.replace("\n", ";").split(";")
 
 

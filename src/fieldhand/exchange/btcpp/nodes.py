@@ -8,7 +8,17 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from fieldhand.exchange.btcpp.elements import Elements, Tag
-from fieldhand.exchange.btcpp.vocabulary import ALLOWS, CONDITIONS, GO_TO, IF_UNKNOWN, ORDER, RESOLVE
+from fieldhand.exchange.btcpp.vocabulary import (
+    ALLOWS,
+    CONDITIONS,
+    GO_TO,
+    IF_UNKNOWN,
+    LIMIT,
+    ORDER,
+    RESOLVE,
+    WAIT,
+    WAIT_PORT,
+)
 from fieldhand.exchange.btcpp.writing import EXIT_ENTRY
 from fieldhand.places.selectors import SELECTORS
 from fieldhand.task import plan as p
@@ -70,6 +80,12 @@ class NodeReader:
             case str() if tag.kind == GO_TO:
                 place = self.elements.parts(tag, "place", SELECTORS)
                 return p.GoTo(**beside, place=place, **self.elements.fields(tag, p.GoTo))
+            case str() if tag.kind == WAIT:
+                renamed = {("seconds" if port == WAIT_PORT else port): text for port, text in tag.ports.items()}
+                return p.Wait(**beside, **self.elements.fields(replace(tag, ports=renamed), p.Wait))
+            case str() if tag.kind == LIMIT:
+                (body,) = self.elements.children(tag, 1)
+                return p.Pace(**beside, body=self.node(body), **self.elements.fields(tag, p.Pace))
             case str() if tag.kind in self.elements.capabilities.actions:
                 return self._act(tag, beside | {"at_said": self.elements.spans(tag, "_at_said")})
         raise self.elements.error(

@@ -13,14 +13,16 @@ from fieldhand.task.capabilities import Capabilities, ChoiceParameter, NumberPar
 from fieldhand.task.codec_shapes import Attribute, shape_of
 from fieldhand.task.codec_text import attribute_text, number_text
 from fieldhand.task.conditions import Between, Compare, Level, TreeHas
-from fieldhand.task.plan import Act, ForEach, OptionalStep
+from fieldhand.task.plan import Act, ForEach, OptionalStep, Pace
 
 if TYPE_CHECKING:
     from lxml.etree import _Element
 
-BEGIN, GO_TO, RESOLVE, ORDER, ALLOWS, EXIT, FAULT = (
-    "BeginMission", "GoToPlace", "ResolvePlaces", "OrderSteps", "BudgetAllows", "TakeExit", "HandleFault",
+BEGIN, GO_TO, RESOLVE, ORDER, ALLOWS, EXIT, FAULT, LIMIT = (
+    "BeginMission", "GoToPlace", "ResolvePlaces", "OrderSteps", "BudgetAllows", "TakeExit", "HandleFault", "LimitSpeed",
 )  # fmt: skip
+#: The wait of Nav2, which waits for the seconds of its port.
+WAIT, WAIT_PORT = "Wait", "wait_duration"
 #: Leaf of each kind of condition.
 CONDITIONS: dict[type, str] = {
     Compare: "CompareReading",
@@ -55,10 +57,10 @@ class Port:
 
 @dataclass(frozen=True, kw_only=True)
 class Leaf:
-    """A leaf: an action or a condition."""
+    """A leaf: an action or a condition; or a decorator around one node."""
 
     id: str
-    kind: Literal["Action", "Condition"]
+    kind: Literal["Action", "Condition", "Decorator"]
     ports: tuple[Port, ...]
 
 
@@ -92,6 +94,8 @@ def leaves(capabilities: Capabilities) -> tuple[Leaf, ...]:
         Leaf(id=ORDER, kind="Action", ports=(first, order)),
         Leaf(id=EXIT, kind="Action", ports=(then,)),
         Leaf(id=FAULT, kind="Action", ports=(exits,)),
+        Leaf(id=WAIT, kind="Action", ports=(Port(name=WAIT_PORT, type="double", about="Seconds to stand still"),)),
+        Leaf(id=LIMIT, kind="Decorator", ports=_ports(Pace)),
         Leaf(
             id=ALLOWS, kind="Condition", ports=(node, Port(name="place", type=_TEXT, default=""), *_ports(OptionalStep))
         ),

@@ -22,8 +22,11 @@ from fieldhand.exchange.btcpp.vocabulary import (
     FAULT,
     GO_TO,
     IF_UNKNOWN,
+    LIMIT,
     ORDER,
     RESOLVE,
+    WAIT,
+    WAIT_PORT,
     models,
     plain_attributes,
     port_name,
@@ -142,6 +145,10 @@ class _TreeWriter:
                 return _element(GO_TO, **(_ports(node, node.id) | {"place": encode_parts([place])}))
             case p.Act():
                 return self._act(node)
+            case p.Wait(seconds=seconds):
+                return _element(WAIT, **{WAIT_PORT: number_text(seconds)})
+            case p.Pace(body=body):
+                return _element(LIMIT, self.node(body), **_ports(node, node.id))
             case p.StopMission(exit=taken):
                 # No script after the node: it would also run if a fallback skips the node.
                 return _element("Sequence", _script(f"{EXIT_ENTRY} := '{taken}'"), _element("AlwaysFailure"))

@@ -9,10 +9,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from fieldhand.language import Number, message
+from fieldhand.language.words import listed, say_name
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.parameters import in_unit_of, with_parameter
-from fieldhand.planning.grammar.meaning import Amount, Nominal, ParameterValue, PlaceMeaning, Thing
+from fieldhand.planning.grammar.commands.waits import LONGEST_WAIT_S
+from fieldhand.planning.grammar.meaning import Amount, CaptureCommand, Nominal, ParameterValue, PlaceMeaning, Thing
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
     as_zone,
@@ -243,3 +245,29 @@ def parameter_out_of_bounds(how: ParameterValue, robot: RobotProfile) -> Impossi
         high=Number(f"{one.maximum or 0.0:g}"),
     )
     return Impossible(what, message("the robot's profile gives the bounds of the {name}", name=one.name))
+
+
+@construction("act=capture [COMMA] how=parameter", given=("robot",))
+def without_parameter(act: CaptureCommand, how: ParameterValue, robot: RobotProfile) -> Impossible | None:
+    """Compose "take a picture at a depth of 20 cm", of an action that has no depth."""
+    actions = [robot.action[one.action] for one in act.things if one.action in robot.action]
+    if not actions or any(with_parameter(Thing(one.name), how, robot) for one in actions):
+        return None
+    if any(in_unit_of(parameter, how) is not None for one in actions for parameter in one.parameters):
+        return None  # out of bounds
+    (first, *_) = actions
+    own = [say_name(one.name) for one in first.parameters]
+    name = say_name(first.name)
+    if own:
+        what = message("'{action}' has no such parameter; it has: {parameters}", action=name, parameters=listed(own))
+    else:
+        what = message("'{action}' has no parameters", action=name)
+    return Impossible(what, message("leave it out, or say it of an action that has it"))
+
+
+@construction("WAITV [FOR] time=amount", "STAYV [FOR] time=amount")
+def too_long(time: Amount) -> Impossible | None:
+    """Compose "wait for 30 hours"."""
+    if time.unit != "seconds" or 0.0 < time.number <= LONGEST_WAIT_S:
+        return None
+    return Impossible(message("a wait lasts at most 24 hours"), message("say a shorter time, or plan two missions"))

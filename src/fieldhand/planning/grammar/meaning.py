@@ -174,6 +174,46 @@ class Thing:
     more: bool = False
 
 
+#: Beginning of the action of a wait, which is read as a capture and becomes a wait when the plan is complete.
+_WAIT = "wait for "
+
+
+def wait_thing(seconds: float) -> Thing:
+    """Return a wait as what is done at a place."""
+    return Thing(f"{_WAIT}{seconds!r}", count=1)
+
+
+def wait_seconds(action: str) -> float | None:
+    """Return the seconds of the action of a wait; None for an action of the robot."""
+    return float(action.removeprefix(_WAIT)) if action.startswith(_WAIT) else None
+
+
+@dataclass(frozen=True, slots=True)
+class SettleClause:
+    """A wait before each capture of some actions; of all, if the phrase names none (``LAST_THING``)."""
+
+    seconds: float
+    actions: tuple[str, ...]
+    used: int
+
+
+@dataclass(frozen=True, slots=True)
+class PaceClause:
+    """A driving speed.
+
+    Attributes:
+        speed: Metres per second; 0 if the phrase does not say it ("slowly").
+        used: Tokens of the phrase.
+        at_most: True if the phrase only forbids to drive faster.
+        slowly: True for "slowly" without a number.
+    """
+
+    speed: float
+    used: int = 0
+    at_most: bool = False
+    slowly: bool = False
+
+
 @dataclass(frozen=True, slots=True)
 class CaptureCommand:
     """A command to capture something, at a place or where the robot is.
@@ -214,6 +254,7 @@ class DriveCommand:
         picks: True if the places are only chosen ("take three trees").
         ends: True if nothing is done behind it ("ending at the charger").
         instead: True if what another case has is done there ("go five trees south instead").
+        pace: Speed of the drive, if the phrase says it ("drive slowly to tree 4").
     """
 
     place: PlaceMeaning
@@ -224,6 +265,7 @@ class DriveCommand:
     along: Along = ""
     ends: bool = False
     instead: bool = False
+    pace: PaceClause | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -613,6 +655,8 @@ Command = (
     | InTurn
     | Correction
     | Reordered
+    | PaceClause
+    | SettleClause
 )
 
 

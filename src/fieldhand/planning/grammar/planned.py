@@ -50,6 +50,8 @@ class Meant:
     Attributes:
         plan: Plan.
         limits: Budgets and reserves.
+        speed_m_s: Highest driving speed of the mission; None for the robot's.
+        speed_said: Spans of the request that say it.
         nominal: How the mission ends; None if the request does not say so.
         nominal_said: Spans of the request that say it.
         no_part: Spans of the request that ask for nothing.
@@ -61,6 +63,8 @@ class Meant:
 
     plan: p.Node
     limits: tuple[LimitPhrase, ...] = ()
+    speed_m_s: float | None = None
+    speed_said: tuple[p.Span, ...] = ()
     nominal: Then | None = None
     nominal_said: tuple[p.Span, ...] = ()
     no_part: tuple[p.Span, ...] = ()
@@ -85,7 +89,7 @@ def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> O
             Resource(kind="robot", name=robot.name, sha256=robot.sha256),
             Resource(kind="site", name=site.name, sha256=site.sha256),
         ),
-        constraints=_constraints(meant.limits),
+        constraints=_with_speed(_constraints(meant.limits), meant),
         nominal=nominal,
         nominal_said=meant.nominal_said,
         no_part=tuple((start, end) for start, end in meant.no_part if re.search(r"\w", request[start:end])),
@@ -115,6 +119,13 @@ def _constraints(limits: Iterable[LimitPhrase]) -> Constraints:
             known = budgets.get(kind, Budget(kind=kind, limit=limit.amount))
             budgets[kind] = replace(known, limit=min(limit.amount, known.limit), said=(*known.said, limit.said))
     return Constraints(budgets=tuple(budgets.values()), reserve_percent=reserve, reserve_said=reserve_said)
+
+
+def _with_speed(constraints: Constraints, meant: Meant) -> Constraints:
+    if meant.speed_m_s is None:
+        return constraints
+    said = (*constraints.reserve_said, *meant.speed_said)
+    return replace(constraints, speed_m_s=meant.speed_m_s, reserve_said=said)
 
 
 def _impossible_limits(limits: Iterable[LimitPhrase]) -> Iterable[Reason]:

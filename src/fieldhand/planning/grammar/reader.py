@@ -494,6 +494,8 @@ def _meant(reading: RequestReading, request: str) -> Meant:
     return Meant(
         plan=plan,
         limits=limits,
+        speed_m_s=None if state.speed is None else state.speed.pace.speed,
+        speed_said=() if state.speed is None else state.speed.said,
         nominal=state.nominal,
         nominal_said=state.nominal_said,
         no_part=tuple(no_part),
@@ -517,7 +519,7 @@ def _same(one: Meant, other: Meant) -> bool:
     """Return True if two meanings differ only by the words that say them."""
     return (
         _unsaid(one.plan) == _unsaid(other.plan)
-        and one.nominal == other.nominal
+        and (one.nominal, one.speed_m_s) == (other.nominal, other.speed_m_s)
         and [(limit.amount, limit.unit, limit.keep) for limit in one.limits]
         == [(limit.amount, limit.unit, limit.keep) for limit in other.limits]
     )

@@ -30,6 +30,11 @@ _NEARER = 6
 #: A gate belongs to open ground within half its width plus this many clearances.
 _FROM_GATE = 2.0
 
+#: Direction of each side of a tree, east and north.
+_COMPASS: dict[str, tuple[float, float]] = {
+    "north": (0.0, 1.0), "east": (1.0, 0.0), "south": (0.0, -1.0), "west": (-1.0, 0.0),
+}  # fmt: skip
+
 #: Number of directions tried for approaching a tree in no row.
 _DIRECTIONS = 16
 
@@ -70,6 +75,8 @@ class StandCandidates:
     def of(self, place: Place) -> tuple[Candidate, ...]:
         """Return a candidate on either side of a tree in a row, or the position of any other place.
 
+        A place with a side has a single candidate, on that side.
+
         The stand of a gate, which lies on a fence, is the nearest open ground. On a site without rows the stand of a
         tree is its own position. On a site with rows, a tree in no row is approached from its most open side.
         """
@@ -84,9 +91,36 @@ class StandCandidates:
         for row in np.unique(rows[rows >= 0]).tolist():
             self._find(new[rows == row], *self._line_of[row])
         return [
-            (self._candidate(p),) if tree is None else self._candidates[tree]
+            (self._beside_open(p),)
+            if self._is_open(p)
+            else (self._candidate(p),)
+            if tree is None
+            else self._on_side(p, tree, self._candidates[tree])
             for p, tree in zip(places, trees, strict=True)
         ]
+
+    def _is_open(self, place: Place) -> bool:
+        """Return True for a side of a tree that stands in no row, whose stand is to be chosen."""
+        tree = self._site.by_id.get(place.id) if place.side and place.stand is None else None
+        return tree is not None and (not self._layout.aisles.groups or self._site.planting.row_of[tree.index] < 0)
+
+    def _on_side(self, place: Place, tree: int, candidates: tuple[Candidate, ...]) -> tuple[Candidate, ...]:
+        """Return the candidates of a tree in a row that lie on the side of the place."""
+        if not place.side:
+            return candidates
+        group, _ = self._line_of[int(self._site.planting.row_of[tree])]
+        east, north = self._layout.aisles.groups[group].frame.across
+        to_east, to_north = _COMPASS[place.side]
+        return candidates[1:] if east * to_east + north * to_north > 0.0 else candidates[:1]
+
+    def _beside_open(self, place: Place) -> Candidate:
+        """Return the stand beside a tree in no row, in the direction of the place's side."""
+        to_east, to_north = _COMPASS[place.side]
+        off = self._standoff_m * np.linspace(1.0, 0.0, _NEARER, endpoint=False)[:, None]
+        tried = np.array(place.xy) + off * np.array([to_east, to_north])
+        apart = self._trees.nearest_few(tried, 2)[0].min(axis=1)
+        clear = self._layout.is_clear(tried) & (apart >= min(self._clearance_m, float(off[-1, 0])) * 0.999)
+        return Candidate(_xy(tried[int(np.argmax(clear))]), None, "" if clear.any() else self._in_the_way(tried[0]))
 
     def _candidate(self, place: Place) -> Candidate:
         """Return the only stand of a place other than a tree: its own, its position, or the ground near a gate."""

@@ -70,6 +70,7 @@ _BY_FIELD: dict[str, st.SearchStrategy[Any]] = {
     "limit": st.floats(0, 1e6, exclude_min=True),
     "failure_probability": st.floats(0, 1, exclude_min=True, exclude_max=True),
     "reserve_percent": st.floats(0, 100, exclude_max=True),
+    "seconds": st.floats(0, 86400, exclude_min=True),
     "speed_m_s": st.floats(0.01, 20),
     "every_min": st.integers(0, 1440),
     "every_days": st.integers(1, 366),

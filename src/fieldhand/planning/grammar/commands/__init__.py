@@ -11,16 +11,20 @@ from fieldhand.planning.grammar.commands import (
     driving,
     exclusions,
     limits,
+    pace,
     parameters,
     requests,
+    sides,
     spacing,
     things,
+    waits,
 )
 
 #: The constructions of all themes. Of readings that cost the same, the one composed first is kept, so the order counts.
 GRAMMAR = Grammar()
 _THEMES = (
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, requests, exclusions,
+    waits, pace, sides,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)

@@ -27,12 +27,14 @@ from fieldhand.planning.grammar.meaning import (
     LimitClause,
     LinkedCommand,
     Otherwise,
+    PaceClause,
     PassOn,
     PlaceMeaning,
     RankCommand,
     ReadingQuestion,
     Reordered,
     Said,
+    SettleClause,
     StopCommand,
     Test,
     Thing,
@@ -48,7 +50,7 @@ GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
 #: Clauses that a command may follow without a connective.
-_LEADS_ON = When | Otherwise | Lead | LimitClause | Allowed | InAnOrder | Failing | After
+_LEADS_ON = When | Otherwise | Lead | LimitClause | Allowed | InAnOrder | Failing | After | PaceClause | SettleClause
 
 
 @construction(
@@ -73,6 +75,8 @@ _LEADS_ON = When | Otherwise | Lead | LimitClause | Allowed | InAnOrder | Failin
     "command: one=question",
     "command: one=failing",
     "command: one=reordered",
+    "command: one=pace",
+    "command: one=settle",
     cost=0.0,
 )
 def command(one: Command) -> Command:

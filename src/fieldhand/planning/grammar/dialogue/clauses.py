@@ -33,6 +33,7 @@ from fieldhand.planning.grammar.dialogue.faults import Fork
 from fieldhand.planning.grammar.dialogue.fitting import in_area, is_spoken_of
 from fieldhand.planning.grammar.dialogue.fragments import assembled
 from fieldhand.planning.grammar.dialogue.likewise import anchors, with_known_place
+from fieldhand.planning.grammar.dialogue.paces import paced, paced_drive, with_paces
 from fieldhand.planning.grammar.dialogue.plans import (
     EMPTY,
     as_for_each,
@@ -51,6 +52,7 @@ from fieldhand.planning.grammar.dialogue.state import (
 )
 from fieldhand.planning.grammar.dialogue.totals import with_total
 from fieldhand.planning.grammar.dialogue.turns import as_meant
+from fieldhand.planning.grammar.dialogue.waits import waited, with_settling
 from fieldhand.planning.grammar.meaning import (
     LAST_THING,
     After,
@@ -70,17 +72,20 @@ from fieldhand.planning.grammar.meaning import (
     LimitClause,
     LinkedCommand,
     Otherwise,
+    PaceClause,
     PassOn,
     PlaceMeaning,
     RankCommand,
     ReadingQuestion,
     Reordered,
     Said,
+    SettleClause,
     StopCommand,
     Total,
     UntilCondition,
     VisitLimit,
     When,
+    wait_seconds,
 )
 from fieldhand.planning.selections import (
     AREAS,
@@ -143,7 +148,7 @@ def read_clauses(setting: Setting, said: Said, *, in_fragments: bool = False) ->
             state = _read(setting, state, clause, clauses[k + 1 :])
         except NotComposed as fault:
             raise fault.about(clause.command.used) from None
-    return _ended(with_order_kept(setting, capture_elided(setting, state)))
+    return with_paces(setting, with_settling(setting, _ended(with_order_kept(setting, capture_elided(setting, state)))))
 
 
 def _ended(state: DialogueState) -> DialogueState:
@@ -235,6 +240,8 @@ def _read(
         state = with_joints(state, setting.spans_of(joint.used))
     match command:
         case CaptureCommand():
+            if all(wait_seconds(thing.action) is not None for thing in command.things):
+                return waited(setting, state, command, joint)
             if command.instead and not _is_another_case(state):
                 raise NotComposed(message("it is not clear what is not done then", context="fault"))
             if state.lead is not None and not state.lead.relation and (joint is None or joint.both):
@@ -265,6 +272,8 @@ def _read(
             if command.ends and any(not isinstance(one.command, LimitClause) for one in following):
                 raise NotComposed(message("something follows the end of the mission", context="fault"))
             driven = drive(setting, state, command)
+            if command.pace is not None:
+                driven = paced_drive(setting, state, driven, command.pace)
             return _same_there(setting, state, driven, command, following) if command.instead else driven
         case Lead():
             if joint is not None and not (joint.full or joint.then or joint.both):
@@ -289,6 +298,10 @@ def _read(
             return replace(otherwise(setting, state, said, in_all=command.in_all), runs_on=runs_on)
         case LimitClause():
             return _limit(setting, state, command)
+        case PaceClause():
+            return paced(setting, state, command, following)
+        case SettleClause():
+            return replace(state, settles=(*state.settles, command))
         case Allowed():
             return allowed(setting, state, command, _rest_of_sentence(following), joint)
         case UntilCondition():

@@ -20,6 +20,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
     is_conditional,
     is_inside,
     last_capture,
+    measured,
     node_at,
     walk,
     with_node,
@@ -186,7 +187,7 @@ def _is_other_end(last: AllTests, tests: AllTests) -> bool:
 def _may_be_of(state: DialogueState, path: Path, tests: AllTests, robot: RobotProfile) -> bool:
     """Return True if the thresholds of tests are of the size of what a capture measures."""
     act = node_at(state.plan, path).act
-    measures = () if act is None else robot.action[act.action].measures
+    measures = () if act is None else measured(robot, act.action)
     return bool(measures) and all(_is_plausible(test, measures[0], robot) for test in tests.tests)
 
 
@@ -263,8 +264,8 @@ def _named_quantity(setting: Setting, command: CaptureWhere) -> AllTests:
         return command.tests
     if tests[0].check == "level":
         return command.tests  # "hot" of the air, or of the canopy?
-    measured = dict.fromkeys(name for action in setting.robot.actions for name in action.measures)
-    names = [name for name in measured if setting.robot.quantity[name].unit == tests[0].unit]
+    known = dict.fromkeys(name for action in setting.robot.actions for name in action.measures)
+    names = [name for name in known if setting.robot.quantity[name].unit == tests[0].unit]
     if not names:
         return command.tests
     name = setting.either("what is measured?", command.used, names)
@@ -380,10 +381,10 @@ def _decide_last_at_each(setting: Setting, state: DialogueState, command: When, 
 
 def _with_tested_thing(setting: Setting, state: DialogueState, command: When) -> DialogueState:
     """Return the state in which "it" is the chosen one of several readings that were taken at once."""
-    measured = [thing for thing in state.things if setting.robot.action[thing.action].measures]
-    if len(measured) < 2:
+    measuring = [thing for thing in state.things if measured(setting.robot, thing.action)]
+    if len(measuring) < 2:
         return state
-    thing = setting.either("which reading is tested?", command.used, measured)
+    thing = setting.either("which reading is tested?", command.used, measuring)
     taken = [
         path
         for path, node in walk(state.plan)

@@ -16,8 +16,10 @@ from fieldhand.planning.grammar.meaning import (
     InAnOrder,
     Lead,
     LimitClause,
+    PaceClause,
     PlaceMeaning,
     RankCommand,
+    SettleClause,
     Thing,
 )
 from fieldhand.robot.model import RobotProfile
@@ -79,6 +81,25 @@ class Setting:
 
 
 @dataclass(frozen=True)
+class SaidPace:
+    """A driving speed that was said.
+
+    Attributes:
+        pace: The speed.
+        said: Spans that say it.
+        step: Index of the step of the plan that it stands with.
+        of_drive: True if it is the speed of one drive.
+        of_all: True if it is said of the whole mission.
+    """
+
+    pace: PaceClause
+    said: Spans
+    step: int
+    of_drive: bool = False
+    of_all: bool = False
+
+
+@dataclass(frozen=True)
 class DialogueState:
     """The plan of the clauses read so far, and what later ones can refer to.
 
@@ -113,6 +134,9 @@ class DialogueState:
         joints: Spans of the connectives.
         ranking: Trees that were ranked.
         edits: What corrections change in the request.
+        paces: Driving speeds, with the parts of the plan that they may be of.
+        settles: Waits before captures.
+        speed: Driving speed of the whole mission, when all clauses are read.
         runs_on: True if the last "otherwise" stands in a text without a mark that shows where its case ends.
     """
 
@@ -148,6 +172,9 @@ class DialogueState:
     assumed: tuple[str, ...] = ()
     runs_on: bool = False
     edits: Edits = ()
+    paces: tuple[SaidPace, ...] = ()
+    settles: tuple[SettleClause, ...] = ()
+    speed: SaidPace | None = None
 
     @property
     def block(self) -> p.InOrder:

@@ -18,6 +18,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
     captures_at_last_place,
     is_conditional,
     is_inside,
+    measured,
     node_at,
     walk,
     with_node,
@@ -149,7 +150,7 @@ def _of_reading(setting: Setting, state: DialogueState, test: Test) -> tuple[c.C
     act = None if path is None else node_at(state.plan, path).act
     if path is None or act is None:
         raise NotComposed(message("nothing before it measures that", context="fault"))
-    measures = robot.action[act.action].measures
+    measures = measured(robot, act.action)
     quantity = "" if test.quantity.startswith(NTH_READING) else test.quantity
     quantity = quantity or (measures[0] if measures else "")
     if quantity not in measures:
@@ -225,7 +226,7 @@ def _fits(node: p.Node, test: Test, robot: RobotProfile) -> bool:
     """Return True if a capture measures what is tested."""
     if node.act is None:
         return False
-    measures = robot.action[node.act.action].measures
+    measures = measured(robot, node.act.action)
     if not set(test.setting) <= set(node.act.parameters):
         return False
     if test.quantity:
@@ -311,6 +312,6 @@ def reading_before(plan: p.InOrder, before: Path, robot: RobotProfile) -> Path |
     for path, node in walk(plan):
         if is_inside(path, before):
             break
-        if node.act is not None and robot.action[node.act.action].measures and not is_conditional(path):
+        if node.act is not None and measured(robot, node.act.action) and not is_conditional(path):
             found = path
     return found
