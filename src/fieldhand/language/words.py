@@ -111,6 +111,8 @@ def say_place(kind: str, name: str) -> str:
     """Return a place in the form that follows "at": "tree 12", "the end"."""
     if kind == "tree":
         return message("tree {id}", context="log", id=name)
+    if kind == "gap":
+        return name
     return message("the {role}", context="log", role=named(name, "role"))
 
 
