@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from fieldhand.language import message
+from fieldhand.language import counted, message
 from fieldhand.language.words import say_name, say_number
 from fieldhand.places.count_range import CountRange, at_most
 from fieldhand.places.filters.attribute_words import say_attribute
@@ -62,13 +62,21 @@ class Quota(FromGroup):
         return of_each_group(outside_keep_outs(of, notes), self, notes)
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:
-        group = wording.phrase(self.of)
-        amount = message("{percent} %", percent=say_number(self.percent)) if self.percent else self.count
-        if self.per:
-            text = message("{count} of {trees} per {group}", count=amount, trees=group.group(), group=self._group)
-        else:
-            text = message("{count} of {trees}", count=amount, trees=group.group())
-        return many(message("{trees}, {chosen}", trees=text, chosen=self._chosen))
+        return many(message("{trees}, {chosen}", trees=self._amount(wording.phrase(self.of)), chosen=self._chosen))
+
+    def _amount(self, group: NounPhrase) -> str:
+        """Return how many of which trees, without how they are chosen."""
+        if self.percent:
+            percent = say_number(self.percent)
+            if self.per:
+                return message(
+                    "{percent} % of {trees} per {group}", percent=percent, trees=group.group(), group=self._group
+                )
+            return message("{percent} % of {trees}", percent=percent, trees=group.group())
+        if not self.per:
+            return message("{count} of {trees}", count=self.count, trees=group.group())
+        each = counted("{count} tree per {group}", "{count} trees per {group}", self.count, group=self._group)
+        return each if group.plain else message("{each}, of {trees}", each=each, trees=group.group())
 
     @property
     def size(self) -> CountRange:

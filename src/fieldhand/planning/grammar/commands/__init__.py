@@ -13,6 +13,7 @@ from fieldhand.planning.grammar.commands import (
     limits,
     parameters,
     requests,
+    sampling,
     spacing,
     things,
 )
@@ -21,6 +22,7 @@ from fieldhand.planning.grammar.commands import (
 GRAMMAR = Grammar()
 _THEMES = (
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, requests, exclusions,
+    sampling,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)
