@@ -183,7 +183,7 @@ class ForEachVisits:
         if node.optional and far:
             self._give_up(far, "no way to it is left: obstacles that the robot found block it")
             far = ()
-        open_ = [replace(p, stand=None) if p.kind == "tree" else p for p in near]
+        open_ = [replace(p, stand=None) if p.planted else p for p in near]
         ordered = with_stands(mission.drives, mission.standing, open_)
         if node.order == "best" and not node.optional:
             ordered = tuple(ordered[k] for k in order_visits(mission.drives, mission.standing, ordered, self._home()))

@@ -113,6 +113,8 @@ def say_place(kind: str, name: str, side: str = "") -> str:
         return message("the {side} side of tree {id}", context="log", side=COMPASS[side], id=name)
     if kind == "tree":
         return message("tree {id}", context="log", id=name)
+    if kind == "gap":
+        return name
     return message("the {role}", context="log", role=named(name, "role"))
 
 

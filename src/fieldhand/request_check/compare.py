@@ -196,4 +196,6 @@ def _by_itself(facts: RequestFacts, number: PlannedNumber) -> bool:
     """Return True if a number follows without being stated, such as one row of "each row"."""
     if number.selector is InRow and facts.words & _PARTS:
         return True  # the trees of the first half of a row
+    if number.field == "legs" and facts.words.isdisjoint(w.LEGS):
+        return True  # a V has two legs, an N three, a diagonal one
     return facts.vague or (number.selector is Rows and bool(facts.words & {"each", "every", "all", "per"}))

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from itertools import takewhile
 
 from fieldhand.language import Number, message
 from fieldhand.request_check.amounts import StatedAmount
 from fieldhand.request_check.mismatch import PlanMismatch
 from fieldhand.request_check.plan_facts import PlanFacts
 from fieldhand.request_check.request_facts import RequestFacts
-from fieldhand.request_check.words import quoted, words_in
+from fieldhand.request_check.words import TREES, quoted, words_in
 from fieldhand.task.frames import BudgetKind
 
 _KINDS: dict[BudgetKind, tuple[str, str]] = {
@@ -36,7 +37,9 @@ _WAITS = words_in(
     "wait waits waiting pause pauses pausing linger lingering dwell settle settling stay staying stop stopping"
 )
 _NEAR = 4
-_PARTS = {"half": 0.5, "quarter": 0.25, "third": 1 / 3}
+_PARTS = {
+    "half": 0.5, "quarter": 0.25, "third": 1 / 3, "fifth": 0.2, "tenth": 0.1, "thirds": 2 / 3, "quarters": 0.75,
+}  # fmt: skip
 
 
 def limit_mismatches(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
@@ -44,6 +47,7 @@ def limit_mismatches(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMisma
     for amount in facts.amounts:
         if amount.kind == "percent":
             yield from _battery(facts, plan, amount)
+            yield from _share(facts, plan, amount)
         elif amount.kind in ("time", "length"):
             yield from _dropped(facts, plan, amount)
         elif amount.kind == "speed" and not _drives(plan, amount.values[0]):
@@ -76,6 +80,19 @@ def _battery(facts: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> Iter
         yield PlanMismatch(
             kind="limit",
             what=message("the request limits the battery by '{amount}', but the plan does not", amount=amount.words),
+        )
+
+
+def _share(facts: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> Iterator[PlanMismatch]:
+    """Yield a share of the trees in the request that the plan lacks ("10 % of the vines")."""
+    near = [token.text for token in facts.tokens[amount.index + 1 : amount.index + 8]]
+    behind = list(takewhile(lambda word: word not in ".,;:!?", near))
+    if "of" not in behind[:2] or TREES.isdisjoint(behind) or BATTERY & set(behind) or facts.negated(amount.index):
+        return
+    if not any(number.kind == "percent" and _close(number.value, amount.values[0]) for number in plan.numbers):
+        yield PlanMismatch(
+            kind="count",
+            what=message("the request says '{amount}', which the plan does not contain", amount=amount.words),
         )
 
 
@@ -178,6 +195,16 @@ def _invented(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
             node=node,
         )
     for number in plan.numbers:
+        if number.kind == "percent" and not any(_close(number.value, x) for x in _stated(facts, "percent")):
+            yield PlanMismatch(
+                kind="count",
+                what=message(
+                    "the plan holds {number} % ({what}), which the request does not mention",
+                    number=Number(f"{number.value:g}"),
+                    what=number.what,
+                ),
+                node=number.node,
+            )
         if number.kind == "length" and not any(_close(number.value, x) for x in _stated(facts, "length")):
             yield PlanMismatch(
                 kind="distance",

@@ -78,13 +78,13 @@ class PlannedTest:
 
 @dataclass(frozen=True, kw_only=True)
 class PlannedNumber:
-    """A whole number or distance in a selector or node that differs from the default.
+    """A whole number, share or distance in a selector or node that differs from the default.
 
     Attributes:
         node: Id of the node.
         what: Name of the number, for messages.
         value: The number.
-        kind: ``count`` for a whole number, ``length`` for metres.
+        kind: ``count`` for a whole number, ``length`` for metres, ``percent`` for a share of a group.
         field: Field of the selector or the node.
         selector: Class of the selector; None for a number of the node itself.
     """
@@ -92,7 +92,7 @@ class PlannedNumber:
     node: str
     what: str
     value: float
-    kind: Literal["count", "length"]
+    kind: Literal["count", "length", "percent"]
     field: str
     selector: type[Selector] | None = None
 
@@ -309,6 +309,6 @@ def _numbers(nodes: tuple[p.Node, ...], selectors: tuple[tuple[str, Selector], .
             what = re.sub("[-_]", " ", f"{element_name(type(x))} {field.name}")
             number = partial(PlannedNumber, node=name, what=what, field=field.name, selector=type(x))
             if isinstance(value, float):
-                yield number(value=value, kind="length")
+                yield number(value=value, kind="percent" if field.name == "percent" else "length")
             elif isinstance(value, int) and abs(value) > 1:
                 yield number(value=abs(value), kind="count")

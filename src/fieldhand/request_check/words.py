@@ -106,6 +106,8 @@ TREES = words_in("""
     locations site sites position positions ones them these those
     """)
 CORNERS = frozenset({"corner", "corners"})
+#: Words for the legs of a zigzag.
+LEGS = words_in("leg legs segment segments stroke strokes")
 ROWS = frozenset({"row", "rows"})
 #: Words that end the noun phrase that a number counts.
 ENDS_PHRASE = words_in("""

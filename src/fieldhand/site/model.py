@@ -25,19 +25,19 @@ from fieldhand.terms import Side, Value
 #: Sample size for the median tree spacing; the median of this many trees differs from that of all by about 1 mm.
 _ENOUGH_TREES = 5_000
 
-PlaceKind = Literal["tree", "marker", "point"]
+PlaceKind = Literal["tree", "marker", "point", "gap"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Place:
-    """A position that a robot can be sent to: a tree, a marker or a free point.
+    """A position that a robot can be sent to: a tree, a marker, a free point or an empty position of a row.
 
     Attributes:
-        id: Id of the tree, name of the marker, or name of the point.
+        id: Id of the tree, name of the marker, name of the point or of the gap.
         x, y: Metres east and north in the site's projection.
         lat, lon: Degrees, WGS 84.
         stand: Position from which the robot works on the place, in metres; None until :mod:`fieldhand.site.drives`
-            chooses it. A robot works on a tree from the aisle beside it.
+            chooses it. A robot works on a tree, or on the gap that a missing one left, from the aisle beside it.
         side: Side of the tree on which the stand has to lie; empty for any.
     """
 
@@ -81,6 +81,11 @@ class Place:
 
     def _suits(self, wanted: Place) -> bool:
         return wanted.side in ("", self.side)
+
+    @property
+    def planted(self) -> bool:
+        """True for a tree or a gap, which are worked on from one of several stands."""
+        return self.kind in ("tree", "gap")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

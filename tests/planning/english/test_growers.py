@@ -18,7 +18,7 @@ import pytest
 from fieldhand.approval.account import unaccounted
 from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve
-from fieldhand.places.selectors import Evenly, RandomSample, Successive
+from fieldhand.places.selectors import Evenly, Quota, RandomSample, Successive
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Clarify, Outcome, Planned, Refused
 from fieldhand.robot.loader import load_robot
@@ -129,7 +129,8 @@ def test_a_draw_is_of_the_vines_that_are_meant_and_not_of_the_nearest(
     assert len({v.id for v in drawn}) == count
     assert all(is_meant(v) for v in drawn)
     selectors = [node.selector for node in walk(outcome.task.composition.plan)]
-    assert any(isinstance(part, RandomSample) for s in selectors if s is not None for part in s.walk())
+    parts = [part for s in selectors if s is not None for part in s.walk()]
+    assert any(isinstance(part, RandomSample) or (isinstance(part, Quota) and part.how == "random") for part in parts)
     assert outcome == outcome_of(request_)
     if count >= 10:
         assert max(v.y for v in drawn) - min(v.y for v in drawn) > 20.0

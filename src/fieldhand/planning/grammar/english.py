@@ -149,6 +149,9 @@ def more_words() -> Mapping[Phrase, tuple[NameEntry, ...]]:
         found[split(phrase)].append(NameEntry(kind="SUPER", value=tuple(value)))
     for phrase, part in own["parts"].items():
         found[split(phrase)].append(NameEntry(kind="PART", value=part))
+    for kind, routes in own["routes"].items():
+        for phrase, route in routes.items():
+            found[split(phrase)].append(NameEntry(kind=kind, value=tuple(route)))
     for phrase, value in own["bounds"].items():
         found[split(phrase)].append(NameEntry(kind="BOUND", value=tuple(value)))
     for check, phrases in own["bare_comparisons"].items():

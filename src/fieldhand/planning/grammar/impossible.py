@@ -119,10 +119,10 @@ def points_outside_zones(where: s.Selector) -> Impossible | None:
 
 @construction("NUM RANDOM POINT")
 def points_at_random() -> Impossible:
-    """Compose "3 random points"."""
+    """Compose "3 random points" of no zone."""
     return Impossible(
-        message("points are spread evenly over a zone, not at random"),
-        message("say 'at 3 points', or '3 random trees'"),
+        message("random points are drawn in a zone"),
+        message("name the zone: '3 random points in the wet corner', or say '3 random trees'"),
     )
 
 
@@ -189,10 +189,19 @@ def without_a_value() -> Impossible:
 
 @construction("GRID")
 def on_a_grid() -> Impossible:
-    """Compose "on a grid"."""
+    """Compose "on a grid", which does not say how wide it is."""
     return Impossible(
-        message("places on a grid are not possible yet"),
-        message("say 'ten trees spread over the orchard', or 'every fifth tree of every other row'"),
+        message("it does not say how wide the grid is"),
+        message("say 'on a 20 m grid'; its cells are squares"),
+    )
+
+
+@construction("path_over")
+def along_a_path() -> Impossible:
+    """Compose "in a W", which does not say at how many places."""
+    return Impossible(
+        message("it does not say at how many places along the path"),
+        message("say '20 trees in a W through the north block', or 'every 10 m along a zigzag'"),
     )
 
 

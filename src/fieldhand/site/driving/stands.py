@@ -14,6 +14,7 @@ from shapely.ops import nearest_points
 from fieldhand.site.driving.aisles import Aisle
 from fieldhand.site.driving.graph import Indices, Points
 from fieldhand.site.driving.layout import XY, Layout
+from fieldhand.site.gaps import empty_positions
 from fieldhand.site.model import Gate, Place, Site
 from fieldhand.site.point_index import PointIndex
 
@@ -57,7 +58,7 @@ class Candidate:
 
 
 class StandCandidates:
-    """Candidates for the stands of a site's trees.
+    """Candidates for the stands of a site's trees and gaps.
 
     Args:
         site: The site.
@@ -86,7 +87,7 @@ class StandCandidates:
         """Return the candidates of each of the places, cached."""
         trees = [self._open_tree(p) for p in places]
         new = np.array([k for k in dict.fromkeys(trees) if k is not None and k not in self._candidates], dtype=np.intp)
-        rows = self._site.planting.row_of[new]
+        rows = self._row_of[new]
         self._candidates.update(zip(new[rows < 0].tolist(), self._open_sides(new[rows < 0]), strict=True))
         for row in np.unique(rows[rows >= 0]).tolist():
             self._find(new[rows == row], *self._line_of[row])
@@ -138,11 +139,35 @@ class StandCandidates:
         return {gate.place.xy: gate for gate in self._site.gates}
 
     def _open_tree(self, place: Place) -> int | None:
-        """Return the index of a tree whose stand is to be chosen; None for any other place."""
-        if place.stand is not None or place.kind != "tree" or not self._layout.aisles.groups:
+        """Return the index of a tree whose stand is to be chosen, for a gap that after the trees; None for any other
+        place."""
+        if place.stand is not None or not place.planted or not self._layout.aisles.groups:
             return None
+        if place.kind == "gap":
+            return self._gap_index.get(place.xy)
         tree = self._site.by_id.get(place.id)
         return None if tree is None else tree.index
+
+    @cached_property
+    def _gap_index(self) -> dict[XY, int]:
+        """Return the index of each gap by its position, counted on from the trees."""
+        return {gap.xy: len(self._site.trees) + k for k, gap in enumerate(empty_positions(self._site).places)}
+
+    @cached_property
+    def _xy(self) -> Points:
+        """Return the positions of trees and gaps."""
+        return np.vstack([self._site.xy, empty_positions(self._site).xy])
+
+    @cached_property
+    def _row_of(self) -> Indices:
+        """Return the row of each tree and gap."""
+        return np.concatenate([self._site.planting.row_of, empty_positions(self._site).row])
+
+    @cached_property
+    def _rank(self) -> Indices:
+        """Return which tree of its row each is; of a gap, its neighbour."""
+        rank = self._site.planting.rank
+        return np.concatenate([rank, rank[empty_positions(self._site).before]])
 
     def _find(self, trees: Indices, group: int, line: int) -> None:
         """Compute the candidates of trees of one row, below and above it."""
@@ -170,7 +195,7 @@ class StandCandidates:
         lane = (group, min(line, other), max(line, other))
         if 0 <= other < len(within.lines):
             return self._in_aisle(trees, self._layout.aisles.of(group, min(line, other)), side, lane)
-        at = self._site.xy[trees]
+        at = self._xy[trees]
         away = side * self._across(trees, group, bent=True)
         room = self._free_way(at, away, {*within.lines[line].rows})
         off = np.minimum(self._standoff_m, room)
@@ -191,7 +216,7 @@ class StandCandidates:
         return Candidate(_xy(beside[0]), lane, self._in_the_way(beside[0]))
 
     def _in_aisle(self, trees: Indices, aisle: Aisle, side: int, lane: LaneKey) -> list[Candidate]:
-        frame, at = aisle.frame, self._site.xy[trees]
+        frame, at = aisle.frame, self._xy[trees]
         u, v = frame.local(at).T
         across = self._across(trees, lane[0], bent=not aisle.is_straight)
         lean = np.maximum(across[:, 0] * frame.across[0] + across[:, 1] * frame.across[1], 0.2)
@@ -231,8 +256,8 @@ class StandCandidates:
         if not bent:
             return across
         planting = self._site.planting
-        row = planting.rows[int(planting.row_of[trees[0]])].trees
-        rank = planting.rank[trees]
+        row = planting.rows[int(self._row_of[trees[0]])].trees
+        rank = self._rank[trees]
         near = [self._site.xy[row[np.clip(rank + step, 0, len(row) - 1)]] for step in (-_ALONG, _ALONG)]
         along = near[1] - near[0]
         length = np.hypot(*along.T)

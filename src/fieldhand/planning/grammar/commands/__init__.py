@@ -14,6 +14,7 @@ from fieldhand.planning.grammar.commands import (
     pace,
     parameters,
     requests,
+    sampling,
     sides,
     spacing,
     things,
@@ -24,7 +25,7 @@ from fieldhand.planning.grammar.commands import (
 GRAMMAR = Grammar()
 _THEMES = (
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, requests, exclusions,
-    waits, pace, sides,
+    sampling, waits, pace, sides,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)

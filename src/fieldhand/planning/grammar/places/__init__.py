@@ -17,6 +17,7 @@ from fieldhand.planning.grammar.places import (
     quantities,
     rounds,
     rows,
+    sampling,
     sets,
     spots,
     steps,
@@ -40,5 +41,6 @@ for _part in (
     choices,
     exceptions,
     sets,
+    sampling,
 ):
     GRAMMAR.include(_part.GRAMMAR)
