@@ -91,6 +91,14 @@ class SetReading:
 
 
 @dataclass(frozen=True, kw_only=True)
+class BeginSeries:
+    """Discard the readings of a series, which begins anew. Result: none."""
+
+    node: Node
+    reading: str
+
+
+@dataclass(frozen=True, kw_only=True)
 class Decide:
     """Evaluate a condition now. Result: True or False."""
 
@@ -144,6 +152,7 @@ Instruction = (
     | Capture
     | ForgetReading
     | SetReading
+    | BeginSeries
     | Decide
     | ArrangeSteps
     | BeginVisits
