@@ -317,6 +317,7 @@ def reading_is(
         negated=negated,
         place=subject.place or place,
         setting=subject.setting,
+        of=subject.of or test.of,
     )
 
 

@@ -102,7 +102,7 @@ def _last_readings(setting: Setting, state: DialogueState, test: Test) -> tuple[
     for number, step in enumerate(state.block.steps):
         if step.act is None:
             found = []
-        elif _fits(step, test, setting.robot):
+        elif fits(step, test, setting.robot):
             found.append((*state.scope, number))
     return state, found
 
@@ -160,11 +160,11 @@ def _of_reading(setting: Setting, state: DialogueState, test: Test) -> tuple[c.C
     if not act.reading:
         act = replace(act, reading=f"r{state.readings + 1}")
         state = replace(state, readings=state.readings + 1, plan=with_node(state.plan, path, act))
-    condition = _checked(test, act.reading, quantity, robot)
+    condition = checked(test, act.reading, quantity, robot)
     return (c.Not(condition=condition) if test.negated else condition), replace(state, captured=path)
 
 
-def _checked(test: Test, reading: str, quantity: str, robot: RobotProfile) -> c.Condition:
+def checked(test: Test, reading: str, quantity: str, robot: RobotProfile) -> c.Condition:
     """Return the condition of a test that is not negated.
 
     Raises:
@@ -203,7 +203,7 @@ def _nth_reading(setting: Setting, state: DialogueState, test: Test, number: int
     if state.block.steps and as_for_each(state.block.steps[-1]) is not None:
         state, measuring = _last_readings(setting, state, test)
     else:
-        measuring = [path for path, node in walk(state.plan) if _fits(node, test, setting.robot)]
+        measuring = [path for path, node in walk(state.plan) if fits(node, test, setting.robot)]
     if number == 1 and measuring:
         found = measuring[0]
     elif 1 < number <= len(measuring) or (number < 0 and len(measuring) > 1):
@@ -215,13 +215,13 @@ def _nth_reading(setting: Setting, state: DialogueState, test: Test, number: int
 
 def _last_reading(state: DialogueState, test: Test, robot: RobotProfile) -> Path | None:
     """Return the path of the last capture whose quantity and unit fit a test."""
-    if state.captured is not None and _fits(node_at(state.plan, state.captured), test, robot):
+    if state.captured is not None and fits(node_at(state.plan, state.captured), test, robot):
         return state.captured
-    fitting = [path for path, node in walk(state.plan) if _fits(node, test, robot)]
+    fitting = [path for path, node in walk(state.plan) if fits(node, test, robot)]
     return fitting[-1] if fitting else None
 
 
-def _fits(node: p.Node, test: Test, robot: RobotProfile) -> bool:
+def fits(node: p.Node, test: Test, robot: RobotProfile) -> bool:
     """Return True if a capture measures what is tested."""
     if node.act is None:
         return False
@@ -253,7 +253,7 @@ def readings_at(setting: Setting, state: DialogueState, test: Test) -> tuple[Dia
     where: s.Selector | None = None
     for number, step in enumerate(state.plan.steps):
         where = step.selector if step.selector is not None else where
-        if step.act is not None and where is not None and _fits(step, test, setting.robot):
+        if step.act is not None and where is not None and fits(step, test, setting.robot):
             taken.append(((number,), where, step.act))
     places = tuple(dict.fromkeys(place for _, place, _ in taken))
     meant = _place_meant(setting, places, test.place)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.places import (
     areas,
+    by_reading,
     choices,
     chosen,
     clauses,
@@ -40,5 +41,6 @@ for _part in (
     choices,
     exceptions,
     sets,
+    by_reading,
 ):
     GRAMMAR.include(_part.GRAMMAR)
