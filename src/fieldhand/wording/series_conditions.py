@@ -118,7 +118,7 @@ def _known(condition: MeanKnown, readings: str) -> str:
     if condition.value is not None:
         width = say_quantity(condition.value, condition.unit)
     else:
-        width = message("{number} %", number=say_number(condition.percent or 0.0))
+        width = message("{number} % of its value", number=say_number(condition.percent or 0.0))
     return message(
         "the mean of the readings of {readings} is known to within {width} (95 % confidence, {count} readings or more)",
         readings=readings,

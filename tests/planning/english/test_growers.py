@@ -92,8 +92,6 @@ Take a picture of every second vine in row 5 of the north block, but only on wee
 Take pictures of north block rows 1 and 2, slowly, at 0.3 m/s.
 Go to vine N250 and wait there for 10 minutes.
 Take a picture of vine N250, wait 30 seconds, and take another.
-Measure CO2 at vines N1, N2 and N3; if the average is above 450 ppm, take a picture of vine N4.
-Measure CO2 at every vine of row 5 of the north block. If the mean is above 450 ppm, take a picture of vine N4.
 Drive down rows 3 to 8 of the north block and spray.
 Mow between rows 10 and 14 of the north block.
 Count the grapes on 10 Syrah vines.

@@ -361,8 +361,16 @@ class AllTests:
 
     @property
     def of_series(self) -> bool:
-        """True if a statistic, a share or a comparison of several readings is tested."""
-        return isinstance(self.of_last, HowMany) or any(test.of for test in self.tests)
+        """True if what is tested is no reading by itself: a statistic, a share, or fewer than so many of several."""
+        return any(test.of for test in self.tests) or (isinstance(self.of_last, HowMany) and not self.at_least)
+
+    @property
+    def at_least(self) -> int:
+        """The number of readings of which at least so many have to pass; 0 for another test."""
+        if isinstance(self.of_last, HowMany):
+            more = {"gt": 1, "ge": 0}.get(self.of_last.check)
+            return 0 if more is None or self.of_last.percent else int(self.of_last.number) + more
+        return self.of_last if isinstance(self.of_last, int) else 0
 
 
 @dataclass(frozen=True, slots=True)

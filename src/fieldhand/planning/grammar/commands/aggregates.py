@@ -225,6 +225,8 @@ def side_of_place(place: PlaceMeaning, noun: Lex | None = None, word: Lex | None
     "test: first=side [IS] by=amount word=CMP second=side",
     "test: first=side [IS] more=CMP by=amount word=CMP second=side",
     "test: first=side [IS] ONAVERAGE word=CMP second=side",
+    "test: first=side [IS] word=CMP second=side ONAVERAGE",
+    "test: first=side [IS] by=amount word=CMP second=side ONAVERAGE",
     "test: IS first=side word=CMP second=side",
     cost=0.2,
 )

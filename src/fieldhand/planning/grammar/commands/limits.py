@@ -285,6 +285,8 @@ def at_word() -> str:
     "visit_limit: n=count TREE TOPS",
     "visit_limit: check=CMP n=count",
     "visit_limit: check=CMP n=count READING",
+    "visit_limit: check=CMP n=count TREE",
+    "visit_limit: check=UPTO n=count TREE",
     "visit_limit: check=CMP n=count TIMES",
     "visit_limit: check=UPTO n=count",
     "visit_limit: check=UPTO n=count READING",

@@ -98,7 +98,7 @@ def when(setting: Setting, state: DialogueState, command: When, following: Seque
     command = replace(command, tests=replace(command.tests, tests=tuple(plain)))
     tests = _for_each_place(state, command.tests, following)
     if is_of_series(state, tests):
-        return when_series(setting, state, replace(command, tests=tests), decides_last=decides_last)
+        return when_series(setting, state, replace(command, tests=tests), following, decides_last=decides_last)
     if len(command.tests.tests) > 1:
         state = _measured_at_several(setting, state, command)
     if command.measured_at is not None:
@@ -709,7 +709,7 @@ def _loop_around(state: DialogueState) -> Path | None:
 def until(setting: Setting, state: DialogueState, command: UntilCondition) -> DialogueState:
     """Return the state in which readings taken in the last for-each, or the readings at one place, end it."""
     tests = _of_quantity(setting, command.tests)
-    of_several = tests.of_series or isinstance(tests.of_last, int)
+    of_several = tests.of_series or tests.at_least > 0
     if of_several and state.within is None:
         said = setting.spans_of(command.used)
         if (repeated := until_series(setting, state, tests, said)) is not None:

@@ -15,6 +15,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
     as_for_each,
     block_at,
     is_conditional,
+    is_inside,
     node_at,
     walk,
     with_node,
@@ -36,6 +37,7 @@ from fieldhand.planning.grammar.meaning import (
     Command,
     DriveCommand,
     HowMany,
+    LinkedCommand,
     PlaceMeaning,
     Test,
     When,
@@ -62,7 +64,9 @@ def is_of_series(state: DialogueState, tests: AllTests) -> bool:
     return loop is not None and not named_places(loop.select)
 
 
-def when_series(setting: Setting, state: DialogueState, command: When, *, decides_last: bool) -> DialogueState:
+def when_series(
+    setting: Setting, state: DialogueState, command: When, following: Sequence[LinkedCommand], *, decides_last: bool
+) -> DialogueState:
     """Return the state after a condition on several readings, which stands behind all of them.
 
     Raises:
@@ -79,13 +83,38 @@ def when_series(setting: Setting, state: DialogueState, command: When, *, decide
         plan = replace(before.plan, steps=(*before.plan.steps, choice))
         made = replace(before, plan=plan, choice=(len(before.plan.steps),), decided=command.tests, loop=None)
         return replace(made, tested_at=(state.where, state.where_scope))
-    condition, state = series_condition(setting, state, command.tests)
-    scope = _scope_behind(state)
+    then = following[0].command if following else None
+    here = isinstance(then, CaptureCommand) and (then.place is None or then.place.shape == "here")
+    if here and (parted := _at_each_place(state)) is not None:
+        state, scope = parted
+        condition, state = until_condition(setting, state, command.tests, cast(Path, state.captured))
+    else:
+        if here and state.where is not None and state.where.shape != "one":
+            raise NotComposed(message("it is not clear at which of them this is done", context="fault"))
+        condition, state = series_condition(setting, state, command.tests)
+        scope = _scope_behind(state)
     path = (*scope, len(block_at(state.plan, scope).steps))
     state = with_step(replace(state, scope=scope), p.If(id="", condition=condition, then=EMPTY, said=said))
     tested_at = (state.where, state.where_scope)
     made = replace(state, scope=(*path, "then"), choice=path, decided=command.tests, open=True, tested_at=tested_at)
-    return replace(made, loop=None)
+    return made if here and state.loop is not None and is_inside(scope, state.loop) else replace(made, loop=None)
+
+
+def _at_each_place(state: DialogueState) -> tuple[DialogueState, Path] | None:
+    """Return the state with several captures at each place as rounds with a series of their own, and their block.
+
+    None if the last captures are not several at each of several places.
+    """
+    path = state.captured
+    act = None if path is None else node_at(state.plan, path).act
+    if path is None or act is None or act.count < 2 or act.reading or state.loop is None or path[:-1] != state.loop:
+        return None
+    name = f"r{state.readings + 1}"
+    body = p.InOrder(id="", steps=(replace(act, count=1, reading=name),))
+    rounds = p.Repeat(id="", times=act.count, body=body, collects=name, said=act.said)
+    plan = with_node(state.plan, path, rounds)
+    made = replace(state, plan=plan, readings=state.readings + 1, captured=(*path, "body", 0))
+    return made, state.loop
 
 
 def _scope_behind(state: DialogueState) -> Path:
@@ -367,6 +396,12 @@ def _with_least(until: c.Condition, most: int) -> c.Condition:
 # --- places -----------------------------------------------------------------------------------------------------------
 
 
+def is_by_reading(command: Command) -> bool:
+    """Return True for a command at places that readings of the plan determine."""
+    place = command.place if isinstance(command, CaptureCommand | DriveCommand) else None
+    return place is not None and place.like is not None and place.like.kind == "read"
+
+
 def with_read_place(setting: Setting, state: DialogueState, command: Command) -> tuple[DialogueState, Command]:
     """Return a command with a place that readings of the plan determine, and the state that names them.
 
@@ -374,20 +409,21 @@ def with_read_place(setting: Setting, state: DialogueState, command: Command) ->
         NotComposed: Which readings are meant is unclear.
     """
     place = command.place if isinstance(command, CaptureCommand | DriveCommand) else None
-    if place is None or place.like is None or place.like.kind != "read":
+    if place is None or place.like is None or not is_by_reading(command):
         return state, command
     chosen = cast(s.ByReading, place.selector)
     quantity = chosen.quantity
     if action := setting.robot.action.get(quantity):
         quantity = action.measures[0] if len(action.measures) == 1 else ""
-    test = Test(quantity, "gt", 0.0, place.like.side, of="maximum")
+    area = None if place.per is None else PlaceMeaning(place.per, "area")
+    test = Test(quantity, "gt", 0.0, place.like.side, of="maximum", place=area)
     try:
         paths = _paths(setting, state, test)
     except NotComposed as fault:
         raise _unmeasured(setting, quantity, place.like.side) from fault
     name, quantity, state = _named(setting, state, test, paths)
     known = replace(chosen, reading=name, quantity=quantity)
-    made: Any = replace(command, place=replace(place, selector=known, like=None))  # type: ignore[type-var]
+    made: Any = replace(command, place=replace(place, selector=known, like=None, per=None))  # type: ignore[type-var]
     return replace(state, loop=None), made
 
 

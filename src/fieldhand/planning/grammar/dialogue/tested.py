@@ -81,14 +81,14 @@ def of_several(setting: Setting, state: DialogueState, tests: AllTests) -> tuple
         NotComposed: Which readings are meant is unclear.
     """
     state, paths = _last_readings(setting, state, tests.tests[0])
-    if len(paths) < 2 or (tests.of_last == 1 or tests.of_last in range(len(paths) + 1, 100)):
+    if len(paths) < 2 or (tests.at_least == 1 or tests.at_least > len(paths)):
         raise NotComposed(message("it is not clear which readings are tested", context="fault"))
     made: list[c.Condition] = []
     for path in paths:
         one, state = _of_reading(setting, replace(state, captured=path), tests.tests[0])
         made.append(c.Not(condition=one) if tests.of_last == "none" else one)
-    if isinstance(tests.of_last, int):
-        groups = [c.AllOf(conditions=group) for group in combinations(made, tests.of_last)]
+    if tests.at_least:
+        groups = [c.AllOf(conditions=group) for group in combinations(made, tests.at_least)]
         return (groups[0] if len(groups) == 1 else c.AnyOf(conditions=tuple(groups))), state
     return (c.AnyOf if tests.of_last == "any" else c.AllOf)(conditions=tuple(made)), state
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from fieldhand.places import selectors as s
@@ -38,6 +39,9 @@ def read_noun(noun: Lex) -> bool:
     "place: DET most=MOSTREAD",
     "place: DET most=MOSTREAD several=read_noun",
     "place: DET most=MOSTREAD OFTHEALL",
+    "place: DET most=MOSTREAD OFTHEM",
+    "place: [DET] most=MOSTREAD n=count OFTHEM",
+    "place: [DET] n=count most=MOSTREAD OFTHEM",
     "place: DET most=MOSTREAD several=read_noun OFTHEALL",
     "place: [DET] most=MOSTREAD n=count",
     "place: [DET] most=MOSTREAD n=count several=read_noun",
@@ -55,7 +59,26 @@ def most_read(most: Lex, n: int = 1, several: bool | None = None) -> PlaceMeanin
 
 
 @construction(
-    "place: DET word=BARECMP OFTHEALL", "place: DET word=BARECMP ONE", "place: DET word=BARECMP TREE", cost=0.5
+    "place: DET most=MOSTREAD several=read_noun in_ where=region",
+    "place: DET most=MOSTREAD several=read_noun OF where=region",
+    "place: DET n=count most=MOSTREAD several=read_noun in_ where=region",
+    "place: DET n=count most=MOSTREAD several=read_noun OF where=region",
+    "place: DET most=MOSTREAD n=count several=read_noun in_ where=region",
+    "place: [DET] n=count most=MOSTREAD OF where=region",
+    cost=0.4,
+)
+def most_read_in(most: Lex, where: s.Selector, several: bool | None = None, n: int = 1) -> PlaceMeaning | None:
+    """Compose "the hottest vine of row 4", of readings that were taken there."""
+    place = most_read(most, n, several)
+    return None if place is None else replace(place, per=where)
+
+
+@construction(
+    "place: DET word=BARECMP OFTHEALL",
+    "place: DET word=BARECMP OFTHEM",
+    "place: DET word=BARECMP ONE",
+    "place: DET word=BARECMP TREE",
+    cost=0.5,
 )
 def more_read(word: Lex) -> PlaceMeaning | None:
     """Compose "the hotter of the two"."""
