@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class Aggregate:
-    """``condition`` is true of one value for all readings of its name so far: their mean, median, minimum or maximum,
-    or their range (the maximum minus the minimum)."""
+    """``condition`` is true of one value for all readings of its name so far, such as their mean or their range
+    (maximum minus minimum)."""
 
     of: Statistic
     condition: Compare | Between | Level
@@ -27,8 +27,8 @@ class Aggregate:
 
 @dataclass(frozen=True, kw_only=True)
 class CountReadings:
-    """The number of readings so far of which ``condition`` is true, compared with ``number``; with ``percent`` their
-    share of all readings in percent. All are: ``eq`` 100 percent. None is: ``eq`` 0."""
+    """The number of readings so far of which ``condition`` is true, or their share in ``percent``, compared with
+    ``number``. "All": ``eq`` 100 percent; "none": ``eq`` 0."""
 
     test: Test
     number: float
@@ -38,8 +38,8 @@ class CountReadings:
 
 @dataclass(frozen=True, kw_only=True)
 class MeanKnown:
-    """The mean of all readings so far is known to within ``value``, in the unit of the profile, or to ``percent`` of
-    the mean: half the width of its 95 % confidence interval (Student's t) is no more, after ``at_least`` readings."""
+    """The mean of all readings so far is known to within ``value``, or to ``percent`` of itself: half the width of its
+    95 % confidence interval (Student's t), from ``at_least`` readings on."""
 
     reading: str
     quantity: str
@@ -51,8 +51,8 @@ class MeanKnown:
 
 @dataclass(frozen=True, kw_only=True)
 class CompareSeries:
-    """The mean (median, minimum, maximum, range) of all readings so far compared with that of the readings named
-    ``than``, increased by ``value``: ``gt`` with 2 degC means more than 2 degC higher."""
+    """That value of all readings so far compared with that of the readings named ``than``, plus ``value``: ``gt`` and 2
+    is more than 2 higher."""
 
     of: Statistic
     reading: str

@@ -23,8 +23,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class ByReading(Selector):
-    """The ``count`` places where this mission read the highest (or ``lowest``) values, the most extreme first; fewer if
-    fewer were read. Several readings at one place count with their mean."""
+    """The ``count`` places where this mission read the highest (or ``lowest``) values, most extreme first.
+
+    Fewer if fewer were read. Several readings at one place count with their mean.
+    """
 
     reading: str
     quantity: str

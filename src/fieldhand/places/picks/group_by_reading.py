@@ -24,8 +24,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class GroupByReading(FromGroup):
-    """The trees of the row or block (``group``) in which the mean (``statistic``) of this mission's readings was
-    highest, or ``lowest``."""
+    """The trees of the row or block (``group``) whose readings have the highest (or ``lowest``) ``statistic``."""
 
     group: Literal["row", "block"]
     reading: str

@@ -32,7 +32,7 @@ class ForEach(PlanNode):
         at_most: Maximum number of visits ("up to 6").
         reward: Attribute that a visit is worth, else 1.
         until: Stop once this holds after a visit.
-        collects: Reading whose series begins anew here, so that conditions on all readings concern this loop only.
+        collects: Reading of which all readings so far are forgotten when the loop begins.
     """
 
     id: str = ""

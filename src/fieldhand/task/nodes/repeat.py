@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 class Repeat(PlanNode):
     """``body`` a number of times, or until a condition is true after a round, whichever comes first.
 
-    ``times`` is the maximum number of rounds, at least 1; ``until`` is None for exactly that number. ``collects`` names
-    a reading whose series begins anew here, so that conditions on all readings concern this loop only.
+    ``times`` is the maximum number of rounds, at least 1; ``until`` is None for exactly that number. Of
+    the reading ``collects``, all readings so far are forgotten when it begins.
     """
 
     id: str = ""
