@@ -28,6 +28,7 @@ from fieldhand.forecast.optional_visits import OptionalVisits
 from fieldhand.forecast.resource_limits import speed_of
 from fieldhand.forecast.visit_order import start_place
 from fieldhand.places.context import Context
+from fieldhand.places.reading_series import ReadingSeries, TakenReading
 from fieldhand.places.resolution import resolve, resolve_one
 from fieldhand.places.selector import Selector
 from fieldhand.robot.model import InDoubtPolicy, RobotProfile
@@ -35,6 +36,7 @@ from fieldhand.site.blockages import Blockages
 from fieldhand.site.drives import Drive, Drives
 from fieldhand.site.model import Place, Site
 from fieldhand.task.build import exit_of
+from fieldhand.task.collected import collected
 from fieldhand.task.frames import Fault, Task, Then
 from fieldhand.task.results import Acted, Arrived, ClockSet, Driving, Event, Faulted, InDoubt, MissionStatus, Resumed
 from fieldhand.task.run import PlanRun
@@ -76,6 +78,7 @@ class ActiveMission:
         time_of_day: Time of day at the beginning, and later changes of the wall clock.
         driven: Path of the last drive, in local metres.
         readings: Values of each bound reading, by quantity.
+        series: All readings of each name that the plan uses as a series.
         run: Current nodes of the plan.
         ending: Set when the plan ends before its last node; the tree is not ticked any more.
         fault: Fault for the Task's exits.
@@ -121,6 +124,8 @@ class ActiveMission:
         self.visited: list[str] = []
         self.bound: dict[str, tuple[Place, ...]] = {}
         self.readings: dict[str, Mapping[str, float]] = {}
+        self.series: dict[str, ReadingSeries] = {}
+        self._collected = collected(task.composition.plan)
         self.run = PlanRun(task.composition.plan)
         self.travelled_m = 0.0
         self.driven: tuple[tuple[float, float], ...] = ()
@@ -172,7 +177,9 @@ class ActiveMission:
     @property
     def facts(self) -> ConditionInputs:
         """Facts against which a condition is tested now."""
-        return ConditionInputs(site=self.site, robot=self.robot, here=self.here, readings=self.readings)
+        return ConditionInputs(
+            site=self.site, robot=self.robot, here=self.here, readings=self.readings, series=self.series
+        )
 
     def charge_percent(self) -> float:
         """Return the battery charge in percent, filtered for single false readings."""
@@ -243,6 +250,12 @@ class ActiveMission:
         """Bind places to a label, if the node has one."""
         if label:
             self.bound[label] = places
+
+    def collect(self, reading: str, values: Mapping[str, float]) -> None:
+        """Add a reading taken here to its series, if the plan uses it as one."""
+        if values and reading in self._collected:
+            taken = TakenReading(place=self.here, values=dict(values))
+            self.series[reading] = self.series.get(reading, ReadingSeries()).plus(taken)
 
     def end(self, ending: Ending) -> None:
         """End the plan, unless it has ended already."""
@@ -451,7 +464,7 @@ class ActiveMission:
         return progress
 
     def _context(self, here: Place) -> Context:
-        return Context(here=here, visited=tuple(self.visited), bound=dict(self.bound))
+        return Context(here=here, visited=tuple(self.visited), bound=dict(self.bound), series=dict(self.series))
 
     def _stands(self) -> Place:
         """Return the robot's position as a place: ``here`` if it is there."""

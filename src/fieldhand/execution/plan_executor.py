@@ -111,6 +111,8 @@ class PlanExecutor:
                 self.mission.readings.pop(reading, None)
             case instructions.SetReading(reading=reading, value=value):
                 self.mission.readings[reading] = value
+            case instructions.BeginSeries(reading=reading):
+                self.mission.series.pop(reading, None)
             case instructions.Decide(node=node, condition=condition):
                 return self._decide(node, condition)
             case instructions.ArrangeSteps(node=any_order):
@@ -172,6 +174,7 @@ class PlanExecutor:
         readings: Mapping[str, float] = {}
         for _ in range(node.count):
             readings = yield from capture(self.mission, node)
+            self.mission.collect(node.reading, readings)
         return readings
 
     def _decide(self, node: Node, condition: Condition) -> bool:

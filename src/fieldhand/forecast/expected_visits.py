@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,7 +19,6 @@ from fieldhand.forecast.route_cost import RouteCost, cost_model, overrun_chances
 from fieldhand.forecast.sampled_costs import DRAWS
 from fieldhand.forecast.visit_distances import visit_distances
 from fieldhand.forecast.walk_steps import VisitForecast
-from fieldhand.places.context import Context
 from fieldhand.site.model import Place
 from fieldhand.task.plan import ForEach, OptionalStep
 
@@ -181,7 +180,7 @@ def _rest(walker: ForecastHandler, node: ForEach | OptionalStep, visits: Sequenc
     """Return the mandatory work that follows, from the end of a step or the beginning of a for-each."""
     here, to_come = walker.context, walker.to_come()
     if node.is_optional_step:
-        here = Context(here=visits[0].end, visited=here.visited, bound=here.bound)
+        here = replace(here, here=visits[0].end)
     return remaining_work_after(
         walker.task,
         walker.site,

@@ -140,7 +140,7 @@ def arrived(context: Context, visits: Sequence[Visit]) -> Context:
     known = set(context.visited)
     trees = dict.fromkeys(v.place.id for v in visits if v.place.kind == "tree")
     fresh = [tree for tree in trees if tree not in known]
-    return Context(here=visits[-1].end, visited=(*context.visited, *fresh), bound=context.bound)
+    return replace(context, here=visits[-1].end, visited=(*context.visited, *fresh))
 
 
 def _joined(

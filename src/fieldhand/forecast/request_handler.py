@@ -214,6 +214,8 @@ class ForecastHandler(WalkState):
             case ask.ForgetReading(reading=reading):
                 if self.readings is not None:
                     self.readings.lose(reading)
+            case ask.BeginSeries(reading=reading):
+                self.discard(reading)
             case ask.SetReading(node=act, reading=reading):
                 if self.readings is not None:
                     self.readings.take(reading, act.action)
@@ -244,6 +246,7 @@ class ForecastHandler(WalkState):
         fails = self.plan.is_caught and self.decide(node, "fails")
         # A failing action is assumed to fail at its last capture, at every retry.
         again = retry_work(node, self.robot) if fails else Work()
+        self.collect(node, node.count - fails)
         self.note(
             WalkStep(
                 node=node,

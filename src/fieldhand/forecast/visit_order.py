@@ -124,7 +124,8 @@ def steps_in_order(node: AnyOrder, site: Site, drives: Drives, context: Context,
     """Return the order of an any-order set's steps with the least driving between where they begin.
 
     The end of a step does not count, and a step with several places begins at the nearest of them. Steps without a
-    place of their own come last in the given order, as do optional ones that cannot be reached.
+    place of their own, or whose first place readings determine, come last in the given order, as do optional ones that
+    cannot be reached.
 
     Raises:
         PlaceError: A step's place cannot be resolved.
@@ -143,13 +144,17 @@ def steps_in_order(node: AnyOrder, site: Site, drives: Drives, context: Context,
 
 
 def first_places(node: Node, site: Site, context: Context) -> tuple[Place, ...]:
-    """Return the places of a node's first selector; empty if the node stays at the current place."""
+    """Return the places of a node's first selector; empty if the node stays at the current place, or if the readings of
+    the mission determine them.
+    """
     from fieldhand.places.resolution import resolve
 
     for inner in plan.walk(node):
         selector = inner.selector
         if selector is None:
             continue
+        if selector.decided_by_readings:
+            return ()
         try:
             return resolve(selector, site, context)
         except PlaceError as error:

@@ -29,8 +29,10 @@ from fieldhand.places.neighbours.adjacent import Adjacent
 from fieldhand.places.neighbours.farthest import Farthest
 from fieldhand.places.neighbours.nearest import Nearest
 from fieldhand.places.picks.apart import Apart
+from fieldhand.places.picks.by_reading import ByReading
 from fieldhand.places.picks.evenly import Evenly
 from fieldhand.places.picks.first import First
+from fieldhand.places.picks.group_by_reading import GroupByReading
 from fieldhand.places.picks.last import Last
 from fieldhand.places.picks.nth import Nth
 from fieldhand.places.picks.ordered import Ordered
@@ -85,6 +87,8 @@ SELECTORS: tuple[type[Selector], ...] = (
     Excluding,
     Where,
     Top,
+    ByReading,
+    GroupByReading,
     InZone,
     Within,
     Take,

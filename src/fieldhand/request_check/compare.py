@@ -91,7 +91,8 @@ def _counts(facts: RequestFacts, plan: PlanFacts, sizes: SelectorSizes) -> Itera
         n = int(amount.values[0]) if float(amount.values[0]).is_integer() else 0
         if amount.kind not in ("captures", "trees", "corners") or n < 2 or facts.negated(amount.index):
             continue
-        if amount.compared or n in _explained(plan, amount) or n in _visited(plan, sizes):
+        counted = {value for test in plan.tests if test.quantity and not test.unit for value in test.values}
+        if amount.compared or n in _explained(plan, amount) or n in _visited(plan, sizes) or n in counted:
             continue
         yield PlanMismatch(
             kind="count",

@@ -16,6 +16,7 @@ from fieldhand.places.count_range import ONE, CountRange, exactly
 from fieldhand.places.selector import Selector
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
+from fieldhand.task.aggregates import CompareSeries, CountReadings, MeanKnown
 from fieldhand.task.codec_shapes import element_name
 from fieldhand.task.frames import Task
 from fieldhand.terms import Side, Test, Value
@@ -282,10 +283,30 @@ def _tested(part: c.Condition, node: str) -> Iterator[PlannedTest]:
             yield PlannedTest(
                 node=node, quantity=part.quantity, attribute="", test="level", values=(), level=part.level,
             )  # fmt: skip
+        case CountReadings(condition=inner, number=number, percent=percent) if not _in_words(part):
+            unit = "percent" if percent else ""
+            yield PlannedTest(
+                node=node, quantity=inner.quantity, attribute="", test=part.test, values=(number,), unit=unit,
+            )  # fmt: skip
+        case MeanKnown(percent=percent, value=value) if within := percent or value:
+            unit = "percent" if percent else part.unit
+            yield PlannedTest(
+                node=node, quantity=part.quantity, attribute="", test="le", values=(within,), unit=unit,
+            )  # fmt: skip
+        case CompareSeries(value=by) if by:
+            yield PlannedTest(
+                node=node, quantity=part.quantity, attribute="", test=part.test, values=(abs(by),), unit=part.unit,
+            )  # fmt: skip
         case c.TreeHas(value=value) if isinstance(value, float | int) and not isinstance(value, bool):
             yield PlannedTest(node=node, quantity="", attribute=part.attribute, test=part.test, values=(float(value),))
         case _:
             return
+
+
+def _in_words(condition: CountReadings) -> bool:
+    """Return True for a number of readings that requests say in words: any, none, all, most, half."""
+    whole = (50, 100) if condition.percent else (0, 1)
+    return condition.number in whole or (condition.percent and condition.number == 0)
 
 
 def _numbers(nodes: tuple[p.Node, ...], selectors: tuple[tuple[str, Selector], ...]) -> Iterator[PlannedNumber]:

@@ -22,7 +22,7 @@ from fieldhand.places.picks.random_sample import RandomSample
 from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import SELECTORS
 from fieldhand.places.sources.union_of import UnionOf
-from fieldhand.task.conditions import Condition
+from fieldhand.task.conditions import Between, Compare, Condition, Level
 from fieldhand.task.frames import Command, Composition, FaultedExit, Task, Then
 from fieldhand.task.plan import Act, InOrder, Node, OptionalStep, Span, StopMission
 from fieldhand.task.timing import Timing
@@ -167,7 +167,8 @@ def element_name(cls: type) -> str:
 
 def hints_of(cls: type) -> dict[str, Any]:
     """Return the type of each field, with the mutually recursive families resolved."""
-    return get_type_hints(cls, localns={"Node": Node, "Selector": Selector, "Condition": Condition})
+    tests = {"Compare": Compare, "Between": Between, "Level": Level}
+    return get_type_hints(cls, localns={"Node": Node, "Selector": Selector, "Condition": Condition, **tests})
 
 
 @cache

@@ -99,6 +99,14 @@ class SetReading:
 
 
 @dataclass(frozen=True, kw_only=True)
+class BeginSeries:
+    """Discard the readings of a series, which begins anew. Result: none."""
+
+    node: Node
+    reading: str
+
+
+@dataclass(frozen=True, kw_only=True)
 class Decide:
     """Evaluate a condition now. Result: True or False."""
 
@@ -153,6 +161,7 @@ Instruction = (
     | WaitFor
     | ForgetReading
     | SetReading
+    | BeginSeries
     | Decide
     | ArrangeSteps
     | BeginVisits

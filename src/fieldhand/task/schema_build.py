@@ -34,6 +34,7 @@ _FACETS: dict[str, dict[str, str]] = {
     "count": {"minInclusive": "1", "maxInclusive": "1000"},
     "times": {"minInclusive": "1", "maxInclusive": "1000"},
     "at_most": {"minInclusive": "1", "maxInclusive": "1000000"},
+    "at_least": {"minInclusive": "2", "maxInclusive": "1000"},
     "expected": {"minInclusive": "0"},
     "distance_m": {"minInclusive": "0"},
     "limit": {"minExclusive": "0"},
@@ -189,9 +190,13 @@ class SchemaBuilder:
             _xs(inside, "element", name=child.name.removesuffix("s"), type="xs:string", **occurs)
         elif child.options in FAMILIES:
             _xs(inside, "group", ref=f"f:{FAMILIES[child.options]}", **occurs)
-        else:
+        elif len(child.options) == 1:
             for option in self.usable(child.options):
                 _xs(inside, "element", name=element_name(option), type=f"f:{type_name(option)}", **occurs)
+        else:
+            either = _xs(inside, "choice", **occurs)
+            for option in self.usable(child.options):
+                _xs(either, "element", name=element_name(option), type=f"f:{type_name(option)}")
 
     def required(self, cls: type, field: str, default: object) -> bool:
         """Return True if a field is required."""

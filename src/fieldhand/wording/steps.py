@@ -200,6 +200,8 @@ class _LineWriter:
             place = say_place(one)
             aside = selector.aside(text)
             return message("{place} ({words})", place=place, words=aside) if aside else place
+        if selector.decided_by_readings:
+            return message("{place} (decided on the way by the readings)", place=text)
         if resolved is None:
             return text
         if resolved.known:
@@ -337,7 +339,8 @@ class _LineWriter:
             name: message("there", context="reading") if t.there else message("of step {number}", number=t.step)
             for name, t in self._taken.items()
         }
-        return say_condition(condition, where, self._robot)
+        series = {name: message("of step {number}", number=t.step) for name, t in self._taken.items()}
+        return say_condition(condition, where, self._robot, series=series)
 
 
 def _one_line(text: str) -> str:

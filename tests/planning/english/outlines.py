@@ -7,6 +7,7 @@ from dataclasses import fields
 from fieldhand.places import selectors as s
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
+from fieldhand.task.aggregates import Aggregate, CompareSeries, CountReadings, MeanKnown
 from fieldhand.task.frames import Task
 from fieldhand.task.timing import DayTime, Schedule, StartTime
 
@@ -115,6 +116,16 @@ def condition(x: c.Condition) -> str:
         case c.TreeHas():
             value = f"{x.value:g}" if isinstance(x.value, float) else x.value
             return f"{x.attribute} {SIGNS[x.test]} {value}"
+        case Aggregate():
+            return f"{x.of}({condition(x.condition)})"
+        case CountReadings():
+            return f"count({condition(x.condition)}) {SIGNS[x.test]} {x.number:g}{' %' if x.percent else ''}"
+        case MeanKnown():
+            width = f"{x.percent:g} %" if x.percent else f"{x.value:g} {x.unit}"
+            return f"mean({x.reading}) +- {width} from {x.at_least}"
+        case CompareSeries():
+            by = f" + {x.value:g} {x.unit}" if x.value else ""
+            return f"{x.of}({x.reading}) {SIGNS[x.test]} {x.of}({x.than}){by}"
         case c.Not():
             return f"not {condition(x.condition)}"
         case c.AllOf():

@@ -87,8 +87,6 @@ Every morning take pictures of row 12 of the north block.
 Daily, measure CO2 at vine N250.
 Take pictures of row 12 of the north block tomorrow.
 Take a picture of every second vine in row 5 of the north block, but only on weekdays.
-Measure CO2 at vines N1, N2 and N3; if the average is above 450 ppm, take a picture of vine N4.
-Measure CO2 at every vine of row 5 of the north block. If the mean is above 450 ppm, take a picture of vine N4.
 Drive down rows 3 to 8 of the north block and spray.
 Mow between rows 10 and 14 of the north block.
 Count the grapes on 10 Syrah vines.

@@ -35,7 +35,7 @@ WISHES = [
     ("Count how many vines are dead in the north block.", "asks to count"),
     ("Tell me which vines have mildew in row 2 of the south block.", "to recognise something"),
     ("Check whether the drip lines leak in row 8 of the north block.", "to recognise something"),
-    ("Take pictures of the hottest vine in row 4 of the north block.", "to compare readings"),
+    ("Compare vine N100 with vine N101.", "to compare readings"),
     ("Record the average temperature of the north block.", "a statistic"),
     ("Measure CO2 at vine N100 and stop when you see a person.", "to react to people"),
     ("Take a picture of vine N100 unless it rains.", "the weather"),

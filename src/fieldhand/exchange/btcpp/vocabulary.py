@@ -23,6 +23,8 @@ BEGIN, GO_TO, RESOLVE, ORDER, ALLOWS, EXIT, FAULT, LIMIT = (
 )  # fmt: skip
 #: The wait of Nav2, which waits for the seconds of its port.
 WAIT, WAIT_PORT = "Wait", "wait_duration"
+#: Leaves about all readings of a name: forget them, and test a condition on them.
+BEGIN_SERIES, TEST_SERIES = "BeginReadings", "TestReadings"
 #: Leaf of each kind of condition.
 CONDITIONS: dict[type, str] = {
     Compare: "CompareReading",
@@ -87,11 +89,14 @@ def leaves(capabilities: Capabilities) -> tuple[Leaf, ...]:
     node = Port(name="node", type=_TEXT, about="Name of the loop or step that the budget may leave out")
     then = Port(name="then", type=_TEXT, about="return_to_end, return_to_start or stay")
     exits = Port(name="exits", type=_TEXT, default="", about="What to do about each fault, as fault:exit")
+    series = Port(name="reading", type=_TEXT, about="Name of the readings of which none is kept from before")
+    tested = Port(name="condition", type=_TEXT, about="Condition on all readings of a name, as XML")
     ours = (
         Leaf(id=BEGIN, kind="Action", ports=(task, *frames, resources)),
         Leaf(id=GO_TO, kind="Action", ports=(_PLACE, _LABEL)),
         Leaf(id=RESOLVE, kind="Action", ports=(_SELECT, *_ports(ForEach, beside=("label",)), places)),
         Leaf(id=ORDER, kind="Action", ports=(first, order)),
+        Leaf(id=BEGIN_SERIES, kind="Action", ports=(series,)),
         Leaf(id=EXIT, kind="Action", ports=(then,)),
         Leaf(id=FAULT, kind="Action", ports=(exits,)),
         Leaf(id=WAIT, kind="Action", ports=(Port(name=WAIT_PORT, type="double", about="Seconds to stand still"),)),
@@ -100,8 +105,9 @@ def leaves(capabilities: Capabilities) -> tuple[Leaf, ...]:
             id=ALLOWS, kind="Condition", ports=(node, Port(name="place", type=_TEXT, default=""), *_ports(OptionalStep))
         ),
     )
+    test = Leaf(id=TEST_SERIES, kind="Condition", ports=(tested, _UNKNOWN))
     conditions = (Leaf(id=name, kind="Condition", ports=_condition_ports(cls)) for cls, name in CONDITIONS.items())
-    return (*ours, *conditions, *(_action(name, capabilities) for name in capabilities.actions))
+    return (*ours, *conditions, test, *(_action(name, capabilities) for name in capabilities.actions))
 
 
 def models(capabilities: Capabilities) -> _Element:
@@ -126,6 +132,7 @@ _TEXT, _PLACES, _STEPS, _READING = (
 _PLACE = Port(name="place", type=_TEXT, about="A place that was resolved, or a selector as XML")
 _LABEL = Port(name="label", type=_TEXT, default="", about="Binds the place for later nodes")
 _SELECT = Port(name="select", type=_TEXT, about="Selector, as XML")
+_UNKNOWN = Port(name=IF_UNKNOWN, type="bool", default="false", about="What to answer where there is nothing to test")
 _TYPES = {"integer": "int", "number": "double", "flag": "bool"}
 
 
@@ -151,8 +158,7 @@ def _condition_ports(cls: type) -> tuple[Port, ...]:
     if shape.head is not None:
         ports.insert(0, Port(name="quantity", type=_TEXT, about="What was measured"))
         ports.insert(0, Port(name="reading", type=_READING, about="The reading that is tested"))
-    about = "What to answer where there is nothing to test"
-    return (*ports, Port(name=IF_UNKNOWN, type="bool", default="false", about=about))
+    return (*ports, _UNKNOWN)
 
 
 def _action(name: str, capabilities: Capabilities) -> Leaf:

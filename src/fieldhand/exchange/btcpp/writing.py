@@ -17,6 +17,7 @@ from fieldhand.errors import TaskError
 from fieldhand.exchange.btcpp.vocabulary import (
     ALLOWS,
     BEGIN,
+    BEGIN_SERIES,
     CONDITIONS,
     EXIT,
     FAULT,
@@ -25,6 +26,7 @@ from fieldhand.exchange.btcpp.vocabulary import (
     LIMIT,
     ORDER,
     RESOLVE,
+    TEST_SERIES,
     WAIT,
     WAIT_PORT,
     models,
@@ -34,6 +36,7 @@ from fieldhand.exchange.btcpp.vocabulary import (
 from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import Here
 from fieldhand.task import plan as p
+from fieldhand.task.aggregates import Aggregate, CompareSeries, CountReadings, MeanKnown
 from fieldhand.task.capabilities import Capabilities
 from fieldhand.task.codec import encode_parts
 from fieldhand.task.codec_shapes import Attribute
@@ -128,7 +131,8 @@ class _TreeWriter:
             case p.ForEach():
                 return self._for_each(node, entry)
             case p.Repeat(until=None):
-                return _element("Repeat", self.node(node.body), num_cycles=str(node.times))
+                rounds = _element("Repeat", self.node(node.body), num_cycles=str(node.times))
+                return _element("Sequence", *_begin_series(node), rounds) if node.collects else rounds
             case p.Repeat():
                 return self._repeat_until(node, entry)
             case p.If(condition=condition, then=then, otherwise=otherwise):
@@ -183,7 +187,8 @@ class _TreeWriter:
         before, test = self._until(node.until, entry, node.id)
         once = _element("Sequence", self.node(node.body), *test)
         once.set("_successIf", f"{entry}_done")
-        return _element("Sequence", *before, _element("Repeat", once, num_cycles=str(node.times)))
+        rounds = _element("Repeat", once, num_cycles=str(node.times))
+        return _element("Sequence", *_begin_series(node), *before, rounds)
 
     def _until(self, until: Condition | None, entry: str, where: str) -> tuple[list[_Element], list[_Element]]:
         """Return the nodes before a loop and at the end of each iteration by which a condition ends it."""
@@ -222,12 +227,20 @@ class _TreeWriter:
                 return _element("Fallback", *parts or (_element("AlwaysFailure"),))
             case Not(condition=one):
                 return _element("Inverter", self._condition(one, where, negated=not negated))
+            case Aggregate() | CountReadings() | MeanKnown() | CompareSeries():
+                unknown = {IF_UNKNOWN: "true"} if negated else {}
+                return _element(TEST_SERIES, condition=encode_parts([condition]), **unknown)
             case _:
                 ports = _ports(condition, where)
                 if not isinstance(condition, TreeHas):
                     ports |= {"reading": _reading(condition.reading, where), "quantity": condition.quantity}
                 unknown = {IF_UNKNOWN: "true"} if negated else {}
                 return _element(CONDITIONS[type(condition)], **ports, **unknown)
+
+
+def _begin_series(node: p.Repeat) -> tuple[_Element, ...]:
+    """Return the leaf that begins the series of a repeat anew, if it has one."""
+    return (_element(BEGIN_SERIES, reading=_plain(node.collects, node.id)),) if node.collects else ()
 
 
 def _loop(kind: str, body: _Element, entry: str, queue: str, value: str) -> _Element:

@@ -46,7 +46,7 @@ _WITH_A_CAMERA = {"PICTURE": "NOUN", "THERMAL": "NOUN", "CAMERA": "ACTV", "THERM
 #: Those of a thermal camera only.
 _THERMAL = frozenset({"THERMAL", "THERMALLY"})
 #: Categories of phrases that are silent in the shared vocabulary only.
-_SAY_SOMETHING = frozenset({"AVERAGEWORD", "CORRECTION", "ONEBYONE"})
+_SAY_SOMETHING = frozenset({"AVERAGEWORD", "CORRECTION", "ONEBYONE", "STATISTIC"})
 
 
 @dataclass(frozen=True)
@@ -154,6 +154,11 @@ def more_words() -> Mapping[Phrase, tuple[NameEntry, ...]]:
             found[split(phrase)].append(NameEntry(kind=kind, value=tuple(route)))
     for phrase, value in own["bounds"].items():
         found[split(phrase)].append(NameEntry(kind="BOUND", value=tuple(value)))
+    for of, phrases in own["statistics"].items():
+        for phrase in phrases:
+            found[split(phrase)].append(NameEntry(kind="STATISTIC", value=of))
+    for phrase, value in own["most_read"].items():
+        found[split(phrase)].append(NameEntry(kind="MOSTREAD", value=tuple(value)))
     for check, phrases in own["bare_comparisons"].items():
         for phrase in phrases:
             found[split(phrase)].append(NameEntry(kind="BARECMP", value=check))

@@ -99,7 +99,8 @@ def _attribute(attribute: Attribute) -> str:
 def _child(child: Child) -> str:
     letter = LETTERS.get(FAMILIES.get(child.options, ""), "")
     letter = f"{letter}{_unless_given(child)}"
-    part = letter or "".join(f"<{element_name(option)}/>" for option in child.options)
+    between = "|" if child.kind == "one" else ""
+    part = letter or between.join(f"<{element_name(option)}/>" for option in child.options)
     many = f"{part}..." if child.kind == "many" else part
     whole = many if child.direct else f"<{child.name}>{many}</{child.name}>"
     if child.name == "of" and not child.direct:

@@ -265,6 +265,11 @@ class PlanNode(ABC):
         return ""
 
     @property
+    def collects(self) -> str:
+        """The reading whose series begins anew when the node is reached; empty for none."""
+        return ""
+
+    @property
     def is_optional(self) -> bool:
         """True if the budget guard may shed the node, or visits of it, while the mission continues."""
         return False

@@ -27,7 +27,7 @@ from fieldhand.task.capabilities import (
     QuantityCapability,
 )
 from fieldhand.task.codec_shapes import hints_of
-from fieldhand.task.conditions import Between, Compare, Condition, Level
+from fieldhand.task.conditions import Condition, Level
 from fieldhand.task.frames import Budget, Constraints, FaultedExit, Resource, Task
 from fieldhand.task.plan import Act, Node, Span
 from fieldhand.task.timing import Timing
@@ -64,6 +64,7 @@ _BY_FIELD: dict[str, st.SearchStrategy[Any]] = {
     "reading": names,
     "count": st.integers(1, 50),
     "times": st.integers(1, 50),
+    "at_least": st.integers(2, 50),
     "at_most": st.integers(1, 50),
     "expected": st.integers(0, 500),
     "distance_m": st.floats(0, 1e6),
@@ -161,7 +162,7 @@ class Parts:
         """Return a strategy for instances with an action or quantity of the robot and matching parameters and units."""
         if cls is Act:
             return st.builds(_with_action, made, self.actions())
-        if cls in (Compare, Between, Level):
+        if "quantity" in {one.name for one in fields(cls)}:
             able = {n: q for n, q in self.capabilities.quantities.items() if q.levels or cls is not Level}
             return st.builds(_with_quantity, made, st.sampled_from(sorted(able)), st.just(able), st.integers(0, 9))
         return made
@@ -216,7 +217,8 @@ def _with_quantity(part: Any, name: str, able: Mapping[str, QuantityCapability],
     quantity = able[name]
     if isinstance(part, Level):
         return replace(part, quantity=name, level=quantity.levels[pick % len(quantity.levels)])
-    return replace(part, quantity=name, unit=quantity.unit)
+    units = {"unit": quantity.unit} if hasattr(part, "unit") else {}
+    return replace(part, quantity=name, **units)
 
 
 def _parameter(spec: NumberParameter | ChoiceParameter) -> st.SearchStrategy[str | float]:

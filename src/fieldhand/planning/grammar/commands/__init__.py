@@ -5,6 +5,7 @@ from __future__ import annotations
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands import (
     adjuncts,
+    aggregates,
     captures,
     clauses,
     conditions,
@@ -25,7 +26,7 @@ from fieldhand.planning.grammar.commands import (
 GRAMMAR = Grammar()
 _THEMES = (
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, requests, exclusions,
-    sampling, waits, pace, sides,
+    sampling, waits, pace, sides, aggregates,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)

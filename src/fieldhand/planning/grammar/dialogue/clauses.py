@@ -42,6 +42,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
     walk,
     without_idle_cases,
 )
+from fieldhand.planning.grammar.dialogue.series import is_by_reading, with_read_place
 from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
     NotComposed,
@@ -215,7 +216,10 @@ def _read(
     setting: Setting, state: DialogueState, clause: LinkedCommand, following: Sequence[LinkedCommand]
 ) -> DialogueState:
     """Return the state after a clause."""
-    joint, command = clause.before, with_known_place(setting, state, clause.command)
+    if is_by_reading(clause.command):
+        state = capture_elided(setting, state)  # "at tree 4 and at tree 9, then ... at the hotter one"
+    state, command = with_read_place(setting, state, clause.command)
+    joint, command = clause.before, with_known_place(setting, state, command)
     if joint is not None and joint.first:
         return _do_before_last(setting, state, command, joint, following)
     if state.plan.steps and isinstance(command, CaptureCommand | DriveCommand | Lead | When | Again):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.places import (
     areas,
+    by_reading,
     choices,
     chosen,
     clauses,
@@ -42,5 +43,6 @@ for _part in (
     exceptions,
     sets,
     sampling,
+    by_reading,
 ):
     GRAMMAR.include(_part.GRAMMAR)
