@@ -112,13 +112,16 @@ def _shape(places: Selector, distance_m: float, drives: Drives) -> tuple[BaseGeo
 
     from fieldhand.places.filters.zones import zones_called
     from fieldhand.places.resolution import Resolution
-    from fieldhand.site.closed_ground import along_trees, beside_trees, between_rows
+    from fieldhand.site.closed_ground import along_trees, beside_trees, between_rows, opening_of
 
     site = drives.site
     if zones := zones_called(site, _zone(places)):
         return shapely.union_all(zones), frozenset()
     group = Resolution(site, Context(here=site.start)).spots(places)
     trees = [site.by_id[place.id].index for place in group.places if place.kind == "tree"]
+    gates = {gate.place.xy: gate for gate in site.gates}
+    if distance_m <= 0.0 and all(place.xy in gates for place in group.places):
+        return shapely.union_all([opening_of(gates[place.xy]) for place in group.places]), frozenset()
     points = [shapely.Point(place.xy) for place in group.places if place.kind != "tree"]
     if points and distance_m <= 0.0:
         raise PlaceError(

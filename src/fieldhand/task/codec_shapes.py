@@ -53,7 +53,12 @@ class TaskComposition:
 
 @dataclass(frozen=True, kw_only=True)
 class ConstraintsElement:
-    """The ``<constraints>`` element: budgets, places to avoid and gates to use, as direct children."""
+    """Limits of the whole mission: budgets, then places to avoid, then gates to use; reserve and speed.
+
+    Attributes:
+        reserve_percent: Charge to leave at the end; None for the profile's reserve.
+        speed_m_s: Maximum speed; None for the robot's.
+    """
 
     parts: tuple[Budget | Avoid | OnlyGate, ...] = ()
     reserve_percent: float | None = None

@@ -10,14 +10,12 @@ from fieldhand.task.nodes.base import Span
 
 @dataclass(frozen=True, kw_only=True)
 class Avoid:
-    """Places that the robot does not drive to or past: it keeps out of the aisles beside trees and out of zones.
+    """Places that the robot keeps out of: a zone (as ``InZone``), the aisles beside a row or other trees.
 
-    An :class:`~fieldhand.places.filters.in_zone.InZone` of all trees is the zone itself. With a distance the robot
-    keeps so far from the places: from the line through trees that follow each other in a row, from the outline of a
-    zone, from a marker.
+    With a distance it keeps so far from them: from the outline of a zone, the line of a row, a marker.
 
     Attributes:
-        distance_m: Distance to keep in metres; 0 to keep out of the places only.
+        distance_m: Distance to keep in metres; 0 to keep out only.
         said: Character ranges of the request that state it.
     """
 

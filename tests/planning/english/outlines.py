@@ -19,6 +19,9 @@ def outline(task: Task) -> str:
     limits = "".join(f" | {b.kind} {b.limit:g}" for b in task.constraints.budgets)
     if task.constraints.reserve_percent is not None:
         limits += f" | reserve {task.constraints.reserve_percent:g}"
+    for avoid in task.constraints.avoid:
+        limits += f" | avoid {selector(avoid.places)}" + (f" {avoid.distance_m:g} m" if avoid.distance_m else "")
+    limits += "".join(f" | only {only.gate}" for only in task.constraints.only_gates)
     exit_ = "" if task.composition.nominal == "return_to_end" else f" | {task.composition.nominal}"
     return node(task.composition.plan) + limits + exit_
 

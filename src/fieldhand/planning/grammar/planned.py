@@ -11,15 +11,20 @@ from fieldhand.errors import PlaceError, TaskError
 from fieldhand.language import Number, message, named
 from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve
+from fieldhand.places.sources.gate_is import GateIs
+from fieldhand.places.wording import say_selector
 from fieldhand.planning.foreseen import foreseeable
+from fieldhand.planning.grammar.meaning import WayRule
 from fieldhand.planning.homeward import faulted_exits, usual_exit, with_assumed_exit
 from fieldhand.planning.planner import Outcome, Planned, Reason, Refused
+from fieldhand.planning.selections import as_zone
 from fieldhand.robot.capabilities import measures_of
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task import plan as p
 from fieldhand.task.build import make_task
 from fieldhand.task.frames import Budget, BudgetKind, Constraints, Resource, Then
+from fieldhand.task.ways import Avoid, OnlyGate
 
 NAME = "english"
 KINDS: dict[str, BudgetKind] = {"metres": "distance_m", "seconds": "duration_s", "percent": "energy_percent"}
@@ -49,6 +54,7 @@ class Meant:
     Attributes:
         plan: Plan.
         limits: Budgets and reserves.
+        ways: Rules of where the robot drives, each with the spans of the request that say it.
         nominal: How the mission ends; None if the request does not say so.
         nominal_said: Spans of the request that say it.
         no_part: Spans of the request that ask for nothing.
@@ -59,6 +65,7 @@ class Meant:
 
     plan: p.Node
     limits: tuple[LimitPhrase, ...] = ()
+    ways: tuple[tuple[WayRule, tuple[p.Span, ...]], ...] = ()
     nominal: Then | None = None
     nominal_said: tuple[p.Span, ...] = ()
     no_part: tuple[p.Span, ...] = ()
@@ -82,7 +89,7 @@ def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> O
             Resource(kind="robot", name=robot.name, sha256=robot.sha256),
             Resource(kind="site", name=site.name, sha256=site.sha256),
         ),
-        constraints=_constraints(meant.limits),
+        constraints=_constraints(meant),
         nominal=nominal,
         nominal_said=meant.nominal_said,
         no_part=tuple((start, end) for start, end in meant.no_part if re.search(r"\w", request[start:end])),
@@ -90,7 +97,7 @@ def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> O
         assumptions=tuple(dict.fromkeys(meant.assumptions)),
         warnings=meant.warnings,
     )
-    problems = tuple(_impossible(task.composition.plan, site))
+    problems = (*_impossible(task.composition.plan, site), *_impossible_ways(meant, site))
     if problems:
         return Refused(reasons=problems, planner=NAME)
     if meant.nominal is None:
@@ -98,11 +105,11 @@ def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> O
     return Planned(task=task, planner=NAME)
 
 
-def _constraints(limits: Iterable[LimitPhrase]) -> Constraints:
+def _constraints(meant: Meant) -> Constraints:
     budgets: dict[BudgetKind, Budget] = {}
     reserve: float | None = None
     reserve_said: tuple[p.Span, ...] = ()
-    for limit in limits:
+    for limit in meant.limits:
         if limit.keep:
             reserve = max(limit.amount, reserve or 0.0)
             reserve_said = (*reserve_said, limit.said)
@@ -110,7 +117,17 @@ def _constraints(limits: Iterable[LimitPhrase]) -> Constraints:
             kind = KINDS[limit.unit]
             known = budgets.get(kind, Budget(kind=kind, limit=limit.amount))
             budgets[kind] = replace(known, limit=min(limit.amount, known.limit), said=(*known.said, limit.said))
-    return Constraints(budgets=tuple(budgets.values()), reserve_percent=reserve, reserve_said=reserve_said)
+    return Constraints(
+        budgets=tuple(budgets.values()),
+        reserve_percent=reserve,
+        reserve_said=reserve_said,
+        avoid=tuple(
+            Avoid(places=places, distance_m=metres, said=said)
+            for rule, said in meant.ways
+            for places, metres in rule.avoid
+        ),
+        only_gates=tuple(OnlyGate(gate=gate, said=said) for rule, said in meant.ways for gate in rule.gates),
+    )
 
 
 def _impossible_limits(limits: Iterable[LimitPhrase]) -> Iterable[Reason]:
@@ -125,6 +142,21 @@ def _impossible_limits(limits: Iterable[LimitPhrase]) -> Iterable[Reason]:
             )
             advice = message("say a number above 0, at most 100 for percent of the battery")
             yield Reason(what=what, said=(limit.said,), advice=advice, final=True)
+
+
+def _impossible_ways(meant: Meant, site: Site) -> Iterable[Reason]:
+    """Yield a reason for each place to keep away from that the site lacks, or of which no distance is said."""
+    for rule, said in meant.ways:
+        for places, metres in rule.avoid:
+            if as_zone(places) is not None:
+                continue  # a zone without trees is one, too
+            try:
+                resolve(places, site, Context(here=site.start))
+            except (PlaceError, TaskError) as error:
+                yield Reason(what=error.what, said=said, advice=error.advice, final=True)
+            if not metres and places.single and not places.named_tree and not isinstance(places, GateIs):
+                what = message("it is not said how far to keep from {place}", place=say_selector(places))
+                yield Reason(what=what, said=said, advice=message("give a distance: 'keep 5 m from it'"), final=True)
 
 
 def _impossible(plan: p.Node, site: Site) -> Iterable[Reason]:

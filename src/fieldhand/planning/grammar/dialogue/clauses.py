@@ -80,6 +80,7 @@ from fieldhand.planning.grammar.meaning import (
     Total,
     UntilCondition,
     VisitLimit,
+    WayRule,
     When,
 )
 from fieldhand.planning.selections import (
@@ -262,7 +263,7 @@ def _read(
         case DriveCommand():
             if command.picks and not any(isinstance(one.command, CaptureCommand | CaptureWhere) for one in following):
                 raise NotComposed(message("it does not say what to do with them", context="fault"))
-            if command.ends and any(not isinstance(one.command, LimitClause) for one in following):
+            if command.ends and any(not isinstance(one.command, LimitClause | WayRule) for one in following):
                 raise NotComposed(message("something follows the end of the mission", context="fault"))
             driven = drive(setting, state, command)
             return _same_there(setting, state, driven, command, following) if command.instead else driven
@@ -289,6 +290,8 @@ def _read(
             return replace(otherwise(setting, state, said, in_all=command.in_all), runs_on=runs_on)
         case LimitClause():
             return _limit(setting, state, command)
+        case WayRule():
+            return replace(state, ways=(*state.ways, (command, setting.spans_of(command.used))))
         case Allowed():
             return allowed(setting, state, command, _rest_of_sentence(following), joint)
         case UntilCondition():
@@ -401,7 +404,7 @@ def _rest_of_sentence(following: Sequence[LinkedCommand]) -> list[LinkedCommand]
     for clause in following:
         if clause.before is not None and clause.before.full:
             break
-        if not isinstance(clause.command, LimitClause | Home):
+        if not isinstance(clause.command, LimitClause | WayRule | Home):
             found.append(clause)
     return found
 
