@@ -61,6 +61,7 @@ SAID = [
     (s.Top(attribute="reward", count=10), None, "the 10 trees with the highest reward"),
     (s.InZone(zone="wet corner", outside=True), None, "the trees outside the zone “wet corner”"),
     (s.Within(distance_m=20.0, to=TREE), None, "the trees within 20 m of tree 81"),
+    (s.Within(distance_m=20.0, to=TREE, beyond=True), None, "the trees more than 20 m from tree 81"),
     (s.Take(count=1, of=s.AmongExtreme(side="north")), None, "the nearest of the northernmost trees"),
     (s.Spread(count=5, of=YELLOW), None, "5 of the yellow trees, spread far from each other"),
     (s.Spread(count=1), None, "the one of the trees nearest to their middle"),

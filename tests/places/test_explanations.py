@@ -75,7 +75,7 @@ def _around(inner: st.SearchStrategy[s.Selector]) -> st.SearchStrategy[s.Selecto
             margin_m=st.sampled_from([0.0, 5.0]),
             of=inner,
         ),
-        st.builds(s.Within, distance_m=st.floats(1, 100), to=inner, of=inner),
+        st.builds(s.Within, distance_m=st.floats(1, 100), to=inner, beyond=st.booleans(), of=inner),
         st.builds(s.Take, count=counts, of=inner),
         st.builds(s.RandomSample, count=counts, seed=st.integers(0, 3), of=inner),
         st.builds(s.Spread, count=counts, of=inner),

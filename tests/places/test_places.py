@@ -572,6 +572,20 @@ def test_within_is_by_straight_distance_and_leaves_out_what_it_is_measured_from(
             ids(selector, site)
 
 
+@given(sites(min_size=3), st.floats(0.5, 60.0), st.data())
+def test_beyond_a_distance_are_all_others_but_what_it_is_measured_from(site, distance, data):
+    some = data.draw(st.lists(st.sampled_from(site.trees), min_size=1, max_size=3, unique_by=lambda t: t.place.id))
+    to = UnionOf(parts=tuple(TreeIs(tree=tree.place.id) for tree in some))
+    origins = [tree.place for tree in some]
+    expected = [t.place.id for t in site.trees if min(away(t.place, o) for o in origins) > max(distance, 0.01)]
+    selector = Within(distance_m=distance, to=to, beyond=True)
+    if expected:
+        assert ids(selector, site) == expected
+    else:
+        with pytest.raises(PlaceError, match="more than"):
+            ids(selector, site)
+
+
 def test_trees_side_by_side_begin_with_the_nearest_and_follow_the_row():
     site = orchard()
     assert ids(Adjacent(near=TreeIs(tree="6"), count=5), site) == ["6", "7", "8", "9", "10"]

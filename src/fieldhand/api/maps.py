@@ -1,7 +1,8 @@
 """Sites, plans and driven paths as GeoJSON, in degrees WGS 84, each feature with a ``role``.
 
 ``zone``, ``block``, ``row``, ``tree``, ``gate``, ``marker``: the site. ``path``, ``stop``: a plan, its legs with the
-node that drives them, and its stops with their number and the nodes that drive or act there. ``choice``: a place that
+node that drives them, and its stops with their number and the nodes that drive or act there. ``avoided``: ground that a
+plan keeps out of. ``choice``: a place that
 an answer to a question would select. ``leg``, ``capture``, ``end``: a mission that was driven, with times in seconds
 since its start.
 """
@@ -12,6 +13,7 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import shapely
 
 from fieldhand.site.choices import choice_marks
 from fieldhand.site.drawing.blocks import block_words, outline_of
@@ -72,7 +74,12 @@ def plan_map(site: Site, estimate: Estimate) -> Feature:
     for number, branch in enumerate(estimate.branches):
         _add_legs(legs, branch.walk, site.projection, other=number > 0)
         _add_stops(stops, branch.walk, other=number > 0)
-    return _collection([*site_map(site)["features"], *legs.values(), *stops.values()])
+    avoided = [
+        _feature("Polygon", _rings(part, site.projection), role="avoided", name=ground.rule)
+        for ground in estimate.closed
+        for part in shapely.get_parts(ground.shape)
+    ]
+    return _collection([*site_map(site)["features"], *avoided, *legs.values(), *stops.values()])
 
 
 def choices_map(site: Site, choices: Sequence[Sequence[Place]]) -> Feature:

@@ -52,7 +52,7 @@ def _does_nothing(task: Task, branches: tuple[BranchEstimate, ...]) -> bool:
 
 def _nothing_fits(task: Task, site: Site, robot: RobotProfile) -> Iterator[PlanProblem]:
     """Yield each limit that even the cheapest single visit exceeds."""
-    drives = drives_for(site, robot)
+    drives = drives_for(site, robot, task.constraints)
     home = site.home(task.composition.nominal, site.start)
     for node in walk(task.composition.plan):
         if not node.is_optional:

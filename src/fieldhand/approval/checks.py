@@ -18,6 +18,7 @@ from fieldhand.approval.budget import budget_problems
 from fieldhand.approval.problem import PlanProblem, node_in, with_words
 from fieldhand.approval.request_warnings import request_warnings
 from fieldhand.approval.timing import timing_problems
+from fieldhand.approval.ways import by_rules, rule_problems, way_problems
 from fieldhand.errors import FieldhandError, PlaceError, TaskError
 from fieldhand.forecast.estimate import Estimate, estimate, explore
 from fieldhand.forecast.visit_order import drives_for, start_place
@@ -95,6 +96,8 @@ def examine(
     problems.extend(unaccounted(task))
     if not _errors(problems):
         problems.extend(request_warnings(task, site, robot))
+        problems.extend(way_problems(task, site, robot))
+    if not _errors(problems):
         problems.extend(_places(task, site, robot))
     forecast = None
     if not _errors(problems):
@@ -168,7 +171,7 @@ def _resources(task: Task, site: Site, robot: RobotProfile) -> Iterator[PlanProb
 
 def _places(task: Task, site: Site, robot: RobotProfile) -> Iterator[PlanProblem]:
     """Check each selector that is resolved before the start: it matches enough places, and they are reachable."""
-    drives = drives_for(site, robot)
+    drives = drives_for(site, robot, task.constraints)
     yield from _exits(task, site, drives)
     steps = {inner.id: node for node in walk(task.composition.plan) if node.is_optional_step for inner in walk(node)}
     for node in walk(task.composition.plan):
@@ -187,7 +190,9 @@ def _places(task: Task, site: Site, robot: RobotProfile) -> Iterator[PlanProblem
         if closed and node.id in steps:
             yield from _left_out(steps[node.id], closed, site)
             continue
-        for place, reason in closed:
+        kept_away, others = by_rules(closed, drives_for(site, robot))
+        yield from rule_problems(kept_away, node.id, site)
+        for place, reason in others:
             yield PlanProblem(
                 node=node.id,
                 where=site.name,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,7 +16,7 @@ from fieldhand.language import ENGLISH, Language, message
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.drawing import draw_site, site_figure
 from fieldhand.site.drawing.detail_window import Window, show_detail, show_window, window_of
-from fieldhand.site.drawing.ground import draw_ground, draw_scale
+from fieldhand.site.drawing.ground import draw_closed_ground, draw_ground, draw_scale
 from fieldhand.site.drawing.names import labels_on, name_ground, name_markers, name_zones
 from fieldhand.site.drawing.rows import name_rows_within, name_trees
 from fieldhand.site.drawing.saving import save_figure
@@ -25,6 +26,8 @@ from fieldhand.task.frames import Task
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+    from fieldhand.site.closed_ground import ClosedGround
 
 #: Lengths in inches: width of the text panel, margin around the figure, minimum height for the text.
 _PANEL_IN, _MARGIN_IN, _LEAST_HEIGHT_IN = 4.7, 0.25, 6.8
@@ -57,10 +60,18 @@ def plan_figure(
     """Return the planned mission as the figure that :func:`save_map` writes."""
     words = read_back(task, site, robot, estimate)
     plan = plan_of(task, [b.walk for b in estimate.branches], words.lines)
-    return draw_map(task, site, plan, words, language)
+    return draw_map(task, site, plan, words, language, closed=estimate.closed)
 
 
-def draw_map(task: Task, site: Site, plan: DrawnPlan, words: ReadBack, language: Language = ENGLISH) -> Figure:
+def draw_map(
+    task: Task,
+    site: Site,
+    plan: DrawnPlan,
+    words: ReadBack,
+    language: Language = ENGLISH,
+    *,
+    closed: Sequence[ClosedGround] = (),
+) -> Figure:
     """Return a figure with the map and the text beside it, attached to no window.
 
     If trees are too close together on the map and the work covers only part of the site, an enlarged view of that part
@@ -69,6 +80,7 @@ def draw_map(task: Task, site: Site, plan: DrawnPlan, words: ReadBack, language:
     figure = _two_columns(site)
     ax, panel = figure.axes
     draw_site(ax, site)
+    draw_closed_ground(ax, closed)
     _close_up(figure)
     window = window_of(ax, site, [stop.place.xy for stop in plan.stops], _PANEL_IN, _WINDOW_IN)
     if window is not None:
@@ -87,7 +99,7 @@ def draw_map(task: Task, site: Site, plan: DrawnPlan, words: ReadBack, language:
         window = window.as_tall_as(_PANEL_IN, tall)
         show_window(ax, window)
         label_window(labels, window, plan.stops)
-        _draw_window(figure, site, plan, window, colours, tall)
+        _draw_window(figure, site, plan, window, colours, tall, closed)
     name_ground(ax, labels, site)
     return figure
 
@@ -101,7 +113,13 @@ def _draw_plan(ax: Axes, plan: DrawnPlan, colours: dict[str, str], disc: float) 
 
 
 def _draw_window(
-    figure: Figure, site: Site, plan: DrawnPlan, window: Window, colours: dict[str, str], tall_in: float
+    figure: Figure,
+    site: Site,
+    plan: DrawnPlan,
+    window: Window,
+    colours: dict[str, str],
+    tall_in: float,
+    closed: Sequence[ClosedGround],
 ) -> None:
     """Draw an enlarged view of the working area below the text, with the given height."""
     height = float(figure.get_size_inches()[1])
@@ -109,6 +127,7 @@ def _draw_window(
     ax = figure.add_axes((box.x0, _MARGIN_IN / height, box.width, tall_in / height))
     show_detail(ax, window)
     draw_ground(ax, site)
+    draw_closed_ground(ax, closed)
     draw_scale(ax)
     shown = [stop for stop in plan.stops if window.holds(stop.place.xy)]
     disc = disc_size(ax, shown)

@@ -24,6 +24,7 @@ from fieldhand.wording.branches import FAULTS, say_decisions
 from fieldhand.wording.resolved_places import gather
 from fieldhand.wording.steps import ReadBackLine, say_exit_after, write_lines
 from fieldhand.wording.timing import say_timing
+from fieldhand.wording.ways import say_ways, way_notes
 
 __all__ = ["ReadBack", "ReadBackLine", "Totals", "read_back"]
 
@@ -108,7 +109,7 @@ def read_back(task: Task, site: Site, robot: RobotProfile, estimate: Estimate) -
         limits=limits,
         faults=faults,
         assumptions=tuple(recalled(text, "assumption") for text in task.command.assumptions),
-        notes=_notes(walks, site),
+        notes=(*_notes(walks, site), *way_notes(task.constraints, robot)),
         totals=_totals(estimate, task, robot),
         usual=_usual(task, limits, faults),
         times=() if task.timing is None else say_timing(task.timing),
@@ -176,7 +177,7 @@ def _limits(task: Task, robot: RobotProfile) -> tuple[str, ...]:
     speed = task.constraints.speed_m_s
     if speed is not None:
         found.append(message("at most {speed} m/s.", speed=say_number(speed)))
-    return tuple(found)
+    return (*found, *say_ways(task.constraints))
 
 
 def _usual(task: Task, limits: Sequence[str], faults: Sequence[str]) -> frozenset[str]:

@@ -145,7 +145,9 @@ class MissionRunner:
 
     def __init__(self, task: Task, site: Site, robot: RobotProfile, inputs: RecordedInputs) -> None:
         self._inputs = inputs
-        self.mission = ActiveMission(task=task, site=site, robot=robot, inputs=inputs, drives=drives_for(site, robot))
+        self.mission = ActiveMission(
+            task=task, site=site, robot=robot, inputs=inputs, drives=drives_for(site, robot, task.constraints)
+        )
         self.monitor = LimitMonitor(self.mission)
 
     def run(self) -> Result:

@@ -112,7 +112,7 @@ def branches(
     Raises:
         TaskError: A walk exceeds the maximum number of nodes.
     """
-    ways = drives or visit_order.drives_for(site, robot)
+    ways = drives or visit_order.drives_for(site, robot, task.constraints)
     outcomes = ConditionOutcomes(task.composition.plan, site, robot)
     kept: dict[object, ExpectedVisits] = {}
 

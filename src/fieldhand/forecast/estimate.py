@@ -22,6 +22,7 @@ from fieldhand.task.frames import Task
 from fieldhand.task.plan import InOrder, Node
 
 if TYPE_CHECKING:
+    from fieldhand.site.closed_ground import ClosedGround
     from fieldhand.site.drives import Drives
 
 __all__ = ["BranchEstimate", "Estimate", "Figure", "estimate", "explore", "limit_problems", "mandatory_part"]
@@ -39,6 +40,7 @@ class Estimate:
         exits: Drives home after faults.
         problems: Problems that prevent the Task from being carried out within its limits, one sentence each.
         charge_percent: Battery charge at the start of the mission, 0 to 100.
+        closed: Ground that the mission keeps out of.
     """
 
     branches: tuple[BranchEstimate, ...]
@@ -48,6 +50,7 @@ class Estimate:
     exits: FaultExits
     problems: tuple[str, ...]
     charge_percent: float = 100.0
+    closed: tuple[ClosedGround, ...] = ()
 
     __repr__ = short_repr
 
@@ -150,7 +153,7 @@ def estimate(
 
 
 def _estimated(kept: _CachedBranches, task: Task, site: Site, robot: RobotProfile, charge_percent: float) -> Estimate:
-    found, drives = kept.explored, visit_order.drives_for(site, robot)
+    found, drives = kept.explored, visit_order.drives_for(site, robot, task.constraints)
     resources = resource_limits(task.constraints, robot, charge_percent)
     estimates = tuple(estimate_branch(w, resources, task.constraints, robot, charge_percent) for w in found.walks)
     worst = _worst(estimates)
@@ -171,6 +174,7 @@ def _estimated(kept: _CachedBranches, task: Task, site: Site, robot: RobotProfil
         exits=ways_home,
         problems=problems,
         charge_percent=charge_percent,
+        closed=drives.closed,
     )
 
 
@@ -184,7 +188,7 @@ def _of_mandatory(
         part, site, robot, charge_percent=charge_percent, leg_costs=kept.leg_costs, seed=kept.leg_costs.seed
     )
     estimates = [estimate_branch(w, resources, part.constraints, robot, charge_percent) for w in found.walks]
-    return limit_problems(part, site, visit_order.drives_for(site, robot), resources, estimates)
+    return limit_problems(part, site, visit_order.drives_for(site, robot, part.constraints), resources, estimates)
 
 
 def _worst(estimates: Sequence[BranchEstimate]) -> BranchEstimate:

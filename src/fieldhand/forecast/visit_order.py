@@ -17,7 +17,7 @@ from fieldhand.places.selector import Selector
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task import plan
-from fieldhand.task.frames import Task
+from fieldhand.task.frames import Constraints, Task
 from fieldhand.task.plan import AnyOrder, ForEach, Node
 
 if TYPE_CHECKING:
@@ -28,18 +28,32 @@ if TYPE_CHECKING:
 _ORDERS = 64
 
 
-def drives_for(site: Site, robot: RobotProfile) -> Drives:
+def drives_for(site: Site, robot: RobotProfile, constraints: Constraints | None = None) -> Drives:
     """Return the drives of a robot on a site, with a clearance of half its width from tree lines and keep-outs.
 
-    Equal arguments give the same object, which caches the drives it has found.
+    With the constraints of a mission, they keep away from what it avoids. Equal arguments give the same object, which
+    caches the drives it has found.
+
+    Raises:
+        PlaceError: What the mission avoids cannot be found on the site.
     """
     from fieldhand.site.drives import Drives
 
-    key = ("drives", robot.width_m, robot.standoff_m)
+    key: tuple[object, ...] = ("drives", robot.width_m, robot.standoff_m)
     known = site.cache.get(key)
     if not isinstance(known, Drives):
         known = site.cache[key] = Drives(site, robot.width_m / 2, robot.standoff_m)
-    return known
+    if constraints is None or not (constraints.avoid or constraints.only_gates):
+        return known
+    from fieldhand.forecast.closed_ground import closed_ground
+
+    avoid = tuple((one.places, one.distance_m) for one in constraints.avoid)
+    key = ("closed drives", robot.width_m, robot.standoff_m, avoid, tuple(one.gate for one in constraints.only_gates))
+    closed = site.cache.get(key)
+    if not isinstance(closed, Drives):
+        ground = closed_ground(constraints, known)
+        closed = site.cache[key] = Drives(site, known.clearance_m, known.standoff_m, closed=ground)
+    return closed
 
 
 def start_place(drives: Drives) -> Place:

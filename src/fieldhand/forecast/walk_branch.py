@@ -46,7 +46,7 @@ def walk_branch(
         DriveFault: A place cannot be reached.
         TaskError: The walk exceeds ``MAX_NODES`` nodes.
     """
-    ways = drives or visit_order.drives_for(site, robot)
+    ways = drives or visit_order.drives_for(site, robot, task.constraints)
     walker = ForecastHandler(
         task,
         site,

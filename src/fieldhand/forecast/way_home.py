@@ -29,7 +29,7 @@ def excessive_way_home(task: Task, site: Site, robot: RobotProfile, then: Then) 
     optional = any(n.is_optional and n.visits_each for n in walk(task.composition.plan))
     if not task.constraints.budgets or not optional:
         return None
-    drives = drives_for(site, robot)
+    drives = drives_for(site, robot, task.constraints)
     start = start_place(drives)
     home = site.home(then, start)
     if home.xy == start.xy:

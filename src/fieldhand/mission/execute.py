@@ -97,7 +97,9 @@ def carry_out(
             f"the mission was approved for {robot.name}, the vehicle is {vehicle.robot.name} or has another profile",
             advice="connect with the profile that the mission was approved for",
         )
-    guard = BudgetGuard(task, site, robot, drives_for(site, robot), seed, charge_percent=vehicle.charge_percent)
+    guard = BudgetGuard(
+        task, site, robot, drives_for(site, robot, task.constraints), seed, charge_percent=vehicle.charge_percent
+    )
     result = run(
         mission.authorized,
         site=site,

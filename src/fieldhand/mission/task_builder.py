@@ -10,6 +10,7 @@ from fieldhand.site.model import Site
 from fieldhand.task.build import make_task
 from fieldhand.task.frames import Budget, Constraints, Resource, Task, Then
 from fieldhand.task.plan import Node
+from fieldhand.task.ways import Avoid, OnlyGate
 
 
 def build_task(
@@ -21,6 +22,8 @@ def build_task(
     budgets: Sequence[Budget] = (),
     reserve_percent: float | None = None,
     then: Then = "return_to_end",
+    avoid: Sequence[Avoid] = (),
+    only_gates: Sequence[str] = (),
 ) -> Task:
     """Build a Task for a site and a robot; :func:`review` checks it as it checks every Task.
 
@@ -32,6 +35,8 @@ def build_task(
         budgets: Limits of distance, time or energy for the whole mission, the way home included.
         reserve_percent: Charge that must be left at the end, in percent; None for the robot's own reserve.
         then: Where the robot goes when the plan is done.
+        avoid: Places that the robot keeps away from.
+        only_gates: Names of the gates that it may pass; empty for all gates.
     """
     return make_task(
         request=request,
@@ -41,6 +46,11 @@ def build_task(
             Resource(kind="robot", name=robot.name, sha256=robot.sha256),
             Resource(kind="site", name=site.name, sha256=site.sha256),
         ),
-        constraints=Constraints(budgets=tuple(budgets), reserve_percent=reserve_percent),
+        constraints=Constraints(
+            budgets=tuple(budgets),
+            reserve_percent=reserve_percent,
+            avoid=tuple(avoid),
+            only_gates=tuple(OnlyGate(gate=gate) for gate in only_gates),
+        ),
         nominal=then,
     )

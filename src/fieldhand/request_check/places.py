@@ -224,6 +224,7 @@ def _stands_in(plan: PlanFacts, name: str, site: Site) -> bool:
 def _gates(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
     """Yield gates of the request that the plan lacks, and the reverse."""
     held = {_name_text(x.gate): node for node, x in plan.having(s.GateIs) if isinstance(x, s.GateIs)}
+    held |= {_name_text(only.gate): plan.task.composition.plan.id for only in plan.task.constraints.only_gates}
     for name in dict.fromkeys(_name_text(gate.place.id) for gate in site.gates):
         if f" {name} " in f" {facts.text} " and not held and name not in facts.zones:
             yield PlanMismatch(

@@ -177,14 +177,17 @@ def plan_facts(task: Task, size: Callable[[str], int | None]) -> PlanFacts:
     """
     root = task.composition.plan
     nodes = tuple(p.walk(root))
-    selectors = tuple((n.id, x) for n in nodes if (top := n.selector) is not None for x in top.walk())
+    selectors = (
+        *((n.id, x) for n in nodes if (top := n.selector) is not None for x in top.walk()),
+        *((root.id, x) for avoid in task.constraints.avoid for x in avoid.places.walk()),
+    )
     return PlanFacts(
         task=task,
         nodes=nodes,
         selectors=selectors,
         captures=tuple(_captures(root, _Surroundings(), size)),
         tests=tuple(_tests(nodes, selectors)),
-        numbers=tuple(_numbers(nodes, selectors)),
+        numbers=(*_numbers(nodes, selectors), *_kept_distances(task)),
     )
 
 
@@ -307,6 +310,19 @@ def _in_words(condition: CountReadings) -> bool:
     """Return True for a number of readings that requests say in words: any, none, all, most, half."""
     whole = (50, 100) if condition.percent else (0, 1)
     return condition.number in whole or (condition.percent and condition.number == 0)
+
+
+def _kept_distances(task: Task) -> Iterator[PlannedNumber]:
+    """Yield the distances that a plan keeps from places."""
+    for avoid in task.constraints.avoid:
+        if avoid.distance_m:
+            yield PlannedNumber(
+                node=task.composition.plan.id,
+                what="avoid distance m",
+                value=avoid.distance_m,
+                kind="length",
+                field="distance_m",
+            )
 
 
 def _numbers(nodes: tuple[p.Node, ...], selectors: tuple[tuple[str, Selector], ...]) -> Iterator[PlannedNumber]:

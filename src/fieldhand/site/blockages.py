@@ -86,7 +86,7 @@ def _without(drives: Drives, stretches: Sequence[Polygon]) -> Drives:
     )
     site = dataclasses.replace(drives.site, zones=(*drives.site.zones, *zones))
     vars(site)["planting"] = drives.site.planting  # the rows do not change
-    return Drives(site, drives.clearance_m, drives.standoff_m)
+    return Drives(site, drives.clearance_m, drives.standoff_m, closed=drives.closed)
 
 
 def _blocked_ahead(layout: Layout, at: XY, towards: XY, half_width_m: float) -> Polygon:

@@ -7,17 +7,20 @@ clearance (a marker beside a pond) the clearance is reduced; keep-outs are never
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
+from shapely.geometry import Point
 
 from fieldhand.errors import DriveFault
 from fieldhand.language import message
-from fieldhand.language.words import say_marker, say_number, say_side, say_tree
+from fieldhand.language.words import listed, say_marker, say_number, say_side, say_tree
 from fieldhand.site.driving.lane_choice import RowVisits, choose_lanes, pick_candidate
 from fieldhand.site.driving.layout import Layout, Spot
 from fieldhand.site.driving.network import DrivableNetwork, network_of
@@ -25,6 +28,9 @@ from fieldhand.site.driving.reasons import cut_off, no_stand
 from fieldhand.site.driving.roadmap import Roadmap, roadmap_of
 from fieldhand.site.driving.stands import Candidate, StandCandidates
 from fieldhand.site.model import Place, Site
+
+if TYPE_CHECKING:
+    from fieldhand.site.closed_ground import ClosedGround
 
 XY = tuple[float, float]
 DriveKey = tuple[tuple[str, str, str], XY, XY | None]
@@ -68,14 +74,20 @@ class Drives:
         clearance_m: Distance to keep from tree lines, keep-outs and the boundary in metres: half the robot's width.
         standoff_m: Distance in metres from a tree to the robot working on it; less if the middle of the aisle is
             nearer.
+        closed: Ground that the mission keeps out of. The robot's stands and the obstacles of rows are those without it.
     """
 
-    def __init__(self, site: Site, clearance_m: float, standoff_m: float = 0.0) -> None:
+    def __init__(
+        self, site: Site, clearance_m: float, standoff_m: float = 0.0, *, closed: Sequence[ClosedGround] = ()
+    ) -> None:
         self.site = site
         self.standoff_m = standoff_m
         self.clearance_m = clearance_m
-        self.layout = Layout(site, clearance_m, standoff_m)
-        self._stands = StandCandidates(site, self.layout, clearance_m, standoff_m)
+        self.closed = tuple(closed)
+        self.layout = Layout(site, clearance_m, standoff_m, closed)
+        self._whole_layout = Layout(site, clearance_m, standoff_m) if closed else self.layout
+        self._stands = StandCandidates(site, self._whole_layout, clearance_m, standoff_m)
+        self._others: dict[tuple[ClosedGround, ...], Drives] = {}
         self._ables: dict[DriveKey, list[Candidate]] = {}
         self._closed: dict[DriveKey, str] = {}
         self._problems: dict[DriveKey, str] = {}
@@ -238,10 +250,25 @@ class Drives:
         if new:
             options = self._stands.of_all(new)
             able = [c.xy for option in options for c in option if not c.why_not]
-            free = iter(self.layout.are_free(np.array(able).reshape(-1, 2)).tolist())
+            margins = [
+                self.clearance_m if p.kind == "tree" else 0.0
+                for p, option in zip(new, options, strict=True)
+                for c in option
+                if not c.why_not
+            ]
+            is_free = self.layout.are_free(np.array(able).reshape(-1, 2)) & ~self._is_closed(able, margins)
+            free = iter(is_free.tolist())
             found = [[c for c in option if not c.why_not and next(free)] for option in options]
             self._ables.update(zip(map(_key, new), found, strict=True))
         return [self._ables[_key(p)] for p in places]
+
+    def _is_closed(self, at: Sequence[XY], margins_m: Sequence[float]) -> NDArray[np.bool_]:
+        """Return which points are nearer to closed ground than a margin each."""
+        found = np.zeros(len(at), dtype=bool)
+        for ground in self.closed:
+            away = shapely.distance(ground.shape, shapely.points(np.array(at).reshape(-1, 2)))
+            found |= away < np.array(margins_m) - 1e-6
+        return found
 
     def network(self) -> DrivableNetwork:
         """Return aisles, headlands, gates and the links between them, as lines."""
@@ -297,12 +324,47 @@ class Drives:
 
     def _no_stand(self, place: Place) -> str:
         candidates = self._stands.of(place)
+        if why := self._closed_stands(place, candidates):
+            return why
         if candidates[0].why_not:
             return no_stand(candidates, 2.0 * self.clearance_m)
         return message(
             "out of reach: {obstacle} is in the way",
             obstacle=self.layout.in_the_way(candidates[0].xy) or message("a fence"),
         )
+
+    def _closed_stands(self, place: Place, candidates: Sequence[Candidate]) -> str:
+        """Return the reason why a place is closed to the mission; empty if it could not be reached anyway."""
+        stands = [c.xy for c in candidates if not c.why_not]
+        stands = [xy for xy in stands if self._whole_layout.are_free(np.array([xy]))[0]]
+        margin = self.clearance_m if place.kind == "tree" else 0.0
+        closing = [
+            [ground for ground in self.closed if ground.shape.distance(Point(xy)) < max(margin - 1e-6, 1e-9)]
+            for xy in stands
+        ]
+        if not closing or not all(closing):
+            return ""
+        every = [ground for ground in closing[0] if all(ground in some for some in closing)]
+        tree = self.site.by_id.get(place.id) if place.kind == "tree" else None
+        for ground in every:
+            if (tree is not None and tree.index in ground.trees) or ground.shape.intersects(Point(place.xy)):
+                return message("{inside}, where the robot must not drive", inside=ground.inside)
+        return _out_of_reach(every[:1] or [some[0] for some in closing])
+
+    def _closed_ways(self, places: Sequence[Place]) -> list[str]:
+        """Return for places that are cut off the reason if closed ground is why; empty if they are anyway."""
+        reasons = []
+        for place, anyway in zip(places, self._with(()).problems(places), strict=True):
+            alone = (one for one in self.closed if self._with((one,)).problem(place)) if len(self.closed) > 1 else ()
+            closing = list(itertools.islice(alone, 1)) or self.closed
+            reasons.append("" if anyway else _out_of_reach(closing))
+        return reasons
+
+    def _with(self, closed: tuple[ClosedGround, ...]) -> Drives:
+        """Return drives with other closed ground, cached."""
+        if closed not in self._others:
+            self._others[closed] = Drives(self.site, self.clearance_m, self.standoff_m, closed=closed)
+        return self._others[closed]
 
     def _cut_off(self, places: Sequence[Place]) -> list[str]:
         """Return for each place why no path from the robot's start leads to it; empty if one does."""
@@ -312,9 +374,13 @@ class Drives:
         able = self._able_of(places)
         linked = iter(self.layout.reachable(self.layout.spots([c.xy for cs in able for c in cs]), start))
         reached = [any([next(linked) for _ in candidates]) for candidates in able]  # noqa: C419 - each has its turn
+        cut = [place for place, reach in zip(places, reached, strict=True) if not reach]
+        closed = dict(zip(map(_key, cut), self._closed_ways(cut) if self.closed else [""] * len(cut), strict=True))
         return [
-            "" if reach else cut_off(self.layout, self.layout.spots([c.xy for c in candidates]), start)
-            for reach, candidates in zip(reached, able, strict=True)
+            ""
+            if reach
+            else closed[_key(place)] or cut_off(self.layout, self.layout.spots([c.xy for c in candidates]), start)
+            for place, reach, candidates in zip(places, reached, able, strict=True)
         ]
 
     def _way(self, one: XY, two: XY) -> tuple[tuple[XY, ...], float] | None:
@@ -363,6 +429,12 @@ class Drives:
 
 def _key(place: Place) -> DriveKey:
     return place.key, place.xy, place.stand
+
+
+def _out_of_reach(closed: Sequence[ClosedGround]) -> str:
+    """Return the reason why a place that the mission's own rules close cannot be reached."""
+    rules = listed(tuple(dict.fromkeys(ground.rule for ground in closed)))
+    return message("out of reach: the robot must {rules}", rules=rules)
 
 
 def _called(place: Place) -> str:

@@ -23,9 +23,10 @@ from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import SELECTORS
 from fieldhand.places.sources.union_of import UnionOf
 from fieldhand.task.conditions import Between, Compare, Condition, Level
-from fieldhand.task.frames import Command, Composition, FaultedExit, Task, Then
+from fieldhand.task.frames import Budget, Command, Composition, Constraints, FaultedExit, Task, Then
 from fieldhand.task.plan import Act, InOrder, Node, OptionalStep, Span, StopMission
 from fieldhand.task.timing import Timing
+from fieldhand.task.ways import Avoid, OnlyGate
 from fieldhand.terms import Value
 
 NAMESPACE = "urn:fieldhand:task:1"
@@ -51,6 +52,21 @@ class TaskComposition:
     exits: ExitsElement = ExitsElement()
 
 
+@dataclass(frozen=True, kw_only=True)
+class ConstraintsElement:
+    """Limits of the whole mission: budgets, then places to avoid, then gates to use; reserve and speed.
+
+    Attributes:
+        reserve_percent: Charge to leave at the end; None for the profile's reserve.
+        speed_m_s: Maximum speed; None for the robot's.
+    """
+
+    parts: tuple[Budget | Avoid | OnlyGate, ...] = ()
+    reserve_percent: float | None = None
+    reserve_said: tuple[Span, ...] = ()
+    speed_m_s: float | None = None
+
+
 #: Attribute in which a draft quotes words of the request, and the ranges that replace it in each element (``said`` in
 #: nodes and budgets).
 QUOTES = "words"
@@ -61,6 +77,7 @@ _NAMES: dict[tuple[type, str], str] = {(Task, "composition"): "task-composition"
 _ELEMENT_NAMES: dict[type, str] = {
     FaultedExit: "faulted",
     ExitsElement: "exits",
+    ConstraintsElement: "constraints",
     InOrder: "sequence",
     OptionalStep: "optional",
     StopMission: "stop",
@@ -148,7 +165,24 @@ SURROGATES: dict[type, tuple[type, Callable[[Any], Any], Callable[[Any], Any]]] 
         lambda t: Composition(
             plan=t.plan, nominal=t.exits.nominal, nominal_said=t.exits.nominal_said, faulted=t.exits.faulted
         ),
-    )
+    ),
+    Constraints: (
+        ConstraintsElement,
+        lambda c: ConstraintsElement(
+            parts=(*c.budgets, *c.avoid, *c.only_gates),
+            reserve_percent=c.reserve_percent,
+            reserve_said=c.reserve_said,
+            speed_m_s=c.speed_m_s,
+        ),
+        lambda t: Constraints(
+            budgets=tuple(part for part in t.parts if isinstance(part, Budget)),
+            reserve_percent=t.reserve_percent,
+            reserve_said=t.reserve_said,
+            speed_m_s=t.speed_m_s,
+            avoid=tuple(part for part in t.parts if isinstance(part, Avoid)),
+            only_gates=tuple(part for part in t.parts if isinstance(part, OnlyGate)),
+        ),
+    ),
 }
 
 #: Families of classes whose members are interchangeable in a document, by name.

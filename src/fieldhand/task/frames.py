@@ -6,13 +6,14 @@ resources.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Literal
 
 from fieldhand.short_repr import short_repr
 from fieldhand.task.plan import Node, Span
 from fieldhand.task.timing import Timing
+from fieldhand.task.ways import Avoid, OnlyGate
 
 Then = Literal["return_to_end", "return_to_start", "stay"]
 Fault = Literal["action_failed", "drive_failed", "low_budget", "aborted"]
@@ -121,20 +122,30 @@ class Budget:
     said: tuple[Span, ...] = ()
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Constraints:
-    """Limits of the whole mission: its ``budgets``, reserve and speed.
+    """Limits of the whole mission: its ``budgets``, reserve, speed, and where it drives.
 
     Attributes:
         reserve_percent: Charge to leave at the end; None for the profile's reserve.
         reserve_said: Character ranges of the request that state the reserve.
         speed_m_s: Maximum speed; None for the robot's.
+        avoid: Places that the robot keeps away from.
+        only_gates: Gates that it may pass; empty for all gates.
     """
 
     budgets: tuple[Budget, ...] = ()
     reserve_percent: float | None = None
     reserve_said: tuple[Span, ...] = ()
     speed_m_s: float | None = None
+    avoid: tuple[Avoid, ...] = ()
+    only_gates: tuple[OnlyGate, ...] = ()
+
+    def __repr__(self) -> str:
+        """Return the fields; later ones only if they are set, since the id of a Task is a hash of this text."""
+        later = ("avoid", "only_gates")
+        shown = [f.name for f in fields(self) if f.name not in later or getattr(self, f.name)]
+        return f"Constraints({', '.join(f'{name}={getattr(self, name)!r}' for name in shown)})"
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -23,6 +23,9 @@ def outline(task: Task) -> str:
         limits += f" | reserve {task.constraints.reserve_percent:g}"
     if task.constraints.speed_m_s is not None:
         limits += f" | speed {task.constraints.speed_m_s:g}"
+    for avoid in task.constraints.avoid:
+        limits += f" | avoid {selector(avoid.places)}" + (f" {avoid.distance_m:g} m" if avoid.distance_m else "")
+    limits += "".join(f" | only {only.gate}" for only in task.constraints.only_gates)
     exit_ = "" if task.composition.nominal == "return_to_end" else f" | {task.composition.nominal}"
     times = "" if task.timing is None else " | " + " ".join(timing(task.timing))
     return node(task.composition.plan) + limits + times + exit_

@@ -633,7 +633,7 @@ PLANNED = [
     (
         "husky",
         "Photograph all the trees more than 100 m from the charger.",
-        "for Excluding(UnionOf(Marker(charger)+Within(100, Marker(charger)))): [picture]",
+        "for Within(100, Marker(charger), True): [picture]",
     ),
     ("husky", "Photograph ten trees that are at least 10 m apart.", "for Apart(10, 10, True): [picture]"),
     ("husky", "Photograph ten trees, each at least 10 m from the next.", "for Apart(10, 10, True): [picture]"),

@@ -141,7 +141,6 @@ OPEN = [
     "Leave tree 4 alone.",
     "Don't photograph row 3.",
     "Photograph every tree in row 3. Don't go near the pond.",
-    "Do not drive through row 10. Photograph row 3.",
     "Photograph every tree in row 3. Never go to tree 45.",
     "Photograph tree 4. Use tree 5 instead.",
     "Photograph trees 4 and 5 or, failing that, tree 6.",

@@ -107,7 +107,7 @@ PLANNED = {
         ("Photograph the trees within a radius of 20 m around tree 40.", "for Within(20, TreeIs(40)): [picture]"),
         ("Photograph all trees in a 20 m radius of tree 40.", "for Within(20, TreeIs(40)): [picture]"),
         ("Photograph all trees up to 20 m from the charger.", "for Within(20, Marker(charger)): [picture]"),
-        ("Photograph the trees between 20 and 40 m from the charger.", "for Excluding(Within(20, Marker(charger)), of Within(40, Marker(charger))): [picture]"),
+        ("Photograph the trees between 20 and 40 m from the charger.", "for Within(20, Marker(charger), True, of Within(40, Marker(charger))): [picture]"),
         ("Photograph the tree in each corner.", "for Corners: [picture]"),
         ("Photograph row 4's third tree.", "picture @ InRow(3, 3, of Rows(4, 4))"),
         ("Measure CO2 at row 4's northern end.", "co2 @ InRow(1, 1, north, of Rows(4, 4))"),

@@ -186,7 +186,6 @@ KEPT = [
     "Never the Syrah. Take a picture of tree 4.",
     "We never go to the Carmels. Take a picture of tree 4.",
     "My boss says to skip row 4. Take a picture of row 3, every tree.",
-    "The wet corner is off limits. Take a picture of every tree.",
     "The wet corner is flooded. Take a picture of every tree.",
     "They told us to stay out of the wet corner. Take a picture of every tree.",
     "I'd rather you avoided the wet corner. Take a picture of every tree.",

@@ -47,7 +47,7 @@ WISHES = [
     ("Take a video of row 2 of the north block.", "does not record"),
     ("Photograph N100, then zoom in on the leaves.", "how a picture is taken"),
     ("Fly over the south block and take pictures.", "a flight"),
-    ("Keep away from the pond and photograph the Merlot.", "a prohibition"),
+    ("Never touch the trunks and photograph the Merlot.", "a prohibition"),
     ("Take pictures of unhealthy looking vines in row 5 of the south block.", "does not say this of the trees"),
     ("Take pictures of the Zinfandel vines.", "does not say this of the trees"),
     ("Go to the winery and take a picture.", "is no place"),
@@ -105,7 +105,7 @@ def test_what_was_understood_is_said_in_the_words_of_the_read_back_and_suggested
 
 
 def test_the_example_does_not_do_what_was_forbidden() -> None:
-    outcome = refused("Take pictures of 5 vines. Never drive through row 10 of the north block.", vineyard())
+    outcome = refused("Take pictures of 5 vines. Never touch the trunks of row 10.", vineyard())
     assert outcome.example == "Take pictures of 5 vines."
 
 

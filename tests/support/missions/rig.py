@@ -130,7 +130,7 @@ class Rig:
             emit=lambda event: None,
             current_command=lambda: None,
         )
-        drives = drives_for(self.site, self.robot)
+        drives = drives_for(self.site, self.robot, task.constraints)
         return ActiveMission(task=task, site=self.site, robot=self.robot, inputs=inputs, drives=drives)
 
     def fly(

@@ -1,4 +1,4 @@
-"""Trees at most so far from places."""
+"""Trees at most so far from places, or farther away."""
 
 from __future__ import annotations
 
@@ -25,10 +25,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class Within(FromGroup):
-    """Trees at most ``distance_m`` metres from ``to``, which itself does not count."""
+    """Trees at most ``distance_m`` metres from ``to``, which itself does not count; with ``beyond`` those farther away.
+
+    The nearest of several places counts: the trees of a row or a block as ``to``.
+    """
 
     distance_m: float
     to: Selector
+    beyond: bool = False
     of: Selector = Trees()
 
     reference_rule = "region"
@@ -46,12 +50,16 @@ class Within(FromGroup):
                 advice=message("ask for more than 0 m"),
             )
         to = resolution.origin(self.to)
-        return within(apart_from(of, to), to, self.distance_m)
+        near = within(apart_from(of, to), to, self.distance_m)
+        return apart_from(of, to).without(near) if self.beyond else near
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:
         distance, place = say_number(self.distance_m), self.to.as_origin(wording)
-        near = message("within {distance} m of {place}", distance=distance, place=place)
-        return wording.phrase(self.of).keeping(after=near)
+        if self.beyond:
+            where = message("more than {distance} m from {place}", distance=distance, place=place)
+        else:
+            where = message("within {distance} m of {place}", distance=distance, place=place)
+        return wording.phrase(self.of).keeping(after=where)
 
     @property
     def size(self) -> CountRange:

@@ -7,11 +7,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from fieldhand.language import Number, joined, message
+from fieldhand.language.words import capitalised
 from fieldhand.planning.planner import Answer, Planned, Reason
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.plan import Node, Span, walk
 from fieldhand.wording.steps import ReadBackLine, write_lines
+from fieldhand.wording.ways import say_ways
 
 #: Maximum number of answers to choose from; plans that differ in more ways are told apart one step at a time.
 _MOST_ANSWERS = 5
@@ -105,9 +107,23 @@ def _question_of_limits(plans: Sequence[Planned], request: str) -> PlanQuestion 
         elif used is not None:
             answer = message("The mission uses at most {percent} % of the battery.", percent=Number(f"{used:g}"))
         else:
-            return None
+            return _question_of_ways(plans, request)
         left[answer] = (*left.get(answer, ()), plan)
     if len(left) < 2:
+        return _question_of_ways(plans, request)
+    start, end = min(start for start, _ in spans), max(end for _, end in spans)
+    asked = message("'{said}': which is meant?", context="question", said=request[start:end])
+    return PlanQuestion(question=asked, said=(start, end), plans=left)
+
+
+def _question_of_ways(plans: Sequence[Planned], request: str) -> PlanQuestion | None:
+    """Return the question between plans of the same steps that keep away from other places."""
+    left: dict[str, tuple[Planned, ...]] = {}
+    for plan in plans:
+        answer = capitalised(joined(" ", say_ways(plan.task.constraints)))
+        left[answer] = (*left.get(answer, ()), plan)
+    spans = [span for plan in plans for avoid in plan.task.constraints.avoid for span in avoid.said]
+    if len(left) < 2 or not spans:
         return None
     start, end = min(start for start, _ in spans), max(end for _, end in spans)
     asked = message("'{said}': which is meant?", context="question", said=request[start:end])

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from fieldhand.errors import PlaceError
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.plans import with_selector
-from fieldhand.planning.selections import is_in_block, over, rows_of, swapped
+from fieldhand.planning.grammar.meaning import WayRule
+from fieldhand.planning.selections import blocks_of, is_in_block, over, rows_of, swapped
 from fieldhand.site.counting import find_row, rows_from
 from fieldhand.site.model import Site
 from fieldhand.site.planting import Block
 from fieldhand.task import plan as p
+
+#: Rules of where the robot drives, each with the spans of the request that say it.
+Ways = tuple[tuple[WayRule, tuple[p.Span, ...]], ...]
 
 
 def in_each_block(plan: p.Node, site: Site) -> Mapping[str, p.Node]:
@@ -34,6 +38,33 @@ def in_each_block(plan: p.Node, site: Site) -> Mapping[str, p.Node]:
         return {"": plan}
     fitting = [block for block in blocks if all(_has(site, block, rows) for rows in named)]
     return {block.name: _of_block(plan, block) for block in fitting} if len(fitting) > 1 else {"": plan}
+
+
+def rules_in_each_block(ways: Ways, plan: p.Node, site: Site) -> Sequence[Ways]:
+    """Return rules of where to drive for each block whose rows may be meant.
+
+    Rows without a block are those of the only block that the plan names, if it has them.
+    """
+    blocks = site.planting.blocks
+    named = [
+        rows
+        for rule, _ in ways
+        for places, _ in rule.avoid
+        for rows in rows_of(places)
+        if rows.first and not is_in_block(rows.of)
+    ]
+    if len(blocks) < 2 or not named:
+        return [ways]
+    fitting = [block for block in blocks if all(_has(site, block, rows) for rows in named)]
+    selectors = [node.selector for node in p.walk(plan) if node.selector is not None]
+    planned = {part.block for selector in selectors for part in blocks_of(selector)}
+    if len(planned) == 1:
+        fitting = [block for block in fitting if block.name in planned] or fitting
+    return [tuple((_rule_of_block(rule, block), said) for rule, said in ways) for block in fitting] or [ways]
+
+
+def _rule_of_block(rule: WayRule, block: Block) -> WayRule:
+    return replace(rule, avoid=tuple((_rows_of_block(places, block), metres) for places, metres in rule.avoid))
 
 
 def leaves_block_open(selector: s.Selector, site: Site) -> bool:
@@ -58,10 +89,15 @@ def _has(site: Site, block: Block, rows: s.Rows) -> bool:
 def _of_block(node: p.Node, block: Block) -> p.Node:
     """Return a node whose rows without a block are those of a block."""
     node = node.with_children([_of_block(child, block) for child in node.children])
-    place = node.selector
-    if place is None:
+    if node.selector is None:
         return node
+    place = _rows_of_block(node.selector, block)
+    return node if place == node.selector else with_selector(node, place)
+
+
+def _rows_of_block(place: s.Selector, block: Block) -> s.Selector:
+    """Return places whose rows without a block are those of a block."""
     for rows in rows_of(place):
         if rows.first and not is_in_block(rows.of):
             place = swapped(place, rows, replace(rows, of=over(rows.of, s.InBlock(block=block.name))))
-    return node if place == node.selector else with_selector(node, place)
+    return place

@@ -132,14 +132,6 @@ def row_near_a_place() -> Impossible:
     return Impossible(message("what is near, the tree or the row?"), message("name the row"))
 
 
-@construction("WITHIN amount OF rows", "WITHIN amount FROM rows", "in_ amount OF rows")
-def distance_to_rows() -> Impossible:
-    """Compose "within 10 m of row 3"."""
-    return Impossible(
-        message("distances have to be measured from a single place"), message("name a tree, a corner or a marker")
-    )
-
-
 @construction("amount DIR OF place", "amount DIR FROM place")
 def distance_in_a_direction() -> Impossible:
     """Compose "10 m north of tree 5"."""
@@ -170,6 +162,15 @@ def single_and_near(first: PlaceMeaning) -> Impossible | None:
     if first.shape != "one" or measures_distance(first.selector):
         return None
     return Impossible(message("it is not clear what is near to what"), message("say it in two steps"))
+
+
+@construction("WITHOUT COMES NEAR place", "WITHOUT COMES NEAREST [AT] place", "WITHOUT PASSESBY place")
+def keep_away_somehow() -> Impossible:
+    """Compose "do not drive near the pond"."""
+    return Impossible(
+        message("it is not said how far to keep from it"),
+        message("give a distance, 'keep 5 m from the pond', or say 'stay out of the wet corner'"),
+    )
 
 
 @construction(

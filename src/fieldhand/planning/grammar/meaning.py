@@ -341,6 +341,24 @@ class LimitClause:
 
 
 @dataclass(frozen=True, slots=True)
+class WayRule:
+    """Where the robot must not drive, and the only gates that it may pass.
+
+    Attributes:
+        avoid: Places, each with the distance in metres to keep from it; 0 to keep out of it.
+        gates: The only gates that it may pass; empty for all.
+        left_out: Those of the places whose trees are left out as well ("stay out of"), not only driven past ("not
+            through").
+        used: Tokens of the phrase.
+    """
+
+    avoid: tuple[tuple[s.Selector, float], ...] = ()
+    gates: tuple[str, ...] = ()
+    left_out: tuple[s.Selector, ...] = ()
+    used: int = 0
+
+
+@dataclass(frozen=True, slots=True)
 class Test:
     """A test of a reading or of an attribute; the dialogue finds the reading.
 
@@ -668,6 +686,7 @@ Command = (
     | Home
     | StopCommand
     | LimitClause
+    | WayRule
     | When
     | CaptureWhere
     | Otherwise

@@ -11,9 +11,13 @@ from fieldhand.errors import PlaceError, TaskError
 from fieldhand.language import Number, message, named
 from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve
+from fieldhand.places.sources.gate_is import GateIs
+from fieldhand.places.wording import say_selector
 from fieldhand.planning.foreseen import foreseeable
+from fieldhand.planning.grammar.meaning import WayRule
 from fieldhand.planning.homeward import faulted_exits, usual_exit, with_assumed_exit
 from fieldhand.planning.planner import Outcome, Planned, Reason, Refused
+from fieldhand.planning.selections import as_zone
 from fieldhand.robot.capabilities import measures_of
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -21,6 +25,7 @@ from fieldhand.task import plan as p
 from fieldhand.task.build import make_task
 from fieldhand.task.frames import Budget, BudgetKind, Constraints, Resource, Then
 from fieldhand.task.timing import Timing
+from fieldhand.task.ways import Avoid, OnlyGate
 
 NAME = "english"
 KINDS: dict[str, BudgetKind] = {"metres": "distance_m", "seconds": "duration_s", "percent": "energy_percent"}
@@ -52,6 +57,7 @@ class Meant:
         limits: Budgets and reserves.
         speed_m_s: Highest driving speed of the mission; None for the robot's.
         speed_said: Spans of the request that say it.
+        ways: Rules of where the robot drives, each with the spans of the request that say it.
         nominal: How the mission ends; None if the request does not say so.
         nominal_said: Spans of the request that say it.
         no_part: Spans of the request that ask for nothing.
@@ -65,6 +71,7 @@ class Meant:
     limits: tuple[LimitPhrase, ...] = ()
     speed_m_s: float | None = None
     speed_said: tuple[p.Span, ...] = ()
+    ways: tuple[tuple[WayRule, tuple[p.Span, ...]], ...] = ()
     nominal: Then | None = None
     nominal_said: tuple[p.Span, ...] = ()
     no_part: tuple[p.Span, ...] = ()
@@ -89,7 +96,7 @@ def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> O
             Resource(kind="robot", name=robot.name, sha256=robot.sha256),
             Resource(kind="site", name=site.name, sha256=site.sha256),
         ),
-        constraints=_with_speed(_constraints(meant.limits), meant),
+        constraints=_with_speed(_constraints(meant), meant),
         nominal=nominal,
         nominal_said=meant.nominal_said,
         no_part=tuple((start, end) for start, end in meant.no_part if re.search(r"\w", request[start:end])),
@@ -98,7 +105,7 @@ def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> O
         warnings=meant.warnings,
         timing=meant.timing,
     )
-    problems = tuple(_impossible(task.composition.plan, site))
+    problems = (*_impossible(task.composition.plan, site), *_impossible_ways(meant, site))
     if problems:
         return Refused(reasons=problems, planner=NAME)
     if meant.nominal is None:
@@ -106,11 +113,11 @@ def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> O
     return Planned(task=task, planner=NAME)
 
 
-def _constraints(limits: Iterable[LimitPhrase]) -> Constraints:
+def _constraints(meant: Meant) -> Constraints:
     budgets: dict[BudgetKind, Budget] = {}
     reserve: float | None = None
     reserve_said: tuple[p.Span, ...] = ()
-    for limit in limits:
+    for limit in meant.limits:
         if limit.keep:
             reserve = max(limit.amount, reserve or 0.0)
             reserve_said = (*reserve_said, limit.said)
@@ -118,7 +125,17 @@ def _constraints(limits: Iterable[LimitPhrase]) -> Constraints:
             kind = KINDS[limit.unit]
             known = budgets.get(kind, Budget(kind=kind, limit=limit.amount))
             budgets[kind] = replace(known, limit=min(limit.amount, known.limit), said=(*known.said, limit.said))
-    return Constraints(budgets=tuple(budgets.values()), reserve_percent=reserve, reserve_said=reserve_said)
+    return Constraints(
+        budgets=tuple(budgets.values()),
+        reserve_percent=reserve,
+        reserve_said=reserve_said,
+        avoid=tuple(
+            Avoid(places=places, distance_m=metres, said=said)
+            for rule, said in meant.ways
+            for places, metres in rule.avoid
+        ),
+        only_gates=tuple(OnlyGate(gate=gate, said=said) for rule, said in meant.ways for gate in rule.gates),
+    )
 
 
 def _with_speed(constraints: Constraints, meant: Meant) -> Constraints:
@@ -140,6 +157,21 @@ def _impossible_limits(limits: Iterable[LimitPhrase]) -> Iterable[Reason]:
             )
             advice = message("say a number above 0, at most 100 for percent of the battery")
             yield Reason(what=what, said=(limit.said,), advice=advice, final=True)
+
+
+def _impossible_ways(meant: Meant, site: Site) -> Iterable[Reason]:
+    """Yield a reason for each place to keep away from that the site lacks, or of which no distance is said."""
+    for rule, said in meant.ways:
+        for places, metres in rule.avoid:
+            if as_zone(places) is not None:
+                continue  # a zone without trees is one, too
+            try:
+                resolve(places, site, Context(here=site.start))
+            except (PlaceError, TaskError) as error:
+                yield Reason(what=error.what, said=said, advice=error.advice, final=True)
+            if not metres and places.single and not places.named_tree and not isinstance(places, GateIs):
+                what = message("it is not said how far to keep from {place}", place=say_selector(places))
+                yield Reason(what=what, said=said, advice=message("give a distance: 'keep 5 m from it'"), final=True)
 
 
 def _impossible(plan: p.Node, site: Site) -> Iterable[Reason]:

@@ -12,7 +12,7 @@ from fieldhand.planning.english.wishes import says_start
 from fieldhand.planning.grammar.ambiguity import PlanQuestion, chosen_answer, not_an_answer, question_between
 from fieldhand.planning.grammar.answer_places import different_places
 from fieldhand.planning.grammar.assumptions import assumed_ways, assumed_wholes
-from fieldhand.planning.grammar.blocks import in_each_block, leaves_block_open
+from fieldhand.planning.grammar.blocks import in_each_block, leaves_block_open, rules_in_each_block
 from fieldhand.planning.grammar.chart import Chart, Grammar, PhraseEdge, tokens_of
 from fieldhand.planning.grammar.dialogue import (
     DialogueState,
@@ -318,7 +318,12 @@ def _candidates(
 ) -> Sequence[_Candidate]:
     """Return a reading with its plan; with several plans if its rows may be those of several blocks."""
     plans = in_each_block(meant.plan, site)
-    outcomes = {block: _outcome_of(replace(meant, plan=plan), request, site, robot) for block, plan in plans.items()}
+    outcomes = {
+        block: _outcome_of(
+            replace(meant, plan=plan, ways=rules_in_each_block(meant.ways, plan, site)[0]), request, site, robot
+        )
+        for block, plan in plans.items()
+    }
     planned = [block for block, outcome in outcomes.items() if isinstance(outcome, Planned)]
     if len(plans) > 1 and len(planned) == 1:  # "five Syrah vines in row 30", where only one block has Syrah
         (block,) = planned
@@ -326,7 +331,12 @@ def _candidates(
             block: _outcome_of(_in_only(replace(meant, plan=plans[block]), block, request), request, site, robot)
         }
     found: list[_Candidate] = []
-    for outcome in outcomes.values():
+    further = [
+        _outcome_of(replace(meant, plan=plan, ways=ways), request, site, robot)
+        for plan in plans.values()
+        for ways in rules_in_each_block(meant.ways, plan, site)[1:]
+    ]
+    for outcome in (*outcomes.values(), *further):
         lost = _lost_words(outcome, reading.remarks) if isinstance(outcome, Planned) else ()
         found.append(_Candidate(reading=reading, outcome=outcome, lost=lost))
     return [one for one in found if one.plan is not None] or found[:1]
@@ -496,6 +506,7 @@ def _meant(reading: RequestReading, request: str) -> Meant:
         limits=limits,
         speed_m_s=None if state.speed is None else state.speed.pace.speed,
         speed_said=() if state.speed is None else state.speed.said,
+        ways=state.ways,
         nominal=state.nominal,
         nominal_said=state.nominal_said,
         no_part=tuple(no_part),
@@ -522,6 +533,7 @@ def _same(one: Meant, other: Meant) -> bool:
         and (one.nominal, one.speed_m_s) == (other.nominal, other.speed_m_s)
         and [(limit.amount, limit.unit, limit.keep) for limit in one.limits]
         == [(limit.amount, limit.unit, limit.keep) for limit in other.limits]
+        and [(rule.avoid, rule.gates) for rule, _ in one.ways] == [(rule.avoid, rule.gates) for rule, _ in other.ways]
     )
 
 

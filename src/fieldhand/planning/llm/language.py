@@ -22,6 +22,7 @@ from fieldhand.task.conditions import Condition
 from fieldhand.task.frames import Budget, Constraints, FaultedExit
 from fieldhand.task.plan import Node
 from fieldhand.task.timing import DayTime, Timing
+from fieldhand.task.ways import Avoid, OnlyGate
 
 #: Letters that stand for any element of a family in the forms.
 LETTERS = {"node": "N", "condition": "C", "selector": "S"}
@@ -52,7 +53,7 @@ def describe_language() -> str:
         ("Nodes (N), what is done", get_args(Node)),
         ("Conditions (C), what an if or an until tests", get_args(Condition)),
         ("Selectors (S), how places are named", SELECTORS),
-        ("Constraints", (Constraints, Budget, FaultedExit)),
+        ("Constraints", (Constraints, Budget, Avoid, OnlyGate, FaultedExit)),
         ("Times, when the whole mission runs", (*get_args(Timing), DayTime)),
     )
     rendered = [

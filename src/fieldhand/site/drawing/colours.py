@@ -20,6 +20,8 @@ INK = "#2f2f2f"
 QUIET_INK = "#6f6f6f"
 GROUND, FENCE = "#f7f4ea", "#8a7f66"
 KEEP_OUT_FILL, KEEP_OUT_EDGE = "#bfd7e6", "#4d7c99"
+#: Ground that a mission keeps out of.
+AVOIDED = "#b3261e"
 ZONE_FILL, ZONE_EDGE, ZONE_INK = "#efdcae", "#c19a3f", "#8a6a1c"
 
 LANE, HEADLAND, LINK = "#b9ad94", "#8f7f5f", "#a39a8a"

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from fieldhand.site.closed_ground import ClosedGround
+
 TREE_COLOUR = colours.TREE
 XY = tuple[float, float]
 
@@ -125,6 +127,26 @@ def draw_zones(ax: Axes, site: Site) -> None:
             linewidth=1.2,
             hatch="////",
             zorder=3,
+        )
+
+
+def draw_closed_ground(ax: Axes, closed: Sequence[ClosedGround]) -> None:
+    """Hatch the ground that a mission keeps out of."""
+    import shapely
+    from matplotlib.patches import Polygon as Patch
+
+    for shape in shapely.get_parts([ground.shape for ground in closed]):
+        ax.add_patch(
+            Patch(
+                shapely.get_coordinates(shape.exterior),
+                closed=True,
+                facecolor="none",
+                edgecolor=colours.AVOIDED,
+                linewidth=0.8,
+                hatch="xxx",
+                alpha=0.7,
+                zorder=4,
+            )
         )
 
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 import shapely
@@ -17,6 +18,9 @@ from shapely.ops import unary_union
 
 from fieldhand.language import message
 from fieldhand.site.model import Gate, Site, Zone
+
+if TYPE_CHECKING:
+    from fieldhand.site.closed_ground import ClosedGround
 
 Points = NDArray[np.float64]
 
@@ -51,6 +55,7 @@ class FreeSpace:
         hard: Ground that the robot may never leave.
         soft: Hard ground without a margin of the clearance along its edges.
         keep_outs: Keep-outs with their names, for messages.
+        closed: Ground that the mission keeps out of, with its names.
     """
 
     clearance_m: float
@@ -58,6 +63,7 @@ class FreeSpace:
     hard: BaseGeometry
     soft: BaseGeometry
     keep_outs: tuple[Zone, ...]
+    closed: tuple[ClosedGround, ...] = ()
 
     def covers(self, shapes: BaseGeometry | NDArray[np.object_], *, soft: bool) -> NDArray[np.bool_]:
         """Return which of the shapes lie on this ground."""
@@ -76,6 +82,9 @@ class FreeSpace:
         for zone in self.keep_outs:
             if zone.polygon.distance(shape) < self.clearance_m * 1.001:
                 return message("keep-out '{zone}'", zone=zone.name)
+        for ground in self.closed:
+            if ground.shape.distance(shape) < self.clearance_m * 1.001:
+                return message("ground on which the robot must not drive")
         return "" if self._area(soft=True).covers(shape)[0] else message("the boundary")
 
     def _area(self, soft: bool) -> Area:
@@ -144,6 +153,29 @@ def free_space(site: Site, clearance_m: float) -> FreeSpace:
         hard=hard,
         soft=soft_ground(hard, clearance_m),
         keep_outs=keep_outs,
+    )
+
+
+def closed_off(free: FreeSpace, closed: Sequence[ClosedGround]) -> FreeSpace:
+    """Return the ground without some that the mission keeps out of, and without a margin of the clearance around that.
+
+    Either is a part of the ground as it was, so that no drive becomes shorter.
+    """
+    if not closed:
+        return free
+    taken = unary_union([ground.shape for ground in closed])
+    margin = free.clearance_m / math.cos(math.pi / (4 * _CHORDS))
+    around = taken.buffer(margin, quad_segs=_CHORDS)
+    for give in _GIVE_M:
+        if int(shapely.get_num_coordinates(around)) <= _MANY_CORNERS:
+            break
+        around = taken.buffer(give).simplify(0.9 * give).buffer(margin, join_style="mitre", mitre_limit=2.0)
+    return replace(
+        free,
+        bounded=True,
+        hard=free.hard.difference(taken),
+        soft=free.soft.difference(around),
+        closed=tuple(closed),
     )
 
 

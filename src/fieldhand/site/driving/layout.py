@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 import shapely
@@ -14,11 +15,14 @@ from shapely.geometry import MultiLineString, MultiPolygon, Point, Polygon
 from shapely.geometry.base import BaseGeometry
 
 from fieldhand.site.driving.aisles import Aisle, Aisles
-from fieldhand.site.driving.free_space import TOUCH_M, Area, free_space
+from fieldhand.site.driving.free_space import TOUCH_M, Area, closed_off, free_space
 from fieldhand.site.driving.graph import Indices, Links, Points, ShortestWays, chain
 from fieldhand.site.driving.visibility_graph import VisibilityGraph
 from fieldhand.site.model import Site
 from fieldhand.site.point_index import PointIndex
+
+if TYPE_CHECKING:
+    from fieldhand.site.closed_ground import ClosedGround
 
 XY = tuple[float, float]
 
@@ -65,11 +69,13 @@ class Layout:
         clearance_m: Distance in metres that the robot keeps from tree lines, keep-outs and the boundary.
         standoff_m: Distance in metres from a tree to its stand; also the distance beyond the last trees at which the
             robot turns, if there is room.
+        closed: Ground that the mission keeps out of; the obstacles of the rows are the same as without it.
     """
 
-    def __init__(self, site: Site, clearance_m: float, standoff_m: float) -> None:
-        self.free = free_space(site, clearance_m)
-        self.aisles = Aisles(site, self.free, max(standoff_m, clearance_m))
+    def __init__(self, site: Site, clearance_m: float, standoff_m: float, closed: Sequence[ClosedGround] = ()) -> None:
+        free = free_space(site, clearance_m)
+        self.aisles = Aisles(site, free, max(standoff_m, clearance_m))
+        self.free = closed_off(free, closed)
         obstacles = self.aisles.obstacles
         self.open = bool(self.free.bounded or obstacles)
         self.soft = self.free.soft.difference(_union([body.polygon for body in obstacles]))

@@ -31,6 +31,7 @@ from fieldhand.task.conditions import Condition, Level
 from fieldhand.task.frames import Budget, Constraints, FaultedExit, Resource, Task
 from fieldhand.task.plan import Act, Node, Span
 from fieldhand.task.timing import Timing
+from fieldhand.task.ways import Avoid, OnlyGate
 from fieldhand.terms import Value
 
 #: A robot with every kind of parameter, an action that measures two quantities and a quantity without level words.
@@ -198,6 +199,8 @@ class Parts:
                 reserve_percent=st.none() | _BY_FIELD["reserve_percent"],
                 reserve_said=_spans,
                 speed_m_s=st.none() | _BY_FIELD["speed_m_s"],
+                avoid=st.lists(self.instance(Avoid), max_size=2).map(tuple),
+                only_gates=st.lists(self.instance(OnlyGate), max_size=2).map(tuple),
             ),
             nominal=st.sampled_from(("return_to_end", "return_to_start", "stay")),
             faulted=st.lists(self.instance(FaultedExit), max_size=3).map(tuple),

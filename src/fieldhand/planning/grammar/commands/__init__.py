@@ -20,12 +20,13 @@ from fieldhand.planning.grammar.commands import (
     spacing,
     things,
     waits,
+    ways,
 )
 
 #: The constructions of all themes. Of readings that cost the same, the one composed first is kept, so the order counts.
 GRAMMAR = Grammar()
 _THEMES = (
-    things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, requests, exclusions,
+    things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, requests, exclusions, ways,
     sampling, waits, pace, sides, aggregates,
 )  # fmt: skip
 for _theme in _THEMES:

@@ -106,6 +106,18 @@ def not_captured(one: CaptureCommand, used: int) -> Excluded | None:
     return None if out is None else replace(out, used=used, actions=tuple(thing.action for thing in one.things))
 
 
+@construction(
+    "excluded: WITHOUT TAKE ANY noun=NOUN in_ out=kept_out",
+    "excluded: WITHOUT TAKE ANY noun=NOUN out=kept_out",
+    "excluded: WITHOUT ANY noun=NOUN in_ out=kept_out",
+    cost=0.2,
+)
+def none_captured(noun: Lex, out: Excluded, used: int) -> Excluded | None:
+    """Compose "don't take any pictures of the south block"."""
+    naming: Naming = noun.value
+    return replace(out, used=used, actions=naming.actions) if naming.actions else None
+
+
 @construction("said: before=said [joint] out=excluded", cost=0.4, given=("site",))
 def left_out_behind(before: Said, out: Excluded, site: Site) -> list[Said]:
     """Compose "photograph row 3. Skip the yellow ones.": of each command that has some, or of the last one?"""
@@ -209,6 +221,11 @@ def _without(
         "several" if rest.shape == "area" and rest.per is None else rest.shape
     )  # all but those, not one of the others
     return replace(command, place=replace(rest, shape=shape), used=used)
+
+
+def left_out_of(command: CaptureCommand | Lead, out: Excluded, site: Site) -> CaptureCommand | Lead | None:
+    """Return a command at its places but those that are left out; None if it has none of them, or no others."""
+    return _without(command, out, site)
 
 
 def _others(whole: PlaceMeaning, out: Excluded, site: Site) -> PlaceMeaning | None:

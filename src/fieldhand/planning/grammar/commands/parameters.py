@@ -25,6 +25,7 @@ from fieldhand.planning.grammar.meaning import (
     StopCommand,
     Thing,
     VisitLimit,
+    WayRule,
     When,
 )
 from fieldhand.planning.grammar.words import Lex
@@ -36,7 +37,9 @@ construction = GRAMMAR.construction
 #: Values that are no choices of a parameter.
 _NO_CHOICES = (SAME_VALUE, DEFAULT_VALUE)
 #: Commands without captures inside them.
-_PLAIN = CaptureCommand | DriveCommand | Home | InAnOrder | Lead | LimitClause | StopCommand | VisitLimit | When
+_PLAIN = (
+    CaptureCommand | DriveCommand | Home | InAnOrder | Lead | LimitClause | StopCommand | VisitLimit | WayRule | When
+)
 #: Units of parameters by the unit of an amount, each with its size in that unit.
 _SIZES: Mapping[str, Mapping[str, float]] = {
     "metres": {"m": 1.0, "cm": 0.01, "mm": 0.001},

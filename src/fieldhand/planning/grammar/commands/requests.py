@@ -39,6 +39,7 @@ from fieldhand.planning.grammar.meaning import (
     Test,
     Thing,
     UntilCondition,
+    WayRule,
     When,
 )
 from fieldhand.planning.grammar.places.numbers import named_trees
@@ -50,7 +51,9 @@ GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
 #: Clauses that a command may follow without a connective.
-_LEADS_ON = When | Otherwise | Lead | LimitClause | Allowed | InAnOrder | Failing | After | PaceClause | SettleClause
+_LEADS_ON = (
+    When | Otherwise | Lead | LimitClause | WayRule | Allowed | InAnOrder | Failing | After | PaceClause | SettleClause
+)
 
 
 @construction(

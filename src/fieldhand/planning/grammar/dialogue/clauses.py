@@ -85,6 +85,7 @@ from fieldhand.planning.grammar.meaning import (
     Total,
     UntilCondition,
     VisitLimit,
+    WayRule,
     When,
     wait_seconds,
 )
@@ -273,7 +274,7 @@ def _read(
         case DriveCommand():
             if command.picks and not any(isinstance(one.command, CaptureCommand | CaptureWhere) for one in following):
                 raise NotComposed(message("it does not say what to do with them", context="fault"))
-            if command.ends and any(not isinstance(one.command, LimitClause) for one in following):
+            if command.ends and any(not isinstance(one.command, LimitClause | WayRule) for one in following):
                 raise NotComposed(message("something follows the end of the mission", context="fault"))
             driven = drive(setting, state, command)
             if command.pace is not None:
@@ -306,6 +307,8 @@ def _read(
             return paced(setting, state, command, following)
         case SettleClause():
             return replace(state, settles=(*state.settles, command))
+        case WayRule():
+            return replace(state, ways=(*state.ways, (command, setting.spans_of(command.used))))
         case Allowed():
             return allowed(setting, state, command, _rest_of_sentence(following), joint)
         case UntilCondition():
@@ -418,7 +421,7 @@ def _rest_of_sentence(following: Sequence[LinkedCommand]) -> list[LinkedCommand]
     for clause in following:
         if clause.before is not None and clause.before.full:
             break
-        if not isinstance(clause.command, LimitClause | Home):
+        if not isinstance(clause.command, LimitClause | WayRule | Home):
             found.append(clause)
     return found
 

@@ -26,6 +26,7 @@ from fieldhand.planning.grammar.meaning import (
     LinkedCommand,
     PlaceMeaning,
     VisitLimit,
+    WayRule,
 )
 from fieldhand.planning.grammar.places.numbered import ids_of, numbered
 from fieldhand.planning.selections import (
@@ -42,7 +43,7 @@ from fieldhand.planning.selections import (
 )
 
 #: Clauses that only say how visits are made.
-_Manner = VisitLimit | InAnOrder | LimitClause
+_Manner = VisitLimit | InAnOrder | LimitClause | WayRule
 
 
 @dataclass(frozen=True)

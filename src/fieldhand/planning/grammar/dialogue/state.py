@@ -21,6 +21,7 @@ from fieldhand.planning.grammar.meaning import (
     RankCommand,
     SettleClause,
     Thing,
+    WayRule,
 )
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -116,6 +117,7 @@ class DialogueState:
         readings: Number of readings that have a name.
         limits: Limits of the request.
         limits_said: Spans that say each limit.
+        ways: Rules of where it drives, each with the spans that say it.
         nominal: How the mission ends, if the request says so.
         nominal_said: Spans that say it.
         open: True while a condition of the current sentence has no command yet.
@@ -152,6 +154,7 @@ class DialogueState:
     readings: int = 0
     limits: tuple[LimitClause, ...] = ()
     limits_said: tuple[Spans, ...] = ()
+    ways: tuple[tuple[WayRule, Spans], ...] = ()
     nominal: Then | None = None
     nominal_said: Spans = ()
     open: bool = False

@@ -10,7 +10,7 @@ from fieldhand.planning.grammar.meaning import Amount, Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.places.rows import rows_towards
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import as_zone, chooses_from_trees, over
+from fieldhand.planning.selections import are_rows, as_zone, chooses_from_trees, is_block, over
 from fieldhand.site.model import Site
 from fieldhand.terms import CountedFrom, Side, Towards
 
@@ -261,10 +261,11 @@ def distance(
     """Compose "within 20 m of the charger" and "more than 20 m from the charger"."""
     unit = far.unit if far is not None else span[2] if span is not None else ""
     zone = to.shape == "area" and as_zone(to.selector) is not None
-    if unit != "metres" or not (to.shape in ("one", "here") or zone):
+    rows = to.shape == "area" and (are_rows(to.selector) or is_block(to.selector))
+    if unit != "metres" or not (to.shape in ("one", "here") or zone or rows):
         return None
     if far is None:
-        return None if span is None or zone else (span[0], span[1], to)
+        return None if span is None else (span[0], span[1], to)
     if check is None or check.value is None or check.value[0] in ("lt", "le"):
         return (0.0, far.number, to)
     return (far.number, None, to) if check.value[0] in ("gt", "ge") else None
@@ -276,11 +277,11 @@ def at_distance(of: s.Selector, at: Distance) -> s.Selector | None:
     if (zone := as_zone(to.selector)) is not None:
         if not chooses_from_trees(of):
             return None
-        return over(of, s.InZone(zone=zone.zone, margin_m=high if high is not None else low, outside=high is None))
+        inside = s.Trees() if high is None else s.InZone(zone=zone.zone, margin_m=high)
+        beyond = s.InZone(zone=zone.zone, margin_m=low, outside=True, of=inside)
+        return over(of, beyond if low or high is None else inside)
     near = of if high is None else s.Within(distance_m=high, to=to.selector, of=of)
-    if high is None:
-        return s.Excluding(places=beyond(low, to.selector), of=of)
-    return s.Excluding(places=s.Within(distance_m=low, to=to.selector), of=near) if low else near
+    return s.Within(distance_m=low, to=to.selector, beyond=True, of=near) if low else near
 
 
 @construction(
@@ -348,8 +349,3 @@ def tree_rows_away(n: int, noun: Lex, way: Towards, to: PlaceMeaning, site: Site
     if rows is None:
         return None
     return PlaceMeaning(s.Nearest(to=to.selector, of=replace(rows, origin=to.selector)), "one")
-
-
-def beyond(metres: float, of: s.Selector) -> s.Selector:
-    """Return what is left out where trees are at least so far from a place: those nearer to it, and itself."""
-    return s.UnionOf(parts=(of, s.Within(distance_m=metres, to=of)))

@@ -1,0 +1,202 @@
+"""Constructions of where the robot must not drive: "stay out of row 10", "keep 5 m from the pond", "this gate only"."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.commands.exclusions import Excluded, left_out_of
+from fieldhand.planning.grammar.meaning import (
+    Amount,
+    CaptureCommand,
+    Command,
+    Connective,
+    DriveCommand,
+    Lead,
+    LinkedCommand,
+    PlaceMeaning,
+    Said,
+    WayRule,
+)
+from fieldhand.planning.grammar.places.numbered import ids_of
+from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.selections import is_drawn, named_places, swapped
+from fieldhand.site.model import Site
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+
+@construction("way_rule: KEEPOUT place=place", "way_rule: place=place OFFLIMITS", cost=0.2)
+def keep_out(place: PlaceMeaning, used: int) -> WayRule | None:
+    """Compose "stay out of row 10", "avoid the pond" and "row 10 is off limits"."""
+    places = _kept_from(place)
+    return None if places is None else WayRule(tuple((one, 0.0) for one in places), left_out=places, used=used)
+
+
+@construction("way_rule: WITHOUT PASSES place=place", "way_rule: word=NOT THROUGH place=place", cost=0.2)
+def not_through(place: PlaceMeaning, used: int, word: Lex | None = None) -> WayRule | None:
+    """Compose "do not drive through row 10" and "not through row 10"."""
+    del word
+    places = _kept_from(place)
+    return None if places is None else WayRule(tuple((one, 0.0) for one in places), used=used)
+
+
+@construction("around: DRIVEAROUND place=place", cost=0.2)
+def around(place: PlaceMeaning, used: int) -> WayRule | None:
+    """Compose "drive around the south block", beside something else that is avoided."""
+    return keep_out(place, used)
+
+
+@construction(
+    "way_rule: KEEPOFF [check=CMP] far=amount FROM place=place",
+    "way_rule: KEEPOFF [check=CMP] far=amount RADIUS FROM place=place",
+    "way_rule: KEEPOFF [DET] RADIUS OF [check=CMP] far=amount FROM place=place",
+    "way_rule: KEEPOFF [check=CMP] far=amount CLEAROF place=place",
+    "way_rule: [KEEPOFF] NOCLOSER far=amount FROM place=place",
+    "way_rule: [KEEPOFF] NOCLOSER far=amount AT place=place",
+    "way_rule: COMES NOCLOSER far=amount FROM place=place",
+    "way_rule: COMES NOCLOSER far=amount AT place=place",
+    "way_rule: WITHOUT COMES INSIDE far=amount OF place=place",
+    "way_rule: WITHOUT COMES closer=CLOSER far=amount AT place=place",
+    "way_rule: WITHOUT COMES closer=CLOSER far=amount FROM place=place",
+    cost=0.2,
+)
+def keep_distance(
+    far: Amount, place: PlaceMeaning, used: int, check: Lex | None = None, closer: Lex | None = None
+) -> WayRule | None:
+    """Compose "keep 5 m from the pond" and "do not come within 5 m of the pond"."""
+    if far.unit != "metres" or (check is not None and check.value[0] not in ("gt", "ge")):
+        return None
+    if closer is not None and closer.value is not None and closer.value[0] not in ("lt", "le"):
+        return None
+    places = _kept_from(place, far.number)
+    return None if places is None else WayRule(tuple((one, far.number) for one in places), used=used)
+
+
+@construction("gates: [DET] gate=GATENAME", cost=0.0)
+def one_gate(gate: Lex) -> tuple[str, ...]:
+    """Compose "the east gate"."""
+    return (gate.value,)
+
+
+@construction("gates: first=gates AND second=gates", "gates: first=gates OR second=gates", cost=0.1)
+def several_gates(first: tuple[str, ...], second: tuple[str, ...]) -> tuple[str, ...]:
+    """Compose "the east gate and the west gate"."""
+    return (*first, *second)
+
+
+@construction("way_rule: ONLYVIA gates=gates", "way_rule: VIAGATE gates=gates ONLY", cost=0.0)
+def only_gates(gates: tuple[str, ...], used: int) -> WayRule:
+    """Compose "use the east gate only" and "only through the east gate"."""
+    return WayRule(gates=gates, used=used)
+
+
+@construction(
+    "way_rule: first=way_rule AND second=way_rule",
+    "way_rule: first=way_rule COMMA [AND] second=way_rule",
+    "way_rule: first=way_rule AND second=around",
+    "way_rule: first=way_rule COMMA [AND] second=around",
+    cost=0.2,
+)
+def both_rules(first: WayRule, second: WayRule, used: int) -> WayRule:
+    """Compose "avoid the pond and drive around the south block"."""
+    avoid, gates = (*first.avoid, *second.avoid), (*first.gates, *second.gates)
+    return WayRule(avoid, gates, left_out=(*first.left_out, *second.left_out), used=used)
+
+
+@construction(
+    "way_rule: rule=way_rule AND [FROM] place=place",
+    "way_rule: rule=way_rule AND PASSES place=place",
+    "way_rule: rule=way_rule OR [PASSES] place=place",
+    cost=0.3,
+)
+def also_from(rule: WayRule, place: PlaceMeaning, used: int) -> WayRule | None:
+    """Compose "keep 5 m from the pond and the charger" and "do not drive through row 3 or row 5"."""
+    if not rule.avoid:
+        return None
+    metres = rule.avoid[-1][1]
+    places = _kept_from(place, metres)
+    if places is None or any(one in [known for known, _ in rule.avoid] for one in places):
+        return None
+    avoid = (*rule.avoid, *((one, metres) for one in places))
+    return replace(rule, avoid=avoid, left_out=(*rule.left_out, *(places if rule.left_out else ())), used=used)
+
+
+@construction("way_rule: WHILE rule=way_rule", "way_rule: BUT rule=way_rule", "way_rule: BUT rule=around", cost=0.2)
+def on_the_way(rule: WayRule, used: int) -> WayRule:
+    """Compose "while avoiding the pond" and "but drive around the south block"."""
+    return replace(rule, used=used)
+
+
+@construction("excluded: KEEPOUT out=kept_out", cost=0.2)
+def trees_avoided(out: Excluded, used: int) -> Excluded | None:
+    """Compose "avoid the yellow trees", which are left out; an area is not driven through as well."""
+    if out.place is None or _kept_from(out.place) is not None:
+        return None
+    return replace(out, used=used)
+
+
+@construction("said: before=said [joint=joint] rule=way_rule", cost=0.2, given=("site",))
+def rule_behind(before: Said, rule: WayRule, site: Site, joint: Connective | None = None) -> Said:
+    """Compose "photograph row 3. Stay out of row 5."."""
+    return Said((*_keeping(before, rule, site), LinkedCommand(joint, rule)))
+
+
+@construction("said: rule=way_rule joint=joint rest=said", cost=0.2, given=("site",))
+def rule_before(rule: WayRule, joint: Connective, rest: Said, site: Site) -> Said | None:
+    """Compose "stay out of row 5. Photograph row 3."."""
+    first, *others = _keeping(rest, rule, site)
+    if joint.first or first.before is not None:
+        return None
+    return Said((LinkedCommand(None, rule), replace(first, before=joint), *others))
+
+
+def _kept_from(place: PlaceMeaning, metres: float = 0.0) -> tuple[s.Selector, ...] | None:
+    """Return the places of a phrase from which the robot can keep away; None for others."""
+    if place.per is not None or place.optional or place.at_most is not None or place.count is not None:
+        return None
+    if place.shape not in ("one", "area", "several") or place.selector.relative or place.selector == s.Trees():
+        return None
+    members = place.selector.members
+    if not metres and place.shape != "area" and not all(_has_no_trees(one) for one in members):
+        return None  # "avoid the yellow trees": they are left out
+    return members
+
+
+def _has_no_trees(place: s.Selector) -> bool:
+    """Return True for a gate or a marker."""
+    return isinstance(place, s.GateIs | s.Marker)
+
+
+def _keeping(said: Said, rule: WayRule, site: Site) -> tuple[LinkedCommand, ...]:
+    """Return commands without the trees at which the robot could not work, where the request leaves a choice."""
+    clauses = said.clauses
+    for places, metres in rule.avoid:
+        if metres or ids_of(places, site) is None:
+            continue
+        clauses = tuple(
+            replace(clause, command=_kept(clause.command, places, site, leaves_out=places in rule.left_out))
+            for clause in clauses
+        )
+    return clauses
+
+
+def _kept(command: Command, places: s.Selector, site: Site, *, leaves_out: bool) -> Command:
+    """Return a command at trees outside of places, if it may choose among others or the places are left out."""
+    if not isinstance(command, CaptureCommand | DriveCommand | Lead) or command.place is None:
+        return command
+    whole = command.place
+    chosen = getattr(whole.selector, "of", None)
+    if (
+        whole.count is not None
+        and chosen is not None
+        and (whole.selector.any_of is not None or is_drawn(whole.selector))
+    ):
+        others = s.Excluding(places=places, of=chosen)  # "five vines" of those that are left
+        return replace(command, place=replace(whole, selector=swapped(whole.selector, chosen, others)))
+    if not leaves_out or isinstance(command, DriveCommand) or whole.count is not None or named_places(whole.selector):
+        return command  # "trees 4 and 9": a check tells which of them cannot be reached
+    rest = left_out_of(command, Excluded(PlaceMeaning(places, "area")), site)
+    return command if rest is None else rest

@@ -1,0 +1,42 @@
+"""Word what a mission keeps away from and which gates it may use."""
+
+from __future__ import annotations
+
+from fieldhand.forecast.closed_ground import say_avoidance
+from fieldhand.language import message
+from fieldhand.language.words import listed, say_gate
+from fieldhand.robot.model import RobotProfile
+from fieldhand.task.frames import Constraints
+from fieldhand.task.ways import Avoid
+
+
+def say_ways(constraints: Constraints) -> tuple[str, ...]:
+    """Return a sentence for each place that the mission keeps away from, and one for the gates that it may use."""
+    found: list[str] = []
+    for avoid in constraints.avoid:
+        rule = say_avoidance(avoid)
+        if _is_beside_trees(avoid):
+            found.append(message("the robot must {rule} (the aisles on both sides).", rule=rule))
+        else:
+            found.append(message("the robot must {rule}.", rule=rule))
+    if constraints.only_gates:
+        gates = listed(tuple(say_gate(only.gate) for only in constraints.only_gates))
+        found.append(message("of the gates, the robot passes only {gates}.", gates=gates))
+    return tuple(found)
+
+
+def way_notes(constraints: Constraints, robot: RobotProfile) -> tuple[str, ...]:
+    """Return what has to be known about a robot that plans its own way between the corners of a path."""
+    if robot.ros2 is None or not (constraints.avoid or constraints.only_gates):
+        return ()
+    return (
+        message(
+            "Over ROS 2 the robot is sent from corner to corner of the path shown. Between them Nav2 plans the way, so"
+            " it keeps to these rules only as far as the path does."
+        ),
+    )
+
+
+def _is_beside_trees(avoid: Avoid) -> bool:
+    """Return True if the robot keeps out of the aisles beside trees, not out of a zone or away from a place."""
+    return not avoid.distance_m and not avoid.places.whole_zone
