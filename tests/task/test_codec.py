@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from typing import get_args
 
 import pytest
@@ -18,6 +19,7 @@ from fieldhand.task.conditions import Condition, TreeHas
 from fieldhand.task.frames import Budget, Command, Composition, Constraints, Task
 from fieldhand.task.plan import Act, GoTo, If, InOrder, Node, StopMission
 from fieldhand.task.schema import validate
+from fieldhand.task.watches import Watch, WatchCondition
 from fieldhand.testing.generated.tasks import ROVER, Parts, numbers, texts, values
 
 PARTS = Parts(ROVER)
@@ -34,6 +36,9 @@ def holding(part: object) -> Task:
         return task_of(GoTo(id="n1", place=part))
     if isinstance(part, get_args(Condition)):
         return task_of(If(id="n1", condition=part, then=StopMission(id="n2")))
+    if isinstance(part, get_args(WatchCondition)):
+        composition = Composition(plan=StopMission(id="n1"), watches=(Watch(condition=part, response="wait"),))
+        return replace(task_of(StopMission(id="n1")), composition=composition)
     return task_of(part)
 
 

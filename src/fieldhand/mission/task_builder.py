@@ -10,6 +10,7 @@ from fieldhand.site.model import Site
 from fieldhand.task.build import make_task
 from fieldhand.task.frames import Budget, Constraints, Resource, Task, Then
 from fieldhand.task.plan import Node
+from fieldhand.task.watches import Watch
 
 
 def build_task(
@@ -21,6 +22,7 @@ def build_task(
     budgets: Sequence[Budget] = (),
     reserve_percent: float | None = None,
     then: Then = "return_to_end",
+    watches: Sequence[Watch] = (),
 ) -> Task:
     """Build a Task for a site and a robot; :func:`review` checks it as it checks every Task.
 
@@ -32,6 +34,7 @@ def build_task(
         budgets: Limits of distance, time or energy for the whole mission, the way home included.
         reserve_percent: Charge that must be left at the end, in percent; None for the robot's own reserve.
         then: Where the robot goes when the plan is done.
+        watches: Conditions checked throughout the mission, each with its response.
     """
     return make_task(
         request=request,
@@ -43,4 +46,5 @@ def build_task(
         ),
         constraints=Constraints(budgets=tuple(budgets), reserve_percent=reserve_percent),
         nominal=then,
+        watches=tuple(watches),
     )

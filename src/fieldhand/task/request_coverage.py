@@ -104,6 +104,8 @@ def _ranges(task: Task) -> Iterator[tuple[Span, WordRole]]:
     for budget in task.constraints.budgets:
         yield from ((span, "limit") for span in budget.said)
     yield from ((span, "limit") for span in task.constraints.reserve_said)
+    for watch in task.composition.watches:
+        yield from ((span, "condition") for span in watch.said)
     yield from ((span, "end") for span in task.composition.nominal_said)
     yield from ((span, "no_part") for span in task.command.no_part)
 

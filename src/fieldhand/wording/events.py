@@ -18,6 +18,8 @@ from fieldhand.task.results import (
     Decided,
     Ended,
     Event,
+    EventBegan,
+    EventEnded,
     Exited,
     Faulted,
     InDoubt,
@@ -32,6 +34,7 @@ from fieldhand.task.results import (
     Waited,
 )
 from fieldhand.wording.limits import say_crossing
+from fieldhand.wording.watches import say_began
 
 #: A list of places longer than this is counted, not named.
 NAMED = 8
@@ -101,6 +104,12 @@ class EventText:
                 return _obstructed(event)
             case Waited():
                 return _waited(event)
+            case EventBegan():
+                return say_began(event)
+            case EventEnded():
+                return message(
+                    "over after {time}: {what}", time=clock_time(event.seconds), what=kept_in_log(event.what)
+                )
             case LimitCrossed():
                 return say_crossing(event)
             case ClockSet():
@@ -177,6 +186,10 @@ def _obstructed(event: Obstructed) -> str:
 
 def _waited(event: Waited) -> str:
     time = clock_time(event.seconds)
+    if event.wanted == "event":
+        if event.over:
+            return message("waited {time} until it was over", time=time)
+        return message("waited {time}, and it is not over", time=time)
     if event.wanted == "way":
         return message("waited {time} for a way to become free", time=time)
     if event.over:

@@ -23,6 +23,7 @@ from fieldhand.task.capabilities import (
     ActionCapability,
     Capabilities,
     ChoiceParameter,
+    EventCapability,
     NumberParameter,
     QuantityCapability,
 )
@@ -30,6 +31,7 @@ from fieldhand.task.codec_shapes import hints_of
 from fieldhand.task.conditions import Between, Compare, Condition, Level
 from fieldhand.task.frames import Budget, Constraints, FaultedExit, Resource, Task
 from fieldhand.task.plan import Act, Node, Span
+from fieldhand.task.watches import EventBeyond, EventHolds, ReadingBeyond, Watch
 from fieldhand.terms import Value
 
 #: A robot with every kind of parameter, an action that measures two quantities and a quantity without level words.
@@ -46,6 +48,11 @@ ROVER = Capabilities(
         "soil_moisture": QuantityCapability(unit="percent", levels=("low", "very high")),
         "soil_ph": QuantityCapability(unit="pH"),
         "co2": QuantityCapability(unit="ppm", levels=("low",)),
+    },
+    events={
+        "person_near": EventCapability(),
+        "wind": EventCapability(unit="m/s", holds=False),
+        "frost": EventCapability(unit="degC"),
     },
 )
 
@@ -70,6 +77,7 @@ _BY_FIELD: dict[str, st.SearchStrategy[Any]] = {
     "failure_probability": st.floats(0, 1, exclude_min=True, exclude_max=True),
     "reserve_percent": st.floats(0, 100, exclude_max=True),
     "speed_m_s": st.floats(0.01, 20),
+    "at_most_s": st.floats(1, 86_400),
 }
 _spans = st.lists(st.tuples(st.integers(0, 999), st.integers(0, 999)), max_size=2).map(tuple)
 
@@ -116,7 +124,9 @@ class Parts:
                 strategy = self.of_hint(one.name, hints[one.name], depth)
                 given = one.default is MISSING or one.name == "id"
                 drawn[one.name] = strategy if given else st.one_of(st.just(one.default), strategy)
-            made = st.builds(cls, **(drawn | {k: st.just("") for k in drawn if k in ("quantity", "unit", "level")}))
+            made = st.builds(
+                cls, **(drawn | {k: st.just("") for k in drawn if k in ("quantity", "event", "unit", "level")})
+            )
             self._made[cls, depth] = self.fitted(cls, made)
         return self._made[cls, depth]
 
@@ -154,7 +164,11 @@ class Parts:
         """Return a strategy for instances with an action or quantity of the robot and matching parameters and units."""
         if cls is Act:
             return st.builds(_with_action, made, self.actions())
-        if cls in (Compare, Between, Level):
+        if cls in (EventHolds, EventBeyond):
+            events = self.capabilities.events
+            known = sorted(n for n, e in events.items() if (e.holds if cls is EventHolds else e.unit))
+            return st.builds(_with_event, made, st.sampled_from(known), st.just(events))
+        if cls in (Compare, Between, Level, ReadingBeyond):
             able = {n: q for n, q in self.capabilities.quantities.items() if q.levels or cls is not Level}
             return st.builds(_with_quantity, made, st.sampled_from(sorted(able)), st.just(able), st.integers(0, 9))
         return made
@@ -197,6 +211,7 @@ class Parts:
             warnings=st.lists(texts, max_size=2).map(tuple),
             nominal_said=_spans,
             no_part=_spans,
+            watches=st.lists(self.instance(Watch), max_size=2).map(tuple),
         )
 
 
@@ -209,6 +224,10 @@ def _with_quantity(part: Any, name: str, able: Mapping[str, QuantityCapability],
     if isinstance(part, Level):
         return replace(part, quantity=name, level=quantity.levels[pick % len(quantity.levels)])
     return replace(part, quantity=name, unit=quantity.unit)
+
+
+def _with_event(part: Any, name: str, events: Mapping[str, EventCapability]) -> Any:
+    return replace(part, event=name, **({"unit": events[name].unit} if isinstance(part, EventBeyond) else {}))
 
 
 def _parameter(spec: NumberParameter | ChoiceParameter) -> st.SearchStrategy[str | float]:
