@@ -49,7 +49,7 @@ def mismatches(task: Task, site: Site, robot: RobotProfile) -> tuple[PlanMismatc
         *threshold_mismatches(facts, plan, robot),
         *limit_mismatches(facts, plan),
         *place_mismatches(facts, plan, site),
-        *unsupported_words(facts),
+        *unsupported_words(facts, waits=any(watch.response == "wait" for watch in task.composition.watches)),
     ]
     return tuple(dict.fromkeys(found))
 

@@ -76,6 +76,7 @@ def _dropped(facts: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> Iter
     limit: BudgetKind = "distance_m" if amount.kind == "length" else "duration_s"
     have = [b.limit for b in plan.task.constraints.budgets if b.kind == limit]
     have += [x for test in plan.tests for x in test.values]
+    have += [watch.at_most_s for watch in plan.task.composition.watches if watch.at_most_s is not None]
     if amount.kind == "length":
         have += [number.value for number in plan.numbers if number.kind == "length"]
         have += _parameters(plan)
@@ -95,7 +96,9 @@ def _dropped(facts: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> Iter
 
 
 def _drives(plan: PlanFacts, metres_per_second: float) -> bool:
-    """Return True if the plan limits its speed to this value."""
+    """Return True if the plan limits its speed to this value, or watches for it, as that of the wind."""
+    if any(test.unit in ("m/s", "km/h") and _close(metres_per_second, x) for test in plan.tests for x in test.values):
+        return True
     speed = plan.task.constraints.speed_m_s
     return speed is not None and _close(speed, metres_per_second)
 

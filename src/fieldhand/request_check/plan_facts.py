@@ -18,6 +18,7 @@ from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
 from fieldhand.task.codec_shapes import element_name
 from fieldhand.task.frames import Task
+from fieldhand.task.watches import EventBeyond, ReadingBeyond
 from fieldhand.terms import Side, Test, Value
 
 #: Opposite sides.
@@ -182,9 +183,21 @@ def plan_facts(task: Task, size: Callable[[str], int | None]) -> PlanFacts:
         nodes=nodes,
         selectors=selectors,
         captures=tuple(_captures(root, _Surroundings(), size)),
-        tests=tuple(_tests(nodes, selectors)),
+        tests=(*_tests(nodes, selectors), *_watched(task)),
         numbers=tuple(_numbers(nodes, selectors)),
     )
+
+
+def _watched(task: Task) -> Iterator[PlannedTest]:
+    """Yield the thresholds that the mission watches."""
+    for watch in task.composition.watches:
+        match watch.condition:
+            case EventBeyond(event=name, test=test, value=value, unit=unit):
+                yield PlannedTest(node="", quantity=name, attribute="", test=test, values=(value,), unit=unit)
+            case ReadingBeyond(quantity=name, test=test, value=value, unit=unit):
+                yield PlannedTest(node="", quantity=name, attribute="", test=test, values=(value,), unit=unit)
+            case _:
+                pass
 
 
 @dataclass(frozen=True, kw_only=True)

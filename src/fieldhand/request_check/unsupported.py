@@ -67,14 +67,19 @@ _REASON = _pattern((r"because", r"since (?:we|i|it|they|he|she|the|my|our|row|tr
 _REMARKS = _KINDS[1][0]
 
 
-def unsupported_words(facts: RequestFacts) -> Iterator[PlanMismatch]:
-    """Yield a contradiction for each part of the request that no plan can express."""
+def unsupported_words(facts: RequestFacts, *, waits: bool = False) -> Iterator[PlanMismatch]:
+    """Yield a contradiction for each part of the request that no plan can express.
+
+    Args:
+        facts: Facts of the request.
+        waits: True if the plan waits.
+    """
     starts: dict[int, int] = {}
     at = 0
     for k, token in enumerate(facts.tokens):
         starts[at] = k
         at += len(token.text) + 1
-    for pattern, why in _KINDS:
+    for pattern, why in _KINDS[: -1 if waits else None]:
         for match in pattern.finditer(facts.text):
             first = starts[match.start()]
             sentence = facts.tokens[first].sentence

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from fieldhand.clock import clock_time
 from fieldhand.language import Message, kept_in_log, labelled, message, named
-from fieldhand.language.words import capitalised, say_name, say_number, say_quantity, say_unit
+from fieldhand.language.words import capitalised, say_duration, say_name, say_number, say_quantity, say_unit
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.results import EventBegan
 from fieldhand.task.watches import EventBeyond, EventHolds, Fallback, ReadingBeyond, Watch
@@ -63,7 +62,7 @@ def say_watch(watch: Watch, robot: RobotProfile) -> str:
     what = say_watched(watch, robot)
     match watch.response:
         case "wait":
-            time = clock_time(wait_limit_s(watch, robot))
+            time = say_duration(wait_limit_s(watch, robot))
             after = _FALLBACKS[watch.fallback]
             return message(
                 "At any time: if {what}, stand still until it is over, at most {time}; then {after}.",

@@ -79,6 +79,7 @@ def leaves(capabilities: Capabilities) -> tuple[Leaf, ...]:
     frames = tuple(Port(name=n, type=_TEXT, about=f"<{n}> of the Task, as XML") for n in ("command", "constraints"))
     task = Port(name="task", type=_TEXT, about="Id of the Task")
     resources = Port(name="resources", type=_TEXT, default="", about="Robot and site that it was planned for, as XML")
+    watches = Port(name="watches", type=_TEXT, default="", about="Conditions checked throughout the mission, as XML")
     places = Port(name="places", type=_PLACES, direction="output", about="The places found, in the order to visit them")
     first = Port(name="places", type=_TEXT, about="First place of each step, as XML, in the order of the steps")
     order = Port(name="order", type=_STEPS, direction="output", about="Numbers of the steps from 1, best order first")
@@ -86,7 +87,7 @@ def leaves(capabilities: Capabilities) -> tuple[Leaf, ...]:
     then = Port(name="then", type=_TEXT, about="return_to_end, return_to_start or stay")
     exits = Port(name="exits", type=_TEXT, default="", about="What to do about each fault, as fault:exit")
     ours = (
-        Leaf(id=BEGIN, kind="Action", ports=(task, *frames, resources)),
+        Leaf(id=BEGIN, kind="Action", ports=(task, *frames, resources, watches)),
         Leaf(id=GO_TO, kind="Action", ports=(_PLACE, _LABEL)),
         Leaf(id=RESOLVE, kind="Action", ports=(_SELECT, *_ports(ForEach, beside=("label",)), places)),
         Leaf(id=ORDER, kind="Action", ports=(first, order)),
