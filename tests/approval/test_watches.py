@@ -19,7 +19,7 @@ from support.missions.watched import watch, watchful, watching, windy
 PLAN = ForEach(select=Trees(), body=Act(action="read_co2"))
 WATCHES = (
     watch("person_near", "wait", fallback="end"),
-    watch("rain", "return"),
+    watch("rain", "return_to_end"),
     windy(5.0, "skip"),
     watch("gate_closed", "skip_row"),
     watch("wind", "end"),
@@ -37,7 +37,7 @@ def test_the_read_back_states_every_watch():
     back = read_back(task, orchard(), watchful(), found.estimate)
     assert [str(line.text) for line in back.lines[:5]] == [
         "At any time: if someone is near, stand still until it is over, at most 60 min; then end the mission there.",
-        "At any time: if it rains, give up the rest and go home.",
+        "At any time: if it rains, give up the rest and return to the end.",
         "At any time: if wind is above 5 m/s, leave out the current visit and go on with the next.",
         "At any time: if the gate is closed, leave out the rest of that row and go on.",
         "At any time: if the wind is strong, end the mission where the robot is.",
@@ -71,18 +71,18 @@ def test_a_reading_can_be_watched_only_if_it_is_taken_and_not_waited_for():
         unit = "ppm" if quantity == "co2" else "degC"
         return Watch(condition=ReadingBeyond(quantity=quantity, test="gt", value=40.0, unit=unit), response=response)
 
-    assert errors(over("co2", "return")) == []
+    assert errors(over("co2", "return_to_end")) == []
     assert errors(over("co2", "wait")) == [
         "“a reading of CO₂ is above 40 ppm” is to be waited out, but nothing is read while the robot waits"
     ]
-    assert errors(over("ambient_temperature", "return")) == [
+    assert errors(over("ambient_temperature", "return_to_end")) == [
         "“a reading of ambient temperature is above 40 °C” is to be noticed, but the mission never reads the ambient"
         " temperature"
     ]
 
 
 def test_a_robot_without_the_event_refuses_the_task():
-    task = watching(PLAN, Watch(condition=EventHolds(event="rain"), response="return"))
+    task = watching(PLAN, Watch(condition=EventHolds(event="rain"), response="return_to_end"))
     (problem,) = examine(task, orchard(), husky()).errors
     assert "rain" in problem.what or "watch" in problem.what
 

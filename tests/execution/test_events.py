@@ -67,7 +67,7 @@ def test_waits_until_it_is_over_and_goes_on():
 
 
 def test_turns_home_and_says_what_it_gave_up():
-    task = watching(PLAN, watch("rain", "return"))
+    task = watching(PLAN, watch("rain", "return_to_end"))
     result = flown(task, ScriptedEvent(event="rain", from_s=60))
     assert result.status == "returned"
     assert result.reason == "it rains"
@@ -136,7 +136,7 @@ def test_waits_on_the_way_home_too():
 
 
 def test_going_home_beats_waiting():
-    task = watching(PLAN, watch("person_near", "wait"), watch("rain", "return"))
+    task = watching(PLAN, watch("person_near", "wait"), watch("rain", "return_to_end"))
     result = flown(
         task,
         ScriptedEvent(event="person_near", from_s=30, until_s=90),
@@ -166,7 +166,7 @@ def test_a_silent_sensor_counts_as_its_profile_says():
 
 
 def test_a_reading_over_its_limit_turns_home():
-    limit = Watch(condition=ReadingBeyond(quantity="co2", test="gt", value=100.0, unit="ppm"), response="return")
+    limit = Watch(condition=ReadingBeyond(quantity="co2", test="gt", value=100.0, unit="ppm"), response="return_to_end")
     result = flown(watching(PLAN, limit))
     assert len(captured(result.events)) == 1
     assert result.status == "returned"

@@ -309,9 +309,8 @@ class MissionRunner:
         """Respond to an event during the plan; return the ending if the plan is over."""
         mission, response = self.mission, self._response(due, self._is_interrupted)
         match response:
-            case "return":
-                home = mission.exit_for("low_budget")
-                return self._alarmed(tree, due.why, "return_to_start" if home == "stay" else home, "event")
+            case "return_to_start" | "return_to_end":
+                return self._alarmed(tree, due.why, response, "event")
             case "end":
                 return self._alarmed(tree, due.why, "stay", "event")
             case "skip" | "skip_row" if tree.visit is not None:

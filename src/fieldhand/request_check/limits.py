@@ -76,7 +76,7 @@ def _dropped(facts: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> Iter
     limit: BudgetKind = "distance_m" if amount.kind == "length" else "duration_s"
     have = [b.limit for b in plan.task.constraints.budgets if b.kind == limit]
     have += [x for test in plan.tests for x in test.values]
-    have += [watch.at_most_s for watch in plan.task.composition.watches if watch.at_most_s is not None]
+    have += plan.waits
     if amount.kind == "length":
         have += [number.value for number in plan.numbers if number.kind == "length"]
         have += _parameters(plan)

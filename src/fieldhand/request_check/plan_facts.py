@@ -100,7 +100,7 @@ class PlannedNumber:
 
 @dataclass(frozen=True, kw_only=True)
 class PlanFacts:
-    """The facts of a Task: its plan nodes in order, every selector of these, captures, tests and numbers."""
+    """The facts of a Task: its plan nodes in order, every selector of these, captures, tests, numbers and waits."""
 
     task: Task
     nodes: tuple[p.Node, ...]
@@ -108,6 +108,7 @@ class PlanFacts:
     captures: tuple[PlannedCaptures, ...]
     tests: tuple[PlannedTest, ...]
     numbers: tuple[PlannedNumber, ...]
+    waits: tuple[float, ...] = ()
 
     def having(self, *classes: type) -> Iterator[tuple[str, Selector]]:
         """Return the selectors of some classes, each with its node."""

@@ -250,7 +250,7 @@ class EventBegan:
     node: str = ""
     watch: int
     name: str
-    response: Literal["wait", "skip", "skip_row", "return", "end"]
+    response: Literal["wait", "skip", "skip_row", "return_to_start", "return_to_end", "end"]
     value: float | None
     unit: str = ""
     what: str

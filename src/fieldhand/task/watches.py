@@ -16,15 +16,15 @@ from fieldhand.task.nodes.base import Span
 from fieldhand.terms import Test
 
 #: Response to a watch. ``wait``: stand still until it is over. ``skip``: leave out the current visit. ``skip_row``:
-#: leave out the remaining visits of the current row. ``return``: give up the rest and go home. ``end``: end the mission
-#: where the robot is.
-Response: TypeAlias = Literal["wait", "skip", "skip_row", "return", "end"]
+#: leave out the remaining visits of the current row. ``return_to_start``, ``return_to_end``: give up the rest and go
+#: there. ``end``: end the mission where the robot is.
+Response: TypeAlias = Literal["wait", "skip", "skip_row", "return_to_start", "return_to_end", "end"]
 
 #: Response once a wait has lasted its maximum; ``go_on`` continues although the event still holds.
-Fallback: TypeAlias = Literal["return", "end", "skip", "go_on"]
+Fallback: TypeAlias = Literal["return_to_start", "return_to_end", "end", "skip", "go_on"]
 
 #: Responses in order of priority, the strongest first.
-PRIORITY: tuple[Response, ...] = ("end", "return", "wait", "skip_row", "skip")
+PRIORITY: tuple[Response, ...] = ("end", "return_to_start", "return_to_end", "wait", "skip_row", "skip")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -75,7 +75,7 @@ class Watch:
     condition: WatchCondition
     response: Response
     at_most_s: float | None = None
-    fallback: Fallback = "return"
+    fallback: Fallback = "return_to_end"
     said: tuple[Span, ...] = ()
 
 

@@ -74,14 +74,17 @@ def say_watch(watch: Watch, robot: RobotProfile) -> str:
             return message("At any time: if {what}, leave out the current visit and go on with the next.", what=what)
         case "skip_row":
             return message("At any time: if {what}, leave out the rest of that row and go on.", what=what)
-        case "return":
-            return message("At any time: if {what}, give up the rest and go home.", what=what)
+        case "return_to_start":
+            return message("At any time: if {what}, give up the rest and return to the start.", what=what)
+        case "return_to_end":
+            return message("At any time: if {what}, give up the rest and return to the end.", what=what)
         case "end":
             return message("At any time: if {what}, end the mission where the robot is.", what=what)
 
 
 _FALLBACKS: dict[Fallback, str] = {
-    "return": message("give up the rest and go home", context="fallback"),
+    "return_to_start": message("give up the rest and return to the start", context="fallback"),
+    "return_to_end": message("give up the rest and return to the end", context="fallback"),
     "end": message("end the mission there", context="fallback"),
     "skip": message("leave out the current visit", context="fallback"),
     "go_on": message("go on all the same", context="fallback"),
@@ -111,7 +114,7 @@ def say_began(event: EventBegan) -> str:
             return message("{what}: it leaves out the current visit", what=what)
         case "skip_row":
             return message("{what}: it leaves out the rest of the row", what=what)
-        case "return":
+        case "return_to_start" | "return_to_end":
             return message("{what}: it turns home", what=what)
         case "end":
             return message("{what}: it ends its mission there", what=what)

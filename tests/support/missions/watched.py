@@ -27,7 +27,7 @@ EVENTS = (
         name="wind",
         description="the wind is strong",
         words=("wind", "wind speed"),
-        states=("windy",),
+        states=("windy", "strong"),
         unit="m/s",
         above=8.0,
         typical=2.0,
@@ -44,7 +44,9 @@ def watchful() -> RobotProfile:
     return replace(husky(), events=EVENTS)
 
 
-def watch(event: str, response: Response, *, at_most_s: float | None = None, fallback: Fallback = "return") -> Watch:
+def watch(
+    event: str, response: Response, *, at_most_s: float | None = None, fallback: Fallback = "return_to_end"
+) -> Watch:
     """Return a watch of an event that simply holds."""
     return Watch(condition=EventHolds(event=event), response=response, at_most_s=at_most_s, fallback=fallback)
 

@@ -8,7 +8,7 @@ from fieldhand.errors import RequestError
 from fieldhand.language import Number, message
 from fieldhand.planning.english.missing_blocks import missing_blocks
 from fieldhand.planning.english.tokens import Word, words_of
-from fieldhand.planning.english.wishes import early_wishes
+from fieldhand.planning.english.wishes import Wish, early_wishes
 from fieldhand.planning.grammar.planned import NAME
 from fieldhand.planning.planner import Answer, Outcome, Refused
 from fieldhand.robot.model import RobotProfile
@@ -52,7 +52,7 @@ class EnglishPlanner:
         """Plan a request without help if it is refused."""
         check_request(request)
         words = words_of(request)
-        if found := early_wishes(words):
+        if found := _unplanned(early_wishes(words), words, robot):
             from fieldhand.planning.refusals.helping import wish_reasons
 
             return Refused(reasons=tuple(wish_reasons(found, request, words, site, robot)), planner=NAME)
@@ -61,6 +61,17 @@ class EnglishPlanner:
         from fieldhand.planning.grammar.reader import composed
 
         return composed(request, site, robot, answers=answers)
+
+
+def _unplanned(wished: Sequence[Wish], words: Sequence[Word], robot: RobotProfile) -> list[Wish]:
+    """Return wishes without those that an event of the robot explains, and those to wait in sentences about one."""
+    if not wished or not robot.events:
+        return list(wished)
+    from fieldhand.planning.grammar.event_words import EventPatterns, in_event_sentences
+
+    about = in_event_sentences(words, robot)
+    named = {k for one in EventPatterns.of(robot).mentions(words) for k in range(one.start, one.end)}
+    return [wish for wish in wished if not {*range(wish.first, wish.last)} <= (about if wish.kind.waits else named)]
 
 
 def check_request(request: str) -> None:

@@ -12,6 +12,7 @@ from fieldhand.language import Number, message, named
 from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve
 from fieldhand.planning.foreseen import foreseeable
+from fieldhand.planning.grammar.dialogue.watching import with_visits
 from fieldhand.planning.homeward import faulted_exits, usual_exit, with_assumed_exit
 from fieldhand.planning.planner import Outcome, Planned, Reason, Refused
 from fieldhand.robot.capabilities import measures_of
@@ -20,6 +21,7 @@ from fieldhand.site.model import Site
 from fieldhand.task import plan as p
 from fieldhand.task.build import make_task
 from fieldhand.task.frames import Budget, BudgetKind, Constraints, Resource, Then
+from fieldhand.task.watches import Watch
 
 NAME = "english"
 KINDS: dict[str, BudgetKind] = {"metres": "distance_m", "seconds": "duration_s", "percent": "energy_percent"}
@@ -65,6 +67,7 @@ class Meant:
     assumptions: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
     read_as: str = ""
+    watches: tuple[Watch, ...] = ()
 
 
 def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> Outcome:
@@ -76,7 +79,7 @@ def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> O
     task = make_task(
         request=request,
         read_as=meant.read_as,
-        plan=meant.plan,
+        plan=with_visits(meant.plan) if any(_skips(watch) for watch in meant.watches) else meant.plan,
         measures=measures_of(robot),
         resources=(
             Resource(kind="robot", name=robot.name, sha256=robot.sha256),
@@ -89,6 +92,7 @@ def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> O
         faulted=faulted_exits(nominal),
         assumptions=tuple(dict.fromkeys(meant.assumptions)),
         warnings=meant.warnings,
+        watches=meant.watches,
     )
     problems = tuple(_impossible(task.composition.plan, site))
     if problems:
@@ -96,6 +100,11 @@ def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> O
     if meant.nominal is None:
         task = with_assumed_exit(task, site, robot)
     return Planned(task=task, planner=NAME)
+
+
+def _skips(watch: Watch) -> bool:
+    """Return True if a watch may leave out a visit."""
+    return watch.response in ("skip", "skip_row") or (watch.response == "wait" and watch.fallback == "skip")
 
 
 def _constraints(limits: Iterable[LimitPhrase]) -> Constraints:

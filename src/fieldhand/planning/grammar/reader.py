@@ -478,6 +478,7 @@ def _meant(reading: RequestReading, request: str) -> Meant:
         assumptions=(*state.assumed, *reading.assumed, *remarked),
         warnings=(*reading.mended, *to_confirm),
         read_as=_edited(request, reading.edits) if reading.edits else "",
+        watches=state.watches,
     )
 
 
@@ -497,6 +498,7 @@ def _same(one: Meant, other: Meant) -> bool:
         and one.nominal == other.nominal
         and [(limit.amount, limit.unit, limit.keep) for limit in one.limits]
         == [(limit.amount, limit.unit, limit.keep) for limit in other.limits]
+        and [replace(watch, said=()) for watch in one.watches] == [replace(watch, said=()) for watch in other.watches]
     )
 
 

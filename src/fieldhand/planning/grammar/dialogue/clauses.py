@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from fieldhand.language import message
 from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.commands.events import WatchCommand
 from fieldhand.planning.grammar.dialogue.allowances import allowed, failing
 from fieldhand.planning.grammar.dialogue.capturing import capture, capture_again, capture_elided, meant_things
 from fieldhand.planning.grammar.dialogue.conditions import (
@@ -51,6 +52,7 @@ from fieldhand.planning.grammar.dialogue.state import (
 )
 from fieldhand.planning.grammar.dialogue.totals import with_total
 from fieldhand.planning.grammar.dialogue.turns import as_meant
+from fieldhand.planning.grammar.dialogue.watching import watched
 from fieldhand.planning.grammar.meaning import (
     LAST_THING,
     After,
@@ -210,6 +212,12 @@ def _read(
     setting: Setting, state: DialogueState, clause: LinkedCommand, following: Sequence[LinkedCommand]
 ) -> DialogueState:
     """Return the state after a clause."""
+    if isinstance(clause.command, WatchCommand):
+        joined = () if clause.before is None else setting.spans_of(clause.before.used)
+        return watched(setting, with_joints(state, joined), clause.command)
+    if state.after_watch:
+        _require_apart(clause)
+        state = replace(state, after_watch=False)
     joint, command = clause.before, with_known_place(setting, state, clause.command)
     if joint is not None and joint.first:
         return _do_before_last(setting, state, command, joint, following)
@@ -313,6 +321,14 @@ def _read(
             return failing(setting, state, command)
         case InTurn() | Correction() | Reordered():
             raise AssertionError("these are resolved before the clauses are read")
+
+
+def _require_apart(clause: LinkedCommand) -> None:
+    """Raise an error for a way home that follows a wait ("wait 5 minutes and then come home"): it is a part of it."""
+    joint = clause.before
+    apart = joint is not None and joint.full and joint.used and not joint.then
+    if isinstance(clause.command, Home | StopCommand) and not apart:
+        raise NotComposed(message("it is not clear whether this follows the wait, or the plan", context="fault"))
 
 
 def _stop(setting: Setting, state: DialogueState, command: StopCommand) -> DialogueState:

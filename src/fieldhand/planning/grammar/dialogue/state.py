@@ -25,6 +25,7 @@ from fieldhand.site.model import Site
 from fieldhand.task import plan as p
 from fieldhand.task.conditions import Condition
 from fieldhand.task.frames import Then
+from fieldhand.task.watches import Watch
 
 Spans = tuple[p.Span, ...]
 #: Ranges of the request that corrections change, each with what stands there then.
@@ -114,6 +115,8 @@ class DialogueState:
         ranking: Trees that were ranked.
         edits: What corrections change in the request.
         runs_on: True if the last "otherwise" stands in a text without a mark that shows where its case ends.
+        watches: Conditions that are checked throughout the mission.
+        after_watch: True if the last clause said how long the robot waits in one of them.
     """
 
     plan: p.InOrder = EMPTY
@@ -148,6 +151,8 @@ class DialogueState:
     assumed: tuple[str, ...] = ()
     runs_on: bool = False
     edits: Edits = ()
+    watches: tuple[Watch, ...] = ()
+    after_watch: bool = False
 
     @property
     def block(self) -> p.InOrder:
