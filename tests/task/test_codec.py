@@ -20,6 +20,7 @@ from fieldhand.task.frames import Budget, Command, Composition, Constraints, Tas
 from fieldhand.task.plan import Act, GoTo, If, InOrder, Node, StopMission
 from fieldhand.task.schema import validate
 from fieldhand.task.timing import DayTime, Schedule, StartTime, Timing
+from fieldhand.task.watches import Watch, WatchCondition
 from fieldhand.testing.generated.tasks import ROVER, Parts, numbers, texts, values
 
 PARTS = Parts(ROVER)
@@ -38,6 +39,9 @@ def holding(part: object) -> Task:
         return replace(task_of(StopMission(id="n1")), timing=part)
     if isinstance(part, get_args(Condition)):
         return task_of(If(id="n1", condition=part, then=StopMission(id="n2")))
+    if isinstance(part, get_args(WatchCondition)):
+        composition = Composition(plan=StopMission(id="n1"), watches=(Watch(condition=part, response="wait"),))
+        return replace(task_of(StopMission(id="n1")), composition=composition)
     return task_of(part)
 
 

@@ -24,6 +24,7 @@ from fieldhand.wording.branches import FAULTS, say_decisions
 from fieldhand.wording.resolved_places import gather
 from fieldhand.wording.steps import ReadBackLine, say_exit_after, write_lines
 from fieldhand.wording.timing import say_timing
+from fieldhand.wording.watches import wait_limit_s
 from fieldhand.wording.ways import say_ways, way_notes
 
 __all__ = ["ReadBack", "ReadBackLine", "Totals", "read_back"]
@@ -109,7 +110,7 @@ def read_back(task: Task, site: Site, robot: RobotProfile, estimate: Estimate) -
         limits=limits,
         faults=faults,
         assumptions=tuple(recalled(text, "assumption") for text in task.command.assumptions),
-        notes=(*_notes(walks, site), *way_notes(task.constraints, robot)),
+        notes=(*_notes(walks, site), *_waits(task, robot), *way_notes(task.constraints, robot)),
         totals=_totals(estimate, task, robot),
         usual=_usual(task, limits, faults),
         times=() if task.timing is None else say_timing(task.timing),
@@ -217,6 +218,15 @@ def _notes(walks: Sequence[Walk], site: Site) -> tuple[str, ...]:
         seen.add(step.node.id)
         found.update((message("{note}.", note=capitalised(note)), None) for note in notes(selector, site, step.context))
     return tuple(found)
+
+
+def _waits(task: Task, robot: RobotProfile) -> tuple[str, ...]:
+    """Return a note on waiting for events, which the forecast leaves out."""
+    longest = [wait_limit_s(watch, robot) for watch in task.composition.watches if watch.response == "wait"]
+    if not longest:
+        return ()
+    time = say_duration(max(longest))
+    return (message("The figures are without events: each wait adds up to {time} and what idling uses.", time=time),)
 
 
 def _worst(estimate: Estimate, task: Task, robot: RobotProfile) -> tuple[str, ...]:

@@ -117,6 +117,7 @@ class ActiveMission:
         self._full = self.observation.charge_percent
         self._cuts = 0
         self._open: OpenDrive | OpenCapture | None = None
+        self._recorded: Progress | None = None
         self.events: list[Event] = []
         self.here = start_place(drives)
         self.standing = self._stands()
@@ -317,12 +318,16 @@ class ActiveMission:
         """Return the progress of the current goal, and record its end once."""
         progress = self.controller.poll()
         goal = self._open
-        if goal is None or not progress.over:
+        if goal is None:
+            return progress if self._recorded is None else self._recorded
+        if not progress.over:
             return progress
         self._open = None
         if isinstance(goal, OpenCapture):
-            return self._end_capture(goal, progress)
-        self._end_drive(goal, progress)
+            progress = self._end_capture(goal, progress)
+        else:
+            self._end_drive(goal, progress)
+        self._recorded = progress
         return progress
 
     def stop_driver(self) -> None:
@@ -339,6 +344,8 @@ class ActiveMission:
         found = [] if (soon := self.observation.next_in) is None else [soon]
         if self._wake_s is not None:
             found.append(min(LOOK_AGAIN_S, max(0.0, self._wake_s - self.clock.now())))
+        if found and self.task.composition.watches:
+            found.append(LOOK_AGAIN_S)
         return min(found, default=None)
 
     @property

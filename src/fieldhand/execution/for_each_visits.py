@@ -13,7 +13,7 @@ from fieldhand.forecast.mission_state import Visit, VisitChoice
 from fieldhand.forecast.visit_order import home_if_last, order_visits, reachable, visits_in_order, with_stands
 from fieldhand.language import message
 from fieldhand.language.words import listed
-from fieldhand.site.model import Place
+from fieldhand.site.model import Place, Site
 from fieldhand.task.plan import ForEach
 from fieldhand.task.results import Visiting
 
@@ -138,6 +138,24 @@ class ForEachVisits:
         if self.is_last_resort:
             self.cut_off.pop(0)
 
+    def skip(self, why: str, *, row: bool) -> None:
+        """Leave out the current visit, and with ``row`` all remaining ones to trees of its row.
+
+        Args:
+            why: Reason in words.
+            row: True to leave out the rest of the row.
+        """
+        place = self.place
+        assert place is not None  # noqa: S101  a visit is current
+        ids = _row_mates(self.mission.site, place) if row else frozenset[str]()
+        others = [v.place for v in (*self.left, *self.cut_off) if v.place.kind == "tree" and v.place.id in ids]
+        skipped = [place, *(p for p in others if p != place)]
+        self.left = [v for v in self.left if v.place not in skipped]
+        self.cut_off = [v for v in self.cut_off if v.place not in skipped]
+        choice = VisitChoice(index=None, reason=why, cause="event")
+        report_shed(self.mission, self.node.id, skipped, choice, optional=True)
+        self.place = None
+
     def cannot_reach(self, fault: BlockedFault) -> None:
         """Postpone the current visit or, if it was postponed already, give it up with all others that cannot be
         reached.
@@ -212,6 +230,13 @@ class ForEachVisits:
         chosen = None if choice.index is None else self.left[choice.index].place
         self.left = [v for i, v in enumerate(self.left) if i not in given_up and i != choice.index]
         return chosen
+
+
+def _row_mates(site: Site, place: Place) -> frozenset[str]:
+    """Return the ids of all trees in the row of a tree; none for a place in no row."""
+    at = next((k for k, tree in enumerate(site.trees) if place.kind == "tree" and tree.place.id == place.id), None)
+    row = -1 if at is None else int(site.planting.row_of[at])
+    return frozenset(site.trees[k].place.id for k in site.planting.rows[row].trees) if row >= 0 else frozenset()
 
 
 def _ids(places: Sequence[Place]) -> str:

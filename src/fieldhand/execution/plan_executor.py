@@ -70,6 +70,14 @@ class PlanExecutor:
         except Stopped as stopped:
             self._stop(stopped)
 
+    @property
+    def visit(self) -> ForEachVisits | None:
+        """The innermost for-each with a current visit; None between visits and outside of loops."""
+        if self.between:
+            return None
+        tours = (frame.tour for frame in self.mission.run.outwards())
+        return next((tour for tour in tours if isinstance(tour, ForEachVisits) and tour.place is not None), None)
+
     def _perform(self, request: instructions.Instruction) -> Instructions:
         """Carry out a request; record a failure and raise it in the plan."""
         try:
@@ -168,6 +176,8 @@ class PlanExecutor:
         yield from drive(mission, node.id, place, patient=tour is None or tour.is_last_resort, ask_guard=ask_guard)
         if tour is not None:
             tour.arrived()
+            if mission.task.composition.watches:
+                yield  # a visit can be left out on arrival
         return place
 
     def _capture(self, node: Act) -> Generator[None, None, Mapping[str, float]]:

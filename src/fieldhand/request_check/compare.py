@@ -7,6 +7,7 @@ of the plan that do not follow from the request.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import accumulate, takewhile
 
 from fieldhand.language import Number, message
@@ -43,7 +44,9 @@ def mismatches(task: Task, site: Site, robot: RobotProfile) -> tuple[PlanMismatc
     """
     request = without_stated_times(task.command.read_as or task.command.request, task)
     sizes = SelectorSizes(task, site)
-    facts, plan = request_facts(request, robot, site), plan_facts(task, sizes.of_node)
+    waits = [watch for watch in task.composition.watches if watch.response == "wait"]
+    longest = tuple(robot.patience.event_wait_s if one.at_most_s is None else one.at_most_s for one in waits)
+    facts, plan = request_facts(request, robot, site), replace(plan_facts(task, sizes.of_node), waits=longest)
     found = [
         *_sensors(facts, plan, robot),
         *_counts(facts, plan, sizes),

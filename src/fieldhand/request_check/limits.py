@@ -103,6 +103,7 @@ def _dropped(facts: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> Iter
     have = [b.limit for b in plan.task.constraints.budgets if b.kind == limit]
     have += [x for test in plan.tests for x in test.values]
     have += [node.dwell_s for node in plan.nodes if node.dwell_s] if amount.kind == "time" else []
+    have += plan.waits
     if amount.kind == "length":
         have += [number.value for number in plan.numbers if number.kind == "length"]
         have += _parameters(plan)
@@ -122,7 +123,9 @@ def _dropped(facts: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> Iter
 
 
 def _drives(plan: PlanFacts, metres_per_second: float) -> bool:
-    """Return True if the plan limits the speed of the mission or of a part to this value."""
+    """Return True if the plan limits the speed of the mission or of a part to this value, or watches for it."""
+    if any(test.unit in ("m/s", "km/h") and _close(metres_per_second, x) for test in plan.tests for x in test.values):
+        return True
     return any(_close(speed, metres_per_second) for _, speed in _speeds(plan))
 
 
@@ -136,7 +139,7 @@ def _speeds(plan: PlanFacts) -> list[tuple[str, float]]:
 def _waits(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
     """Yield waits of the request that the plan lacks, and waits of the plan whose time the request does not state."""
     planned = [node for node in plan.nodes if node.dwell_s]
-    if not planned:
+    if not planned and not plan.waits:
         for amount in facts.amounts:
             near = facts.tokens[max(0, amount.index - _NEAR) : amount.index]
             before = {token.text for token in near if token.sentence == amount.sentence}

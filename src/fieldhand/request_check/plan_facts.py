@@ -19,6 +19,7 @@ from fieldhand.task import plan as p
 from fieldhand.task.aggregates import CompareSeries, CountReadings, MeanKnown
 from fieldhand.task.codec_shapes import element_name
 from fieldhand.task.frames import Task
+from fieldhand.task.watches import EventBeyond, ReadingBeyond
 from fieldhand.terms import Side, Test, Value
 
 #: Opposite sides.
@@ -100,7 +101,7 @@ class PlannedNumber:
 
 @dataclass(frozen=True, kw_only=True)
 class PlanFacts:
-    """The facts of a Task: its plan nodes in order, every selector of these, captures, tests and numbers."""
+    """The facts of a Task: its plan nodes in order, every selector of these, captures, tests, numbers and waits."""
 
     task: Task
     nodes: tuple[p.Node, ...]
@@ -108,6 +109,7 @@ class PlanFacts:
     captures: tuple[PlannedCaptures, ...]
     tests: tuple[PlannedTest, ...]
     numbers: tuple[PlannedNumber, ...]
+    waits: tuple[float, ...] = ()
 
     def having(self, *classes: type) -> Iterator[tuple[str, Selector]]:
         """Return the selectors of some classes, each with its node."""
@@ -186,9 +188,21 @@ def plan_facts(task: Task, size: Callable[[str], int | None]) -> PlanFacts:
         nodes=nodes,
         selectors=selectors,
         captures=tuple(_captures(root, _Surroundings(), size)),
-        tests=tuple(_tests(nodes, selectors)),
+        tests=(*_tests(nodes, selectors), *_watched(task)),
         numbers=(*_numbers(nodes, selectors), *_kept_distances(task)),
     )
+
+
+def _watched(task: Task) -> Iterator[PlannedTest]:
+    """Yield the thresholds that the mission watches."""
+    for watch in task.composition.watches:
+        match watch.condition:
+            case EventBeyond(event=name, test=test, value=value, unit=unit):
+                yield PlannedTest(node="", quantity=name, attribute="", test=test, values=(value,), unit=unit)
+            case ReadingBeyond(quantity=name, test=test, value=value, unit=unit):
+                yield PlannedTest(node="", quantity=name, attribute="", test=test, values=(value,), unit=unit)
+            case _:
+                pass
 
 
 @dataclass(frozen=True, kw_only=True)

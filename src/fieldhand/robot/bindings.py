@@ -239,6 +239,23 @@ class StopBinding:
     stopped: bool = True
 
 
+@dataclass(frozen=True, kw_only=True)
+class EventBinding:
+    """An event in a message: the value of a measured event, or the test under which an event holds.
+
+    Attributes:
+        value: Value in the message, true and false as 1 and 0; a path that names a list gives its length.
+        equals: Value at which the event holds.
+        above, below: Threshold beyond which it holds.
+    """
+
+    topic: TopicBinding
+    value: FieldBinding
+    equals: float | None = None
+    above: float | None = None
+    below: float | None = None
+
+
 @dataclass(frozen=True, kw_only=True, repr=False)
 class Ros2Bindings:
     """The ROS 2 interfaces of a robot.
@@ -254,6 +271,7 @@ class Ros2Bindings:
         actions: Bindings by action name; an action without one cannot be executed on this robot.
         interfaces: Definitions of non-standard types by type, as in ``.msg``, ``.srv`` and ``.action`` files.
         use_sim_time: True for a simulated robot that publishes its time on ``/clock``.
+        events: Bindings by event name; an event without one is unknown on this robot.
     """
 
     distro: Distro
@@ -266,6 +284,7 @@ class Ros2Bindings:
     actions: Mapping[str, ActionBinding] = field(default_factory=dict)
     interfaces: Mapping[str, str] = field(default_factory=dict)
     use_sim_time: bool = False
+    events: Mapping[str, EventBinding] = field(default_factory=dict)
 
     __repr__ = short_repr
 

@@ -306,6 +306,22 @@ class StopDocument(_TopicDocument):
     stale_s: Stale = 10.0
 
 
+class EventBindingDocument(_TopicDocument, _ConvertedDocument):
+    """A topic that reports an event."""
+
+    type: MessageType = "std_msgs/msg/Bool"
+    equals: bool | NumberField | None = None
+    above: NumberField | None = None
+    below: NumberField | None = None
+    stale_s: Stale = 10.0
+
+    @model_validator(mode="after")
+    def _one_test(self) -> EventBindingDocument:
+        if sum(test is not None for test in (self.equals, self.above, self.below)) > 1:
+            raise ValueError("several tests are given; give only one of equals, above and below")
+        return self
+
+
 class Ros2Document(Keyed):
     """The ``ros2`` part of a profile."""
 
@@ -318,6 +334,7 @@ class Ros2Document(Keyed):
     odometry: OdometryDocument | None = None
     stop: StopDocument | None = None
     actions: dict[IdentifierField, ActionBindingDocument] = Field(default_factory=dict)
+    events: dict[IdentifierField, EventBindingDocument] = Field(default_factory=dict)
     interfaces: Annotated[dict[AnyType, Annotated[str, AfterValidator(_text)]], Field(max_length=_MOST_INTERFACES)] = (
         Field(default_factory=dict)
     )

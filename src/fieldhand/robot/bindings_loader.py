@@ -17,6 +17,7 @@ from fieldhand.robot.bindings import (
     BatteryBinding,
     CallBinding,
     Datum,
+    EventBinding,
     FieldBinding,
     NavigationBinding,
     NextMessage,
@@ -29,6 +30,7 @@ from fieldhand.robot.bindings import (
 from fieldhand.robot.bindings_document import (
     ActionBindingDocument,
     BatteryDocument,
+    EventBindingDocument,
     NavigationDocument,
     NextMessageDocument,
     OdometryDocument,
@@ -41,14 +43,14 @@ from fieldhand.robot.bindings_document import (
 from fieldhand.robot.units import STANDARD_FIELDS, conversion, known_units
 
 if TYPE_CHECKING:
-    from fieldhand.robot.document import ActionDocument, ProfileDocument
+    from fieldhand.robot.document import ActionDocument, EventDocument, ProfileDocument
 
 #: Default time limit of a call: this multiple of the action's duration, at least this many seconds.
 _TIMES, _LEAST_S = 3.0, 30.0
 #: Default wait for the next message of a topic, in seconds.
 _NEXT_S = 10.0
 
-Valued = ReadingDocument | NextMessageDocument | BatteryDocument
+Valued = ReadingDocument | NextMessageDocument | BatteryDocument | EventBindingDocument
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -84,12 +86,14 @@ def bindings_of(document: ProfileDocument) -> Ros2Bindings | None:
         else StopBinding(topic=_topic(ros2.stop), path=ros2.stop.path, stopped=ros2.stop.stopped),
         actions={name: _action(bound, document.actions[name], units) for name, bound in ros2.actions.items()},
         interfaces=ros2.interfaces,
+        events={name: _event(bound, document.events[name]) for name, bound in ros2.events.items()},
     )
 
 
 def _binding_problems(document: ProfileDocument, ros2: Ros2Document) -> Iterator[ProfileProblem]:
     units = {name: quantity.unit for name, quantity in document.quantities.items()}
     yield from _unreadable(ros2.battery, ros2.battery.type, "percent", "ros2.battery")
+    yield from _event_problems(document, ros2)
     for name, bound in ros2.actions.items():
         where = f"ros2.actions.{name}"
         action = document.actions.get(name)
@@ -109,6 +113,33 @@ def _binding_problems(document: ProfileDocument, ros2: Ros2Document) -> Iterator
         for quantity, message in bound.topics.items():
             if quantity in units:
                 yield from _unreadable(message, message.type, units[quantity], f"{where}.topics.{quantity}")
+
+
+def _event_problems(document: ProfileDocument, ros2: Ros2Document) -> Iterator[ProfileProblem]:
+    for name, bound in ros2.events.items():
+        where, event = f"ros2.events.{name}", document.events.get(name)
+        if event is None:
+            what = f"the profile has no event {name!r}"
+            yield ProfileProblem(path=where, what=what, advice=_nearest(name, document.events))
+            continue
+        tested = (bound.equals, bound.above, bound.below) != (None, None, None)
+        if event.unit is not None:
+            if tested:
+                what = "a measured event has no equals, above or below here"
+                yield ProfileProblem(path=where, what=what, advice="put its threshold into events, or leave it out")
+            yield from _unreadable(bound, bound.type, event.unit, where)
+        elif bound.unit is not None:
+            what = "an event that is true or false has no unit"
+            yield ProfileProblem(path=where, what=what, advice="leave unit out")
+
+
+def _event(bound: EventBindingDocument, event: EventDocument) -> EventBinding:
+    if event.unit is not None:
+        return EventBinding(topic=_topic(bound), value=_field(bound, bound.type, event.unit))
+    value = FieldBinding(path=bound.path or "data", scale=bound.scale or 1.0, offset=bound.offset or 0.0)
+    tested = (bound.above, bound.below) != (None, None)
+    equals = None if tested else 1.0 if bound.equals is None else float(bound.equals)
+    return EventBinding(topic=_topic(bound), value=value, equals=equals, above=bound.above, below=bound.below)
 
 
 def _requests(bound: ActionBindingDocument, action: ActionDocument, where: str) -> Iterator[ProfileProblem]:
@@ -201,7 +232,9 @@ def _place_and_unit(valued: Valued, type_name: str) -> tuple[str, str]:
     return valued.path or path, unit
 
 
-def _topic(document: PositionDocument | BatteryDocument | OdometryDocument | StopDocument) -> TopicBinding:
+def _topic(
+    document: PositionDocument | BatteryDocument | OdometryDocument | StopDocument | EventBindingDocument,
+) -> TopicBinding:
     return TopicBinding(
         topic=document.topic,
         type=document.type,

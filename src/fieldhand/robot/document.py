@@ -12,6 +12,7 @@ from typing import Annotated
 from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
 from fieldhand.robot.bindings_document import Ros2Document
+from fieldhand.robot.events import CLEAR_S, Unheard
 from fieldhand.robot.fields import (
     IdentifierField,
     Keyed,
@@ -203,12 +204,37 @@ class ActionDocument(Keyed):
         return self
 
 
+class EventDocument(Keyed):
+    """An event that the robot detects all the time: true or false, or with ``unit`` a measured value."""
+
+    description: Annotated[str, AfterValidator(_label)]
+    words: Annotated[Synonyms, Field(min_length=1)]
+    verbs: Synonyms = ()
+    states: Synonyms = ()
+    unit: UnitField | None = None
+    above: NumberField | None = None
+    below: NumberField | None = None
+    typical: NumberField = 0.0
+    clear_s: Annotated[NumberField, Field(ge=0, le=3600)] = CLEAR_S
+    unless_heard: Unheard = "holds"
+    labels: LanguageLabels = Field(default_factory=dict)
+
+    @model_validator(mode="after")
+    def _measured(self) -> EventDocument:
+        if self.unit is None and (self.above, self.below, self.typical) != (None, None, 0.0):
+            raise ValueError("above, below and typical need a unit; an event without one is true or false")
+        if self.above is not None and self.below is not None:
+            raise ValueError("give either above or below, not both")
+        return self
+
+
 class PatienceDocument(Keyed):
     """Waiting times before a fault is given up on."""
 
     retry_wait_s: Wait = 0.0
     blocked_wait_s: Wait = 60.0
     lost_wait_s: Wait = 60.0
+    event_wait_s: Annotated[NumberField, Field(ge=1, le=86_400)] = 3600.0
 
 
 class EnergyDocument(Keyed):
@@ -265,6 +291,7 @@ class ProfileDocument(Keyed):
     leg_cost: LegCostDocument
     quantities: dict[IdentifierField, QuantityDocument] = Field(default_factory=dict)
     actions: Annotated[dict[IdentifierField, ActionDocument], Field(min_length=1)]
+    events: dict[IdentifierField, EventDocument] = Field(default_factory=dict)
     ros2: Ros2Document | None = None
 
     @model_validator(mode="after")

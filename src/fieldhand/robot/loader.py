@@ -19,12 +19,14 @@ from fieldhand.plugins import Plugin, active
 from fieldhand.robot.bindings_loader import ProfileProblem, binding_problems, bindings_of
 from fieldhand.robot.document import (
     ActionDocument,
+    EventDocument,
     ImplementDocument,
     LevelDocument,
     ParameterDocument,
     ProfileDocument,
     QuantityDocument,
 )
+from fieldhand.robot.events import MonitoredEvent
 from fieldhand.robot.implement import Implement
 from fieldhand.robot.model import Action, Energy, LegCost, LevelThreshold, Parameter, Patience, Quantity, RobotProfile
 from fieldhand.strict_yaml import YamlFault, read_yaml
@@ -275,6 +277,7 @@ def _profile(document: ProfileDocument, *, sha256: str, source: str) -> RobotPro
         retries=document.retries,
         patience=Patience(**document.patience.model_dump()),
         ros2=bindings_of(document),
+        events=tuple(_event(name, e) for name, e in document.events.items()),
         sha256=sha256,
         source=source,
     )
@@ -292,6 +295,10 @@ def _quantity(name: str, document: QuantityDocument) -> Quantity:
         spread=document.spread,
         labels=document.labels,
     )
+
+
+def _event(name: str, document: EventDocument) -> MonitoredEvent:
+    return MonitoredEvent(name=name, **{**dict(document), "unit": document.unit or ""})
 
 
 def _level(document: LevelDocument) -> LevelThreshold:

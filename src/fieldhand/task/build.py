@@ -23,6 +23,7 @@ from fieldhand.task.frames import (
 )
 from fieldhand.task.plan import Node, Span, acts
 from fieldhand.task.timing import Timing
+from fieldhand.task.watches import Watch
 
 #: Default exits on faults.
 FAULTED_EXITS = (
@@ -54,6 +55,7 @@ def make_task(
     read_as: str = "",
     warnings: tuple[str, ...] = (),
     timing: Timing | None = None,
+    watches: tuple[Watch, ...] = (),
 ) -> Task:
     """Return a Task whose ids, goals and variables are derived from its plan.
 
@@ -71,15 +73,15 @@ def make_task(
         read_as: The request with the answers to clarifying questions; empty without questions.
         warnings: Warnings to confirm before approval, as sentences.
         timing: Time at which the mission begins, or its schedule.
+        watches: Conditions checked throughout the mission, and their responses.
 
     Returns:
         The Task; its id is a hash of request, plan and resources, so equal arguments give equal Tasks.
     """
     numbered = number(plan)
-    identity: tuple[object, ...] = (request, numbered, resources, constraints, nominal)
-    if timing is not None:
-        identity = (*identity, timing)
-    digest = hashlib.sha256(repr(identity).encode()).hexdigest()
+    added = (*((watches,) if watches else ()), *((timing,) if timing is not None else ()))
+    known = (request, numbered, resources, constraints, nominal, *added)
+    digest = hashlib.sha256(repr(known).encode()).hexdigest()
     return Task(
         id=f"task-{digest[:12]}",
         command=Command(
@@ -91,7 +93,9 @@ def make_task(
             read_as=read_as,
             warnings=warnings,
         ),
-        composition=Composition(plan=numbered, nominal=nominal, nominal_said=nominal_said, faulted=faulted),
+        composition=Composition(
+            plan=numbered, nominal=nominal, nominal_said=nominal_said, faulted=faulted, watches=watches
+        ),
         constraints=constraints or Constraints(),
         resources=resources,
         timing=timing,

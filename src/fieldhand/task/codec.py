@@ -20,6 +20,7 @@ from fieldhand.task.codec_xml import MAX_BYTES, MAX_DEPTH, local_name, parse_xml
 from fieldhand.task.frames import Constraints, FaultedExit, Task, Then
 from fieldhand.task.plan import Node, Span
 from fieldhand.task.timing import Timing
+from fieldhand.task.watches import Watch
 
 if TYPE_CHECKING:
     from lxml.etree import _Element
@@ -44,6 +45,7 @@ class TaskDraft:
     no_part: tuple[Span, ...] = ()
     warnings: tuple[str, ...] = ()
     timing: Timing | None = None
+    watches: tuple[Watch, ...] = ()
 
 
 def encode(task: Task) -> bytes:
@@ -94,6 +96,7 @@ def decode_draft(data: bytes, *, source: str = "") -> TaskDraft:
         no_part=task.command.no_part,
         warnings=task.command.warnings,
         timing=task.timing,
+        watches=task.composition.watches,
     )
 
 

@@ -13,6 +13,7 @@ from typing import Literal
 from fieldhand.short_repr import short_repr
 from fieldhand.task.plan import Node, Span
 from fieldhand.task.timing import Timing
+from fieldhand.task.watches import Watch
 from fieldhand.task.ways import Avoid, OnlyGate
 
 Then = Literal["return_to_end", "return_to_start", "stay"]
@@ -98,12 +99,14 @@ class Composition:
         nominal: Exit after the plan.
         nominal_said: Character ranges of the request that state the nominal exit.
         faulted: Exit after each kind of fault; default exits apply to the others.
+        watches: Conditions that are checked throughout the mission, each with its response.
     """
 
     plan: Node
     nominal: Then = "return_to_end"
     nominal_said: tuple[Span, ...] = ()
     faulted: tuple[FaultedExit, ...] = ()
+    watches: tuple[Watch, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)

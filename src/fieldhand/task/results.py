@@ -183,8 +183,9 @@ class Decided:
     why: str
 
 
-#: Why work is given up: to stay within the budget, or because there is no way to its place.
-ShedCause = Literal["budget", "unreachable"]
+#: Why work is given up: to stay within the budget, because there is no way to its place, or because of an event for
+#: which the Task says to skip it.
+ShedCause = Literal["budget", "unreachable", "event"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -249,18 +250,55 @@ class Dwelt:
 
 @dataclass(frozen=True, kw_only=True)
 class Waited:
-    """The robot waited for a problem to resolve itself: a blocked way, or a lost position.
+    """The robot waited for a problem to resolve itself: a blocked way, a lost position, or an event that it watches.
 
-    ``over``: the position is known again, or there is a way to try.
+    ``over``: the position is known again, there is a way to try, or the event is over.
     """
 
     event: ClassVar[str] = "wait"
     t: float
     node: str
-    wanted: Literal["way", "position"]
+    wanted: Literal["way", "position", "event"]
     seconds: float
     over: bool
     what: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class EventBegan:
+    """A condition that the mission watches began to hold.
+
+    ``watch`` is its position in the Task, from 1, ``name`` the event or quantity, and ``value`` its value: 1 for an
+    event that is true or false, None for one that is unknown and counts as holding. ``response`` is what the robot
+    does.
+    """
+
+    event: ClassVar[str] = "event_began"
+    t: float
+    node: str = ""
+    watch: int
+    name: str
+    response: Literal["wait", "skip", "skip_row", "return_to_start", "return_to_end", "end"]
+    value: float | None
+    unit: str = ""
+    what: str
+    lat: float
+    lon: float
+    travelled_m: float
+    charge_percent: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class EventEnded:
+    """A watched condition is over: it has not held for the time that the profile sets. ``seconds``: its duration."""
+
+    event: ClassVar[str] = "event_ended"
+    t: float
+    node: str = ""
+    watch: int
+    name: str
+    seconds: float
+    what: str
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -330,9 +368,9 @@ class Exited:
 class Ended:
     """The mission is over: position of the robot and resources used.
 
-    ``completed``: the plan was done and its exit taken. ``returned``: the robot came home early to keep a limit.
-    ``exceeded``: either of these, beyond a limit (:mod:`fieldhand.task.exceeded`). ``faulted``: a fault ended it.
-    ``aborted``: an operator did.
+    ``completed``: the plan was done and its exit taken. ``returned``: the robot gave up the rest early, to keep a limit
+    or because of an event. ``exceeded``: either of these, beyond a limit (:mod:`fieldhand.task.exceeded`).
+    ``faulted``: a fault ended it. ``aborted``: an operator did.
     """
 
     event: ClassVar[str] = "mission"
@@ -362,6 +400,8 @@ Event = (
     | Dwelling
     | Dwelt
     | Waited
+    | EventBegan
+    | EventEnded
     | LimitCrossed
     | ClockSet
     | Faulted

@@ -48,6 +48,7 @@ _FACETS: dict[str, dict[str, str]] = {
     "offset_min": {"minInclusive": "-1440", "maxInclusive": "1440"},
     "seconds": {"minExclusive": "0", "maxInclusive": "86400"},
     "speed_m_s": {"minInclusive": "0.01", "maxInclusive": "20"},
+    "at_most_s": {"minInclusive": "1", "maxInclusive": "86400"},
 }
 
 
@@ -75,11 +76,14 @@ class SchemaBuilder:
         return [o for o in options if shape_of(o).cls in known]
 
     def heads(self, shape: Shape) -> list[str]:
-        """Return the actions or quantities allowed in an element."""
+        """Return the actions, quantities or events allowed in an element."""
         if shape.head is None:
             return []
         if shape.head.of == "action":
             return list(self.capabilities.actions)
+        if shape.head.of == "event":
+            measured = bool(shape.head.attributes)
+            return [name for name, e in self.capabilities.events.items() if (e.unit if measured else e.holds)]
         needs_level = any(a.field == "level" for a in shape.head.attributes)
         return [name for name, q in self.capabilities.quantities.items() if q.levels or not needs_level]
 
@@ -161,6 +165,11 @@ class SchemaBuilder:
                 for attribute in shape.head.attributes:
                     words = {"unit": (quantity.unit,), "level": quantity.levels}.get(attribute.field)
                     self.attribute(made, shape.cls, attribute, words=words)
+                continue
+            if shape.head and shape.head.of == "event":
+                for attribute in shape.head.attributes:
+                    unit = (self.capabilities.events[name].unit,) if attribute.field == "unit" else None
+                    self.attribute(made, shape.cls, attribute, words=unit)
                 continue
             for key, parameter in self.capabilities.actions[name].parameters.items():
                 _parameter(_xs(made, "attribute", name=key), parameter)

@@ -20,6 +20,8 @@ from fieldhand.task.results import (
     Dwelt,
     Ended,
     Event,
+    EventBegan,
+    EventEnded,
     Exited,
     Faulted,
     InDoubt,
@@ -34,6 +36,7 @@ from fieldhand.task.results import (
     Waited,
 )
 from fieldhand.wording.limits import say_crossing
+from fieldhand.wording.watches import say_began
 
 #: A list of places longer than this is counted, not named.
 NAMED = 8
@@ -107,6 +110,12 @@ class EventText:
                 return message("waited {time}", time=say_wait(round(event.seconds)))
             case Waited():
                 return _waited(event)
+            case EventBegan():
+                return say_began(event)
+            case EventEnded():
+                return message(
+                    "over after {time}: {what}", time=clock_time(event.seconds), what=kept_in_log(event.what)
+                )
             case LimitCrossed():
                 return say_crossing(event)
             case ClockSet():
@@ -183,6 +192,10 @@ def _obstructed(event: Obstructed) -> str:
 
 def _waited(event: Waited) -> str:
     time = clock_time(event.seconds)
+    if event.wanted == "event":
+        if event.over:
+            return message("waited {time} until it was over", time=time)
+        return message("waited {time}, and it is not over", time=time)
     if event.wanted == "way":
         return message("waited {time} for a way to become free", time=time)
     if event.over:

@@ -32,6 +32,7 @@ from fieldhand.task.plan import (
 from fieldhand.wording.conditions import say_act, say_condition
 from fieldhand.wording.resolved_places import ResolvedPlaces
 from fieldhand.wording.step_places import in_order, say_expected, say_expected_visits, say_ids
+from fieldhand.wording.watches import say_watch
 
 Names = dict[str, str]
 
@@ -64,7 +65,7 @@ def say_place(place: Place) -> str:
 def write_lines(
     task: Task, site: Site, robot: RobotProfile, resolved: Mapping[str, ResolvedPlaces]
 ) -> tuple[ReadBackLine, ...]:
-    """Return the plan and its nominal exit as lines.
+    """Return the watched conditions, the plan and its nominal exit as lines.
 
     Args:
         task: Task to describe.
@@ -73,8 +74,12 @@ def write_lines(
     """
     writer = _LineWriter(robot, resolved)
     writer.node(task.composition.plan, 0)
+    watches = [
+        ReadBackLine(number=None, node=task.composition.plan.id, indent=0, text=say_watch(watch, robot))
+        for watch in task.composition.watches
+    ]
     writer.step(task.composition.plan.id, 0, say_exit(task.composition.nominal, site))
-    return tuple(writer.lines)
+    return (*watches, *writer.lines)
 
 
 def say_exit(then: Then, site: Site) -> str:

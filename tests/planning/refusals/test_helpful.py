@@ -37,7 +37,7 @@ WISHES = [
     ("Check whether the drip lines leak in row 8 of the north block.", "to recognise something"),
     ("Compare vine N100 with vine N101.", "to compare readings"),
     ("Record the average temperature of the north block.", "a statistic"),
-    ("Measure CO2 at vine N100 and stop when you see a person.", "to react to people"),
+    ("Measure CO2 at vine N100 and stop when you see a person.", "cannot tell"),
     ("Take a picture of vine N100 unless it rains.", "the weather"),
     ("If the battery gets low go back to the start.", "the battery"),
     ("Follow the tractor through row 5 of the north block.", "to follow or lead"),

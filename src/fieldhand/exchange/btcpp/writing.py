@@ -95,6 +95,7 @@ class _TreeWriter:
             task=task.id,
             command=encode_parts([task.command]),
             constraints=encode_parts([task.constraints]),
+            watches=encode_parts(composition.watches),
             resources=encode_parts(task.resources),
         )
         stopped = _element(EXIT, then=composition.nominal)

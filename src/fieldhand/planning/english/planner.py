@@ -9,7 +9,7 @@ from fieldhand.errors import RequestError
 from fieldhand.language import Number, message
 from fieldhand.planning.english.missing_blocks import missing_blocks
 from fieldhand.planning.english.tokens import Word, words_of
-from fieldhand.planning.english.wishes import early_wishes
+from fieldhand.planning.english.wishes import Wish, early_wishes
 from fieldhand.planning.grammar.planned import NAME
 from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Refused
 from fieldhand.robot.model import RobotProfile
@@ -55,7 +55,7 @@ class EnglishPlanner:
         words = words_of(request)
         if (timed := self._timed(request, words, site, robot, answers)) is not None:
             return timed
-        if found := early_wishes(words):
+        if found := _unplanned(early_wishes(words), words, robot):
             from fieldhand.planning.refusals.helping import wish_reasons
 
             return Refused(reasons=tuple(wish_reasons(found, request, words, site, robot)), planner=NAME)
@@ -73,7 +73,11 @@ class EnglishPlanner:
         from fieldhand.planning.grammar.times import asked_time, with_answer, without_times
 
         times = without_times(words)
-        if times is None or early_wishes(times.words) or tuple(missing_blocks(times.words, site)):
+        if (
+            times is None
+            or _unplanned(early_wishes(times.words), times.words, robot)
+            or tuple(missing_blocks(times.words, site))
+        ):
             return None
         answered = with_answer(times.part, answers)
         part = times.part if answered is None else answered[0]
@@ -97,6 +101,17 @@ class EnglishPlanner:
         command = outcome.task.command
         told = replace(command, assumptions=(answered[1].sentence(), *command.assumptions))
         return replace(outcome, task=replace(outcome.task, command=told))
+
+
+def _unplanned(wished: Sequence[Wish], words: Sequence[Word], robot: RobotProfile) -> list[Wish]:
+    """Return wishes without those that an event of the robot explains, and those to wait in sentences about one."""
+    if not wished or not robot.events:
+        return list(wished)
+    from fieldhand.planning.grammar.event_words import EventPatterns, in_event_sentences
+
+    about = in_event_sentences(words, robot)
+    named = {k for one in EventPatterns.of(robot).mentions(words) for k in range(one.start, one.end)}
+    return [wish for wish in wished if not {*range(wish.first, wish.last)} <= (about if wish.kind.waits else named)]
 
 
 def check_request(request: str) -> None:

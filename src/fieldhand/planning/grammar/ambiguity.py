@@ -60,7 +60,7 @@ def question_between(plans: Sequence[Planned], request: str, site: Site, robot: 
     left: dict[str, tuple[Planned, ...]] = {}
     for answer, plan in zip(answers, plans, strict=True):
         left[answer] = (*left.get(answer, ()), plan)
-    start, end = _said(plans, [lines[first] for lines in written], request)
+    start, end = _said_of_watches(plans, first) or _said(plans, [lines[first] for lines in written], request)
     asked = message("'{said}': which is meant?", context="question", said=request[start:end])
     return PlanQuestion(question=asked, said=(start, end), plans=left)
 
@@ -72,6 +72,13 @@ def _with_speed(answer: str, plan: Planned) -> str:
         return answer
     whole = message("Drive no faster than {speed} m/s on the whole mission.", speed=Number(f"{speed:g}"))
     return joined(" ", (answer, whole))
+
+
+def _said_of_watches(plans: Sequence[Planned], line: int) -> Span | None:
+    """Return the range of the request that states the watches of a line; None if it is a line of the plan."""
+    watches = [plan.task.composition.watches[line : line + 1] for plan in plans]
+    spans = [span for found in watches for watch in found for span in watch.said]
+    return (min(start for start, _ in spans), max(end for _, end in spans)) if spans and all(watches) else None
 
 
 def _question_of_branch(

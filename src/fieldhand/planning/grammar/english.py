@@ -19,6 +19,7 @@ from fieldhand.planning.english.spelling import respelt
 from fieldhand.planning.english.tokens import Word, ranges_of, words_of
 from fieldhand.planning.english.vocabulary import vocabulary
 from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.event_words import NO_EVENTS, EventPatterns, response_words, says_any_time
 from fieldhand.planning.grammar.language import GrammarLanguage
 from fieldhand.planning.grammar.words import FeatureTable
 from fieldhand.robot.model import RobotProfile
@@ -57,11 +58,13 @@ class EnglishPhrases:
         lexicon: Shared vocabulary, and the words of the robot and of the site.
         camera: Action that takes pictures, if the robot has just one.
         is_thermal: True if these are thermal pictures.
+        events: Patterns of the robot's events.
     """
 
     lexicon: Lexicon
     camera: Naming | None
     is_thermal: bool = False
+    events: EventPatterns = NO_EVENTS
 
     @property
     def longest(self) -> int:
@@ -71,6 +74,14 @@ class EnglishPhrases:
     def features(self, phrase: Phrase) -> frozenset[str]:
         """Return the features of a phrase."""
         return _features().of(phrase)
+
+    def spotted(self, words: Sequence[Word]) -> Iterator[tuple[str, int, int, Any]]:
+        """Yield the events that words mention, and with them the words of responses."""
+        found = list(self.events.mentions(words))
+        for one in found:
+            yield "EVENTNOUN" if one.is_noun else "EVENT", one.start, one.end, one.condition
+        if found or says_any_time(words):
+            yield from ((category, start, end, None) for category, start, end in response_words(words))
 
     def entries(self, phrase: Phrase) -> Iterator[NameEntry]:
         """Yield what a phrase can be: in the lexicon, spelt out, and in english.toml."""
@@ -174,7 +185,7 @@ def phrases_for(robot: RobotProfile, site: Site) -> EnglishPhrases:
     camera = camera_of(robot)
     taking = [one for one in robot.actions if camera is not None and one.name in camera.actions]
     is_thermal = any("thermal" in split(word) for one in taking for word in one.words)
-    return EnglishPhrases(lexicon_for(robot, site), camera, is_thermal)
+    return EnglishPhrases(lexicon_for(robot, site), camera, is_thermal, EventPatterns.of(robot))
 
 
 def camera_of(robot: RobotProfile) -> Naming | None:

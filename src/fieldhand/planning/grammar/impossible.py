@@ -147,6 +147,15 @@ def up_to_so_many_captures() -> Impossible:
     return Impossible(message("captures need one number"), message("say 'of up to 6 trees'"))
 
 
+@construction("trigger")
+def reacting_otherwise() -> Impossible:
+    """Compose "if it rains", which decides about no step."""
+    return Impossible(
+        message("what the robot detects all the time decides about no single step"),
+        message("say what it does then: 'if it rains, come home', or wait, skip that tree, or end the mission"),
+    )
+
+
 @construction("AISLE")
 def in_an_aisle() -> Impossible:
     """Compose "the aisle"."""

@@ -14,6 +14,7 @@ from fieldhand.places.resolution import resolve
 from fieldhand.places.sources.gate_is import GateIs
 from fieldhand.places.wording import say_selector
 from fieldhand.planning.foreseen import foreseeable
+from fieldhand.planning.grammar.dialogue.watching import with_visits
 from fieldhand.planning.grammar.meaning import WayRule
 from fieldhand.planning.homeward import faulted_exits, usual_exit, with_assumed_exit
 from fieldhand.planning.planner import Outcome, Planned, Reason, Refused
@@ -25,6 +26,7 @@ from fieldhand.task import plan as p
 from fieldhand.task.build import make_task
 from fieldhand.task.frames import Budget, BudgetKind, Constraints, Resource, Then
 from fieldhand.task.timing import Timing
+from fieldhand.task.watches import Watch
 from fieldhand.task.ways import Avoid, OnlyGate
 
 NAME = "english"
@@ -79,6 +81,7 @@ class Meant:
     warnings: tuple[str, ...] = ()
     read_as: str = ""
     timing: Timing | None = None
+    watches: tuple[Watch, ...] = ()
 
 
 def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> Outcome:
@@ -90,7 +93,7 @@ def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> O
     task = make_task(
         request=request,
         read_as=meant.read_as,
-        plan=meant.plan,
+        plan=with_visits(meant.plan) if any(_skips(watch) for watch in meant.watches) else meant.plan,
         measures=measures_of(robot),
         resources=(
             Resource(kind="robot", name=robot.name, sha256=robot.sha256),
@@ -104,6 +107,7 @@ def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> O
         assumptions=tuple(dict.fromkeys(meant.assumptions)),
         warnings=meant.warnings,
         timing=meant.timing,
+        watches=meant.watches,
     )
     problems = (*_impossible(task.composition.plan, site), *_impossible_ways(meant, site))
     if problems:
@@ -111,6 +115,11 @@ def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> O
     if meant.nominal is None:
         task = with_assumed_exit(task, site, robot)
     return Planned(task=task, planner=NAME)
+
+
+def _skips(watch: Watch) -> bool:
+    """Return True if a watch may leave out a visit."""
+    return watch.response in ("skip", "skip_row") or (watch.response == "wait" and watch.fallback == "skip")
 
 
 def _constraints(meant: Meant) -> Constraints:

@@ -514,6 +514,7 @@ def _meant(reading: RequestReading, request: str) -> Meant:
         warnings=(*reading.mended, *to_confirm),
         read_as=_edited(request, reading.edits) if reading.edits else "",
         timing=reading.timing,
+        watches=state.watches,
     )
 
 
@@ -534,6 +535,7 @@ def _same(one: Meant, other: Meant) -> bool:
         and [(limit.amount, limit.unit, limit.keep) for limit in one.limits]
         == [(limit.amount, limit.unit, limit.keep) for limit in other.limits]
         and [(rule.avoid, rule.gates) for rule, _ in one.ways] == [(rule.avoid, rule.gates) for rule, _ in other.ways]
+        and [replace(watch, said=()) for watch in one.watches] == [replace(watch, said=()) for watch in other.watches]
     )
 
 

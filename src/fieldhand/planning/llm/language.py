@@ -22,10 +22,11 @@ from fieldhand.task.conditions import Condition
 from fieldhand.task.frames import Budget, Constraints, FaultedExit
 from fieldhand.task.plan import Node
 from fieldhand.task.timing import DayTime, Timing
+from fieldhand.task.watches import Watch, WatchCondition
 from fieldhand.task.ways import Avoid, OnlyGate
 
 #: Letters that stand for any element of a family in the forms.
-LETTERS = {"node": "N", "condition": "C", "selector": "S"}
+LETTERS = {"node": "N", "condition": "C", "selector": "S", "watched": "W"}
 
 #: Attributes that only the program writes.
 DERIVED = frozenset({"id", "said", "at-said", "reserve-said", "nominal-said", "no-part", "seed", "time-zone"})
@@ -63,6 +64,12 @@ def describe_language() -> str:
     return "\n\n".join([f"In these forms {short}.", *rendered])
 
 
+@cache
+def describe_watches() -> str:
+    """Return the elements of watches, for a robot that detects events: one element per paragraph."""
+    return "\n".join(_paragraph(shape_of(cls)) for cls in (Watch, *get_args(WatchCondition)))
+
+
 def _paragraph(shape: Shape) -> str:
     """Return one element: its form, then its meaning."""
     return f"{_form(shape)}\n  {_meaning(shape)}"
@@ -75,7 +82,7 @@ def _form(shape: Shape) -> str:
     if shape.head and shape.head.of == "action":
         inside.append("<ACTION/>")
     elif shape.head:
-        inside.append(f"<{' '.join(['QUANTITY', *map(_attribute, shape.head.attributes)])}/>")
+        inside.append(f"<{' '.join([shape.head.of.upper(), *map(_attribute, shape.head.attributes)])}/>")
     inside += [_child(child) for child in shape.children]
     opening = " ".join([shape.element, *attributes])
     return f"<{opening}>{' '.join(inside)}" if inside else f"<{opening}/>"

@@ -10,6 +10,7 @@ from fieldhand.planning.grammar.commands import (
     clauses,
     conditions,
     driving,
+    events,
     exclusions,
     limits,
     pace,
@@ -26,8 +27,8 @@ from fieldhand.planning.grammar.commands import (
 #: The constructions of all themes. Of readings that cost the same, the one composed first is kept, so the order counts.
 GRAMMAR = Grammar()
 _THEMES = (
-    things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, requests, exclusions, ways,
-    sampling, waits, pace, sides, aggregates,
+    things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, events, requests, exclusions,
+    ways, sampling, waits, pace, sides, aggregates,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from fieldhand.language import message
 from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.commands.events import WatchCommand
 from fieldhand.planning.grammar.dialogue.allowances import allowed, failing
 from fieldhand.planning.grammar.dialogue.capturing import capture, capture_again, capture_elided, meant_things
 from fieldhand.planning.grammar.dialogue.conditions import (
@@ -54,6 +55,7 @@ from fieldhand.planning.grammar.dialogue.state import (
 from fieldhand.planning.grammar.dialogue.totals import with_total
 from fieldhand.planning.grammar.dialogue.turns import as_meant
 from fieldhand.planning.grammar.dialogue.waits import waited, with_settling
+from fieldhand.planning.grammar.dialogue.watching import watched
 from fieldhand.planning.grammar.meaning import (
     LAST_THING,
     After,
@@ -217,6 +219,12 @@ def _read(
     setting: Setting, state: DialogueState, clause: LinkedCommand, following: Sequence[LinkedCommand]
 ) -> DialogueState:
     """Return the state after a clause."""
+    if isinstance(clause.command, WatchCommand):
+        joined = () if clause.before is None else setting.spans_of(clause.before.used)
+        return watched(setting, with_joints(state, joined), clause.command)
+    if state.after_watch:
+        _require_apart(clause)
+        state = replace(state, after_watch=False)
     if is_by_reading(clause.command):
         state = capture_elided(setting, state)  # "at tree 4 and at tree 9, then ... at the hotter one"
     state, command = with_read_place(setting, state, clause.command)
@@ -333,6 +341,14 @@ def _read(
             return failing(setting, state, command)
         case InTurn() | Correction() | Reordered():
             raise AssertionError("these are resolved before the clauses are read")
+
+
+def _require_apart(clause: LinkedCommand) -> None:
+    """Raise an error for a way home that follows a wait ("wait 5 minutes and then come home"): it is a part of it."""
+    joint = clause.before
+    apart = joint is not None and joint.full and joint.used and not joint.then
+    if isinstance(clause.command, Home | StopCommand) and not apart:
+        raise NotComposed(message("it is not clear whether this follows the wait, or the plan", context="fault"))
 
 
 def _stop(setting: Setting, state: DialogueState, command: StopCommand) -> DialogueState:

@@ -28,6 +28,7 @@ from fieldhand.site.model import Site
 from fieldhand.task import plan as p
 from fieldhand.task.conditions import Condition
 from fieldhand.task.frames import Then
+from fieldhand.task.watches import Watch
 
 Spans = tuple[p.Span, ...]
 #: Ranges of the request that corrections change, each with what stands there then.
@@ -140,6 +141,8 @@ class DialogueState:
         settles: Waits before captures.
         speed: Driving speed of the whole mission, when all clauses are read.
         runs_on: True if the last "otherwise" stands in a text without a mark that shows where its case ends.
+        watches: Conditions that are checked throughout the mission.
+        after_watch: True if the last clause said how long the robot waits in one of them.
     """
 
     plan: p.InOrder = EMPTY
@@ -178,6 +181,8 @@ class DialogueState:
     paces: tuple[SaidPace, ...] = ()
     settles: tuple[SettleClause, ...] = ()
     speed: SaidPace | None = None
+    watches: tuple[Watch, ...] = ()
+    after_watch: bool = False
 
     @property
     def block(self) -> p.InOrder:
