@@ -87,11 +87,7 @@ class EnglishPlanner:
         outcome = composed(request, site, robot, answers=answers, words=times.words, timing=timing)
         if not isinstance(outcome, Planned):
             return outcome
-        if any(
-            start <= first and last <= end
-            for start, end in outcome.task.command.no_part
-            for first, last in times.beside
-        ):
+        if times.beside_any(outcome.task.command.no_part):  # "the crew arrives at 7 am" is told of the crew
             return None
         asked = asked_time(part)
         if asked is not None:
