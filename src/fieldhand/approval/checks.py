@@ -17,6 +17,7 @@ from fieldhand.approval.branch_checks import branch_problems, exit_problems
 from fieldhand.approval.budget import budget_problems
 from fieldhand.approval.problem import PlanProblem, node_in, with_words
 from fieldhand.approval.request_warnings import request_warnings
+from fieldhand.approval.speed import speed_problems
 from fieldhand.errors import FieldhandError, PlaceError, TaskError
 from fieldhand.forecast.estimate import Estimate, estimate, explore
 from fieldhand.forecast.visit_order import drives_for, start_place
@@ -92,6 +93,7 @@ def examine(
     """
     problems = [*_document(task, robot, document), *_references(task, robot), *_resources(task, site, robot)]
     problems.extend(unaccounted(task))
+    problems.extend(speed_problems(task, robot))
     if not _errors(problems):
         problems.extend(request_warnings(task, site, robot))
         problems.extend(_places(task, site, robot))
