@@ -77,14 +77,15 @@ def read_log(lines: Iterable[str], site: CaseSite) -> Log:
         try:
             event: Mapping[str, Any] = json.loads(line)
             travelled = max(travelled, float(event.get("travelled_m", 0.0)))
-            lasts_s = max(lasts_s, float(event.get("t", 0.0)))
+            now_s = float(event.get("t", 0.0))
+            lasts_s = max(lasts_s, now_s)
             match event.get("event"), event.get("status"):
                 case "drive", _:
-                    left_s = float(event["t"])
+                    left_s = now_s
                 case "arrive", _:
                     stood = _at(event, site)
-                    if float(event["t"]) > left_s:
-                        fastest = max(fastest, float(event["leg_m"]) / (float(event["t"]) - left_s))
+                    if now_s > left_s:
+                        fastest = max(fastest, float(event["leg_m"]) / (now_s - left_s))
                 case "action", "success":
                     at = _at(event, site)
                     known = stands.setdefault(site.nearest(at)[0], [])
