@@ -17,6 +17,7 @@ from fieldhand.approval.branch_checks import branch_problems, exit_problems
 from fieldhand.approval.budget import budget_problems
 from fieldhand.approval.problem import PlanProblem, node_in, with_words
 from fieldhand.approval.request_warnings import request_warnings
+from fieldhand.approval.speed import speed_problems
 from fieldhand.approval.timing import timing_problems
 from fieldhand.approval.watch_checks import watch_problems
 from fieldhand.approval.ways import by_rules, rule_problems, way_problems
@@ -95,6 +96,7 @@ def examine(
     """
     problems = [*_document(task, robot, document), *_references(task, robot), *_resources(task, site, robot)]
     problems.extend(unaccounted(task))
+    problems.extend(speed_problems(task, robot))
     if not _errors(problems):
         problems.extend(watch_problems(task, robot))
     if not _errors(problems):

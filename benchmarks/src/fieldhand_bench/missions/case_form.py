@@ -196,6 +196,9 @@ class ExpectForm(Form):
     repeats: StrictBool = False
     apart_m: BoundsPair | None = None
     max_travel_m: Above0 | None = None
+    lasts_s: BoundsPair | None = None
+    max_speed_m_s: Above0 | None = None
+    stands: Least1 | None = None
     min_steps: Least1 | None = None
     status: Literal["completed", "returned", "faulted", "aborted"] = "completed"
     end: EndForm | None = None
@@ -241,6 +244,9 @@ class ExpectForm(Form):
             repeats=self.repeats,
             apart_m=self.apart_m,
             most_travel_m=self.max_travel_m,
+            lasts_s=self.lasts_s,
+            most_speed_m_s=self.max_speed_m_s,
+            stands=self.stands,
             least_stops=self.min_steps or 0,
             status=self.status,
             end=None if self.end is None else self.end.marker or self.end.place(),

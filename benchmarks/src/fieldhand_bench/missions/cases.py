@@ -47,6 +47,9 @@ class Expected:
         repeats: True if an action may be repeated at a tree; used with ``counts``.
         apart_m: Distance between successive stops, metres.
         most_travel_m: Maximum distance driven, metres.
+        lasts_s: Duration of the mission, seconds.
+        most_speed_m_s: Maximum speed of a leg on average, m/s.
+        stands: Number of positions from which each tree was worked on.
         least_stops: Minimum number of actions done.
         status: Final status of the mission.
         end: Final position: a marker, or a place that the nearest tree must match. None for anywhere.
@@ -61,6 +64,9 @@ class Expected:
     repeats: bool = False
     apart_m: Bounds | None = None
     most_travel_m: float | None = None
+    lasts_s: Bounds | None = None
+    most_speed_m_s: float | None = None
+    stands: int | None = None
     least_stops: int = 0
     status: str = "completed"
     end: CasePlace | MarkerName | None = None

@@ -80,6 +80,14 @@ def _distances(expected: Expected, log: Log) -> Iterator[str]:
                 yield f"two stops are {away:.1f} m apart, wanted {_bounds_text(expected.apart_m)} m"
     if expected.most_travel_m is not None and log.travelled_m > expected.most_travel_m:
         yield f"{log.travelled_m:.1f} m were driven, {expected.most_travel_m:g} m at most wanted"
+    if expected.lasts_s is not None and not _within(log.lasts_s, expected.lasts_s):
+        yield f"the mission lasted {log.lasts_s:.0f} s, wanted {_bounds_text(expected.lasts_s)} s"
+    if expected.most_speed_m_s is not None and log.fastest_m_s > expected.most_speed_m_s * 1.001:
+        yield f"a leg was driven at {log.fastest_m_s:.2f} m/s, {expected.most_speed_m_s:g} m/s at most wanted"
+    if expected.stands is not None:
+        for tree in sorted({one.tree for one in log.done}):
+            if log.stands.get(tree, 0) != expected.stands:
+                yield f"tree {tree} was worked on from {log.stands.get(tree, 0)} positions, wanted {expected.stands}"
 
 
 def _end(site: CaseSite, expected: Expected, log: Log) -> Iterator[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -44,6 +44,9 @@ class Log:
         travelled_m: Distance driven in total, metres.
         status: Final status of the mission; None if the log does not record it.
         end: (2,), final position, metres east and north; None if the log does not record it.
+        lasts_s: Duration of the mission, seconds.
+        fastest_m_s: Speed of the fastest leg on average, m/s.
+        stands: Number of positions of the robot from which each tree was worked on.
     """
 
     done: tuple[Done, ...]
@@ -51,6 +54,9 @@ class Log:
     travelled_m: float
     status: str | None
     end: Points | None
+    lasts_s: float = 0.0
+    fastest_m_s: float = 0.0
+    stands: Mapping[int, int] = field(default_factory=dict)
 
 
 def read_log(lines: Iterable[str], site: CaseSite) -> Log:
@@ -62,15 +68,29 @@ def read_log(lines: Iterable[str], site: CaseSite) -> Log:
     done: list[Done] = []
     stops: list[Points] = []
     travelled, status, end = 0.0, None, None
+    lasts_s = fastest = left_s = 0.0
+    stood: Points | None = None
+    stands: dict[int, list[Points]] = {}
     for number, line in enumerate(lines, start=1):
         if not line.strip():
             continue
         try:
             event: Mapping[str, Any] = json.loads(line)
             travelled = max(travelled, float(event.get("travelled_m", 0.0)))
+            now_s = float(event.get("t", 0.0))
+            lasts_s = max(lasts_s, now_s)
             match event.get("event"), event.get("status"):
+                case "drive", _:
+                    left_s = now_s
+                case "arrive", _:
+                    stood = _at(event, site)
+                    if now_s > left_s:
+                        fastest = max(fastest, float(event["leg_m"]) / (now_s - left_s))
                 case "action", "success":
                     at = _at(event, site)
+                    known = stands.setdefault(site.nearest(at)[0], [])
+                    if stood is not None and all(math.dist(stood, one) > _ONE_STOP_M for one in known):
+                        known.append(stood)
                     _add(done, str(event["action"]), int(event.get("count", 1)), *site.nearest(at))
                     if not stops or math.dist(at, stops[-1]) > _ONE_STOP_M:
                         stops.append(at)
@@ -82,7 +102,16 @@ def read_log(lines: Iterable[str], site: CaseSite) -> Log:
                 where=f"event log, line {number}",
                 advice="was the log cut off or edited?",
             ) from None
-    return Log(done=tuple(done), stops=np.array(stops).reshape(-1, 2), travelled_m=travelled, status=status, end=end)
+    return Log(
+        done=tuple(done),
+        stops=np.array(stops).reshape(-1, 2),
+        travelled_m=travelled,
+        status=status,
+        end=end,
+        lasts_s=lasts_s,
+        fastest_m_s=fastest,
+        stands={tree: len(known) for tree, known in stands.items()},
+    )
 
 
 def _at(event: Mapping[str, Any], site: CaseSite) -> Points:

@@ -76,7 +76,9 @@ def with_settling(setting: Setting, state: DialogueState) -> DialogueState:
         ]  # fmt: skip
         if not found:
             raise NotComposed(message("nothing is captured that it could be before", context="fault"), clause.used)
-        plan = _settled(state.plan, clause, actions, setting.spans_of(clause.used))
+        said = setting.spans_of(clause.used)
+        steps = tuple(_settled(step, clause, actions, said) for step in state.plan.steps)
+        plan = replace(state.plan, steps=steps)
         state = replace(state, plan=plan, captured=None, loop=None, choice=None)
     return state
 
