@@ -12,6 +12,7 @@ from fieldhand.planning.grammar.places import (
     groups,
     likewise,
     nouns,
+    numbered_zones,
     numbers,
     positions,
     quantities,
@@ -42,5 +43,6 @@ for _part in (
     exceptions,
     sets,
     sampling,
+    numbered_zones,
 ):
     GRAMMAR.include(_part.GRAMMAR)
