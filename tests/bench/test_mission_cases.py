@@ -30,7 +30,8 @@ ELSEWHERE = (94, 18)
 
 def degrees(case: Case, tree: int) -> tuple[float, float]:
     points = json.loads(case.site.read_text())["features"]
-    trees = [f for f in points if "tree" in f["properties"].get("marker-symbol", "")]
+    kinds = [str(f["properties"].get("marker-symbol") or f["properties"].get("kind", "")) for f in points]
+    trees = [f for f, kind in zip(points, kinds, strict=True) if "tree" in kind or kind == "vine"]
     lon, lat = trees[tree]["geometry"]["coordinates"]
     return lat, lon
 

@@ -28,6 +28,12 @@ _LONGEST = 40
 
 def no_such_tree(site: Site, tree: str) -> PlaceError:
     """Return the error for an unknown tree id."""
+    if not site.trees:
+        return PlaceError(
+            message("there is no tree '{id}'", id=short(tree)),
+            where=site.name,
+            advice=message("this site has no trees; name a zone, or points in one"),
+        )
     near = _alike(tree, [t.place.id for t in site.trees[:5000]])
     first, last = site.trees[0].place.id, site.trees[-1].place.id
     return PlaceError(

@@ -24,6 +24,8 @@ SAME_TREE_M = 0.2
 #: slightly outside.
 ON_BOUNDARY_M = 0.05
 _MOST_PAIRS = 5
+#: Distance in metres from keep-outs of the start of a site without trees and without a start marker.
+_OFF_KEEP_OUTS_M = 2.0
 #: Maximum number of characters of the name of a marker that requests may use.
 _LONGEST_MARKER_NAME = 60
 
@@ -44,10 +46,11 @@ def build(features: FeatureSet, faults: Faults, *, name: str, sha256: str, notes
     numbering = _numbering([p for p in features.points if p.kind == "tree"])
     sound = drop_strays(features, faults)
     planted = [p for p in sound.points if p.kind == "tree"]
-    if not planted:
+    grounds = [area for area in sound.areas if area.kind != "keep_out"]
+    if not planted and not grounds:
         faults.check()
         raise _no_trees(features, faults.source)
-    projection = middle_of(planted)
+    projection = middle_of(planted, grounds)
     zones = _zones(sound.areas, projection, faults)
     gates = gates_of([p for p in sound.points if p.kind == "gate"], projection)
     fences, opens_nothing = barrier_zones(sound.barriers, gates, projection)
@@ -55,8 +58,12 @@ def build(features: FeatureSet, faults: Faults, *, name: str, sha256: str, notes
     marked = [p for p in sound.points if p.kind not in ("tree", "gate", "landmark")]
     markers = _markers(marked, projection, zones + fences, faults)
     faults.check()
-    if not trees:
+    bare = [z for z in (*zones, *fences) if z.kind != "keep_out"]
+    if not trees and (planted or not bare):
         raise _no_trees(features, faults.source, left_out=True)
+    no_start = not trees and "start" not in markers
+    if no_start:
+        markers = {**markers, "start": _start_on(bare, [z for z in (*zones, *fences) if z.kind == "keep_out"], projection)}
     return Site(
         name=_site_name(name, faults.source),
         trees=trees,
@@ -72,6 +79,11 @@ def build(features: FeatureSet, faults: Faults, *, name: str, sha256: str, notes
             *numbering.notes,
             *about_trees,
             *opens_nothing,
+            *(
+                ("there is no start marker and no tree, so missions start in the middle of the area",)
+                if no_start
+                else ()
+            ),
         ),
         gates=gates,
         marker_names=tuple(_marker_names(marked, markers)),
@@ -242,6 +254,15 @@ def _markers(
     return markers
 
 
+def _start_on(grounds: Sequence[Zone], keep_outs: Sequence[Zone], projection: Projection) -> Place:
+    """Return a start inside the boundary, or else the first zone, of a site without trees; clear of keep-outs."""
+    ground = min(grounds, key=lambda zone: zone.kind != "boundary").polygon
+    free = ground.difference(shapely.union_all([zone.polygon.buffer(_OFF_KEEP_OUTS_M) for zone in keep_outs]))
+    at = (ground if free.is_empty else free).representative_point()
+    lat, lon = projection.degrees([[at.x, at.y]])[0].tolist()
+    return Place(kind="marker", id="start", x=at.x, y=at.y, lat=lat, lon=lon)
+
+
 def _marker_names(points: Sequence[PointFeature], markers: Mapping[str, Place]) -> Iterator[tuple[str, str]]:
     """Yield the kind of each marker whose name says something else than its kind, and the name."""
     named: set[str] = set()
@@ -320,7 +341,7 @@ def _no_trees(features: FeatureSet, at: str, *, left_out: bool = False) -> SiteE
     if left_out:
         what = "none of its trees can be used"
     elif not features.points:
-        what = "it has no points"
+        what = "it has no points, no boundary and no zone"
     else:
         what = "it has no trees, only markers and landmarks"
-    return SiteError(what, where=at, advice="a site needs at least one tree, given as a Point")
+    return SiteError(what, where=at, advice="a site needs at least one tree, given as a Point, or a boundary or a zone")

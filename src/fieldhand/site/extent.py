@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldhand.site.features import FeatureSet, PointFeature
+from fieldhand.site.features import AreaFeature, FeatureSet, PointFeature
 from fieldhand.site.formats.faults import Faults
 from fieldhand.site.projection import Projection
 
@@ -19,10 +19,11 @@ _EARTH_RADIUS_M = 6_371_000.0
 def drop_strays(features: FeatureSet, faults: Faults) -> FeatureSet:
     """Return the features within 20 km of the median tree; report the others, which often have swapped coordinates."""
     planted = [(p.lon, p.lat) for p in features.points if p.kind == "tree"]
+    planted = planted or [at for area in features.areas for at in area.rings[0]]
     if not planted:
         return features
     middle = np.median(_unwrapped(np.array(planted)), axis=0)
-    away = _great_circle_m(np.array([(p.lon, p.lat) for p in features.points]), middle)
+    away = _great_circle_m(np.array([(p.lon, p.lat) for p in features.points]).reshape(-1, 2), middle)
     strays = _Strays(middle, faults)
     for k in np.flatnonzero(away > MAX_EXTENT_M).tolist():
         p = features.points[k]
@@ -34,9 +35,10 @@ def drop_strays(features: FeatureSet, faults: Faults) -> FeatureSet:
     return replace(features, points=points, areas=areas, barriers=barriers)
 
 
-def middle_of(planted: Sequence[PointFeature]) -> Projection:
-    """Return the projection centred on the middle of the trees' extent."""
-    degrees = _unwrapped(np.array([(p.lon, p.lat) for p in planted]))
+def middle_of(planted: Sequence[PointFeature], grounds: Sequence[AreaFeature] = ()) -> Projection:
+    """Return the projection centred on the middle of the trees' extent, without trees on that of the areas."""
+    positions = [(p.lon, p.lat) for p in planted] or [at for area in grounds for at in area.rings[0]]
+    degrees = _unwrapped(np.array(positions))
     lon, lat = (degrees.min(axis=0) + degrees.max(axis=0)) / 2
     return Projection(lat=float(lat), lon=float((lon + 180.0) % 360.0 - 180.0))
 

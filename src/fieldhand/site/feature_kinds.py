@@ -91,6 +91,9 @@ _BOUNDARY = frozenset({"boundary", "boundaries", "fence", "perimeter", "geofence
 _BOUNDARY_KINDS = _BOUNDARY | {"field", "farm", "orchard", "vineyard", "property", "parcel", "site", "plot"}
 _PLAIN_AREAS = frozenset({"zone", "area", "polygon", "region", "block", "section"})
 
+#: Numbers of areas of one kind.
+_NUMBER_KEYS = ("number", "no", "num", "nr", "bed", "bed number", "bed no", "plot number", "plot no", "id")
+
 _SEPARATORS = re.compile(r"[\W_]+")
 
 
@@ -162,7 +165,15 @@ def area_kind(properties: Mapping[str, Value]) -> tuple[ZoneKind, str]:
         return "keep_out", name
     if not words and not _BOUNDARY.isdisjoint(phrase(name).split()[-1:]):
         return "boundary", name
-    return "zone", name or kind_text
+    return "zone", _zone_name(properties, kind_text, name)
+
+
+def _zone_name(properties: Mapping[str, Value], kind_text: str, name: str) -> str:
+    """Return the name of a zone; one that is only numbered is named by its kind and number ("bed 4")."""
+    number = name or text_of(properties, _NUMBER_KEYS)
+    if kind_text and number.isdecimal():
+        return f"{kind_text} {number}"
+    return name or kind_text
 
 
 def barrier_name(properties: Mapping[str, Value]) -> str:

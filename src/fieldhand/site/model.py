@@ -225,6 +225,13 @@ class Site:
         return xy
 
     @cached_property
+    def outline_xy(self) -> NDArray[np.float64]:
+        """Return points that span the site, in local metres: the trees, or without any the corners of its areas."""
+        if self.trees:
+            return self.xy
+        return np.vstack([np.array(zone.polygon.exterior.coords) for zone in self.zones if zone.kind != "keep_out"])
+
+    @cached_property
     def planting(self) -> Planting:
         """Return the blocks and rows: those named in the file, else those inferred from the positions of the trees."""
         from fieldhand.site.rows import planting_of
@@ -271,8 +278,8 @@ class Site:
 
     @property
     def start(self) -> Place:
-        """Return the place at which missions start: the start marker, else the first tree of the file."""
-        return self.markers.get("start", self.trees[0].place)
+        """Return the place at which missions start: the start marker, else the first tree; one of them is there."""
+        return self.markers["start"] if "start" in self.markers else self.trees[0].place
 
     def home(self, then: Literal["return_to_end", "return_to_start", "stay"], here: Place) -> Place:
         """Return the place at which an exit ends.

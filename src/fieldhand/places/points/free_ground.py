@@ -120,8 +120,8 @@ def _open_ground(site: Site, margin_m: float) -> Any:
         if bounds:
             ground = unary_union(bounds).buffer(-margin_m)
         else:
-            west, south = site.xy.min(axis=0) - 10_000.0
-            east, north = site.xy.max(axis=0) + 10_000.0
+            west, south = site.outline_xy.min(axis=0) - 10_000.0
+            east, north = site.outline_xy.max(axis=0) + 10_000.0
             ground = shapely.box(west, south, east, north)
         outs = [z.polygon.buffer(margin_m) for z in site.zones_of("keep_out")]
         site.cache[key] = ground.difference(unary_union(outs)) if outs else ground

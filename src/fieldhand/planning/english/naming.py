@@ -118,10 +118,28 @@ def site_entries(site: Site) -> Iterator[tuple[Phrase, NameEntry]]:
         if zone.kind != "boundary" and name and len(zone.name) <= _LONGEST_ZONE:
             for phrase in (name, (*name, "zone"), ("zone", *name), (*name, "area"), ("area", *name)):
                 yield phrase, NameEntry(kind="ZONE", value=zone.name)
+    for head, numbered in numbered_zones_of(site).items():
+        yield split(head), NameEntry(kind="NUMBEREDZONE", value=numbered)
+        yield _plural(split(head)), NameEntry(kind="NUMBEREDZONE", value=numbered, plural=True)
     waters = [zone.name for zone in site.zones if zone.kind != "boundary" and _WATERS & {*split(zone.name)}]
     if len(waters) == 1:  # "the water" is the only pond
         yield ("the", "water"), NameEntry(kind="ZONE", value=waters[0])
         yield ("the", "water's", "edge"), NameEntry(kind="ZONE", value=waters[0])
+
+
+def numbered_zones_of(site: Site) -> dict[str, tuple[tuple[str, str], ...]]:
+    """Return the numbers and names of zones that differ only in their number, in its order, by the rest of the name."""
+    found: dict[str, list[tuple[str, str]]] = {}
+    for zone in site.zones:
+        head, _, number = zone.name.rpartition(" ")
+        if (
+            zone.kind == "zone"
+            and number.isdecimal()
+            and split(head)
+            and (number, zone.name) not in found.get(head, ())
+        ):
+            found.setdefault(head, []).append((number, zone.name))
+    return {head: tuple(sorted(zones, key=lambda z: int(z[0]))) for head, zones in found.items() if len(zones) > 1}
 
 
 def _texts(found: tuple[Any, ...]) -> list[str]:

@@ -81,6 +81,10 @@ def examples(
     for part in sorted(places, key=lambda part: len(part.text), reverse=True):
         yield from (f"{capture} {place}." for place in _places_of(part, noun))
     yield from (f"{capture} every {noun} in {area}." for area in areas)
+    if not site.trees:
+        named = (f"{'' if zone.name[-1:].isdecimal() else 'the '}{zone.name}" for zone in site.zones_of("zone"))
+        yield from (f"{capture} 5 points in {zone}." for zone in named)
+        return
     yield from (f"{capture} {place}." for place in (*_rows(site, noun), f"{noun} {site.trees[0].place.id}"))
 
 

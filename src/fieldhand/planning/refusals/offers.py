@@ -43,7 +43,8 @@ def say_places(site: Site) -> Iterator[str]:
         yield from (message("block {name}", name=block.name) for block in planting.blocks)
     if planting.rows:
         yield message("row {there}", there=some_names([row.name for row in planting.blocks[0].rows], 3))
-    yield message("tree {id}", id=site.trees[0].place.id)
+    if site.trees:
+        yield message("tree {id}", id=site.trees[0].place.id)
 
 
 def _properties(site: Site) -> Iterator[Message]:

@@ -99,7 +99,7 @@ class SiteSummary:
 
 def describe(site: Site) -> SiteSummary:
     """Return a summary of a site in figures, of bounded size."""
-    east_west, north_south = np.ptp(site.xy, axis=0).tolist()
+    east_west, north_south = np.ptp(site.outline_xy, axis=0).tolist()
     zones = _zones(site)
     planting = site.planting
     alone = np.flatnonzero(planting.row_of < 0)
@@ -107,11 +107,11 @@ def describe(site: Site) -> SiteSummary:
         name=shortened(site.name),
         source=site.source,
         trees=len(site.trees),
-        first_id=site.trees[0].place.id,
-        last_id=site.trees[-1].place.id,
+        first_id=site.trees[0].place.id if site.trees else "",
+        last_id=site.trees[-1].place.id if site.trees else "",
         east_west_m=east_west,
         north_south_m=north_south,
-        area_m2=float(MultiPoint(site.xy).convex_hull.area),
+        area_m2=float(MultiPoint(site.outline_xy).convex_hull.area),
         turned_deg=_turned_deg(site),
         spacing_m=site.spacing_m,
         rows=len(planting.rows),
@@ -173,7 +173,7 @@ def value_text(value: Value) -> str:
 
 
 def _turned_deg(site: Site) -> float:
-    corners = smallest_rectangle(site.xy)
+    corners = smallest_rectangle(site.outline_xy)
     side = corners[1] - corners[0]
     if not side.any():
         return 0.0

@@ -57,6 +57,12 @@ def report_record(site: Site, driving: DrivingSummary | None = None) -> dict[str
 
 def _site_lines(s: SiteSummary) -> list[str]:
     ids = f"ids {s.first_id} to {s.last_id} in file order" if s.trees > 1 else f"id {s.first_id}"
+    if not s.trees:
+        return [
+            f"Site {s.name}: no trees, only areas.",
+            f"Extent: {s.east_west_m:.0f} m east-west, {s.north_south_m:.0f} m north-south, "
+            f"hull {_area_words(s.area_m2)}.",
+        ]
     return [
         f"Site {s.name}: {s.trees:,} tree{'s' * (s.trees > 1)}, {ids}.",
         f"Extent: {s.east_west_m:.0f} m east-west, {s.north_south_m:.0f} m north-south, "

@@ -110,7 +110,7 @@ def _figure(site: Site) -> Figure:
 def _room_for_names(site: Site, metre: float) -> float:
     """Return the points that row names need in addition to the margin."""
     longest = max((len(short(row.name, LONGEST_NAME)) for row in site.planting.rows), default=0)
-    margin = 0.05 * float(np.ptp(site.xy, axis=0).max()) * metre
+    margin = 0.05 * float(np.ptp(site.outline_xy, axis=0).max()) * metre
     return max(0.0, min(longest * _LETTER + 10.0, _MOST_FOR_NAMES) - margin)
 
 
@@ -133,7 +133,7 @@ def _write_head(figure: Figure, site: Site) -> None:
 def _in_short(site: Site) -> str:
     """Return the numbers of trees, rows, blocks and trees in no row in one line."""
     planting = site.planting
-    words = [f"{len(site.trees):,} tree{'s' * (len(site.trees) > 1)}"]
+    words = [f"{len(site.trees):,} tree{'s' * (len(site.trees) != 1)}"]
     if planting.rows:
         rows, blocks = len(planting.rows), len(planting.blocks)
         words.append(f"{rows:,} row{'s' * (rows > 1)}" + (f" in {blocks} blocks" if blocks > 1 else ""))

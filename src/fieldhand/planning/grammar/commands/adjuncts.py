@@ -300,6 +300,13 @@ def per_block(blocks: tuple[s.Selector, ...]) -> Adjunct:
     return Adjunct(_per, s.UnionOf(parts=blocks), may_lead=True)
 
 
+@construction("adjunct: PER noun=NUMBEREDZONE", cost=0.2)
+def per_zone(noun: Lex) -> Adjunct | None:
+    """Compose "per bed"."""
+    zones = s.UnionOf(parts=tuple(s.InZone(zone=name) for _, name in noun.value))
+    return None if noun.plural else Adjunct(_per, zones, may_lead=True)
+
+
 @construction("adjunct: PER noun=CORNER [OF] [site]", cost=0.2)
 def per_corner(noun: Lex) -> Adjunct | None:
     """Compose "per corner"."""
@@ -360,12 +367,24 @@ def _at_points(command: CaptureCommand, points: tuple[int, float]) -> CaptureCom
     return replace(_counted(command, points[0]), spacing=points[1])
 
 
-def _spread(command: CaptureCommand, where: s.Selector) -> CaptureCommand | None:
+@dataclass(frozen=True, slots=True)
+class _Spreading:
+    """The area over which captures are spread."""
+
+    where: s.Selector
+    site: Site = field(compare=False)
+
+
+def _spread(command: CaptureCommand, over_what: _Spreading) -> CaptureCommand | None:
     """Return a command at places spread over an area, as many as there are captures."""
+    where = over_what.where
     count, zone = _only_count(command), as_zone(where)
     if count is None or command.place is not None or (zone is not None and zone.outside):
         return None
-    over_it = s.Spread(count=count, of=where) if zone is None else s.PointsIn(zone=zone.zone, count=count)
+    if zone is None and over_what.site.trees:
+        over_it: s.Selector = s.Spread(count=count, of=where)
+    else:
+        over_it = s.PointsIn(zone="" if zone is None else zone.zone, count=count)
     return replace(
         command, things=once(command.things), place=PlaceMeaning(over_it, "several", count=count), relation="at"
     )
@@ -414,18 +433,24 @@ def at_points(n: int, dist: tuple[float, bool]) -> Adjunct:
     "adjunct: EVENLYALONG site",
     "adjunct: along=EVENLYALONG where=region",
     cost=0.2,
+    given=("site",),
 )
-def spread_over(where: s.Selector | None = None, along: Lex | None = None) -> Adjunct | None:
+def spread_over(site: Site, where: s.Selector | None = None, along: Lex | None = None) -> Adjunct | None:
     """Compose "spread over the pond zone"; along rows trees are evenly spaced instead."""
     if along is not None and where is not None and are_rows(where):
         return None
-    return Adjunct(_spread, where or s.Trees())
+    return Adjunct(_spread, _Spreading(where or s.Trees(), site))
 
 
-@construction("clause: SCATTER things=things OVER where=region", "clause: SCATTER things=things OVER site", cost=0.2)
-def scattered(things: tuple[Thing, ...], where: s.Selector | None = None) -> Clause:
+@construction(
+    "clause: SCATTER things=things OVER where=region",
+    "clause: SCATTER things=things OVER site",
+    cost=0.2,
+    given=("site",),
+)
+def scattered(things: tuple[Thing, ...], site: Site, where: s.Selector | None = None) -> Clause:
     """Compose "scatter 4 readings over the wet corner"."""
-    return Clause("vt", things=things, adjuncts=(Adjunct(_spread, where or s.Trees()),))
+    return Clause("vt", things=things, adjuncts=(Adjunct(_spread, _Spreading(where or s.Trees(), site)),))
 
 
 # In another case.

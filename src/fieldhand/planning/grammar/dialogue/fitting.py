@@ -284,6 +284,8 @@ def _of_rows(
     used: int,
 ) -> PlaceMeaning:
     """Return what is said of each of several rows."""
+    if place.shape == "area" and all(bare_zone(part, setting.site) for part in rows.members):
+        return of_each_row(setting, place, count or 1)
     if place.shape == "area" and count is None and not things[0].count and _are_plural(things):
         return PlaceMeaning(rows, "several")
     if place.shape == "area" and relation in _OPEN and setting.either("every tree, or how many?", used, (True, False)):
@@ -300,6 +302,10 @@ def of_each_row(setting: Setting, place: PlaceMeaning, count: int = 1) -> PlaceM
     rows = place.per or s.Rows()
     counted = are_rows(rows) or rows_kept(rows) is not None
     selector = s.Take(count=count, of=s.Trees()) if place.shape == "area" else place.selector
+    zones = [bare_zone(part, setting.site) for part in rows.members]
+    if all(zones) and place.shape == "area":
+        points = tuple(s.PointsIn(zone=zone, count=count) for zone in zones)
+        return PlaceMeaning(points[0] if len(points) == 1 else s.UnionOf(parts=points), "several")
     quota = _quota(setting, selector, rows, by_row=counted)
     if quota is not None:
         return PlaceMeaning(quota, "several")

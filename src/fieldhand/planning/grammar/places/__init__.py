@@ -13,6 +13,7 @@ from fieldhand.planning.grammar.places import (
     groups,
     likewise,
     nouns,
+    numbered_zones,
     numbers,
     positions,
     quantities,
@@ -44,5 +45,6 @@ for _part in (
     sets,
     sampling,
     by_reading,
+    numbered_zones,
 ):
     GRAMMAR.include(_part.GRAMMAR)

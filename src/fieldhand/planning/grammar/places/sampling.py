@@ -66,7 +66,7 @@ def fraction(part: Lex) -> float:
 @construction(
     "place: share=tree_share OF [DET] inner=nominal",
     "place: share=tree_share OF [EACH] [DET] inner=nominal",
-    "place: share=tree_share inner=nominal",
+    "place: share=tree_share [DET] inner=nominal",
     "place: random=RANDOM share=tree_share OF [DET] inner=nominal",
     "place: DET random=RANDOM share=tree_share OF [DET] inner=nominal",
     "place: share=tree_share OF [DET] inner=nominal [COMMA] random=RANDOM",

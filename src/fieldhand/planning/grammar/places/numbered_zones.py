@@ -1,0 +1,143 @@
+"""Constructions of zones that share a name and differ in their number: beds of a garden, benches of a greenhouse."""
+
+from __future__ import annotations
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.english.naming import numbered_zones_of
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.meaning import PlaceMeaning
+from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.selections import as_some, as_zone
+from fieldhand.site.model import Site
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+#: Zones of one name, in the order of their numbers.
+Zones = tuple[s.Selector, ...]
+
+#: Maximum number of zones of a range.
+_MOST = 500
+
+
+def _head(names: dict[str, str]) -> str:
+    """Return what the names of numbered zones have in common."""
+    return next(iter(names.values())).rpartition(" ")[0]
+
+
+@construction("zone_run: [DET] noun=NUMBEREDZONE numbers=numbers", cost=0.1)
+def numbered_zones(noun: Lex, numbers: tuple[str, ...]) -> Zones | None:
+    """Compose "beds 2 to 6"; the site says if it lacks one."""
+    names = dict(noun.value)
+    if not noun.plural or len(numbers) < 2:
+        return None
+    return tuple(s.InZone(zone=names.get(number, f"{_head(names)} {number}")) for number in numbers)
+
+
+@construction("zone_run: [DET] noun=NUMBEREDZONE first=NUM range_to last=NUM", cost=0.1)
+def range_of_zones(noun: Lex, first: Lex, last: Lex) -> Zones | None:
+    """Compose "beds 2 to 6"; the site says if it lacks one."""
+    low, high = int(first.value), int(last.value)
+    if not noun.plural or not low < high <= low + _MOST:
+        return None
+    return numbered_zones(noun, tuple(str(number) for number in range(low, high + 1)))
+
+
+@construction("region: [DET] noun=NUMBEREDZONE [NUMBERED] [HASH] number=NUM", cost=0.6)
+def zone_that_is_not_there(noun: Lex, number: Lex) -> s.Selector | None:
+    """Compose "bed 12" of eight; the site says which it has."""
+    names = dict(noun.value)
+    text = f"{number.value:g}"
+    return None if noun.plural or text in names else s.InZone(zone=f"{_head(names)} {text}")
+
+
+@construction(
+    "zone_list: every=row_step NUMBEREDZONE [COMMA] STARTING noun=NUMBEREDZONE first=NUM",
+    "zone_list: every=row_step NUMBEREDZONE [COMMA] STARTING zone=ZONE",
+    "zone_list: every=row_step noun=NUMBEREDZONE [COMMA] STARTING DET rank=ORD [ONE]",
+    cost=0.05,
+    given=("site",),
+)
+def zones_starting_with(
+    every: int,
+    site: Site,
+    noun: Lex | None = None,
+    first: Lex | None = None,
+    zone: Lex | None = None,
+    rank: Lex | None = None,
+) -> Zones | None:
+    """Compose "every third bed starting with bed 2"."""
+    head = zone.value.rpartition(" ")[0] if zone is not None else ""
+    named = noun.value if noun is not None else numbered_zones_of(site).get(head, ())
+    names = [name for _, name in named]
+    wanted = zone.value if zone is not None else f"{_head(dict(named))} {first.value:g}" if first is not None else ""
+    if rank is not None and 0 < rank.value <= len(names):
+        wanted = names[int(rank.value) - 1]
+    if wanted not in names:
+        return None
+    return tuple(s.InZone(zone=name) for name in names[names.index(wanted) :: every])
+
+
+@construction(
+    "zone_list: EACH noun=NUMBEREDZONE",
+    "zone_list: EACH [OF] DET noun=NUMBEREDZONE",
+    "zone_list: [DET] noun=NUMBEREDZONE",
+    cost=0.2,
+)
+def every_zone(noun: Lex) -> Zones:
+    """Compose "every bed", "the beds" and "per bed"."""
+    return tuple(s.InZone(zone=name) for _, name in noun.value)
+
+
+@construction("zone_list: EACH OF zones=zone_list", "zone_list: EACH zones=zone_list", cost=0.0)
+def each_of_zones(zones: Zones) -> Zones:
+    """Compose "each of beds 2 to 6"."""
+    return zones
+
+
+@construction("place: one=place in_ zones=zone_list", cost=0.2)
+def in_each_zone(one: PlaceMeaning, zones: Zones) -> PlaceMeaning | None:
+    """Compose "three points in every bed" and "two plants in each of beds 2 to 6"."""
+    some = as_some(one.selector)
+    if one.per is not None or one.shape not in ("one", "several") or some is None or some.of != s.Trees():
+        return None
+    return PlaceMeaning(some, "several", each=True, per=s.UnionOf(parts=zones))
+
+
+@construction("place: n=count POINT in_ zones=zone_list", cost=0.1)
+def points_in_each_zone(n: int, zones: Zones) -> PlaceMeaning:
+    """Compose "three points in every bed"."""
+    named = [as_zone(zone) for zone in zones]
+    points = tuple(s.PointsIn(zone=zone.zone, count=n) for zone in named if zone is not None)
+    return PlaceMeaning(s.UnionOf(parts=points), "several", each=True)
+
+
+@construction("zone_list: every=row_step noun=NUMBEREDZONE", cost=0.1)
+def every_nth_zone(every: int, noun: Lex) -> Zones:
+    """Compose "every second bed"."""
+    return tuple(s.InZone(zone=name) for _, name in noun.value[::every])
+
+
+@construction("zone_run: [DET] odd=ODD noun=NUMBEREDZONE", "zone_run: [DET] EVEN noun=NUMBEREDZONE", cost=0.1)
+def odd_or_even_zones(noun: Lex, odd: Lex | None = None) -> Zones | None:
+    """Compose "the odd beds"."""
+    left = 1 if odd is not None else 0
+    return tuple(s.InZone(zone=name) for number, name in noun.value if int(number) % 2 == left) or None
+
+
+@construction("place: zones=zone_list", cost=0.3)
+def at_zones(zones: Zones) -> PlaceMeaning:
+    """Compose "beds 2 to 6" as places."""
+    return PlaceMeaning(s.Trees(), "area", each=True, per=s.UnionOf(parts=zones))
+
+
+@construction("zone_list: zones=zone_run", cost=0.0)
+def zones_one_by_one(zones: Zones) -> Zones:
+    """Compose "beds 2 to 6", of each of which something is said."""
+    return zones
+
+
+@construction("region: zones=zone_run", cost=0.3)
+def zones_as_region(zones: Zones) -> s.Selector:
+    """Compose "beds 2 to 6" as an area."""
+    return s.UnionOf(parts=zones)
