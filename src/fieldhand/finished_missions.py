@@ -319,12 +319,13 @@ def calibrated_profile(robot: RobotProfile, calibration: Calibration, *, at: dat
         ("energy", "drive_j_per_m"): changed.energy.drive_j_per_m,
         ("energy", "idle_w"): changed.energy.idle_w,
     }
-    for action in changed.actions:
+    at_places = [action for action in changed.actions if action.implement is None]
+    for action in at_places:
         figures["actions", action.name, "duration_s"] = action.duration_s
         figures["actions", action.name, "energy_j"] = action.energy_j
     before = {("leg_cost", "alpha"): robot.leg_cost.alpha, ("speed_m_s",): robot.speed_m_s}
     before |= {("energy", key): getattr(robot.energy, key) for key in ("drive_j_per_m", "idle_w")}
-    for action in robot.actions:
+    for action in (action for action in robot.actions if action.implement is None):
         before |= {("actions", action.name, key): getattr(action, key) for key in ("duration_s", "energy_j")}
     note = (
         f"Calibrated {at.date().isoformat()} from {calibration.legs} legs and {calibration.captures} captures of"

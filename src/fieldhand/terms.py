@@ -14,4 +14,6 @@ Value = str | float | bool
 CountedFrom = Literal["usual", "north", "east", "south", "west"]
 #: A direction of the compass, or none.
 AnySide = Literal["any", "north", "east", "south", "west"]
+#: A side of a tree: the aisle from which it is worked on.
+TreeSide = Literal["north", "east", "south", "west", "both"]
 Towards = Literal["down", "up", "north", "east", "south", "west"]

@@ -19,10 +19,11 @@ def test_every_built_in_robot_is_listed_and_can_be_asked_for() -> None:
         assert "source" not in record
 
 
-def test_the_built_in_site_is_listed() -> None:
-    (demo,) = browser().get("/api/sites").json()
-    assert demo["name"] == "demo"
+def test_the_built_in_sites_are_listed() -> None:
+    demo, vineyard = browser().get("/api/sites").json()
+    assert (demo["name"], vineyard["name"]) == ("demo", "vineyard")
     assert demo["trees"] > 100
+    assert vineyard["trees"] > 900
 
 
 def test_an_unknown_robot_is_a_problem_that_names_those_there_are() -> None:

@@ -14,8 +14,35 @@ from fieldhand.places.selectors import Farthest, Half, Here, TreeIs
 from fieldhand.task.build import make_task
 from fieldhand.task.conditions import Compare
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, InOrder, Node, OptionalStep, Repeat, StopMission, Try
-from fieldhand.task.results import Acted, Arrived, Decided, Ended, Event, Exited, Faulted, Shed, Started, Visiting
+from fieldhand.task.plan import (
+    Act,
+    AnyOrder,
+    ForEach,
+    GoTo,
+    If,
+    InOrder,
+    Node,
+    OptionalStep,
+    Pace,
+    Repeat,
+    StopMission,
+    Try,
+    Wait,
+)
+from fieldhand.task.results import (
+    Acted,
+    Arrived,
+    Decided,
+    Dwelling,
+    Dwelt,
+    Ended,
+    Event,
+    Exited,
+    Faulted,
+    Shed,
+    Started,
+    Visiting,
+)
 
 HOT = Compare(reading="r", quantity="canopy_temperature", test="lt", value=33, unit="degC")
 ACTIONS = ("take_thermal_picture", "read_co2", "read_ambient_temperature")
@@ -27,7 +54,7 @@ def random_plan(rng: Random, depth: int = 3) -> Node:
         at = rng.choice([None, TreeIs(tree=str(rng.randint(1, 9))), Farthest(origin=Here())])
         return Act(id="", action=rng.choice(ACTIONS), at=at, count=rng.randint(1, 3))
     inner = [random_plan(rng, depth - 1) for _ in range(rng.randint(1, 3))]
-    match rng.randint(0, 7):
+    match rng.randint(0, 8):
         case 0:
             return AnyOrder(id="", steps=tuple(inner))
         case 1:
@@ -46,9 +73,11 @@ def random_plan(rng: Random, depth: int = 3) -> Node:
         case 4:
             return Try(id="", body=inner[0], otherwise=random_plan(rng, depth - 1))
         case 5:
-            return InOrder(id="", steps=(GoTo(id="", place=TreeIs(tree="3")), *inner))
+            return InOrder(id="", steps=(GoTo(id="", place=TreeIs(tree="3")), Wait(id="", seconds=20.0), *inner))
         case 6:
             return OptionalStep(id="", body=inner[0])
+        case 7:
+            return Pace(id="", speed_m_s=0.5, body=InOrder(id="", steps=tuple(inner)))
         case _:
             return InOrder(id="", steps=tuple(inner))
 
@@ -133,6 +162,11 @@ class Paper:
                     self._do(node.body)
             case GoTo():
                 self._arrive(node.id)
+            case Wait():
+                self.events.append(Dwelling(t=self._t, node=node.id, seconds=node.seconds))
+                self.events.append(Dwelt(t=self._t, node=node.id, seconds=node.seconds))
+            case Pace():
+                self._do(node.body)
             case Act():
                 self._act(node)
             case StopMission():

@@ -11,7 +11,7 @@ from collections import Counter, defaultdict, deque
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 from lxml import etree
@@ -28,12 +28,14 @@ from fieldhand.forecast.request_handler import ForecastHandler, OptionalWorkPoli
 from fieldhand.forecast.walk_branch import walk_branch as preview
 from fieldhand.forecast.walk_steps import Walk
 from fieldhand.places.context import Context
+from fieldhand.places.reading_series import ReadingSeries, TakenReading
 from fieldhand.places.resolution import resolve_one
 from fieldhand.places.selector import Selector
-from fieldhand.places.selectors import Bound, Farthest, Here, Nearest, TreeIs, UnionOf
+from fieldhand.places.selectors import Bound, ByReading, Farthest, Here, Nearest, TreeIs, UnionOf
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.site.drives import Drives
 from fieldhand.site.model import Place
+from fieldhand.task.aggregates import Aggregate, CompareSeries, CountReadings, MeanKnown, SeriesCondition
 from fieldhand.task.codec import decode_parts
 from fieldhand.task.conditions import AllOf, AnyOf, Compare, Condition, Not
 from fieldhand.task.conditions import walk as condition_parts
@@ -46,19 +48,21 @@ from fieldhand.task.plan import (
     If,
     Node,
     OptionalStep,
+    Pace,
     Repeat,
     StopMission,
     Try,
+    Wait,
     acts,
     walk,
 )
 from fieldhand.task.plan import (
     InOrder as Steps,
 )
-from fieldhand.task.results import Acted, Arrived, Decided, Ended, Event, Exited, Visiting
+from fieldhand.task.results import Acted, Arrived, Decided, Dwelt, Ended, Event, Exited, Visiting
 from support.missions.rig import approved, husky, orchard, task_for
 
-#: What happens: kind ("drive", "capture", "failure"), id of the node, id of the place.
+#: What happens: kind ("drive", "capture", "failure", "wait"), id of the node, id of the place (of a wait the seconds).
 Trace = list[tuple[str, str, str]]
 
 #: Fails at some trees, and stands only where a try catches that.
@@ -90,13 +94,39 @@ class Drawn:
     def _tree(self) -> TreeIs:
         return TreeIs(tree=str(self._rng.choice(self._trees)))
 
-    def _place(self, label: str) -> Selector:
+    def _place(self, label: str, *, tried: bool) -> Selector:
         options: list[Selector] = [self._tree(), self._tree(), Nearest(to=Here()), Farthest(origin=Here())]
         if label:
             options += [Bound(label=label), Nearest(to=Bound(label=label), adjacent=True)]
+        if not tried and self._chance(0.15):  # a preview cannot go on without its place, as a try does
+            return self._by_reading(1)
         return options[int(self._rng.integers(len(options)))]
 
+    def _by_reading(self, count: int) -> ByReading:
+        quantity = QUANTITIES[str(self._rng.choice(list(QUANTITIES)))][0]
+        return ByReading(
+            reading=str(self._rng.choice(["a", "b"])), quantity=quantity, count=count, lowest=self._chance(0.5)
+        )
+
+    def _series_condition(self) -> Condition:
+        quantity, unit, value = QUANTITIES[str(self._rng.choice(list(QUANTITIES)))]
+        reading = str(self._rng.choice(["a", "b"]))
+        value = round(value + float(self._rng.normal(0.0, value / 20)), 1)
+        one = Compare(reading=reading, quantity=quantity, test="lt", value=value, unit=unit)
+        match int(self._rng.integers(4)):
+            case 0:
+                return Aggregate(of=str(self._rng.choice(["mean", "median", "maximum"])), condition=one)  # type: ignore[arg-type]
+            case 1:
+                return CountReadings(test="ge", number=float(self._rng.integers(1, 4)), condition=one)
+            case 2:
+                return MeanKnown(reading=reading, quantity=quantity, percent=3.0, at_least=2)
+            case _:
+                than = "b" if reading == "a" else "a"
+                return CompareSeries(of="mean", reading=reading, than=than, quantity=quantity, test="gt")
+
     def _condition(self, depth: int = 1) -> Condition:
+        if self._chance(0.25):
+            return self._series_condition()
         kind = int(self._rng.integers(4 if depth else 1))
         if kind == 1:
             return Not(condition=self._condition(depth - 1))
@@ -113,7 +143,7 @@ class Drawn:
         return Act(
             id="",
             action=FAILING if fails else str(self._rng.choice([a for a in QUANTITIES if a != FAILING])),
-            at=self._place(label) if self._chance(0.6) else None,
+            at=self._place(label, tried=tried) if self._chance(0.6) else None,
             count=1 if fails else int(self._rng.integers(1, 4)),
             reading=str(self._rng.choice(["", "a", "b"])),
         )
@@ -121,7 +151,9 @@ class Drawn:
     def _node(self, depth: int, *, tried: bool, optional: bool, label: str) -> Node:
         if depth == 0 or self._chance(0.15):
             if self._chance(0.15):
-                return GoTo(id="", place=self._place(label))
+                return GoTo(id="", place=self._place(label, tried=tried))
+            if self._chance(0.1):
+                return Wait(id="", seconds=float(self._rng.integers(1, 90)))
             return self._act(tried=tried, label=label)
 
         def inner(*, also_tried: bool = False, also_optional: bool = False, named: str = "") -> Node:
@@ -129,16 +161,18 @@ class Drawn:
                 depth - 1, tried=tried or also_tried, optional=optional or also_optional, label=named or label
             )
 
-        match int(self._rng.integers(9)):
+        match int(self._rng.integers(10)):
             case 0 | 1:
                 return Steps(id="", steps=tuple(inner() for _ in range(int(self._rng.integers(1, 4)))))
             case 2:
                 return AnyOrder(id="", steps=tuple(inner() for _ in range(int(self._rng.integers(1, 4)))))
             case 3 | 4:
-                return self._loop(inner, optional=not optional and self._chance(0.3), named=f"t{depth}")
+                also = not optional and self._chance(0.3)
+                return self._loop(inner, optional=also, tried=tried, named=f"t{depth}")
             case 5:
                 until = self._condition() if self._chance(0.4) else None
-                return Repeat(id="", times=int(self._rng.integers(1, 4)), body=inner(), until=until)
+                times = int(self._rng.integers(1, 4))
+                return Repeat(id="", times=times, body=inner(), until=until, collects=self._collects())
             case 6:
                 stop = StopMission(id="", exit="nominal" if self._chance(0.5) else "faulted")
                 then = stop if self._chance(0.15) else inner()
@@ -147,22 +181,31 @@ class Drawn:
                 chosen = If(id="", condition=self._condition(), then=then, otherwise=otherwise)
                 return Steps(id="", steps=(first, chosen))
             case 7:
+                return Pace(id="", body=inner(), speed_m_s=float(self._rng.choice([0.3, 0.5, 0.9])))
+            case 8:
                 return Try(id="", body=inner(also_tried=True), otherwise=inner())
             case _:
                 return inner() if optional else OptionalStep(id="", body=inner(also_optional=True))
 
-    def _loop(self, inner: Any, *, optional: bool, named: str) -> ForEach:
+    def _collects(self) -> str:
+        return "a" if self._chance(0.2) else ""
+
+    def _loop(self, inner: Any, *, optional: bool, tried: bool, named: str) -> ForEach:
         names = self._rng.permutation(self._trees)[: int(self._rng.integers(1, 5))].tolist()
         near = self._chance(0.2) and not optional
+        select: Selector = UnionOf(parts=tuple(TreeIs(tree=t) for t in names))
+        if near:
+            select = self._by_reading(2) if not tried and self._chance(0.5) else Nearest(to=Here(), count=2)
         return ForEach(
             id="",
-            select=Nearest(to=Here(), count=2) if near else UnionOf(parts=tuple(TreeIs(tree=t) for t in names)),
+            select=select,
             body=inner(also_optional=optional, named=named),
             label=named,
             order="given" if not optional and self._chance(0.4) else "best",
             optional=optional,
             at_most=None if self._chance(0.7) else int(self._rng.integers(1, 4)),
             until=self._condition() if self._chance(0.2) else None,
+            collects=self._collects(),
         )
 
 
@@ -173,12 +216,12 @@ class Done:
     Attributes:
         captures: That succeeded.
         failed: Whether it failed then.
-        readings: What the last capture measured.
+        readings: What each capture measured.
     """
 
     captures: int
     failed: bool
-    readings: dict[str, float]
+    readings: list[dict[str, float]]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -201,6 +244,8 @@ class Simulated:
         for event in self._of_plan():
             if isinstance(event, Arrived):
                 found.append(("drive", event.node, event.place))
+            elif isinstance(event, Dwelt):
+                found.append(("wait", event.node, f"{event.seconds:.3f}"))
             elif isinstance(event, Acted) and event.status == "success":
                 found.append(("capture", event.node, event.place))
             elif isinstance(event, Acted):
@@ -224,15 +269,16 @@ class Simulated:
         """Each time that an action was done, by node."""
         counts = {act.id: act.count for act in acts(self.task.composition.plan)}
         found: dict[str, deque[Done]] = defaultdict(deque)
-        made: Counter[str] = Counter()
+        made: dict[str, list[dict[str, float]]] = defaultdict(list)
         for event in self._of_plan():
             if not isinstance(event, Acted) or (event.status == "failed" and event.attempt > 1):
                 continue
             failed = event.status == "failed"
-            made[event.node] += not failed
-            if failed or made[event.node] == counts[event.node]:
-                captures = made.pop(event.node, 0)
-                found[event.node].append(Done(captures=captures, failed=failed, readings=dict(event.readings)))
+            if not failed:
+                made[event.node].append(dict(event.readings))
+            if failed or len(made[event.node]) == counts[event.node]:
+                readings = made.pop(event.node, [])
+                found[event.node].append(Done(captures=len(readings), failed=failed, readings=readings))
         return found
 
     def _of_plan(self) -> Iterator[Event]:
@@ -329,13 +375,14 @@ def simulated(seed: int) -> Simulated:
 
 def previewed(flight: Simulated, optional: OptionalWorkPolicy | None) -> Walk:
     """The preview of the branch that a mission took, with the optional work as given, or as it is forecast."""
-    decisions, work = flight.decisions, flight.work
+    decisions, work, read = flight.decisions, flight.work, flight.work
     return preview(
         flight.task,
         orchard(),
         husky(),
         holds=lambda node: decisions[node].popleft(),
         fails=lambda node: work[node].popleft().failed,
+        measured=lambda node: read[node].popleft().readings,
         optional=optional,
     )
 
@@ -346,6 +393,8 @@ def trace_of(walked: Walk) -> Trace:
     for step in walked.steps:
         if step.kind == "drive":
             found.append(("drive", step.node.id, step.places[0].id))
+        elif step.kind == "wait":
+            found.append(("wait", step.node.id, f"{step.seconds:.3f}"))
         elif step.kind == "act" and step.node.act is not None:
             place = step.places[0].id
             found += [("capture", step.node.id, place)] * step.captures
@@ -366,6 +415,7 @@ class Interpreter:
     trace: Trace = field(default_factory=list)
     _entries: dict[str, Any] = field(default_factory=dict)
     _readings: dict[str, dict[str, float]] = field(default_factory=dict)
+    _series: dict[str, ReadingSeries] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         robot, site = husky(), orchard()
@@ -388,8 +438,9 @@ class Interpreter:
             written[_node(element)].append(element)
         found = {}
         for node in walk(self._task.composition.plan):
-            parts = () if node.tested is None else condition_parts(node.tested)
-            leaves = [part for part in parts if isinstance(part, Compare)]
+            parts = () if node.tested is None else tuple(condition_parts(node.tested))
+            inner = {id(part.condition) for part in parts if isinstance(part, Aggregate | CountReadings)}
+            leaves = [part for part in parts if isinstance(part, Compare) and id(part) not in inner]
             found.update(zip(written[node.id], leaves, strict=True))
         return found
 
@@ -438,17 +489,31 @@ class Interpreter:
         match element.tag:
             case "GoToPlace":
                 self._go(element)
+            case "LimitSpeed":
+                return self._tick(element[0]) is not False
+            case "Wait":
+                self.trace.append(("wait", _node(element), f"{float(element.get('wait_duration')):.3f}"))
             case "ResolvePlaces":
+                self._series.pop(element.get("collects", ""), None)
                 self._entries[_entry(element.get("places"))] = self._resolved(element)
             case "OrderSteps":
                 self._entries[_entry(element.get("order"))] = self._ordered(element)
             case "CompareReading":
-                facts = ConditionInputs(site=orchard(), robot=husky(), here=self._context.here, readings=self._readings)
-                truth = evaluate(self._tested[element], facts).truth
-                return element.get("if_unknown") == "true" if truth is None else truth
+                return self._truth(element, self._tested[element])
+            case "TestReadings":
+                return self._truth(element, decode_parts(element.get("condition"), get_args(SeriesCondition))[0])
+            case "BeginReadings":
+                self._series.pop(element.get("reading"), None)
             case _:
                 return self._acts(element)
         return True
+
+    def _truth(self, element: Any, condition: Condition) -> bool:
+        facts = ConditionInputs(
+            site=orchard(), robot=husky(), here=self._context.here, readings=self._readings, series=self._series
+        )
+        truth = evaluate(condition, facts).truth
+        return element.get("if_unknown") == "true" if truth is None else truth
 
     def _go(self, element: Any) -> None:
         wanted = element.get("place")
@@ -464,10 +529,10 @@ class Interpreter:
         self._context = Context(here=here, visited=visited, bound=bound)
 
     def _place(self, text: str) -> Place:
-        return resolve_one(_selectors(text)[0], orchard(), self._context)
+        return resolve_one(_selectors(text)[0], orchard(), replace(self._context, series=self._series))
 
     def _resolved(self, element: Any) -> tuple[Place, ...]:
-        node = _node(element)
+        node, context = _node(element), replace(self._context, series=self._series)
         if element.get("optional") == "true":
             return self._optional.next(node)
         loop = ForEach(
@@ -477,14 +542,15 @@ class Interpreter:
             order=element.get("order", "best"),
             at_most=int(element.get("at_most")) if "at_most" in element.attrib else None,
         )
-        places = visit_order.places_of(loop, loop.select, orchard(), self._context)
+        places = visit_order.places_of(loop, loop.select, orchard(), context)
         home = visit_order.home_if_last(self._task, orchard(), node, self._context.here)
         return visit_order.visits_in_order(loop, self._drives, self._context.here, places, home)
 
     def _ordered(self, element: Any) -> tuple[int, ...]:
         node = next(n for n in walk(self._task.composition.plan) if n.id == _node(element))
         home = visit_order.home_if_last(self._task, orchard(), node.id, self._context.here)
-        order = visit_order.steps_in_order(node, orchard(), self._drives, self._context, home)  # type: ignore[arg-type]
+        context = replace(self._context, series=self._series)
+        order = visit_order.steps_in_order(node, orchard(), self._drives, context, home)  # type: ignore[arg-type]
         return tuple(k + 1 for k in order)
 
     def _acts(self, element: Any) -> bool:
@@ -492,12 +558,15 @@ class Interpreter:
         self._readings.pop(reading, None)
         work = self._work[node].popleft()
         self.trace += [("capture", node, self._context.here.id)] * work.captures
+        for values in work.readings if reading else ():
+            taken = TakenReading(place=self._context.here, values=values)
+            self._series[reading] = self._series.get(reading, ReadingSeries()).plus(taken)
         if work.failed:
             self.trace.append(("failure", node, self._context.here.id))
             return False
         assert work.captures == int(element.get("count", "1"))
         if reading:
-            self._readings[reading] = work.readings
+            self._readings[reading] = work.readings[-1]
         return True
 
 
@@ -514,7 +583,7 @@ def _node(element: Any) -> str:
 
 @cache
 def _selectors(text: str) -> tuple[Selector, ...]:
-    return decode_parts(text, (TreeIs, Nearest, Farthest, Bound, UnionOf))
+    return decode_parts(text, (TreeIs, Nearest, Farthest, Bound, UnionOf, ByReading))
 
 
 def disagreements(flight: Simulated) -> list[str]:

@@ -14,6 +14,8 @@ from fieldhand.places import selectors as s
 from fieldhand.places.context import Context
 from fieldhand.places.explanation import explain, notes
 from fieldhand.places.picks.ordered import Order
+from fieldhand.places.picks.quota import Manner
+from fieldhand.places.points.transect import PathShape
 from fieldhand.places.resolution import resolve
 from fieldhand.places.wording import say_selector
 from fieldhand.terms import AnySide, CountedFrom, Side, Towards
@@ -30,6 +32,8 @@ leaves = st.sampled_from(
             s.GateIs(gate="g"),
             s.PointsIn(zone="z"),
             s.PointsIn(zone="A", count=3),
+            s.PointsIn(zone="z", count=2, random=True),
+            s.PointsIn(count=2),
             s.AlongRow(trees=2),
             s.Across(),
             s.RowOf(),
@@ -76,6 +80,26 @@ def _around(inner: st.SearchStrategy[s.Selector]) -> st.SearchStrategy[s.Selecto
         st.builds(s.RandomSample, count=counts, seed=st.integers(0, 3), of=inner),
         st.builds(s.Spread, count=counts, of=inner),
         st.builds(s.Evenly, count=counts, out_of=st.sampled_from((0, 0, 3, 5)), of=inner),
+        st.builds(
+            s.Quota,
+            per=st.sampled_from(["", "row", "block", "zone", "n", "colour"]),
+            count=st.integers(0, 3),
+            percent=st.sampled_from([0.0, 0.0, 30.0]),
+            how=st.sampled_from(get_args(Manner)),
+            by=st.sampled_from(["", "n"]),
+            of=inner,
+        ),
+        st.builds(s.Missing, of=inner),
+        st.builds(s.Grid, every_m=st.floats(1, 30), zone=st.sampled_from(["", "z", "A"]), of=inner),
+        st.builds(
+            s.Transect,
+            count=st.integers(0, 4),
+            apart_m=st.sampled_from([0.0, 0.0, 5.0]),
+            shape=st.sampled_from(get_args(PathShape)),
+            legs=st.integers(0, 5),
+            zone=st.sampled_from(["", "z", "A"]),
+            of=inner,
+        ),
         st.builds(s.InBlock, block=st.sampled_from(["A", "B", "z"]), of=inner),
         st.builds(s.Rows, first=row_names, last=row_names, every=counts, counted_from=counted_from, of=inner),
         st.builds(s.RowOf, origin=inner, over=st.integers(-1, 1), of=inner),

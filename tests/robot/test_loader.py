@@ -241,7 +241,7 @@ def test_a_folder_and_a_large_file_are_refused(tmp_path):
 
 
 def test_the_builtin_robots_are_those_of_the_design():
-    assert robot_names() == ("amiga", "husky")
+    assert robot_names() == ("amiga", "husky", "tractor")
 
 
 def test_labels_are_read_by_language() -> None:

@@ -13,7 +13,9 @@ from hypothesis import strategies as st
 
 from fieldhand.errors import SiteError
 from fieldhand.site.demo_orchard import demo_orchard, to_text
-from fieldhand.site.loader import demo_path, load_site, open_site, parse_site
+from fieldhand.site.demo_vineyard import NORTH, SOUTH, demo_vineyard
+from fieldhand.site.drives import Drives
+from fieldhand.site.loader import built_in_path, demo_path, load_site, open_site, parse_site
 from support.sites.points import area, collection, point, read, square
 
 LON, LAT = -120.42, 37.26
@@ -172,6 +174,25 @@ def test_the_built_in_orchard_opens_by_name_and_is_what_the_generator_writes():
     assert set(site.markers) == {"start", "end", "charger"}
     assert 120 <= len(site.trees) <= 200
     assert [z.name for z in site.zones_of("keep_out")] == ["pond"]
+
+
+def test_the_built_in_vineyard_opens_by_name_and_is_what_the_generator_writes():
+    assert built_in_path("vineyard").read_text(encoding="utf-8") == to_text(demo_vineyard())
+    site = open_site("vineyard")
+    assert site.name == "Demo vineyard"
+    assert dict(site.marker_names) == {"start": "barn", "end": "loading bay"}
+    assert "charger" in site.markers
+    assert [g.place.id for g in site.gates] == ["meadow gate"]
+    assert {z.name for z in site.zones_of("zone")} == {"meadow", "wet corner", "pump"}
+    assert [(b.name, len(b.rows)) for b in site.planting.blocks] == [("North", NORTH.rows), ("South", SOUTH.rows)]
+    planted = sum(b.rows * b.vines_a_row for b in (NORTH, SOUTH))
+    assert 0.95 * planted < len(site.trees) < planted
+
+
+def test_every_vine_of_the_built_in_vineyard_can_be_reached_by_a_wide_robot():
+    site = open_site("vineyard")
+    drives = Drives(site, 0.75, 1.8)
+    assert drives.problems([t.place for t in site.trees]) == ("",) * len(site.trees)
 
 
 def test_a_byte_order_mark_is_accepted():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from typing import get_args
 
 import pytest
@@ -18,6 +19,8 @@ from fieldhand.task.conditions import Condition, TreeHas
 from fieldhand.task.frames import Budget, Command, Composition, Constraints, Task
 from fieldhand.task.plan import Act, GoTo, If, InOrder, Node, StopMission
 from fieldhand.task.schema import validate
+from fieldhand.task.timing import DayTime, Schedule, StartTime, Timing
+from fieldhand.task.watches import Watch, WatchCondition
 from fieldhand.testing.generated.tasks import ROVER, Parts, numbers, texts, values
 
 PARTS = Parts(ROVER)
@@ -32,8 +35,13 @@ def holding(part: object) -> Task:
     """A Task that holds one part."""
     if isinstance(part, Selector):
         return task_of(GoTo(id="n1", place=part))
+    if isinstance(part, get_args(Timing)):
+        return replace(task_of(StopMission(id="n1")), timing=part)
     if isinstance(part, get_args(Condition)):
         return task_of(If(id="n1", condition=part, then=StopMission(id="n2")))
+    if isinstance(part, get_args(WatchCondition)):
+        composition = Composition(plan=StopMission(id="n1"), watches=(Watch(condition=part, response="wait"),))
+        return replace(task_of(StopMission(id="n1")), composition=composition)
     return task_of(part)
 
 
@@ -192,3 +200,25 @@ def test_the_ranges_of_words_are_attributes_and_may_be_left_out():
     assert len(older) < len(document)
     assert decode(older).constraints.budgets == (Budget(kind="distance_m", limit=5),)
     assert validate(older, ROVER) == ()
+
+
+MORNING = DayTime(clock="06:30")
+
+
+@pytest.mark.parametrize(
+    "timing",
+    [
+        StartTime(day="tomorrow", not_before=MORNING, not_after=DayTime(sun="sunrise", offset_min=-30), said=((0, 4),)),
+        StartTime(done_by=DayTime(sun="dusk"), time_zone="Europe/Rome"),
+        Schedule(at=(MORNING,), weekdays=("mon", "fri"), every_days=2, first_day="--03-01", last_day="2027-12-31"),
+        Schedule(
+            every_min=120, until=DayTime(clock="18:00"), late_min=5, missed="late", done_by_min=90, said=((0, 4),)
+        ),
+    ],
+)
+def test_times_are_an_element_of_their_own(timing: StartTime | Schedule) -> None:
+    plain = task_of(StopMission(id="n1"))
+    told = replace(plain, timing=timing)
+    assert decode(encode(told)) == told
+    assert validate(encode(told), ROVER) == ()
+    assert b"timing" not in encode(plain)

@@ -55,8 +55,10 @@ class CommandHandler:
             RefusedRequest: There is no such mission, or the disk does not respond.
             ExecutionError: The command comes too late, or another mission is running.
         """
-        if bundle is None and order.order == "start":
-            raise RefusedRequest(422, "no mission is named", "name the mission to start")
+        if bundle is None and order.order in ("start", "cancel"):
+            raise RefusedRequest(422, "no mission is named", f"name the mission to {order.order}")
+        if order.due is not None and order.order != "cancel":
+            raise RefusedRequest(422, "only cancel names a run", "leave 'due' out")
         reason = order.because or f"{order.order} from elsewhere"
         active = self._supervisor.under_way
         direct = None
@@ -90,6 +92,9 @@ class CommandHandler:
         if direct is not None and active is not None:
             received = active
             heard = self._supervisor.follow(received, direct, wait=wait)
+        elif order.due is not None:
+            received = self._supervisor.timetables.skip(self._received(bundle), order.due, reason)
+            heard = True
         else:
             received = self._received(bundle)
             heard = self._supervisor.give_command(received, order.order, reason, wait=wait)

@@ -22,13 +22,16 @@ from fieldhand.delivery.json_models import (
     Events,
     Receipt,
     RobotState,
+    Runs,
     event_lines,
     mission_summary,
+    run_summary,
 )
 from fieldhand.delivery.mission_store import MissionStore
 from fieldhand.delivery.mission_supervisor import MissionSupervisor
 from fieldhand.delivery.received_missions import ReceivedMission
 from fieldhand.delivery.received_status import LoggedEvent
+from fieldhand.delivery.timetable_keeper import NEXT_LISTED
 
 #: Number of missions that are listed.
 LISTED = 50
@@ -75,7 +78,7 @@ def router(
             on=who.on,
             missing=list(who.missing()),
             active=supervisor.active,
-            missions=[mission_summary(supervisor.status_of(received)) for received in mission_store.latest(LISTED)],
+            missions=[mission_summary(supervisor.status_of(received)) for received in listed()],
         )
 
     @routes.put("/agent/missions/{bundle}")
@@ -107,7 +110,7 @@ def router(
 
     @routes.post("/agent/missions/{bundle}/orders")
     async def order(bundle: BundleHash, body: CommandRequest) -> CommandResponse:
-        """Command a mission to start, pause, resume, return or abort."""
+        """Command a mission to start, pause, resume, return or abort, or cancel its timetable or one run."""
         return await orders.take(body, bundle)
 
     @routes.post("/agent/orders")
@@ -126,6 +129,23 @@ def router(
         lines, idle = await _awaited(supervisor, received, after, wait)
         standing = await run_in_threadpool(supervisor.status_of, received)
         return Events(events=event_lines(lines), idle=idle, mission=mission_summary(standing))
+
+    @routes.get("/agent/missions/{bundle}/runs")
+    def runs(bundle: BundleHash) -> Runs:
+        """Return the next runs of a mission with a timetable, and the last ones."""
+        received = find_received(bundle)
+        last = mission_store.runs(received, LISTED)
+        return Runs(
+            mission=mission_summary(supervisor.status_of(received)),
+            next=[run_summary(run) for run in supervisor.timetables.next_runs(received, NEXT_LISTED)],
+            last=[mission_summary(supervisor.status_of(run)) for run in last],
+        )
+
+    def listed() -> tuple[ReceivedMission, ...]:
+        """Return the missions that arrived last, and before them every other one whose timetable is kept."""
+        latest = mission_store.latest(LISTED)
+        known = {received.sha256 for received in latest}
+        return (*(kept for kept in mission_store.kept() if kept.sha256 not in known), *latest)
 
     def find_received(bundle: str) -> ReceivedMission:
         received = mission_store.find(bundle)

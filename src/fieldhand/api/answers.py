@@ -85,6 +85,7 @@ def _headings(review: Review) -> dict[str, str]:
     return {
         "assumptions": message("Assumed"),
         "notes": message("To note"),
+        "times": message("Times"),
         "limits": message("Limits"),
         "faults": message("When something goes wrong"),
         "totals": totals,

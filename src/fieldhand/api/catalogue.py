@@ -10,6 +10,7 @@ from fastapi import APIRouter
 from fieldhand.api.inputs import open_choice, open_robot
 from fieldhand.api.work import Workers
 from fieldhand.language import languages
+from fieldhand.site.loader import BUILT_IN_SITES
 
 
 def router(workers: Workers) -> APIRouter:
@@ -40,8 +41,8 @@ def router(workers: Workers) -> APIRouter:
 
 
 def _sites() -> list[dict[str, Any]]:
-    demo = open_choice("demo")
-    return [{"name": "demo", "title": demo.name, "trees": len(demo.trees)}]
+    sites = {name: open_choice(name) for name in BUILT_IN_SITES}
+    return [{"name": name, "title": site.name, "trees": len(site.trees)} for name, site in sites.items()]
 
 
 def _robots() -> list[dict[str, Any]]:

@@ -1,6 +1,6 @@
 """Models of request bodies, and the sites, robots and Tasks that they contain.
 
-No file named by a client is opened: a site is the built-in one or its data, a robot is a built-in name.
+No file named by a client is opened: a site is a built-in one or its data, a robot is a built-in name.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from fieldhand.language import languages
 from fieldhand.mission.documents import SiteAndRobot
 from fieldhand.planning.planner import Answer
 from fieldhand.robot.model import RobotProfile
+from fieldhand.site.loader import BUILT_IN_SITES, BuiltInSite
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
 
@@ -65,12 +66,13 @@ class SiteText(Body):
 
 
 def _not_a_path(value: object) -> object:
-    if isinstance(value, str) and value != "demo":
-        raise ValueError("a site is 'demo' or the GeoJSON itself, never the name of a file on the server")
+    if isinstance(value, str) and value not in BUILT_IN_SITES:
+        names = ", ".join(f"'{name}'" for name in BUILT_IN_SITES)
+        raise ValueError(f"a site is {names} or the GeoJSON itself, never the name of a file on the server")
     return value
 
 
-SiteChoice = Annotated[Literal["demo"] | SiteText | dict[str, Any], BeforeValidator(_not_a_path)]
+SiteChoice = Annotated[BuiltInSite | SiteText | dict[str, Any], BeforeValidator(_not_a_path)]
 
 
 def _known_language(code: str) -> str:
@@ -155,8 +157,8 @@ def open_site_and_robot(body: SiteAndRobotBody) -> SiteAndRobot:
     return SiteAndRobot(site=open_choice(body.site), robot=open_robot(body.robot))
 
 
-def open_choice(choice: Literal["demo"] | SiteText | dict[str, Any]) -> Site:
-    """Return the built-in site, or the one in the request body.
+def open_choice(choice: BuiltInSite | SiteText | dict[str, Any]) -> Site:
+    """Return a built-in site, or the one in the request body.
 
     Raises:
         SiteError: The data is not a site.
@@ -164,7 +166,7 @@ def open_choice(choice: Literal["demo"] | SiteText | dict[str, Any]) -> Site:
     from fieldhand.site.loader import parse_site
 
     if isinstance(choice, str):
-        return _demo()
+        return _built_in(choice)
     if isinstance(choice, SiteText):
         file = PurePath(choice.name)
         return parse_site(choice.text.encode(), name=file.stem or "site", source=file.name or "site")
@@ -175,12 +177,12 @@ def open_choice(choice: Literal["demo"] | SiteText | dict[str, Any]) -> Site:
     return parse_site(data, name="site", source="site")
 
 
-@lru_cache(maxsize=1)
-def _demo() -> Site:
-    """Return the built-in orchard, without its path on the server."""
-    from fieldhand.site.loader import load_demo
+@lru_cache(maxsize=len(BUILT_IN_SITES))
+def _built_in(name: BuiltInSite) -> Site:
+    """Return a built-in site, without its path on the server."""
+    from fieldhand.site.loader import load_built_in
 
-    return replace(load_demo(), source="demo")
+    return replace(load_built_in(name), source=name)
 
 
 def open_robot(name: str) -> RobotProfile:

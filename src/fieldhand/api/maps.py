@@ -149,7 +149,7 @@ def _add_legs(legs: dict[tuple[Any, ...], Feature], walk: Walk, projection: Proj
 def _add_stops(stops: dict[tuple[str, str], Feature], walk: Walk, *, other: bool) -> None:
     """Add a stop for each place at which a node drives or acts, except for the way home."""
     for step in walk.steps:
-        if step.kind not in ("drive", "act"):
+        if step.kind not in ("drive", "act", "wait"):
             continue
         place = step.places[0]
         stop = stops.setdefault(

@@ -17,6 +17,8 @@ from fieldhand.approval.branch_checks import branch_problems, exit_problems
 from fieldhand.approval.budget import budget_problems
 from fieldhand.approval.problem import PlanProblem, node_in, with_words
 from fieldhand.approval.request_warnings import request_warnings
+from fieldhand.approval.timing import timing_problems
+from fieldhand.approval.watch_checks import watch_problems
 from fieldhand.approval.ways import by_rules, rule_problems, way_problems
 from fieldhand.errors import FieldhandError, PlaceError, TaskError
 from fieldhand.forecast.estimate import Estimate, estimate, explore
@@ -94,6 +96,8 @@ def examine(
     problems = [*_document(task, robot, document), *_references(task, robot), *_resources(task, site, robot)]
     problems.extend(unaccounted(task))
     if not _errors(problems):
+        problems.extend(watch_problems(task, robot))
+    if not _errors(problems):
         problems.extend(request_warnings(task, site, robot))
         problems.extend(way_problems(task, site, robot))
     if not _errors(problems):
@@ -111,6 +115,7 @@ def examine(
                 problems.extend(exit_problems(forecast, site))
                 problems.extend(budget_problems(task, site, robot, forecast))
                 problems.extend(battery_problems(task, robot))
+                problems.extend(timing_problems(task, site, forecast))
     once = dict.fromkeys(with_words(problem, task) for problem in problems)
     found = tuple(sorted(once, key=lambda p: p.severity != "error"))
     return Examination(task=task, site=site, robot=robot, problems=found, estimate=forecast)

@@ -23,6 +23,8 @@ from fieldhand.task.frames import Budget, FaultedExit, Task, Then
 from fieldhand.wording.branches import FAULTS, say_decisions
 from fieldhand.wording.resolved_places import gather
 from fieldhand.wording.steps import ReadBackLine, say_exit_after, write_lines
+from fieldhand.wording.timing import say_timing
+from fieldhand.wording.watches import wait_limit_s
 from fieldhand.wording.ways import say_ways, way_notes
 
 __all__ = ["ReadBack", "ReadBackLine", "Totals", "read_back"]
@@ -53,6 +55,7 @@ class ReadBack:
 
     Attributes:
         lines: The steps and the exit.
+        times: Times at which the mission begins or runs again, one sentence each; empty if it begins when started.
         limits: Budgets and reserve, one sentence each.
         faults: Behaviour on faults, one sentence each.
         assumptions: Assumptions made in interpreting the request.
@@ -68,6 +71,7 @@ class ReadBack:
     notes: tuple[str, ...]
     totals: Totals
     usual: frozenset[str] = frozenset()
+    times: tuple[str, ...] = ()
 
     __repr__ = short_repr
 
@@ -81,6 +85,7 @@ class ReadBack:
         return (
             *(_numbered(line) for line in self.lines),
             "",
+            *(_indented(message("When: {text}", text=text)) for text in self.times),
             *(_indented(message("Limit: {text}", text=text)) for text in self.limits if text not in left_out),
             *(_indented(text) for text in self.faults if text not in left_out),
             *(_indented(message("Assumed: {text}", text=text)) for text in self.assumptions),
@@ -105,9 +110,10 @@ def read_back(task: Task, site: Site, robot: RobotProfile, estimate: Estimate) -
         limits=limits,
         faults=faults,
         assumptions=tuple(recalled(text, "assumption") for text in task.command.assumptions),
-        notes=(*_notes(walks, site), *way_notes(task.constraints, robot)),
+        notes=(*_notes(walks, site), *_waits(task, robot), *way_notes(task.constraints, robot)),
         totals=_totals(estimate, task, robot),
         usual=_usual(task, limits, faults),
+        times=() if task.timing is None else say_timing(task.timing),
     )
 
 
@@ -212,6 +218,15 @@ def _notes(walks: Sequence[Walk], site: Site) -> tuple[str, ...]:
         seen.add(step.node.id)
         found.update((message("{note}.", note=capitalised(note)), None) for note in notes(selector, site, step.context))
     return tuple(found)
+
+
+def _waits(task: Task, robot: RobotProfile) -> tuple[str, ...]:
+    """Return a note on waiting for events, which the forecast leaves out."""
+    longest = [wait_limit_s(watch, robot) for watch in task.composition.watches if watch.response == "wait"]
+    if not longest:
+        return ()
+    time = say_duration(max(longest))
+    return (message("The figures are without events: each wait adds up to {time} and what idling uses.", time=time),)
 
 
 def _worst(estimate: Estimate, task: Task, robot: RobotProfile) -> tuple[str, ...]:

@@ -72,13 +72,14 @@ class _Gatherer:
         self.legs: dict[tuple[XY, ...], Leg] = {}
         self._numbers = numbers
         self._optional = _of_optional(task.composition.plan)
+        self._by_readings = _by_readings(task.composition.plan)
         seen = [{_key(s) for s in w.steps} for w in walks]
         self._always = frozenset.intersection(*map(frozenset, seen)) if seen else frozenset()
 
     def add(self, walked: Walk, *, first: bool) -> None:
         """Add a branch; all but the first only up to the first step that depends on the budget."""
         visits: dict[str, int] = {}
-        after_optional = from_optional = False
+        after_optional = from_optional = from_reading = False
         for step in walked.steps:
             after_optional = after_optional or step.node.id in self._optional
             if after_optional and not first:
@@ -88,15 +89,17 @@ class _Gatherer:
             certainty = self._certainty(step, after_optional)
             if step.drive is not None:
                 # A leg that starts at an optional stop is as uncertain as that stop, whatever its destination.
-                way: Certainty = "budget" if from_optional else certainty
+                way: Certainty = "budget" if from_optional else "conditional" if from_reading else certainty
                 self.legs.setdefault(step.drive.points, Leg(points=step.drive.points, certainty=way))
-                from_optional = step.node.id in self._optional
-            if step.kind in ("drive", "act"):
+                from_optional, from_reading = step.node.id in self._optional, step.node.id in self._by_readings
+            if step.kind in ("drive", "act", "wait"):
                 self._stop(step, certainty, visits)
 
     def _certainty(self, step: WalkStep, after_optional: bool) -> Certainty:
         if step.node.id in self._optional:
             return "budget"
+        if step.node.id in self._by_readings:
+            return "conditional"
         if _key(step) in self._always:
             return "certain"
         return "budget" if after_optional else "conditional"
@@ -132,3 +135,9 @@ def _key(step: WalkStep) -> tuple[str, str, tuple[XY, ...]]:
 def _of_optional(plan: Node) -> frozenset[str]:
     """Return the ids of the optional nodes and of all nodes inside them."""
     return frozenset(inner.id for node in walk(plan) if node.is_optional for inner in walk(node))
+
+
+def _by_readings(plan: Node) -> frozenset[str]:
+    """Return the ids of the nodes whose places the mission's readings determine, and of all nodes inside them."""
+    decided = (n for n in walk(plan) if n.selector is not None and n.selector.decided_by_readings)
+    return frozenset(inner.id for node in decided for inner in walk(node))

@@ -29,6 +29,7 @@ _COMMANDS: Final = {
     "outbox": "outbox",
     "watch": "watch",
     "order": "order",
+    "runs": "runs",
     "site": "site",
     "sim_robot": "sim_robot",
     "plugins": "plugins",

@@ -17,6 +17,9 @@ def binding_lines(profile: RobotProfile) -> Iterator[str]:
     time = ", time from /clock" if ros2.use_sim_time else ""
     yield f"ROS 2: {ros2.distro}, names below {ros2.namespace or '/'}{time}"
     yield f"  drives by {ros2.whole_name(ros2.navigation.action)} ({ros2.navigation.type}) {_map(ros2)}"
+    if ros2.navigation.working:
+        working = ros2.navigation.working
+        yield f"  drives with an implement by {ros2.whole_name(ros2.navigation.working_action)} ({working})"
     if ros2.navigation.speed_limit:
         yield f"  no faster than {ros2.whole_name(ros2.navigation.speed_limit)} says (nav2_msgs/msg/SpeedLimit)"
     yield f"  position {_topic(ros2, ros2.position.fix)}, to {ros2.position.most_sigma_m:g} m"
@@ -55,6 +58,11 @@ def _topic(ros2: Ros2Bindings, topic: TopicBinding) -> str:
 def _action(ros2: Ros2Bindings, name: str, bound: ActionBinding) -> Iterator[str]:
     if bound.call is not None:
         yield f"  {name}: {_call(ros2, bound.call)}"
+    if bound.switch is not None:
+        switch = bound.switch
+        where = f"{switch.kind} {ros2.whole_name(switch.name)} ({switch.type})"
+        flag = f"; it worked if {switch.success}" if switch.success else ""
+        yield f"  {name}: {where} with {_named(switch.on)} for on, {_named(switch.off)} for off{flag}"
     for quantity, message in bound.topics.items():
         where = f"{ros2.whole_name(message.topic)} ({message.type})"
         yield f"  {name}: {quantity} = {_value(message.value)} of the next {where} within {message.within_s:g} s"

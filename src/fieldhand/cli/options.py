@@ -36,8 +36,8 @@ def _planners() -> list[str]:
 
 
 SITE_HELP = (
-    "File of the site, or 'demo' for the built-in orchard: GeoJSON or CSV; with the extra gis also"
-    " Shapefile, GeoPackage, KML, KMZ."
+    "File of the site, or a built-in one ('demo', an orchard, or 'vineyard'): GeoJSON or CSV; with the extra"
+    " gis also Shapefile, GeoPackage, KML, KMZ."
 )
 SiteOption = Annotated[str, typer.Option("--site", help=SITE_HELP)]
 #: A bundle has its own; what is given beside it must be the same.

@@ -14,7 +14,7 @@ from fieldhand.cli.outputs import to_file
 from fieldhand.cli.robot_check import check
 
 if TYPE_CHECKING:
-    from fieldhand.robot.model import RobotProfile
+    from fieldhand.robot.model import Action, RobotProfile
 
 
 class _ShowByDefault(TyperGroup):
@@ -89,8 +89,7 @@ def _lines(profile: RobotProfile) -> list[str]:
         "Actions",
     ]
     for action in profile.actions:
-        measures = ", ".join(f"{q} ({profile.quantity[q].unit})" for q in action.measures) or "nothing"
-        lines.append(f"  {action.name}: {action.duration_s:g} s, {action.energy_j:g} J; measures {measures}")
+        lines.append(f"  {action.name}: {_cost(profile, action)}")
         lines.append(f"    say: {', '.join(action.words)}")
         for parameter in action.parameters:
             bounds = ", ".join(parameter.choices) or f"{parameter.minimum} to {parameter.maximum} {parameter.unit}"
@@ -101,3 +100,15 @@ def _lines(profile: RobotProfile) -> list[str]:
         lines.append(f"  {quantity.name}: {levels or 'none'}")
     lines.extend(binding_lines(profile))
     return lines
+
+
+def _cost(profile: RobotProfile, action: Action) -> str:
+    """Return what an action takes, and what it measures or covers."""
+    implement = action.implement
+    if implement is None:
+        measures = ", ".join(f"{q} ({profile.quantity[q].unit})" for q in action.measures) or "nothing"
+        return f"{action.duration_s:g} s, {action.energy_j:g} J; measures {measures}"
+    wide = "" if implement.width_m is None else f", {implement.width_m:g} m wide"
+    tank = "" if implement.tank is None else f", tank for {implement.tank:g}"
+    side = {"both": "on either side", "under": "below the robot"}.get(implement.side, f"on its {implement.side} side")
+    return f"while driving at {implement.speed_m_s:g} m/s, {implement.power_w:g} W{wide}, {side}{tank}"

@@ -34,6 +34,7 @@ WORDS: dict[WordRole, str] = {
     "limit": "magenta",
     "order": "italic",
     "end": "bold",
+    "time": "bold magenta",
     "no_part": "dim",
     "nothing": "bold reverse",
 }

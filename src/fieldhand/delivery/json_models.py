@@ -5,12 +5,14 @@ A sender ignores fields that it does not know, so that later agents may add some
 
 from __future__ import annotations
 
+from datetime import UTC, datetime
 from typing import Annotated
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import AwareDatetime, BaseModel, ConfigDict, Field
 
 from fieldhand.delivery.received_status import LoggedEvent, ReceivedState, ReceivedStatus
 from fieldhand.execution.operator_commands import AgentCommand
+from fieldhand.timetable.runs import DueRun
 
 #: Largest number of events in a response.
 MOST_EVENTS = 500
@@ -45,6 +47,24 @@ class MissionSummary(_Answer):
     events: int
     fault: str
     report: str = ""  # older agents do not send it
+    of: Sha256 | None = None
+    due: str = ""
+
+
+class RunSummary(_Answer):
+    """A run that lies ahead. Times are ISO 8601, UTC."""
+
+    due: str
+    latest: str
+    done_by: str = ""
+
+
+class Runs(_Answer):
+    """The runs of a mission with a timetable: the next ones, and the last ones with their state."""
+
+    mission: MissionSummary
+    next: list[RunSummary]
+    last: list[MissionSummary]
 
 
 class Receipt(_Answer):
@@ -100,6 +120,7 @@ class CommandRequest(BaseModel):
 
     order: AgentCommand
     because: Annotated[str, Field(max_length=500)] = ""
+    due: Annotated[AwareDatetime | None, Field(description="With cancel: the one run to leave out.")] = None
 
 
 class CommandResponse(_Answer):
@@ -131,7 +152,20 @@ def mission_summary(standing: ReceivedStatus) -> MissionSummary:
         events=standing.events,
         fault=standing.fault,
         report=standing.report,
+        of=None if received.run is None else received.run.of,
+        due="" if received.run is None else utc_text(datetime.fromtimestamp(received.run.due, UTC)),
     )
+
+
+def run_summary(run: DueRun) -> RunSummary:
+    """Return the model of a run that lies ahead."""
+    done_by = "" if run.done_by is None else utc_text(run.done_by)
+    return RunSummary(due=utc_text(run.due), latest=utc_text(run.latest), done_by=done_by)
+
+
+def utc_text(at: datetime) -> str:
+    """Return an instant as ISO 8601 in UTC, to the second."""
+    return at.astimezone(UTC).isoformat(timespec="seconds")
 
 
 def event_lines(lines: tuple[LoggedEvent, ...]) -> list[EventLine]:

@@ -15,6 +15,7 @@ import tempfile
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -22,7 +23,7 @@ from typing import TYPE_CHECKING
 from fieldhand import missions
 from fieldhand.delivery.bundle_checks import Accept
 from fieldhand.delivery.incoming_file import IncomingFile, unwritable
-from fieldhand.delivery.received_missions import ReceivedMission, ReceivedMissions
+from fieldhand.delivery.received_missions import ReceivedMission, ReceivedMissions, RecordedRun
 from fieldhand.errors import BundleError, ExecutionError, StoreError
 from fieldhand.files import move_whole
 from fieldhand.folders import Unguarded, require_guarded
@@ -188,6 +189,18 @@ class MissionStore:
         """Return the mission that was begun last; None if there is none."""
         return self._database.last_begun()
 
+    def kept(self) -> tuple[ReceivedMission, ...]:
+        """Return the missions whose timetable is kept."""
+        return self._database.kept()
+
+    def pending(self) -> tuple[ReceivedMission, ...]:
+        """Return the runs that are due and have neither begun nor been left out, the earliest first."""
+        return self._database.pending()
+
+    def runs(self, received: ReceivedMission, most: int) -> tuple[ReceivedMission, ...]:
+        """Return the latest runs of a mission with a timetable, in order."""
+        return self._database.runs(received.bundle, most)
+
     def folder_of(self, received: ReceivedMission) -> Path:
         """Return the folder of a mission, which exists once it was begun."""
         return self.missions / received.name
@@ -201,7 +214,54 @@ class MissionStore:
         """
         return self._accept(data, source)
 
+    # --- timetables ----------------------------------------------------------------------------------------------
+
+    def keep(self, received: ReceivedMission, since: datetime) -> None:
+        """Record that the timetable of a mission is kept from now on.
+
+        Raises:
+            StoreError: The database cannot be written.
+        """
+        self._database.keep(received.sha256, since.timestamp())
+
+    def end(self, received: ReceivedMission, why: str) -> None:
+        """Record that the timetable of a mission is no longer kept."""
+        self._database.end(received.sha256, why)
+
+    def add_run(self, received: ReceivedMission, run: RecordedRun) -> ReceivedMission:
+        """Record a run of a mission that is due; one that is known already is returned as it stands."""
+        made = replace(received.with_run(run), received_at=self._now().isoformat(timespec="seconds"))
+        known = self.find(made.sha256)
+        if known is None:
+            self._database.note(made)
+            if run.missed:
+                self._database.miss(made.sha256, run.missed)
+        return known or self.get(made.sha256)
+
+    def miss(self, received: ReceivedMission, why: str) -> None:
+        """Record that a run is left out."""
+        self._database.miss(received.sha256, why)
+
     # --- begin ---------------------------------------------------------------------------------------------------
+
+    def read(self, received: ReceivedMission) -> Bundle:
+        """Open a mission that was received, and verify it again.
+
+        Raises:
+            BundleError: It is damaged.
+            StoreError: Its file was changed.
+            NotTrustedError: Its key was revoked meanwhile.
+        """
+        path = self._path(received.bundle)
+        try:
+            data = path.read_bytes()
+        except OSError as error:
+            raise StoreError(
+                f"the bundle cannot be read: {error.strerror}", where=str(path), advice="send it again"
+            ) from None
+        if hashlib.sha256(data).hexdigest() != received.bundle:
+            raise StoreError("the bundle differs from what arrived", where=str(path), advice="send it again")
+        return self._verified(data, received.bundle)
 
     def open(self, sha256: str) -> Bundle:
         """Open a mission that may be begun now, and verify it again.
@@ -220,16 +280,7 @@ class MissionStore:
         later = self._database.later(received.task, received.approved_at)
         if later is not None:
             raise _superseded(later)
-        path = self._path(sha256)
-        try:
-            data = path.read_bytes()
-        except OSError as error:
-            raise StoreError(
-                f"the bundle cannot be read: {error.strerror}", where=str(path), advice="send it again"
-            ) from None
-        if hashlib.sha256(data).hexdigest() != sha256:
-            raise StoreError("the bundle differs from what arrived", where=str(path), advice="send it again")
-        bundle = self._verified(data, sha256)
+        bundle = self.read(received)
         self._admit(bundle)
         return bundle
 
@@ -247,7 +298,7 @@ class MissionStore:
     def _recover(self) -> None:
         """Remove incomplete uploads, and record each mission as begun that has a folder."""
         known = self._database.all()
-        names = {f"{received.sha256}.mission" for received in known}
+        names = {f"{received.bundle}.mission" for received in known}
         for received in known:
             if received.begun_at is None and missions.exists(self.folder_of(received)):
                 self.note_begun(received.sha256)

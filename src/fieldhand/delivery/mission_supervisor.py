@@ -1,6 +1,7 @@
 """Execution of the missions that a robot has received: one at a time, and each at most once.
 
-No mission starts by itself; a resumption after a power cut has to be requested (``--resume``).
+No mission starts by itself, except the runs of a timetable that a person started; a resumption after a power cut has to
+be requested (``--resume``).
 """
 
 from __future__ import annotations
@@ -9,12 +10,14 @@ import logging
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from datetime import UTC, datetime, tzinfo
 from typing import TYPE_CHECKING
 
 from fieldhand import missions
 from fieldhand.delivery.mission_store import MissionStore
 from fieldhand.delivery.received_missions import ReceivedMission
 from fieldhand.delivery.received_status import LoggedEvent, ReceivedState, ReceivedStatus
+from fieldhand.delivery.timetable_keeper import TimetableKeeper
 from fieldhand.errors import ExecutionError, FieldhandError, JournalError, NotTrustedError
 
 if TYPE_CHECKING:
@@ -22,7 +25,7 @@ if TYPE_CHECKING:
 
     from fieldhand.approval.bundle.opening import Bundle
     from fieldhand.execution.drivers.simulation.world import World
-    from fieldhand.execution.operator_commands import AgentCommand, OperatorCommand, StoppingCommand
+    from fieldhand.execution.operator_commands import AgentCommand, MissionCommand, OperatorCommand, StoppingCommand
 
 log = logging.getLogger("fieldhand.agent")
 
@@ -85,6 +88,12 @@ class MissionSupervisor:
         check: Raises an error if a mission cannot begin; returns the robot on which it begins, None in simulation.
         conclude: Judges and reports a mission that has ended.
         seed: Seed of the simulation and of the budget guard.
+        now: Returns the current time, with time zone; the runs of timetables are due by it.
+        zone: Time zone of the robot, for timetables that state none.
+        lasts: Returns an upper estimate of the seconds that a mission takes.
+
+    Attributes:
+        timetables: Keeper of the timetables of missions.
     """
 
     def __init__(
@@ -96,6 +105,9 @@ class MissionSupervisor:
         check: Callable[[Bundle], missions.RobotAtStart | None] = lambda _: None,
         conclude: Callable[[missions.StoredMission], object] = lambda _: None,
         seed: int = 0,
+        now: Callable[[], datetime] = lambda: datetime.now(UTC),
+        zone: tzinfo = UTC,
+        lasts: Callable[[Bundle], float] = lambda _: 0.0,
     ) -> None:
         self._mission_store, self._carry, self._world, self._check, self._seed = (
             mission_store,
@@ -104,6 +116,7 @@ class MissionSupervisor:
             check,
             seed,
         )
+        self.timetables = TimetableKeeper(mission_store, self.begin_run, now=now, zone=zone, lasts=lasts)
         self._conclude = conclude
         self._lock = threading.Lock()
         self._active: ReceivedMission | None = None
@@ -114,6 +127,17 @@ class MissionSupervisor:
         self._ended: dict[str, ReceivedStatus] = {}
 
     # --- look ----------------------------------------------------------------------------------------------------
+
+    def begin_run(self, run: ReceivedMission) -> None:
+        """Begin a run of a mission with a timetable.
+
+        Raises:
+            ExecutionError: Another mission is under way, or was interrupted.
+            NotApprovedError: The approval has expired, or a check found an error.
+            FieldhandError: The robot is not ready, or the mission may not begin.
+        """
+        with self._lock:
+            self._begin(run)
 
     @property
     def active(self) -> str | None:
@@ -137,17 +161,15 @@ class MissionSupervisor:
             return self._ended[received.sha256]
         folder, fault = self._mission_store.folder_of(received), self._faults.get(received.sha256, "")
         if not missions.exists(folder):
-            return ReceivedStatus(
-                received=received, state="waiting" if received.begun_at is None else "lost", fault=fault
-            )
+            received = self._mission_store.find(received.sha256) or received
+            state, reason = _state_without_folder(received)
+            return ReceivedStatus(received=received, state=state, reason=reason, fault=fault)
         try:
             status = missions.status(folder)
         except FieldhandError as error:
             return ReceivedStatus(received=received, state="lost", fault=fault or str(error))
         found = status.now
-        state: ReceivedState = (
-            "running" if found.state == "interrupted" and self.active == received.sha256 else found.state
-        )
+        state = "running" if found.state == "interrupted" and self.active == received.sha256 else found.state
         standing = ReceivedStatus(
             received=received,
             state=state,
@@ -204,6 +226,12 @@ class MissionSupervisor:
             JournalError: Its folder cannot be used.
         """
         folder = self._mission_store.folder_of(received)
+        if command == "cancel":
+            self.timetables.cancel(received, reason)
+            return True
+        if command == "start" and received.run is None and self.timetables.timetable_of(received) is not None:
+            self.timetables.keep(received)
+            return True
         direct = self.give_direct_command(received.sha256, command, reason)
         if direct is not None:
             return self.follow(received, direct, wait=wait)
@@ -235,7 +263,7 @@ class MissionSupervisor:
             The command, which has yet to be written to the mission's folder; None if the mission is not running here,
             the command neither stops the robot nor calls it back, or comes too late.
         """
-        if self.active != sha256 or command == "start" or command == "resume":
+        if self.active != sha256 or command == "start" or command == "resume" or command == "cancel":
             return None
         orders = self._direct
         order = orders.give(command, reason)
@@ -325,7 +353,7 @@ class MissionSupervisor:
             self._faults[received.sha256] = str(error)
             raise
 
-    def _go_on(self, received: ReceivedMission, folder: Path, command: AgentCommand, reason: str) -> bool:
+    def _go_on(self, received: ReceivedMission, folder: Path, command: MissionCommand, reason: str) -> bool:
         """Resume a mission that no process carries out; the command takes effect at its first tick."""
         if missions.status(folder).now.state == "ended":
             raise ExecutionError("the mission has ended", where=received.name)
@@ -397,3 +425,14 @@ class MissionSupervisor:
         self._active = received
         self._thread = threading.Thread(target=run, name=f"mission {received.name}", daemon=True)
         self._thread.start()
+
+
+def _state_without_folder(received: ReceivedMission) -> tuple[ReceivedState, str]:
+    """Return the state of a mission that has no folder, and its reason."""
+    if received.run is not None and received.run.missed:
+        return "missed", received.run.missed
+    if received.ended:
+        return "ended", received.ended
+    if received.kept_from is not None:
+        return "scheduled", ""
+    return ("waiting" if received.begun_at is None else "lost"), ""

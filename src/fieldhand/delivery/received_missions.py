@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import sqlite3
 import threading
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from fieldhand.errors import StoreError
 from fieldhand.files import sqlite_code
 from fieldhand.folders import FolderLock, FolderTaken
 
 #: Format of the database; other versions refuse it.
-FORMAT = 1
+FORMAT = 2
 #: Result codes of SQLite for a disk that is full, broken or write-protected.
 _UNWRITABLE = (sqlite3.SQLITE_FULL, sqlite3.SQLITE_IOERR, sqlite3.SQLITE_READONLY, sqlite3.SQLITE_CANTOPEN)
 
@@ -25,7 +27,39 @@ _TABLES = (
     " signer TEXT NOT NULL, approved_at REAL NOT NULL, received_at TEXT NOT NULL, hashes TEXT NOT NULL,"
     " begun_at TEXT, turn INTEGER)",
 )
-_COLUMNS = "sha256, task, request, signer, approved_at, received_at, hashes, begun_at"
+#: Columns that format 2 added to ``held``, for missions that begin at a time of their own and for their runs.
+_COLUMNS_OF_2 = (
+    "bundle TEXT",
+    "due REAL",
+    "latest REAL",
+    "done_by REAL",
+    "missed TEXT",
+    "kept_from REAL",
+    "ended TEXT",
+)
+_COLUMNS = (
+    "sha256, task, request, signer, approved_at, received_at, hashes, begun_at,"
+    " bundle, due, latest, done_by, missed, kept_from, ended"
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class RecordedRun:
+    """A run of a mission with a timetable. Times are seconds since 1970.
+
+    Attributes:
+        of: SHA-256 of the signed mission.
+        due: Time at which it is due.
+        latest: Time until which it may begin.
+        done_by: Time by which it has to be done; None for no such limit.
+        missed: Reason for which it did not begin; empty if it has begun or still may.
+    """
+
+    of: str
+    due: float
+    latest: float
+    done_by: float | None = None
+    missed: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,6 +75,9 @@ class ReceivedMission:
         received_at: Time at which it was received, ISO 8601.
         hashes: Verified SHA-256 of the file (``bundle``) and of each of its members.
         begun_at: Time at which it was begun, ISO 8601; None if it never was.
+        run: The run of a mission with a timetable, for which ``sha256`` is an id of its own; None for a mission itself.
+        kept_from: Time from which its timetable is kept, in seconds since 1970; None if it has none or was not started.
+        ended: Reason for which its timetable is no longer kept; empty if it is kept.
     """
 
     sha256: str
@@ -51,11 +88,24 @@ class ReceivedMission:
     received_at: str
     hashes: Mapping[str, str]
     begun_at: str | None
+    run: RecordedRun | None = None
+    kept_from: float | None = None
+    ended: str = ""
 
     @property
     def name(self) -> str:
         """Name of its folder."""
         return self.sha256[:16]
+
+    @property
+    def bundle(self) -> str:
+        """SHA-256 of its signed mission."""
+        return self.sha256 if self.run is None else self.run.of
+
+    def with_run(self, run: RecordedRun) -> ReceivedMission:
+        """Return a run of this mission, as a mission with an id of its own."""
+        identity = hashlib.sha256(f"{self.sha256} {run.due:.0f}".encode()).hexdigest()
+        return replace(self, sha256=identity, begun_at=None, run=run, kept_from=None, ended="")
 
 
 class ReceivedMissions:
@@ -99,10 +149,12 @@ class ReceivedMissions:
             held.received_at,
             json.dumps(dict(held.hashes)),
             held.begun_at,
+            *(() if held.run is None else (held.run.of, held.run.due, held.run.latest, held.run.done_by)),
         ]
+        columns = ", ".join(_COLUMNS.split(", ")[: len(row)])
         with self._thread_lock, self._store_errors():
             self._require_in_place()
-            self._db.execute(f"INSERT INTO held ({_COLUMNS}) VALUES (?, ?, ?, ?, ?, ?, ?, ?)", row)  # noqa: S608
+            self._db.execute(f"INSERT INTO held ({columns}) VALUES ({', '.join('?' * len(row))})", row)  # noqa: S608
 
     def note_begun(self, sha256: str, at: str) -> None:
         """Record that a mission was begun."""
@@ -113,6 +165,35 @@ class ReceivedMissions:
                 f"UPDATE held SET begun_at = ?, turn = {turn} WHERE sha256 = ? AND begun_at IS NULL",  # noqa: S608
                 [at, sha256],
             )
+
+    def keep(self, sha256: str, since: float) -> None:
+        """Record that the timetable of a mission is kept from now on; one that was ended stays ended."""
+        self._set("kept_from = ? WHERE sha256 = ? AND kept_from IS NULL", since, sha256)
+
+    def end(self, sha256: str, why: str) -> None:
+        """Record that the timetable of a mission is no longer kept."""
+        self._set("ended = ? WHERE sha256 = ? AND ended IS NULL", why, sha256)
+
+    def miss(self, sha256: str, why: str) -> None:
+        """Record that a run is left out; one that has begun is not."""
+        self._set("missed = ? WHERE sha256 = ? AND missed IS NULL AND begun_at IS NULL", why, sha256)
+
+    def _set(self, what: str, *values: object) -> None:
+        with self._thread_lock, self._store_errors():
+            self._require_in_place()
+            self._db.execute(f"UPDATE held SET {what}", values)  # noqa: S608
+
+    def kept(self) -> tuple[ReceivedMission, ...]:
+        """Return the missions whose timetable is kept, in the order in which they arrived."""
+        return self._rows("WHERE kept_from IS NOT NULL AND ended IS NULL ORDER BY n")
+
+    def pending(self) -> tuple[ReceivedMission, ...]:
+        """Return the runs that are due and have neither begun nor been left out, the one that is due first first."""
+        return self._rows("WHERE due IS NOT NULL AND begun_at IS NULL AND missed IS NULL ORDER BY due, n")
+
+    def runs(self, sha256: str, most: int) -> tuple[ReceivedMission, ...]:
+        """Return the latest runs of a mission, in order."""
+        return self._rows("WHERE bundle = ? ORDER BY due DESC LIMIT ?", sha256, most)[::-1]
 
     def find(self, sha256: str) -> ReceivedMission | None:
         """Return the mission of a SHA-256; None if it was not received."""
@@ -125,7 +206,7 @@ class ReceivedMissions:
         return found[0] if found else None
 
     def latest(self, most: int) -> tuple[ReceivedMission, ...]:
-        """Return the missions that were received last, in the order in which they arrived."""
+        """Return the missions and runs that were added last, in the order in which they arrived."""
         return self._rows("ORDER BY n DESC LIMIT ?", most)[::-1]
 
     def last_begun(self) -> ReceivedMission | None:
@@ -134,7 +215,7 @@ class ReceivedMissions:
         return found[0] if found else None
 
     def all(self) -> tuple[ReceivedMission, ...]:
-        """Return every mission that was received."""
+        """Return every mission that was received, and every run of one."""
         return self._rows("ORDER BY n")
 
     def _rows(self, where: str, *values: object) -> tuple[ReceivedMission, ...]:
@@ -172,7 +253,11 @@ class ReceivedMissions:
                 if not db.execute("SELECT count(*) FROM sqlite_master").fetchone()[0]:
                     for table in _TABLES:
                         db.execute(table)
-                    db.execute("INSERT INTO about VALUES ('format', ?)", [str(FORMAT)])
+                    db.execute("INSERT INTO about VALUES ('format', '1')")
+                if db.execute("SELECT value FROM about WHERE key = 'format'").fetchone() == ("1",):
+                    for column in _COLUMNS_OF_2:
+                        db.execute(f"ALTER TABLE held ADD COLUMN {column}")
+                    db.execute("UPDATE about SET value = ? WHERE key = 'format'", [str(FORMAT)])
                 db.execute("COMMIT")
                 sound = db.execute("PRAGMA quick_check(1)").fetchone()
                 found = db.execute("SELECT value FROM about WHERE key = 'format'").fetchone()
@@ -218,8 +303,12 @@ class ReceivedMissions:
             ) from None
 
 
-def _received_mission(row: tuple[str, str, str, str, float, str, str, str | None]) -> ReceivedMission:
-    sha256, task, request, signer, approved_at, received_at, hashes, begun_at = row
+def _received_mission(row: tuple[Any, ...]) -> ReceivedMission:
+    sha256, task, request, signer, approved_at, received_at, hashes, begun_at, *rest = row
+    bundle, due, latest, done_by, missed, kept_from, ended = rest
+    run = None
+    if bundle is not None:
+        run = RecordedRun(of=bundle, due=due, latest=latest, done_by=done_by, missed=missed or "")
     return ReceivedMission(
         sha256=sha256,
         task=task,
@@ -229,4 +318,7 @@ def _received_mission(row: tuple[str, str, str, str, float, str, str, str | None
         received_at=received_at,
         hashes=json.loads(hashes),
         begun_at=begun_at,
+        run=run,
+        kept_from=kept_from,
+        ended=ended or "",
     )

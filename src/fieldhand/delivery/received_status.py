@@ -7,8 +7,9 @@ from typing import Literal
 
 from fieldhand.delivery.received_missions import ReceivedMission
 
-#: ``waiting``: received, and never begun. ``lost``: begun, and its folder is missing or unreadable.
-ReceivedState = Literal["waiting", "running", "paused", "interrupted", "ended", "lost"]
+#: ``waiting``: received, and never begun. ``lost``: begun, and its folder is missing or unreadable. ``scheduled``: its
+#: timetable is kept. ``missed``: a run that did not begin.
+ReceivedState = Literal["waiting", "scheduled", "running", "paused", "interrupted", "ended", "lost", "missed"]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import ssl
 from collections.abc import Mapping
+from datetime import datetime
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
 from fieldhand.delivery.bundle_checks import sha256_of
-from fieldhand.delivery.json_models import LONGEST_WAIT_S, CommandResponse, Events, Receipt, RobotState
+from fieldhand.delivery.json_models import LONGEST_WAIT_S, CommandResponse, Events, Receipt, RobotState, Runs
 from fieldhand.errors import DeliveryError, InputError, UnreachableError
 from fieldhand.execution.operator_commands import AgentCommand
 
@@ -103,9 +104,24 @@ class RobotClient:
         answer = self._send("GET", f"/agent/missions/{sha256}")
         return None if answer[0] == 404 else self._read(Receipt, *answer)
 
-    def order(self, sha256: str, command: AgentCommand, because: str = "") -> CommandResponse:
-        """Send a command to a mission; the same command may be sent again."""
+    def runs(self, sha256: str) -> Runs:
+        """Return the next and the last runs of a mission with a timetable."""
+        return self._ask(Runs, "GET", f"/agent/missions/{sha256}/runs")
+
+    def order(
+        self, sha256: str, command: AgentCommand, because: str = "", *, due: datetime | None = None
+    ) -> CommandResponse:
+        """Send a command to a mission; the same command may be sent again.
+
+        Args:
+            sha256: SHA-256 of the mission.
+            command: The command.
+            because: Reason, for the event log.
+            due: With ``cancel``: time of the one run to leave out, with time zone.
+        """
         body = {"order": command, "because": because}
+        if due is not None:
+            body["due"] = due.isoformat()
         return self._ask(CommandResponse, "POST", f"/agent/missions/{sha256}/orders", json=body)
 
     def order_now(self, command: AgentCommand, because: str = "") -> CommandResponse | None:

@@ -119,9 +119,10 @@ class BudgetGuard:
             return Verdict(go=True)
         budget, here = self._budget, state.context.here
         ahead = self._ahead.of(state, visit, still_to_come)
-        way_on = None if ahead is None else route_cost([budget.length(here, visit.place)]) + ahead.way
+        leg = budget.length(here, visit.place)
+        way_on = None if ahead is None else route_cost([leg], budget.slower(visit, leg)) + ahead.way
         home = budget.length(visit.end, budget.home(visit.end))
-        short = route_cost([budget.length(here, visit.place), home], visit.work)
+        short = route_cost([leg, home], visit.work + budget.slower(visit, leg))
         there = budget.chances(short, state)
         on = there if way_on is None else budget.chances(way_on, state)
         lasts = budget.allowance(on).mandatory_fits
@@ -178,10 +179,10 @@ class BudgetGuard:
 
     def _is_granted(self, state: MissionState, place: Place) -> bool:
         """Return True if a place is part of a visit already granted. Work at another place ends the grant."""
-        here = state.context.here.xy
+        here = state.context.here
         outer = _outer(state)
         self._granted = tuple(
-            g for g in self._granted if g.node in outer and (g.xy is None or here == place.xy == g.xy)
+            g for g in self._granted if g.node in outer and (g.xy is None or (here.xy == g.xy and here.covers(place)))
         )  # fmt: skip
         return bool(self._granted)
 

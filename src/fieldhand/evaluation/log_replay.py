@@ -26,8 +26,11 @@ from fieldhand.task.results import (
     ClockSet,
     Decided,
     Driving,
+    Dwelt,
     Ended,
     Event,
+    EventBegan,
+    EventEnded,
     Exited,
     Faulted,
     InDoubt,
@@ -50,23 +53,26 @@ class _ReplayedVisits:
     """The visits of a for-each, as the log lists them; the one of an optional step.
 
     Attributes:
-        listed: The places.
+        listed: The places; a tree worked on from both sides is listed twice.
         most: Number of them that may be visited.
         begun: Visits begun, without those given up half-way.
         shed: Number of places given up.
+        skipped: Number of places left out because of an event.
         before: The counts when the current visit began.
     """
 
-    listed: frozenset[str] = frozenset()
+    listed: tuple[str, ...] = ()
     most: int
     begun: int = 0
     shed: int = 0
+    skipped: int = 0
     before: Mapping[str, CaptureCount] = field(default_factory=dict)
 
     @property
     def unmade(self) -> int:
-        """Return the number of visits not begun."""
-        return max(0, self.most - self.begun)
+        """Return the number of visits not begun, without those left out because of an event."""
+        most = min(self.most, len(self.listed) - self.skipped) if self.skipped else self.most
+        return max(0, most - self.begun)
 
     @property
     def to_come(self) -> int:
@@ -83,8 +89,8 @@ class _Replay:
         over = next((k for k, e in enumerate(events) if isinstance(e, Exited | Ended)), len(events))
         self._orderly = any(isinstance(e, Ended) and e.status in ("completed", "returned", "exceeded") for e in events)
         # The exit itself belongs to the plan only where a stop took it: then it names that stop.
-        # What stood in the way, waiting, and what was crossed say nothing of the plan.
-        aside = (Obstructed, Waited, ClockSet, LimitCrossed)
+        # What stood in the way, waiting, events, and what was crossed say nothing of the plan.
+        aside = (Obstructed, Waited, ClockSet, LimitCrossed, EventBegan, EventEnded)
         self._events = [e for e in events[: over + 1] if e.node in self._inside[plan.id] and not isinstance(e, aside)]
         self._next = 0
         self._of: dict[str, list[int]] = {}
@@ -118,7 +124,10 @@ class _Replay:
         visits = self._run.frame.tour
         if isinstance(visits, _ReplayedVisits):
             # Places that were closed when the loop began are shed, and not among those to visit.
-            visits.shed += len(visits.listed.intersection(event.places))
+            shed = sum(place in visits.listed for place in event.places)
+            visits.shed += shed
+            if event.cause == "event" and event.optional:
+                visits.skipped += shed
         self._counts.shed(node, event)
         return True
 
@@ -153,6 +162,8 @@ class _Replay:
         match request:
             case ask.Capture(node=act):
                 self._capture(act)
+            case ask.WaitFor(node=node):
+                self._wait(node)
             case ask.DriveTo(node=node, tour=None) if node.act is None:
                 self._drive(node)
             case ask.Decide(node=node):
@@ -183,7 +194,7 @@ class _Replay:
     def _capture(self, node: Act) -> None:
         count = self._counts.of[node.id]
         count.wanted += node.count
-        captures, unknown, failed_at = 0, 0, 0
+        captures, unknown, failed_at, place = 0, 0, 0, ""
         while captures + unknown < node.count:
             event = self._peek_own(node)
             # The same place again from the first attempt is the next visit; the last one failed for good.
@@ -191,7 +202,7 @@ class _Replay:
             if isinstance(event, Acted):
                 if failed_at and event.attempt <= failed_at:
                     break
-                good = event.status == "success"
+                good, place = event.status == "success", event.place
                 captures, failed_at = (captures + event.count, 0) if good else (captures, event.attempt)
             elif isinstance(event, InDoubt):
                 unknown, failed_at = (unknown + 1, 0) if event.then == "skip" else (unknown, failed_at)
@@ -205,16 +216,37 @@ class _Replay:
         if captures + unknown < node.count:
             count.failed += failed_at > 0
             raise self._lost()
+        if self._is_skipped(place):
+            raise self._lost()
+
+    def _is_skipped(self, place: str | None = None) -> bool:
+        """Return True if the next event reports that the visit (to a place) is left out because of an event."""
+        event = self._peek()
+        if not isinstance(event, Shed) or event.cause != "event" or not event.optional:
+            return False
+        return place is None or event.places[:1] == (place,)
+
+    def _wait(self, node: Node) -> None:
+        """Consume the wait of the node."""
+        over = False
+        while not over and (event := self._peek_own(node)) is not None:
+            self._next += 1
+            over = isinstance(event, Dwelt)
+        if not over:
+            raise self._lost()
 
     def _drive(self, node: Node) -> None:
         """Consume the drive of the node; a drive to the current place has no event."""
-        step, failed = self._run.optional, False
+        step, failed, set_out = self._run.optional, False, False
         while (event := self._peek_own(node)) is not None and not isinstance(event, Arrived):
             failed = failed or isinstance(event, Shed | Faulted)
+            set_out = set_out or isinstance(event, Driving)
             self._next += 1
         if event is not None:
             self._next += 1
-        elif failed or (step is not None and step.node.is_optional_step and self._peek_own(step.node) is not None):
+            return
+        shed = step is not None and step.node.is_optional_step and self._peek_own(step.node) is not None
+        if failed or shed or (set_out and self._is_skipped()):
             raise self._lost()
 
     def _decide(self, node: Node) -> bool:
@@ -237,7 +269,7 @@ class _Replay:
             raise self._absent(node)
         self._next += 1
         most = len(event.places) if node.at_most is None else min(len(event.places), node.at_most)
-        return _ReplayedVisits(listed=frozenset(event.places), most=most)
+        return _ReplayedVisits(listed=event.places, most=most)
 
     def _visit(self, node: Node, visits: _ReplayedVisits) -> bool | None:
         """Begin the next visit if the log has one."""
@@ -318,7 +350,9 @@ class _Replay:
     def _given_up(self, frame: StackFrame) -> bool:
         """Return True if the next event reports optional work of the node as given up; consume it for a step."""
         node, event = frame.node, self._peek_own(frame.node)
-        if not isinstance(event, Shed) or not event.optional or not node.is_optional:
+        if not isinstance(event, Shed) or not event.optional:
+            return False
+        if event.cause != "event" and not node.is_optional:
             return False
         if node.is_optional_step:
             self._next += 1
@@ -345,4 +379,6 @@ class _Replay:
 
 def _is_silent(node: Node) -> bool:
     """Return True if a node that does not fail may leave no trace in the log."""
+    if node.dwell_s:
+        return False
     return node.act is None and not node.is_choice and all(map(_is_silent, node.caught or node.children))

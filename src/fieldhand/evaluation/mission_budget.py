@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -11,9 +12,9 @@ from numpy.typing import NDArray
 from fieldhand.errors import DriveFault
 from fieldhand.evaluation.battery_drain import BatteryDrain
 from fieldhand.forecast.distances import Distances
-from fieldhand.forecast.mission_state import MissionState, Visit
+from fieldhand.forecast.mission_state import MissionState, Visit, Work
 from fieldhand.forecast.remaining_work import RemainingWork, remaining_work_after
-from fieldhand.forecast.resource_limits import ResourceLimit, resource_limits
+from fieldhand.forecast.resource_limits import ResourceLimit, resource_limits, slower_s_per_m
 from fieldhand.forecast.risk_allowance import RiskAllowance
 from fieldhand.forecast.route_cost import RouteCost, overrun_chances
 from fieldhand.places.context import Context
@@ -21,7 +22,7 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.build import exit_of
 from fieldhand.task.frames import Task
-from fieldhand.task.run import StackFrame
+from fieldhand.task.run import StackFrame, pace_of
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
@@ -78,9 +79,17 @@ class MissionBudget:
             self._allowance = self._allowance.reduced_by(chance)
 
     def resources(self, state: MissionState) -> tuple[ResourceLimit, ...]:
-        """Return the current resource limits; the battery's is based on its measured charge."""
+        """Return the current resource limits; the battery's is based on its measured charge.
+
+        While optional visits are chosen inside a pace, all driving is assumed to be as slow: the solver has one speed.
+        """
         charge = state.charge_percent + state.spent.percent
-        return resource_limits(self.task.constraints, self.robot, charge)
+        pace = pace_of(state.frames) if state.frames and state.frames[-1].node.is_optional else math.inf
+        return resource_limits(self.task.constraints, self.robot, charge, pace_m_s=pace)
+
+    def slower(self, visit: Visit, metres: float) -> Work:
+        """Return the time that the pace of a visit adds to the drive to it."""
+        return Work(seconds=metres * slower_s_per_m(self.task.constraints, self.robot, visit.pace_m_s))
 
     def chances(self, way: RouteCost, state: MissionState) -> Floats:
         """Return for each limit the probability that a route takes more than is left."""
@@ -92,7 +101,7 @@ class MissionBudget:
         Raises:
             DriveFault: No way leads from one to the other.
         """
-        return 0.0 if a.xy == b.xy else self.drives.between(a, b).length_m
+        return 0.0 if a.covers(b) else self.drives.between(a, b).length_m
 
     def home(self, at: Place) -> Place:
         """Return the place to which the robot returns on a low budget; the current place if no way leads there."""

@@ -129,12 +129,12 @@ def _doing(robot: RobotProfile, last: Event | None, task: Task) -> str:
         case None:
             return message("nothing yet")
         case Driving():
-            return message("drives to {place}", place=say_place(last.kind, last.place))
+            return message("drives to {place}", place=say_place(last.kind, last.place, last.side))
         case Arrived():
             action = next((g.action for g in task.command.goals if g.node == last.node), None)
             if action is None:
                 return say_near(last.kind, last.place, arrived=True)
-            place = say_place(last.kind, last.place)
+            place = say_place(last.kind, last.place, last.side)
             return message("{capture} at {place}", capture=noun(robot, action), place=place)
         case _:
             return EventText(robot).brief(last)

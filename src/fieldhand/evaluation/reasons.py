@@ -122,7 +122,7 @@ def named(visits: Sequence[Visit], indices: Sequence[int]) -> str:
 
 def _name(place: Place) -> str:
     if place.kind == "tree":
-        return say_place(place.kind, place.id)
+        return say_place(place.kind, place.id, place.side)
     return message("the {id} marker", context="log", id=place.id) if place.kind == "marker" else place.id
 
 

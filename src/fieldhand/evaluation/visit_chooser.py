@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,7 +20,6 @@ from fieldhand.forecast.route_cost import cost_model, route_cost
 from fieldhand.forecast.visit_distances import MAX_DOUBLE, visit_distances
 from fieldhand.language import joined
 from fieldhand.orienteering.overrun import overrun_probability
-from fieldhand.places.context import Context
 from fieldhand.site.model import Place
 
 if TYPE_CHECKING:
@@ -263,7 +262,7 @@ class VisitChooser:
             return run.rest
         context = state.context
         if len(candidates) == 1 and candidates[0].leaves is not None:
-            context = Context(here=candidates[0].leaves, visited=context.visited, bound=context.bound)
+            context = replace(context, here=candidates[0].leaves)
         rest = self._budget.rest(state.frames, context, to_come)
         return run.rest if run is not None and run.rest == rest else rest
 

@@ -83,7 +83,8 @@ class WorkAheadFinder:
         way = route_cost([0.0 if rest.first is None else budget.length(last, rest.first)], stops[-1].work) + rest.way
         ways = [way]
         for stop, following in reversed(list(itertools.pairwise(stops))):
-            way = route_cost([budget.length(stop.end, following.place)], stop.work) + way
+            metres = budget.length(stop.end, following.place)
+            way = route_cost([metres], stop.work + budget.slower(following, metres)) + way
             ways.append(way)
         known = _Loop(node=state.node, stops=(*stops, *_visits(rest)), ways=tuple(reversed(ways)))
         if rest.fixed:

@@ -25,8 +25,10 @@ from fieldhand.execution.time_of_day import TimeOfDay
 from fieldhand.forecast.conditions import ConditionInputs
 from fieldhand.forecast.mission_state import MissionState, Spent
 from fieldhand.forecast.optional_visits import OptionalVisits
+from fieldhand.forecast.resource_limits import speed_of
 from fieldhand.forecast.visit_order import start_place
 from fieldhand.places.context import Context
+from fieldhand.places.reading_series import ReadingSeries, TakenReading
 from fieldhand.places.resolution import resolve, resolve_one
 from fieldhand.places.selector import Selector
 from fieldhand.robot.model import InDoubtPolicy, RobotProfile
@@ -34,6 +36,7 @@ from fieldhand.site.blockages import Blockages
 from fieldhand.site.drives import Drive, Drives
 from fieldhand.site.model import Place, Site
 from fieldhand.task.build import exit_of
+from fieldhand.task.collected import collected
 from fieldhand.task.frames import Fault, Task, Then
 from fieldhand.task.results import Acted, Arrived, ClockSet, Driving, Event, Faulted, InDoubt, MissionStatus, Resumed
 from fieldhand.task.run import PlanRun
@@ -65,6 +68,7 @@ class ActiveMission:
         controller: Carries out the current goal.
         guard: The budget guard.
         clock: Mission clock.
+        dwells_until_s: Time of the mission clock at which a wait of the plan ends; None if the robot does not wait.
         halted: True while nothing new may begin because the mission is about to turn home.
         blockages: Blocked stretches found so far.
         here: The plan's current place (:mod:`fieldhand.task.plan`).
@@ -74,6 +78,7 @@ class ActiveMission:
         time_of_day: Time of day at the beginning, and later changes of the wall clock.
         driven: Path of the last drive, in local metres.
         readings: Values of each bound reading, by quantity.
+        series: All readings of each name that the plan uses as a series.
         run: Current nodes of the plan.
         ending: Set when the plan ends before its last node; the tree is not ticked any more.
         fault: Fault for the Task's exits.
@@ -95,16 +100,24 @@ class ActiveMission:
         self.guard: Guard = inputs
         self.clock: Clock = inputs
         self.controller = DriveController(
-            inputs, site, robot, ways=lambda: self.drives, on_restart=self._restarted, on_doubt=self._in_doubt
+            inputs,
+            site,
+            robot,
+            ways=lambda: self.drives,
+            speed=self._speed_m_s,
+            on_restart=self._restarted,
+            on_doubt=self._in_doubt,
         )
         self.blockages = Blockages(drives)
         self._begun_s = self.clock.now()
         self.time_of_day = TimeOfDay(inputs)
         self._wake_s: float | None = None
+        self.dwells_until_s: float | None = None
         self.action_j = 0.0
         self._full = self.observation.charge_percent
         self._cuts = 0
         self._open: OpenDrive | OpenCapture | None = None
+        self._recorded: Progress | None = None
         self.events: list[Event] = []
         self.here = start_place(drives)
         self.standing = self._stands()
@@ -112,6 +125,8 @@ class ActiveMission:
         self.visited: list[str] = []
         self.bound: dict[str, tuple[Place, ...]] = {}
         self.readings: dict[str, Mapping[str, float]] = {}
+        self.series: dict[str, ReadingSeries] = {}
+        self._collected = collected(task.composition.plan)
         self.run = PlanRun(task.composition.plan)
         self.travelled_m = 0.0
         self.driven: tuple[tuple[float, float], ...] = ()
@@ -163,7 +178,9 @@ class ActiveMission:
     @property
     def facts(self) -> ConditionInputs:
         """Facts against which a condition is tested now."""
-        return ConditionInputs(site=self.site, robot=self.robot, here=self.here, readings=self.readings)
+        return ConditionInputs(
+            site=self.site, robot=self.robot, here=self.here, readings=self.readings, series=self.series
+        )
 
     def charge_percent(self) -> float:
         """Return the battery charge in percent, filtered for single false readings."""
@@ -202,7 +219,7 @@ class ActiveMission:
         Raises:
             DriveFault: There is no way to it.
         """
-        if (self.standing.kind, self.standing.id) == (place.kind, place.id):
+        if self.standing.serves(place):
             return self.standing
         return self.way_to(place).end
 
@@ -235,6 +252,12 @@ class ActiveMission:
         if label:
             self.bound[label] = places
 
+    def collect(self, reading: str, values: Mapping[str, float]) -> None:
+        """Add a reading taken here to its series, if the plan uses it as one."""
+        if values and reading in self._collected:
+            taken = TakenReading(place=self.here, values=dict(values))
+            self.series[reading] = self.series.get(reading, ReadingSeries()).plus(taken)
+
     def end(self, ending: Ending) -> None:
         """End the plan, unless it has ended already."""
         if self.ending is None:
@@ -263,7 +286,7 @@ class ActiveMission:
 
     def is_at(self, place: Place) -> bool:
         """Return True if the robot has stopped at a place and is still there."""
-        return self.arrived_at is not None and (self.arrived_at.kind, self.arrived_at.id) == (place.kind, place.id)
+        return self.arrived_at is not None and self.arrived_at.serves(place)
 
     def stop_at(self, place: Place) -> None:
         """Record that the robot has reached a place."""
@@ -277,12 +300,14 @@ class ActiveMission:
         Raises:
             DriveFault, PlaceError: There is no way to the place.
         """
-        wanted = self.task.constraints.speed_m_s
-        speed_m_s = self.robot.speed_m_s if wanted is None else min(wanted, self.robot.speed_m_s)
-        goal = drive_goal(self.site, self.way_to(place), speed_m_s)
+        goal = drive_goal(self.site, self.way_to(place), self._speed_m_s())
         self._emit_driving(node, goal)
         self._open = OpenDrive(node=node, goal=goal)
         self.controller.start(goal)
+
+    def _speed_m_s(self) -> float:
+        """Return the speed limit of a drive that begins now."""
+        return speed_of(self.task.constraints, self.robot, self.run.pace_m_s)
 
     def start_capture(self, node: str, action: str, parameters: Mapping[str, str | float], number: int) -> None:
         """Start the ``number``-th attempt at a capture."""
@@ -293,12 +318,16 @@ class ActiveMission:
         """Return the progress of the current goal, and record its end once."""
         progress = self.controller.poll()
         goal = self._open
-        if goal is None or not progress.over:
+        if goal is None:
+            return progress if self._recorded is None else self._recorded
+        if not progress.over:
             return progress
         self._open = None
         if isinstance(goal, OpenCapture):
-            return self._end_capture(goal, progress)
-        self._end_drive(goal, progress)
+            progress = self._end_capture(goal, progress)
+        else:
+            self._end_drive(goal, progress)
+        self._recorded = progress
         return progress
 
     def stop_driver(self) -> None:
@@ -315,7 +344,14 @@ class ActiveMission:
         found = [] if (soon := self.observation.next_in) is None else [soon]
         if self._wake_s is not None:
             found.append(min(LOOK_AGAIN_S, max(0.0, self._wake_s - self.clock.now())))
+        if found and self.task.composition.watches:
+            found.append(LOOK_AGAIN_S)
         return min(found, default=None)
+
+    @property
+    def dwell_left_s(self) -> float:
+        """Seconds left of a wait of the plan; 0 if the robot does not wait."""
+        return 0.0 if self.dwells_until_s is None else max(0.0, self.dwells_until_s - self.clock.now())
 
     @property
     def busy(self) -> bool:
@@ -343,6 +379,7 @@ class ActiveMission:
                 node=node,
                 kind=place.kind,
                 place=place.id,
+                side=place.side,
                 lat=position.lat,
                 lon=position.lon,
                 leg_m=leg_m,
@@ -360,6 +397,7 @@ class ActiveMission:
                 node=node,
                 kind=goal.place.kind,
                 place=goal.place.id,
+                side=goal.place.side,
                 planned_m=goal.length_m,
                 path=goal.path_degrees,
                 speed_m_s=goal.speed_m_s,
@@ -383,6 +421,7 @@ class ActiveMission:
                 then=then,
                 kind=place.kind,
                 place=place.id,
+                side=place.side,
                 lat=place.lat,
                 lon=place.lon,
                 attempt=doing.number if isinstance(doing, OpenCapture) else 1,
@@ -419,6 +458,7 @@ class ActiveMission:
                 status="success" if done else "failed",
                 kind=here.kind,
                 place=here.id,
+                side=here.side,
                 lat=here.lat,
                 lon=here.lon,
                 attempt=open_.number,
@@ -431,7 +471,7 @@ class ActiveMission:
         return progress
 
     def _context(self, here: Place) -> Context:
-        return Context(here=here, visited=tuple(self.visited), bound=dict(self.bound))
+        return Context(here=here, visited=tuple(self.visited), bound=dict(self.bound), series=dict(self.series))
 
     def _stands(self) -> Place:
         """Return the robot's position as a place: ``here`` if it is there."""

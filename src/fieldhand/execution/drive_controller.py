@@ -25,6 +25,7 @@ class DriveController:
         inputs: Starts goals of the driver and observes the robot.
         site, robot: Site and robot of the mission.
         ways: Returns the drives that are possible now.
+        speed: Returns the speed limit of a drive that begins now, in m/s.
         on_restart: Called before a drive continues an interrupted one.
         on_doubt: Called for each capture in doubt with the chosen policy and its progress.
 
@@ -39,11 +40,12 @@ class DriveController:
         robot: RobotProfile,
         *,
         ways: Callable[[], Drives],
+        speed: Callable[[], float],
         on_restart: Callable[[DriveGoal], None],
         on_doubt: Callable[[ActionGoal, InDoubtPolicy, Progress], None],
     ) -> None:
         self.paused = False
-        self._inputs, self._site, self._robot, self._ways = inputs, site, robot, ways
+        self._inputs, self._site, self._robot, self._ways, self._speed = inputs, site, robot, ways, speed
         self._on_restart, self._on_doubt = on_restart, on_doubt
         self._goal: DriveGoal | ActionGoal | None = None
         self._under_way = False
@@ -116,7 +118,7 @@ class DriveController:
                 self._strayed = self._strayed and not self._inputs.observation.position.is_at(goal.place)
                 self._approaching = self._strayed
                 if self._strayed:
-                    self._drive(self._way_to(goal.place, self._robot.speed_m_s), goal)
+                    self._drive(self._way_to(goal.place, self._speed()), goal)
                 else:
                     self._inputs.start(goal)
         except OutputError:

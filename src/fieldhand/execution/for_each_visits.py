@@ -13,7 +13,7 @@ from fieldhand.forecast.mission_state import Visit, VisitChoice
 from fieldhand.forecast.visit_order import home_if_last, order_visits, reachable, visits_in_order, with_stands
 from fieldhand.language import message
 from fieldhand.language.words import listed
-from fieldhand.site.model import Place
+from fieldhand.site.model import Place, Site
 from fieldhand.task.plan import ForEach
 from fieldhand.task.results import Visiting
 
@@ -78,7 +78,9 @@ class ForEachVisits:
             self.left = [mandatory_visit(mission, place, node.body) for place in ordered]
             self.cut_off = [mandatory_visit(mission, place, node.body) for place in cut_off]
         ids = tuple(place.id for place in (*ordered, *cut_off))
-        mission.emit(Visiting(t=mission.t, node=node.id, places=ids, optional=node.optional))
+        sides = tuple(place.side for place in (*ordered, *cut_off))
+        sides = sides if any(sides) else ()
+        mission.emit(Visiting(t=mission.t, node=node.id, places=ids, optional=node.optional, sides=sides))
         if closed:
             why = f"{closed[0].kind} {closed[0].id} is {mission.drives.problem(closed[0])}"
             self._give_up(closed, f"cannot be reached: {why}")
@@ -136,6 +138,24 @@ class ForEachVisits:
         if self.is_last_resort:
             self.cut_off.pop(0)
 
+    def skip(self, why: str, *, row: bool) -> None:
+        """Leave out the current visit, and with ``row`` all remaining ones to trees of its row.
+
+        Args:
+            why: Reason in words.
+            row: True to leave out the rest of the row.
+        """
+        place = self.place
+        assert place is not None  # noqa: S101  a visit is current
+        ids = _row_mates(self.mission.site, place) if row else frozenset[str]()
+        others = [v.place for v in (*self.left, *self.cut_off) if v.place.kind == "tree" and v.place.id in ids]
+        skipped = [place, *(p for p in others if p != place)]
+        self.left = [v for v in self.left if v.place not in skipped]
+        self.cut_off = [v for v in self.cut_off if v.place not in skipped]
+        choice = VisitChoice(index=None, reason=why, cause="event")
+        report_shed(self.mission, self.node.id, skipped, choice, optional=True)
+        self.place = None
+
     def cannot_reach(self, fault: BlockedFault) -> None:
         """Postpone the current visit or, if it was postponed already, give it up with all others that cannot be
         reached.
@@ -176,17 +196,17 @@ class ForEachVisits:
         self._ways = mission.blockages.version
         if not mission.blockages.stretches and not self.cut_off:
             return
-        visits = {(v.place.kind, v.place.id): v for v in (*self.left, *self.cut_off)}
+        visits = {v.place.key: v for v in (*self.left, *self.cut_off)}
         near, far = self._parted([v.place for v in visits.values()])
         if node.optional and far:
             self._give_up(far, "no way to it is left: obstacles that the robot found block it")
             far = ()
-        open_ = [replace(p, stand=None) if p.kind == "tree" else p for p in near]
+        open_ = [replace(p, stand=None) if p.planted else p for p in near]
         ordered = with_stands(mission.drives, mission.standing, open_)
         if node.order == "best" and not node.optional:
             ordered = tuple(ordered[k] for k in order_visits(mission.drives, mission.standing, ordered, self._home()))
-        self.left = [replace(visits[p.kind, p.id], place=p) for p in ordered]
-        self.cut_off = [replace(visits[p.kind, p.id], place=replace(p, stand=None)) for p in far]
+        self.left = [replace(visits[p.key], place=p) for p in ordered]
+        self.cut_off = [replace(visits[p.key], place=replace(p, stand=None)) for p in far]
 
     def _in_order(self) -> Place:
         """Return the next visit in planned order, if the guard permits it."""
@@ -210,6 +230,13 @@ class ForEachVisits:
         chosen = None if choice.index is None else self.left[choice.index].place
         self.left = [v for i, v in enumerate(self.left) if i not in given_up and i != choice.index]
         return chosen
+
+
+def _row_mates(site: Site, place: Place) -> frozenset[str]:
+    """Return the ids of all trees in the row of a tree; none for a place in no row."""
+    at = next((k for k, tree in enumerate(site.trees) if place.kind == "tree" and tree.place.id == place.id), None)
+    row = -1 if at is None else int(site.planting.row_of[at])
+    return frozenset(site.trees[k].place.id for k in site.planting.rows[row].trees) if row >= 0 else frozenset()
 
 
 def _ids(places: Sequence[Place]) -> str:

@@ -47,7 +47,7 @@ def drive(
     """
     if mission.is_at(place):
         return
-    if (mission.standing.kind, mission.standing.id) == (place.kind, place.id):
+    if mission.standing.serves(place):
         # The mission began at this place, so no drive is needed.
         mission.stop_at(mission.standing)
         mission.emit_arrived(node, mission.standing, 0.0)
@@ -175,7 +175,7 @@ def _stand(mission: ActiveMission, place: Place) -> Place | None:
 
 
 def _named(place: Place) -> str:
-    return say_place(place.kind, place.id)
+    return say_place(place.kind, place.id, place.side)
 
 
 def _unreached(place: Place, why: str) -> str:

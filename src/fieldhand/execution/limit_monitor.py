@@ -20,6 +20,7 @@ from fieldhand.execution.limit_levels import Consequence, LimitLevel, fastest_dr
 from fieldhand.execution.open_goals import OpenCapture, OpenDrive
 from fieldhand.forecast.failsafe_state import FailsafeForecast, FailsafeState
 from fieldhand.forecast.mission_state import Spent, Work
+from fieldhand.forecast.resource_limits import slower_s_per_m
 from fieldhand.site.model import Place, Site
 from fieldhand.site.stopping import safe_stop
 from fieldhand.task.frames import Then as Exit
@@ -214,13 +215,16 @@ class LimitMonitor:
     # --- the way home --------------------------------------------------------------------------------------------
 
     def _foresee(self, spent: Spent, charge: float) -> None:
-        """Ask the failsafe, during a drive or a capture, whether resources suffice for the way home."""
+        """Ask the failsafe, during a drive, a capture or a wait, whether resources suffice for the way home."""
         doing = self._mission.doing
         if self.phase == "plan" and self._has_open_end:
             return
-        if self.phase == "over" or doing is None or (self.phase == "exit" and not isinstance(doing, OpenDrive)):
+        if self.phase == "over" or (doing is None and not self._mission.dwell_left_s):
             return
-        found = self._ask_failsafe(spent, charge, self._ways(doing), self._work_left(doing))
+        if self.phase == "exit" and not isinstance(doing, OpenDrive):
+            return
+        ways = self._ways(doing)
+        found = self._ask_failsafe(spent, charge, ways, self._work_left(doing, ways[0]))
         if found.alarm == "none":
             return
         self._foreseen.add(self.phase)
@@ -248,10 +252,10 @@ class LimitMonitor:
             )
         )
 
-    def _ways(self, doing: OpenDrive | OpenCapture) -> tuple[float, float, float]:
+    def _ways(self, doing: OpenDrive | OpenCapture | None) -> tuple[float, float, float]:
         """Return metres left of the current drive, from its end home, and at most from here home."""
         mission = self._mission
-        if isinstance(doing, OpenCapture) or len(mission.driven) < 2:
+        if not isinstance(doing, OpenDrive) or len(mission.driven) < 2:
             home = self._home_m(mission.standing)
             return 0.0, home, home
         if self._homes is None or self._homes[0] is not mission.driven:
@@ -274,9 +278,13 @@ class LimitMonitor:
         except DriveFault:
             return 0.0
 
-    def _work_left(self, doing: OpenDrive | OpenCapture) -> Work:
-        if not isinstance(doing, OpenCapture):
-            return Work()
+    def _work_left(self, doing: OpenDrive | OpenCapture | None, on_m: float) -> Work:
+        """Return the work left of a capture or a wait, or the time that a pace adds to the rest of a drive."""
+        if doing is None:
+            return Work(seconds=self._mission.dwell_left_s)
+        if isinstance(doing, OpenDrive):
+            slower = slower_s_per_m(self._mission.task.constraints, self._mission.robot, doing.goal.speed_m_s)
+            return Work(seconds=on_m * slower)
         action = self._mission.robot.action[doing.action]
         left = max(0.0, 1.0 - self._mission.controller.poll().seconds / action.duration_s)
         return Work(seconds=left * action.duration_s, joules=left * action.energy_j)

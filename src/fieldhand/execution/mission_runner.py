@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from fieldhand.clock import Clock, WallClock
 from fieldhand.errors import DriveFault, FieldhandError, NotApprovedError, OutputError
 from fieldhand.execution.active_mission import ActiveMission, Ending
 from fieldhand.execution.drivers.protocol import Driver
+from fieldhand.execution.event_monitor import EventMonitor, WatchState
+from fieldhand.execution.event_wait import wait_until_over
 from fieldhand.execution.goals import drive
 from fieldhand.execution.guard import Failsafe, Guard, NoFailsafe
 from fieldhand.execution.interrupts import ctrl_c_as_request
@@ -29,8 +31,9 @@ from fieldhand.site.stopping import location_words
 from fieldhand.task.authorization import AuthorizedTask
 from fieldhand.task.exceeded import exceeded_limits, final_status, reason_with
 from fieldhand.task.frames import Task, Then
-from fieldhand.task.results import Continued, Ended, Event, Exited, MissionStatus, Paused, Started
+from fieldhand.task.results import Continued, Ended, Event, Exited, MissionStatus, Paused, ShedCause, Started
 from fieldhand.task.run import Steps
+from fieldhand.task.watches import Fallback, Response, watched_events
 
 if TYPE_CHECKING:
     from fieldhand.execution.tree import MissionTree
@@ -113,6 +116,7 @@ def run(
             wall=wall,
             log=log,
             simulated=simulated,
+            watched=watched_events(authorized.task.composition.watches),
         )
         return MissionRunner(authorized.task, site, robot, inputs).run()
 
@@ -140,7 +144,8 @@ class MissionRunner:
 
     Attributes:
         mission: State of the mission.
-        watch: Monitor of battery, distance and time.
+        monitor: Monitor of battery, distance and time.
+        events: Monitor of the events that the mission watches.
     """
 
     def __init__(self, task: Task, site: Site, robot: RobotProfile, inputs: RecordedInputs) -> None:
@@ -149,6 +154,7 @@ class MissionRunner:
             task=task, site=site, robot=robot, inputs=inputs, drives=drives_for(site, robot, task.constraints)
         )
         self.monitor = LimitMonitor(self.mission)
+        self.events = EventMonitor(self.mission)
 
     def run(self) -> Result:
         """Run the mission, and stop the robot whatever happens."""
@@ -202,7 +208,7 @@ class MissionRunner:
                 reserve_percent=reserve_percent(mission.task.constraints, mission.robot),
             )
         )
-        self.monitor.look()
+        self._look()
 
     # --- plan ----------------------------------------------------------------------------------------------------
 
@@ -222,7 +228,11 @@ class MissionRunner:
                 if order:
                     return self._aborted(order)
                 if self.monitor.alarm != "none":
-                    return self._alarmed(tree)
+                    return self._alarmed(tree, self.monitor.why, self.monitor.exit)
+                if (due := self._due(tree)) is not None:
+                    if (ending := self._respond(tree, due)) is not None:
+                        return ending
+                    continue
                 tree.tick_once()
                 if (ending := self._over(tree)) is not None:
                     return ending
@@ -250,12 +260,12 @@ class MissionRunner:
             return Ending(status="faulted", exit="faulted", then=then, reason=mission.what)
         return None
 
-    def _alarmed(self, tree: MissionTree) -> Ending:
-        """Respond to an alarm: stop the robot for good, or give up the rest of the plan and turn home.
+    def _alarmed(self, tree: MissionTree, why: str, then: Then, cause: ShedCause = "budget") -> Ending:
+        """Respond to an alarm or event: stop the robot for good, or give up the rest of the plan and take an exit.
 
         A goal that has just ended counts as done: the plan advances to what it would begin next, and gives that up.
         """
-        mission, why = self.mission, self.monitor.why
+        mission = self.mission
         if self.monitor.alarm == "stop":
             return self._settled(self._stranded(why))
         mission.halted = True
@@ -272,8 +282,8 @@ class MissionRunner:
             if not tree.between:
                 break
         mission.halted = False
-        tree.give_up(Verdict(go=False, reason=why))
-        return Ending(status="returned", exit="faulted", then=self.monitor.exit, reason=why)
+        tree.give_up(Verdict(go=False, reason=why, cause=cause))
+        return Ending(status="returned", exit="faulted", then=then, reason=why)
 
     def _stranded(self, why: str) -> Ending:
         """Return the ending of a mission whose robot cannot drive home and stays where it stands."""
@@ -289,6 +299,69 @@ class MissionRunner:
         )
         return Ending(status="faulted", exit="faulted", then="stay", reason=joined("; ", (why, stands)))
 
+    # --- events --------------------------------------------------------------------------------------------------
+
+    def _due(self, tree: MissionTree | None) -> WatchState | None:
+        """Return the watch whose response is due; without a tree, on the way home."""
+        visit = None if tree is None else tree.visit
+        at = None if visit is None else visit.place
+        return self.events.due(visiting=at is not None, arrived=at is not None and self.mission.is_at(at))
+
+    def _respond(self, tree: MissionTree, due: WatchState) -> Ending | None:
+        """Respond to an event during the plan; return the ending if the plan is over."""
+        mission, response = self.mission, self._response(due, self._is_interrupted)
+        match response:
+            case "return_to_start" | "return_to_end":
+                return self._alarmed(tree, due.why, response, "event")
+            case "end":
+                return self._alarmed(tree, due.why, "stay", "event")
+            case "skip" | "skip_row" if tree.visit is not None:
+                stuck = self._settled(Ending(status="faulted", exit="faulted", then="stay", reason=due.why))
+                if mission.busy:
+                    return stuck
+                tree.skip(due.why, row=response == "skip_row")
+            case _:
+                pass
+        if response != "interrupted":
+            mission.controller.unpause()
+        return None
+
+    def _respond_on_the_way_home(self, heard: OperatorCommand | None) -> Ending | None:
+        """Wait for the events that hold on the way home; return the ending if the mission is over."""
+
+        def interrupted(due: WatchState) -> bool:
+            return self.events.stronger(due) or self._broken_off(heard) is not None
+
+        while (due := self._due(None)) is not None:
+            response = self._response(due, interrupted)
+            if response == "end":
+                return self._settled(Ending(status="returned", exit="faulted", then="stay", reason=due.why))
+            if response == "interrupted" and (ending := self._broken_off(heard)) is not None:
+                return self._settled(ending)
+        self.mission.controller.unpause()
+        return None
+
+    def _is_interrupted(self, due: WatchState) -> bool:
+        """Return True if a command, the robot's stop, an alarm or a stronger event ends a wait during the plan."""
+        order = self._order() or self._stopped()
+        return order is not None or self.monitor.alarm != "none" or self.events.stronger(due)
+
+    def _response(
+        self, due: WatchState, interrupted: Callable[[WatchState], bool]
+    ) -> Response | Fallback | Literal["interrupted"]:
+        """Return the response to an event, after the wait if that is one."""
+        if due.watch.response != "wait":
+            due.answered = True
+            return due.watch.response
+        waited = wait_until_over(self.mission, self.events, due, self._look, lambda: interrupted(due))
+        due.answered = waited != "interrupted"
+        return waited
+
+    def _look(self) -> None:
+        """Check the limits and the events."""
+        self.monitor.look()
+        self.events.look()
+
     # --- exit ----------------------------------------------------------------------------------------------------
 
     def _take_exit(self, ending: Ending) -> Ending:
@@ -301,21 +374,18 @@ class MissionRunner:
         way = drive(mission, "", home) if ending.then != "stay" else None
         short_of_home = ""
         try:
+            if way is not None and (ended := self._respond_on_the_way_home(heard)) is not None:
+                return ended
             while way is not None:
                 if not _advance(way):
                     # The estimate was conservative: from the safe place the rest of the way may be within reach.
                     way = drive(mission, "", home) if short_of_home and monitor.reaches(home) else None
                     short_of_home = "" if way is not None else short_of_home
                     continue
-                # The command that aborted the mission does not stop the drive home; only a new one does.
-                order = self._order()
-                if order is not None and (order == heard or order.wanted == "return"):
-                    order = None
-                order = self._stopped() or order
-                if order:
-                    return self._settled(self._aborted(OperatorCommand(wanted="abort", reason=order.reason)))
-                if monitor.alarm == "stop":
-                    return self._settled(self._stranded(monitor.why))
+                if (ended := self._broken_off(heard)) is not None:
+                    return self._settled(ended)
+                if (ended := self._respond_on_the_way_home(heard)) is not None:
+                    return ended
                 if monitor.alarm == "shelter" and (refuge := monitor.refuge(home)) is not None:
                     short_of_home, way = monitor.why, self._redirect(refuge)
                 self._let_time_pass()
@@ -328,6 +398,20 @@ class MissionRunner:
             status: MissionStatus = "aborted" if ending.status == "aborted" else "faulted"
             return Ending(status=status, exit="faulted", then="stay", reason=reason)
         return self._stranded(short_of_home) if short_of_home else ending
+
+    def _broken_off(self, heard: OperatorCommand | None) -> Ending | None:
+        """Return the ending if a command, the robot's stop or its battery stops it on the way home.
+
+        Args:
+            heard: The command that aborted the mission; it does not stop the drive home, only a new one does.
+        """
+        order = self._order()
+        if order is not None and (order == heard or order.wanted == "return"):
+            order = None
+        order = self._stopped() or order
+        if order:
+            return self._aborted(OperatorCommand(wanted="abort", reason=order.reason))
+        return self._stranded(self.monitor.why) if self.monitor.alarm == "stop" else None
 
     def _redirect(self, place: Place) -> Steps:
         """Cancel the current drive and drive to another place."""
@@ -353,7 +437,7 @@ class MissionRunner:
                 inputs.wait(self.monitor.has_news)
             else:
                 inputs.advance(inputs.observation.next_in or 0.0)
-            self.monitor.look()
+            self._look()
             order = inputs.order()
             mission.note_power_cuts()
         controller.unpause()
@@ -396,10 +480,10 @@ class MissionRunner:
         return ending
 
     def _let_time_pass(self) -> None:
-        """Let time pass until the driver is due or a level could be crossed, then check the limits."""
+        """Let time pass until the driver is due or a level could be crossed, then check limits and events."""
         seconds = self.mission.next_event_in()
         self.mission.clock.advance(0.0 if seconds is None else min(seconds, self.monitor.next_look_in()))
-        self.monitor.look()
+        self._look()
 
     def _end(self, ending: Ending) -> Result:
         self.monitor.turn("over")

@@ -78,7 +78,7 @@ def cut_off_places(mission: ActiveMission, places: Sequence[Place]) -> tuple[boo
     """Return for each place True if no way is left to it from the robot's position, to either side of it."""
     if not mission.blockages.stretches:
         return (False,) * len(places)
-    anywhere = [replace(place, stand=None) if place.kind == "tree" else place for place in places]
+    anywhere = [replace(place, stand=None) if place.planted else place for place in places]
     return tuple(not linked for linked in mission.drives.reachable(anywhere, mission.standing))
 
 

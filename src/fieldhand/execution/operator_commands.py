@@ -24,9 +24,11 @@ FileCommand = Literal["pause", "continue", "return", "abort"]
 #: Commands that can be given in memory: they stop the robot or bring it home.
 StoppingCommand = Literal["pause", "return", "abort"]
 
-#: Commands that a robot's agent accepts over the network; its ``resume`` is ``continue`` in the file.
-AgentCommand = Literal["start", "pause", "resume", "return", "abort"]
-AGENT_COMMANDS: tuple[AgentCommand, ...] = get_args(AgentCommand)
+#: Commands that a robot's agent accepts over the network; its ``resume`` is ``continue`` in the file. ``cancel``: keep
+#: the timetable of a mission no longer, or leave out a run that has not begun.
+MissionCommand = Literal["start", "pause", "resume", "return", "abort"]
+AgentCommand = MissionCommand | Literal["cancel"]
+AGENT_COMMANDS: tuple[AgentCommand, ...] = (*get_args(MissionCommand), "cancel")
 
 #: Commands that may follow each command.
 _AFTER: dict[str, frozenset[str]] = {

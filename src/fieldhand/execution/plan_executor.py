@@ -19,6 +19,7 @@ from fieldhand.execution.shed_work import (
     report_shed,
     shed_unreachable,
 )
+from fieldhand.execution.waiting import dwell
 from fieldhand.forecast.conditions import evaluate
 from fieldhand.forecast.mission_state import VisitChoice
 from fieldhand.forecast.visit_order import home_if_last, steps_in_order
@@ -69,6 +70,14 @@ class PlanExecutor:
         except Stopped as stopped:
             self._stop(stopped)
 
+    @property
+    def visit(self) -> ForEachVisits | None:
+        """The innermost for-each with a current visit; None between visits and outside of loops."""
+        if self.between:
+            return None
+        tours = (frame.tour for frame in self.mission.run.outwards())
+        return next((tour for tour in tours if isinstance(tour, ForEachVisits) and tour.place is not None), None)
+
     def _perform(self, request: instructions.Instruction) -> Instructions:
         """Carry out a request; record a failure and raise it in the plan."""
         try:
@@ -102,10 +111,16 @@ class PlanExecutor:
                 self.mission.bind(label, places)
             case instructions.Capture(node=act):
                 return (yield from self._capture(act))
+            case instructions.WaitFor(node=node, seconds=seconds):
+                here = self.place = self.mission.standing
+                admit(self.mission, mandatory_visit(self.mission, here, node), refused=[here])
+                yield from dwell(self.mission, node.id, seconds)
             case instructions.ForgetReading(reading=reading):
                 self.mission.readings.pop(reading, None)
             case instructions.SetReading(reading=reading, value=value):
                 self.mission.readings[reading] = value
+            case instructions.BeginSeries(reading=reading):
+                self.mission.series.pop(reading, None)
             case instructions.Decide(node=node, condition=condition):
                 return self._decide(node, condition)
             case instructions.ArrangeSteps(node=any_order):
@@ -161,12 +176,15 @@ class PlanExecutor:
         yield from drive(mission, node.id, place, patient=tour is None or tour.is_last_resort, ask_guard=ask_guard)
         if tour is not None:
             tour.arrived()
+            if mission.task.composition.watches:
+                yield  # a visit can be left out on arrival
         return place
 
     def _capture(self, node: Act) -> Generator[None, None, Mapping[str, float]]:
         readings: Mapping[str, float] = {}
         for _ in range(node.count):
             readings = yield from capture(self.mission, node)
+            self.mission.collect(node.reading, readings)
         return readings
 
     def _decide(self, node: Node, condition: Condition) -> bool:

@@ -18,12 +18,12 @@ from __future__ import annotations
 import dataclasses
 import math
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, TypeVar
 
 from fieldhand.clock import WallClock
 from fieldhand.errors import FieldhandError, JournalError
-from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Driver, Position, Progress
+from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Driver, EventSource, Position, Progress
 from fieldhand.execution.guard import Failsafe, Guard
 from fieldhand.execution.journal.records import (
     InputLog,
@@ -72,6 +72,7 @@ class RecordedInputs:
         simulated: True if the driver is a newly created simulation, to which replay repeats all goals. A real robot
             stays
             where it is.
+        watched: Names of the events that the mission watches.
 
     Attributes:
         cuts: Number of power cuts so far.
@@ -89,8 +90,10 @@ class RecordedInputs:
         wall: WallClock | None = None,
         log: InputLog | None = None,
         simulated: bool = False,
+        watched: Collection[str] = (),
     ) -> None:
         self.cuts = 0
+        self._watched = tuple(watched)
         self._driver, self._guard, self._failsafe = driver, guard, failsafe
         self._clock, self._wall, self._log = clock, wall, log
         self._emit, self._current_command, self._simulated = emit, current_command, simulated
@@ -350,6 +353,7 @@ class RecordedInputs:
             wall=self._time_of_day(),
             next_in=self._driver.next_event_in(),
             order=self._current_command(),
+            events=self._events(),
         )
         goal, changed = self._goal, observation.order != self._last_command
         self._last_command = observation.order
@@ -366,6 +370,11 @@ class RecordedInputs:
             self._goal_cut_off = False
         self._ends_goal(observation.progress)
         return observation
+
+    def _events(self) -> Mapping[str, float | None]:
+        """Return the values of the watched events; those that the driver does not report are unknown."""
+        known = self._driver.events() if self._watched and isinstance(self._driver, EventSource) else {}
+        return {name: known.get(name) for name in self._watched}
 
     def _time_of_day(self) -> float | None:
         """Return the time of day minus the time without power, which is no change of the clock."""

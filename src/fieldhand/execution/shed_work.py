@@ -24,7 +24,7 @@ class PlanOver(Exception):
 def mandatory_visit(mission: ActiveMission, place: Place, work: Node) -> Visit:
     """Return a mandatory visit in the form that the guard expects."""
     seconds, joules = service_of(work, mission.robot)
-    return Visit(place=place, service_s=seconds, service_j=joules)
+    return Visit(place=place, service_s=seconds, service_j=joules, pace_m_s=mission.run.pace_m_s)
 
 
 def mandatory_visits_left(mission: ActiveMission) -> list[Visit]:
@@ -104,7 +104,7 @@ def shed_rest(mission: ActiveMission, place: Place | None, verdict: Verdict) -> 
 def _miss(mission: ActiveMission, frames: Sequence[StackFrame], verdict: Verdict) -> None:
     """Report the work after the current node, which will not be reached."""
     why = message("not reached: {why}", context="log", why=verdict.reason)
-    missed = Verdict(go=False, reason=why, chance_short=verdict.chance_short)
+    missed = Verdict(go=False, reason=why, chance_short=verdict.chance_short, cause=verdict.cause)
     for node, places, optional in _left_undone(mission, frames):
         report_shed(mission, node.id, places, missed, optional=optional)
 

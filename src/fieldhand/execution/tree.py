@@ -7,16 +7,19 @@ current node, and each behavior has the status of its node.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 from py_trees.composites import Composite
 
 from fieldhand.execution.active_mission import ActiveMission
+from fieldhand.execution.for_each_visits import ForEachVisits
 from fieldhand.execution.plan_executor import PlanExecutor
 from fieldhand.execution.shed_work import shed_rest
 from fieldhand.forecast.mission_state import Verdict
 from fieldhand.places.selector import Selector
+from fieldhand.task.nodes.base import GivenUp
 from fieldhand.task.plan import Node
 from fieldhand.task.run import RunOutcome
 
@@ -84,6 +87,19 @@ class MissionTree(NodeBehavior):
     def between(self) -> bool:
         """True between two rounds or visits."""
         return self._executor.between
+
+    @property
+    def visit(self) -> ForEachVisits | None:
+        """The current visit of a for-each, which can be left out."""
+        return self._executor.visit
+
+    def skip(self, why: str, *, row: bool) -> None:
+        """Leave out the current visit of a for-each; the robot must not have a goal."""
+        visit = self.visit
+        assert visit is not None  # noqa: S101  callers have checked it
+        visit.skip(why, row=row)
+        with suppress(StopIteration):
+            self._program.throw(GivenUp(visit.node.id))
 
     def give_up(self, verdict: Verdict) -> None:
         """Report the current work and all later work as given up."""

@@ -1,4 +1,4 @@
-"""Waiting: for a time, and for a lost position."""
+"""Waiting: for a time, as a step of the plan, and for a lost position."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Callable
 from fieldhand.errors import LostFault
 from fieldhand.execution.active_mission import ActiveMission
 from fieldhand.language import joined, message
-from fieldhand.task.results import Faulted, Waited
+from fieldhand.task.results import Dwelling, Dwelt, Faulted, Waited
 from fieldhand.task.run import Steps
 
 #: Seconds within which two times are equal: clocks add floating-point numbers.
@@ -23,6 +23,20 @@ def wait(mission: ActiveMission, seconds: float, over: Callable[[], bool] = lamb
             yield
     finally:
         mission.wait_until(None)
+
+
+def dwell(mission: ActiveMission, node: str, seconds: float) -> Steps:
+    """Stand still for some seconds of the mission because the plan says so. The time of a pause counts."""
+    while mission.halted:
+        yield
+    begun_s = mission.clock.now()
+    mission.emit(Dwelling(t=mission.t, node=node, seconds=seconds))
+    mission.dwells_until_s = begun_s + seconds
+    try:
+        yield from wait(mission, seconds)
+    finally:
+        mission.dwells_until_s = None
+    mission.emit(Dwelt(t=mission.t, node=node, seconds=mission.clock.now() - begun_s))
 
 
 def wait_for_position(mission: ActiveMission, node: str) -> Steps:

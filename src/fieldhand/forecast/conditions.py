@@ -15,16 +15,18 @@ from fieldhand.errors import PlaceError
 from fieldhand.language import joined, message, named
 from fieldhand.language.words import listed, say_name, say_number, say_unit, say_value
 from fieldhand.places.context import Context
+from fieldhand.places.reading_series import SeriesByName
 from fieldhand.places.resolution import resolve
 from fieldhand.places.selectors import TreeIs, Where
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.feature_kinds import phrase
 from fieldhand.site.model import Place, Site
+from fieldhand.task.aggregates import Aggregate, CompareSeries, CountReadings, MeanKnown
 from fieldhand.task.conditions import AllOf, AnyOf, Between, Compare, Condition, Level, Not, TreeHas
 from fieldhand.terms import Test, Value
 
 #: Wording of each test in the sentences stored in event logs.
-_HOW: Mapping[Test, str] = {
+TEST_WORDS: Mapping[Test, str] = {
     "lt": message("below", context="log"),
     "le": message("at most", context="log"),
     "gt": message("above", context="log"),
@@ -41,12 +43,16 @@ class ConditionInputs:
     Attributes:
         readings: Values by quantity, in the profile's units, of each bound reading.
         here: The plan's current place.
+        series: All readings of each name, for conditions on series.
+        called: Name of the tested value in the reason; by default that of its quantity.
     """
 
     site: Site
     robot: RobotProfile
     here: Place
     readings: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    series: SeriesByName = field(default_factory=dict)
+    called: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,10 +72,10 @@ def evaluate(condition: Condition, facts: ConditionInputs) -> ConditionResult:
     """Evaluate a condition. Never raises: what cannot be determined is unknown."""
     match condition:
         case Compare(test=how, value=value, unit=unit):
-            bound = {"how": _HOW[how], "limit": _amount(value, unit)}
-            return _measured(condition, facts, lambda r: _passes(r, how, value), _compared, bound)
+            bound = {"how": TEST_WORDS[how], "limit": amount_text(value, unit)}
+            return _measured(condition, facts, lambda r: passes(r, how, value), _compared, bound)
         case Between(low=low, high=high, unit=unit):
-            between = {"low": say_number(low), "high": _amount(high, unit)}
+            between = {"low": say_number(low), "high": amount_text(high, unit)}
             return _measured(condition, facts, lambda r: low <= r <= high, _between, between)
         case Level():
             return _level(condition, facts)
@@ -82,9 +88,14 @@ def evaluate(condition: Condition, facts: ConditionInputs) -> ConditionResult:
             return _joined([evaluate(c, facts) for c in inner], decisive=False)
         case AnyOf(conditions=inner):
             return _joined([evaluate(c, facts) for c in inner], decisive=True)
+        case Aggregate() | CountReadings() | MeanKnown() | CompareSeries():
+            from fieldhand.forecast.series_conditions import evaluate_series
+
+            return evaluate_series(condition, facts)
 
 
-def _passes(value: float, how: Test, threshold: float) -> bool:
+def passes(value: float, how: Test, threshold: float) -> bool:
+    """Return True if a value passes a test."""
     match how:
         case "lt":
             return value < threshold
@@ -114,23 +125,36 @@ def _measured(
         return ConditionResult(truth=None, why=message("there is no reading of {name}", context="log", name=name))
     quantity = facts.robot.quantity.get(condition.quantity)
     truth = passes(value)
-    amount = _amount(value, quantity.unit if quantity else "")
-    return ConditionResult(truth=truth, why=say(truth, {"name": name, "amount": amount, **bounds}))
+    amount = amount_text(value, quantity.unit if quantity else "")
+    fills = {"name": name, "amount": amount, **bounds}
+    return ConditionResult(truth=truth, why=say(truth, fills | ({"called": facts.called} if facts.called else {})))
 
 
 def _compared(truth: bool, fills: Mapping[str, str]) -> str:
+    if "called" in fills and truth:
+        return message("{called}, {amount}, is {how} {limit}", context="log", **fills)
+    if "called" in fills:
+        return message("{called}, {amount}, is not {how} {limit}", context="log", **fills)
     if truth:
         return message("{name} {amount} is {how} {limit}", context="log", **fills)
     return message("{name} {amount} is not {how} {limit}", context="log", **fills)
 
 
 def _between(truth: bool, fills: Mapping[str, str]) -> str:
+    if "called" in fills and truth:
+        return message("{called}, {amount}, is between {low} and {high}", context="log", **fills)
+    if "called" in fills:
+        return message("{called}, {amount}, is not between {low} and {high}", context="log", **fills)
     if truth:
         return message("{name} {amount} is between {low} and {high}", context="log", **fills)
     return message("{name} {amount} is not between {low} and {high}", context="log", **fills)
 
 
 def _on_level(truth: bool, fills: Mapping[str, str]) -> str:
+    if "called" in fills and truth:
+        return message("{called}, {amount}, is {word} ({how} {limit})", context="log", **fills)
+    if "called" in fills:
+        return message("{called}, {amount}, is not {word} ({how} {limit})", context="log", **fills)
     if truth:
         return message("{name} {amount} is {word} ({how} {limit})", context="log", **fills)
     return message("{name} {amount} is not {word} ({how} {limit})", context="log", **fills)
@@ -148,8 +172,12 @@ def _level(condition: Level, facts: ConditionInputs) -> ConditionResult:
         )
         return ConditionResult(truth=None, why=why)
     how: Test = "lt" if level.direction == "below" else "gt"
-    bound = {"word": named(condition.level, "level"), "how": _HOW[how], "limit": _amount(level.value, quantity.unit)}
-    return _measured(condition, facts, lambda r: _passes(r, how, level.value), _on_level, bound)
+    bound = {
+        "word": named(condition.level, "level"),
+        "how": TEST_WORDS[how],
+        "limit": amount_text(level.value, quantity.unit),
+    }
+    return _measured(condition, facts, lambda r: passes(r, how, level.value), _on_level, bound)
 
 
 def _attribute(condition: TreeHas, facts: ConditionInputs) -> ConditionResult:
@@ -175,7 +203,7 @@ def _attribute(condition: TreeHas, facts: ConditionInputs) -> ConditionResult:
     except PlaceError:
         # No tree has the requested value, so neither has this one.
         truth = False
-    fills["how"] = _HOW[condition.test]
+    fills["how"] = TEST_WORDS[condition.test]
     if truth:
         why = message("the {name} of tree {id}, {has}, is {how} {bound}", context="log", **fills)
     else:
@@ -208,6 +236,6 @@ def _all(results: Sequence[ConditionResult]) -> str:
     return message("{known} and {also}", context="log", known=joined(", ", whys[:-1]), also=whys[-1])
 
 
-def _amount(value: float, unit: str) -> str:
+def amount_text(value: float, unit: str) -> str:
     """Format a value with its unit: "31.2 °C". The log's readings keep every digit."""
     return joined(" ", [part for part in (say_number(value, 4), say_unit(unit)) if part])

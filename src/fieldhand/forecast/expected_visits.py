@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,7 +19,6 @@ from fieldhand.forecast.route_cost import RouteCost, cost_model, overrun_chances
 from fieldhand.forecast.sampled_costs import DRAWS
 from fieldhand.forecast.visit_distances import visit_distances
 from fieldhand.forecast.walk_steps import VisitForecast
-from fieldhand.places.context import Context
 from fieldhand.site.model import Place
 from fieldhand.task.plan import ForEach, OptionalStep
 
@@ -133,7 +132,7 @@ def _several(
     from fieldhand.orienteering.preview import preview
 
     robot = walker.robot
-    resources = resource_limits(walker.task.constraints, robot, walker.charge_percent)
+    resources = resource_limits(walker.task.constraints, robot, walker.charge_percent, pace_m_s=walker.plan.pace_m_s)
     problem = visits_problem(
         legs=visit_distances(walker.context.here, visits, rest, walker.drives),
         rewards=[v.reward for v in visits],
@@ -158,7 +157,9 @@ def _one(
     here, costs = walker.context.here, cost_model(walker.robot)
     there = _length(walker, here, visit.place)
     back, home = (0.0 if rest.first is None else _length(walker, at, rest.first) for at in (visit.end, here))
-    resources = resource_limits(walker.task.constraints, walker.robot, walker.charge_percent)
+    resources = resource_limits(
+        walker.task.constraints, walker.robot, walker.charge_percent, pace_m_s=walker.plan.pace_m_s
+    )
     with_it, without = (
         overrun_chances(way + rest.way, resources, walker.robot, walker.spent, used)
         for way in (route_cost([there, back], visit.work), route_cost([home]))
@@ -179,7 +180,7 @@ def _rest(walker: ForecastHandler, node: ForEach | OptionalStep, visits: Sequenc
     """Return the mandatory work that follows, from the end of a step or the beginning of a for-each."""
     here, to_come = walker.context, walker.to_come()
     if node.is_optional_step:
-        here = Context(here=visits[0].end, visited=here.visited, bound=here.bound)
+        here = replace(here, here=visits[0].end)
     return remaining_work_after(
         walker.task,
         walker.site,
@@ -212,4 +213,4 @@ def _way_on(walker: ForecastHandler, here: Place, rest: RemainingWork) -> RouteC
 
 
 def _length(walker: ForecastHandler, a: Place, b: Place) -> float:
-    return 0.0 if a.xy == b.xy else walker.drives.between(a, b).length_m
+    return 0.0 if a.covers(b) else walker.drives.between(a, b).length_m

@@ -21,7 +21,7 @@ class FailsafeState:
         spent: Resources used since the mission began, including the current goal.
         charge_percent: Current battery charge, 0 to 100.
         on_m: Metres left of the current drive; 0 if the robot is not driving.
-        work: Remaining work of the current capture.
+        work: Remaining work of the current capture or wait; the time that a lower speed adds to the current drive.
         after_m: Metres home from the end of the current drive.
         home_m: Upper bound of the metres home from here.
         returning: True if the robot is already on its way home.

@@ -73,7 +73,7 @@ def fault_exits(
             place = step.places[0]
             if place.xy == home.xy:
                 ways_home[stand, home.xy] = replace(
-                    step, kind="exit", places=(home,), drive=None, seconds=0.0, joules=0.0
+                    step, kind="exit", places=(home,), drive=None, seconds=0.0, joules=0.0, slower_s_per_m=0.0
                 )
                 continue
             try:
@@ -81,7 +81,9 @@ def fault_exits(
             except DriveFault as error:
                 broken[stand, home.xy] = (place, home, error)
             else:
-                ways_home[stand, home.xy] = replace(step, kind="exit", places=(drive.end,), drive=drive)
+                ways_home[stand, home.xy] = replace(
+                    step, kind="exit", places=(drive.end,), drive=drive, slower_s_per_m=0.0
+                )
     faults = [f for f in homes if f != "low_budget"]
     worst = [(f, _longest(f, homes[f], walks, stops, ways_home, task, robot, leg_costs)) for f in faults]
     return FaultExits(
@@ -99,7 +101,7 @@ def _stops(walks: Sequence[Walk]) -> dict[tuple[int, int], WalkStep]:
         (w, k): step
         for w, walked in enumerate(walks)
         for k, step in enumerate(walked.steps)
-        if step.kind in ("act", "drive") and step.places
+        if step.kind in ("act", "drive", "wait") and step.places
     }
 
 
@@ -152,8 +154,8 @@ def _ended(
     steps, samples = list(walked.steps[: last + 1]), MissionSamples(leg_costs)
     for step in steps:
         if step.drive is not None:
-            samples.drive(step.drive.length_m)
-        elif step.kind == "act":
+            samples.drive(step.drive.length_m, step.slower_s_per_m)
+        elif step.kind in ("act", "wait"):
             samples.work(Work(seconds=step.seconds, joules=step.joules))
     if fault == "action_failed":
         failed = steps[-1]

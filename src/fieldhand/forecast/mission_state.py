@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -62,6 +63,7 @@ class Visit:
         inside_m: Metres driven within the visit after arrival, on the longest branch; their time and energy are not
             included in ``service_s`` and ``service_j``.
         leaves: Place where the visit ends; None if it is ``place``.
+        pace_m_s: Speed limit of the drive to it in m/s; infinite without one.
     """
 
     place: Place
@@ -70,6 +72,7 @@ class Visit:
     service_j: float = 0.0
     inside_m: float = 0.0
     leaves: Place | None = None
+    pace_m_s: float = math.inf
 
     @property
     def work(self) -> Work:

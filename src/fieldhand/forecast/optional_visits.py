@@ -13,6 +13,7 @@ from fieldhand.forecast.request_handler import ForecastHandler
 from fieldhand.forecast.resource_limits import speed_of
 from fieldhand.forecast.service import reward_of, work_of
 from fieldhand.forecast.walk_state import Answers
+from fieldhand.forecast.walk_steps import work_in
 from fieldhand.places.context import Context
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
@@ -88,7 +89,7 @@ class OptionalVisits:
             found = self._longest(node.body, there)
         except (PlaceError, DriveFault):
             return visit
-        if found.place.xy == visit.place.xy:
+        if visit.place.covers(found.place):
             return replace(visit, inside_m=found.inside_m, leaves=found.leaves)
         first = self._drives.between(visit.place, found.place).length_m
         return replace(visit, inside_m=first + found.inside_m, leaves=found.end)
@@ -102,7 +103,7 @@ class OptionalVisits:
             walker = ForecastHandler(self._task, self._site, self._robot, self._drives, answers, context=context)
             steps = walker.along(body)
             legs = [(s.drive.length_m, s.places[0]) for s in steps if s.drive is not None]
-            acts = [s for s in steps if s.kind == "act"]
+            acts = [work_in(s) for s in steps]
             visit = Visit(
                 place=legs[0][1] if legs else context.here,
                 service_s=max(work.seconds, sum(s.seconds for s in acts)),

@@ -68,7 +68,7 @@ class LikelyOptionalWork:
         step = WalkStep(node=node, kind="visit-list", context=walker.context, shed=(*found.shed, *closed))
         walker.note(replace(step, places=found.places, visit_forecast=found.visit_forecast))
         if samples is not None:
-            samples.visit(found.preview, found.works)
+            samples.visit(found.preview, found.works, walker.slower_s_per_m)
         return found.places
 
 

@@ -14,6 +14,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from fieldhand.forecast.conditions import ConditionInputs, evaluate
+from fieldhand.forecast.possible_series import DerivedReading, without_series
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task import conditions as c
@@ -53,10 +54,14 @@ class ConditionOutcomes:
         self._values = dict(_standing_for(root, robot))
         self._outcomes: dict[object, _Outcome] = {}
 
+    def values_of(self, quantity: str) -> _Values:
+        """Return representative values of a quantity."""
+        return self._values.get(quantity, (0.0,))
+
     def measured(self, action: str) -> dict[str, _Values]:
         """Return representative values of each quantity that an action measures."""
         known = self._robot.action.get(action)
-        return {q: self._values.get(q, (0.0,)) for q in known.measures} if known else {}
+        return {q: self.values_of(q) for q in known.measures} if known else {}
 
     def outcome(
         self,
@@ -110,6 +115,15 @@ class BranchReadings:
         self._bound: dict[str, tuple[int, str]] = {}
         self._left: dict[_Taken, _Values] = {}
         self._takings = 0
+        self._sizes: dict[str, int] = {}
+        self._derived: dict[str, DerivedReading] = {}
+
+    def collect(self, reading: str, size: int) -> None:
+        """Record the size of a series, which has another reading or has begun anew."""
+        self._sizes[reading] = size
+        for name in [name for name, derived in self._derived.items() if reading in derived.series]:
+            del self._derived[name]
+            self._bound.pop(name, None)
 
     def take(self, reading: str, action: str) -> None:
         """Record that an action has taken a new reading."""
@@ -124,31 +138,47 @@ class BranchReadings:
 
     def missing(self, condition: Condition) -> tuple[str, ...]:
         """Return the readings that a condition tests but that were not taken."""
-        return tuple(sorted(r for r in c.readings(condition) if r not in self._bound))
+        plain, derived = without_series(condition)
+        names = {d.name for d in derived}
+        single = {r for r in c.readings(plain) - names if r not in self._bound}
+        return tuple(sorted(single | {r for r in c.series(condition) if not self._sizes.get(r)}))
 
     def answers(self, node_id: str, condition: Condition, here: Place) -> tuple[bool, ...]:
         """Return the possible answers to a condition now, at least one."""
-        tested, values = self._tested(condition)
-        found = self._outcomes.outcome(node_id, condition, here, tested, values)
+        plain, tested, values = self._tested(condition)
+        found = self._outcomes.outcome(node_id, plain, here, tested, values)
         return (True, False) if found is None else found.answers
 
     def settle(self, node_id: str, condition: Condition, here: Place, answer: bool) -> None:
         """Restrict the readings to values consistent with an answer."""
-        tested, values = self._tested(condition)
-        found = self._outcomes.outcome(node_id, condition, here, tested, values)
+        plain, tested, values = self._tested(condition)
+        found = self._outcomes.outcome(node_id, plain, here, tested, values)
         if found is None:
             return
         for (reading, quantity), left in zip(tested, found.values[answer], strict=bool(tested)):
             self._left[self._bound[reading][0], quantity] = left
 
-    def _tested(self, condition: Condition) -> tuple[_Tested, tuple[_Values, ...]]:
+    def _tested(self, condition: Condition) -> tuple[Condition, _Tested, tuple[_Values, ...]]:
+        """Return the condition as a test of single values, these, and their possible values."""
+        plain, derived = without_series(condition)
+        for one in derived:
+            self._derive(one)
         tests = {
             (part.reading, part.quantity): self._left.get((self._bound[part.reading][0], part.quantity))
-            for part in c.walk(condition)
+            for part in c.walk(plain)
             if isinstance(part, Compare | Between | Level) and part.reading in self._bound
         }
         known = {test: values for test, values in tests.items() if values is not None}
-        return tuple(known), tuple(known.values())
+        return plain, tuple(known), tuple(known.values())
+
+    def _derive(self, derived: DerivedReading) -> None:
+        """Take a reading that is derived from series, unless it is known or a series is empty."""
+        if derived.name in self._derived or not all(self._sizes.get(name) for name in derived.series):
+            return
+        self._takings += 1
+        self._derived[derived.name] = derived
+        self._bound[derived.name] = (self._takings, "")
+        self._left[self._takings, derived.quantity] = derived.values(self._sizes, self._outcomes.values_of)
 
 
 def _standing_for(root: plan.Node, robot: RobotProfile) -> Iterator[tuple[str, _Values]]:

@@ -8,7 +8,7 @@ it.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 from fieldhand.errors import DriveFault, PlaceError
 from fieldhand.forecast.mission_state import Visit, Work
 from fieldhand.forecast.request_handler import ForecastHandler
-from fieldhand.forecast.resource_limits import speed_of
+from fieldhand.forecast.resource_limits import slower_s_per_m, speed_of
 from fieldhand.forecast.route_cost import RouteCost, route_cost
 from fieldhand.forecast.walk_state import Answers
 from fieldhand.forecast.walk_steps import NodeAnswer, never
@@ -86,7 +86,9 @@ def remaining_work_after(
         DriveFault: No way leads between the remaining visits, or onward from them.
     """
     rest = _most(task, site, robot, drives, following(frames), arrived(context, to_come))
-    return _joined(to_come, rest, drives) if to_come else rest
+    if not to_come:
+        return rest
+    return _joined(to_come, rest, drives, lambda pace: slower_s_per_m(task.constraints, robot, pace))
 
 
 def whole_mission_work(task: Task, site: Site, robot: RobotProfile, drives: Drives, context: Context) -> RemainingWork:
@@ -125,7 +127,10 @@ def optional_runs(frames: Sequence[StackFrame]) -> int:
 
 def following(frames: Sequence[StackFrame]) -> tuple[Node, ...]:
     """Return the nodes after the current one in order, including the remaining rounds of repeats."""
-    return tuple(node for frame in reversed(frames) for node in frame.left)
+    rest: tuple[Node, ...] = ()
+    for frame in reversed(frames):
+        rest = frame.node.around((*rest, *frame.left))
+    return rest
 
 
 def arrived(context: Context, visits: Sequence[Visit]) -> Context:
@@ -135,25 +140,28 @@ def arrived(context: Context, visits: Sequence[Visit]) -> Context:
     known = set(context.visited)
     trees = dict.fromkeys(v.place.id for v in visits if v.place.kind == "tree")
     fresh = [tree for tree in trees if tree not in known]
-    return Context(here=visits[-1].end, visited=(*context.visited, *fresh), bound=context.bound)
+    return replace(context, here=visits[-1].end, visited=(*context.visited, *fresh))
 
 
-def _joined(visits: Sequence[Visit], rest: RemainingWork, drives: Drives) -> RemainingWork:
-    """Return given visits followed by the remaining work."""
+def _joined(
+    visits: Sequence[Visit], rest: RemainingWork, drives: Drives, slower: Callable[[float], float]
+) -> RemainingWork:
+    """Return given visits followed by the remaining work; ``slower`` gives the seconds per metre that a pace adds."""
     legs = [_length(drives, a.end, b.place) for a, b in itertools.pairwise(visits)]
+    added = sum(metres * slower(visit.pace_m_s) for metres, visit in zip(legs, visits[1:], strict=True))
     if rest.first is not None:
         legs.append(_length(drives, visits[-1].end, rest.first))
     return RemainingWork(
         stops=(*(v.place for v in visits), *rest.stops),
         legs_m=(*legs, *rest.legs_m),
-        work=sum((v.work for v in visits), rest.work),
+        work=sum((v.work for v in visits), rest.work + Work(seconds=added)),
         mandatory=True,
         fixed=rest.fixed,
     )
 
 
 def _length(drives: Drives, a: Place, b: Place) -> float:
-    return 0.0 if a.xy == b.xy else drives.between(a, b).length_m
+    return 0.0 if a.covers(b) else drives.between(a, b).length_m
 
 
 def _walk_rest(walker: ForecastHandler, nodes: Sequence[Node]) -> RemainingWork:
@@ -171,13 +179,13 @@ def _walk_rest(walker: ForecastHandler, nodes: Sequence[Node]) -> RemainingWork:
         )
         walked = walker.run(())
     # The walk's own legs cannot be used: if it begins at its current place, the robot will have to come back there.
-    stops = [stop for k, stop in enumerate(walker.stops) if k == 0 or stop.xy != walker.stops[k - 1].xy]
+    stops = [stop for k, stop in enumerate(walker.stops) if k == 0 or not walker.stops[k - 1].covers(stop)]
     seconds, joules = walked.work
     return RemainingWork(
         stops=tuple(stops),
         legs_m=tuple(walker.drives.between(a, b).length_m for a, b in itertools.pairwise(stops)),
         work=Work(seconds=seconds, joules=joules),
-        mandatory=any(s.kind in ("drive", "act") for s in walked.steps),
+        mandatory=any(s.kind in ("drive", "act", "wait") for s in walked.steps),
     )
 
 

@@ -5,6 +5,7 @@ Orders come from :mod:`fieldhand.forecast.visit_order`, as they do on the robot.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, Protocol
 
@@ -76,10 +77,11 @@ class PlannedVisits:
     Args:
         places: Places in visiting order, with stands.
         work: Work of each visit, excluding drives.
+        pace_m_s: Speed limit of the drives to them.
     """
 
-    def __init__(self, places: tuple[Place, ...], work: Work | None = None) -> None:
-        self._places, self._work, self._begun = places, work or Work(), 0
+    def __init__(self, places: tuple[Place, ...], work: Work | None = None, pace_m_s: float = math.inf) -> None:
+        self._places, self._work, self._pace, self._begun = places, work or Work(), pace_m_s, 0
 
     def next(self) -> Place | None:
         """Return the next place; None after the last."""
@@ -92,7 +94,8 @@ class PlannedVisits:
     def to_come(self) -> tuple[Visit, ...]:
         """Return the visits that have not begun."""
         seconds, joules = self._work.seconds, self._work.joules
-        return tuple(Visit(place=p, service_s=seconds, service_j=joules) for p in self._places[self._begun :])
+        left = self._places[self._begun :]
+        return tuple(Visit(place=p, service_s=seconds, service_j=joules, pace_m_s=self._pace) for p in left)
 
 
 class ForecastHandler(WalkState):
@@ -190,6 +193,9 @@ class ForecastHandler(WalkState):
                 return self._bind(label, *places)
             case ask.Capture(node=act):
                 return self._capture(act)
+            case ask.WaitFor(node=node, seconds=seconds):
+                here = (self.context.here,)
+                self.note(WalkStep(node=node, kind="wait", context=self.context, places=here, seconds=seconds))
             case ask.Locate(node=node, selector=selector):
                 if selector is None:
                     return self.context.here
@@ -208,6 +214,8 @@ class ForecastHandler(WalkState):
             case ask.ForgetReading(reading=reading):
                 if self.readings is not None:
                     self.readings.lose(reading)
+            case ask.BeginSeries(reading=reading):
+                self.discard(reading)
             case ask.SetReading(node=act, reading=reading):
                 if self.readings is not None:
                     self.readings.take(reading, act.action)
@@ -222,7 +230,7 @@ class ForecastHandler(WalkState):
             home = visit_order.home_if_last(self.task, self.site, node.id, self.context.here)
             places = visit_order.visits_in_order(node, self.drives, self.context.here, places, home)
             self.note(WalkStep(node=node, kind="visit-list", context=self.context, places=places))
-            return PlannedVisits(places, work_of(node.body, self.robot))
+            return PlannedVisits(places, work_of(node.body, self.robot), self.plan.pace_m_s)
         open_, closed = visit_order.reachable(self.drives, places)
         return PlannedVisits(
             self._optional.visits(self, node, visit_order.with_stands(self.drives, self.context.here, open_), closed)
@@ -238,6 +246,7 @@ class ForecastHandler(WalkState):
         fails = self.plan.is_caught and self.decide(node, "fails")
         # A failing action is assumed to fail at its last capture, at every retry.
         again = retry_work(node, self.robot) if fails else Work()
+        self.collect(node, node.count - fails)
         self.note(
             WalkStep(
                 node=node,

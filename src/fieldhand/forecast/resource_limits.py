@@ -7,6 +7,7 @@ by that factor, all resources become limits of one orienteering problem.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
@@ -71,9 +72,15 @@ class ResourceLimit:
         return (self.limit - self.used(spent)) / self.per_metre
 
 
-def speed_of(constraints: Constraints, robot: RobotProfile) -> float:
-    """Return the speed in m/s: the robot's, or the Task's if slower."""
-    return robot.speed_m_s if constraints.speed_m_s is None else min(constraints.speed_m_s, robot.speed_m_s)
+def speed_of(constraints: Constraints, robot: RobotProfile, pace_m_s: float = math.inf) -> float:
+    """Return the speed in m/s: the robot's, or the Task's or that of the part of the plan (its pace) if slower."""
+    whole = math.inf if constraints.speed_m_s is None else constraints.speed_m_s
+    return min(robot.speed_m_s, whole, pace_m_s)
+
+
+def slower_s_per_m(constraints: Constraints, robot: RobotProfile, pace_m_s: float) -> float:
+    """Return the seconds per metre that a pace adds to those of the rest of the mission; 0 if it is no slower."""
+    return max(0.0, 1.0 / speed_of(constraints, robot, pace_m_s) - 1.0 / speed_of(constraints, robot))
 
 
 def reserve_percent(constraints: Constraints, robot: RobotProfile) -> float:
@@ -82,7 +89,7 @@ def reserve_percent(constraints: Constraints, robot: RobotProfile) -> float:
 
 
 def resource_limits(
-    constraints: Constraints, robot: RobotProfile, charge_percent: float = 100.0
+    constraints: Constraints, robot: RobotProfile, charge_percent: float = 100.0, *, pace_m_s: float = math.inf
 ) -> tuple[ResourceLimit, ...]:
     """Return every limit of a mission: its budgets in order, then the battery reserve.
 
@@ -90,8 +97,9 @@ def resource_limits(
         constraints: Constraints of the Task.
         robot: The robot.
         charge_percent: Battery charge at the start of the mission, 0 to 100.
+        pace_m_s: Speed limit of the part of the plan in which all driving is assumed to take place.
     """
-    speed = speed_of(constraints, robot)
+    speed = speed_of(constraints, robot, pace_m_s)
     per_metre: dict[ResourceKind, float] = {
         "distance_m": 1.0,
         "duration_s": 1.0 / speed,

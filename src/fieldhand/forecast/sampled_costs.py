@@ -30,7 +30,8 @@ class SampledUse:
 
     Attributes:
         metres: Cost of the legs in metres.
-        seconds, joules: Time and energy of actions, without driving and idle power.
+        seconds, joules: Time and energy of actions, without driving and idle power; with the time of waits, and that by
+            which slower drives exceed the mission's speed.
     """
 
     metres: Floats
@@ -81,6 +82,7 @@ class MissionSamples:
     def __init__(self, leg_costs: LegCostSamples) -> None:
         self._leg_costs, self._legs = leg_costs, 0
         self._pending: list[float] = []
+        self._slower = 0.0
         self._metres: Floats = np.zeros(leg_costs.draws)
         self._work = Work()
         self._seconds: Floats | float = 0.0
@@ -96,24 +98,38 @@ class MissionSamples:
     def metres(self) -> Floats:
         """Return the cost of the legs so far for each mission in metres, shape (missions,)."""
         if self._pending:
-            self._metres = self._metres + self._leg_costs.cost(self._legs, tuple(self._pending))
+            self._add(self._leg_costs.cost(self._legs, tuple(self._pending)), self._slower)
             self._legs, self._pending = self._legs + len(self._pending), []
         return self._metres
+
+    def _add(self, cost: Floats, slower_s_per_m: float) -> None:
+        self._metres = self._metres + cost
+        if slower_s_per_m:
+            self._seconds = self._seconds + cost * slower_s_per_m
 
     @property
     def used(self) -> SampledUse:
         """Return the resources used so far."""
-        none = np.zeros(self._leg_costs.draws)
+        none, metres = np.zeros(self._leg_costs.draws), self.metres
         return SampledUse(
-            metres=self.metres,
+            metres=metres,
             seconds=none + (self._work.seconds + self._seconds),
             joules=none + (self._work.joules + self._joules),
         )
 
-    def drive(self, metres: float) -> None:
-        """Add a leg for all missions; after optional visits it begins at each mission's last visit."""
+    def drive(self, metres: float, slower_s_per_m: float = 0.0) -> None:
+        """Add a leg for all missions; after optional visits it begins at each mission's last visit.
+
+        Args:
+            metres: Length of the leg.
+            slower_s_per_m: Seconds per metre that the leg takes beyond those of the mission's speed.
+        """
+        if slower_s_per_m != self._slower:
+            _ = self.metres  # the legs before it were driven at another speed
+            self._slower = slower_s_per_m
         if self._leaving is not None:
-            self._metres = self.metres + self._leaving
+            _ = self.metres
+            self._add(self._leaving, slower_s_per_m)
             self._leaving = None
         else:
             self._pending.append(metres)
@@ -122,10 +138,11 @@ class MissionSamples:
         """Add work for all missions."""
         self._work = self._work + work
 
-    def visit(self, preview: Preview, works: Sequence[Work]) -> None:
+    def visit(self, preview: Preview, works: Sequence[Work], slower_s_per_m: float = 0.0) -> None:
         """Add each mission's optional visits with their work; the preview's vertices are numbered from 1."""
         each = [works[vertex - 1] for vertex in preview.vertices.tolist()]
-        self._metres = self.metres + preview.legs + preview.visited @ np.array([w.metres for w in each])
+        _ = self.metres
+        self._add(preview.legs + preview.visited @ np.array([w.metres for w in each]), slower_s_per_m)
         self._seconds = self._seconds + preview.visited @ np.array([w.seconds for w in each])
         self._joules = self._joules + preview.visited @ np.array([w.joules for w in each])
         self._leaving = preview.last

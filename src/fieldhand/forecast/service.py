@@ -12,7 +12,7 @@ from fieldhand.task.plan import Act, Node
 
 
 def service_of(node: Node, robot: RobotProfile) -> tuple[float, float]:
-    """Return seconds and joules of a node's actions on its longest branch.
+    """Return seconds and joules of a node's actions and waits on its longest branch.
 
     An ``If`` counts with the longer of its two sides, a ``Try`` with its body and its otherwise, a ``Repeat`` with all
     its rounds. A nested ``ForEach`` counts ``at_most`` visits, or one if the site determines their number. Drives and
@@ -26,6 +26,8 @@ def service_of(node: Node, robot: RobotProfile) -> tuple[float, float]:
         return (node.act.count * action.duration_s, node.act.count * action.energy_j)
     if node.is_optional_step:
         return (0.0, 0.0)
+    if node.dwell_s:
+        return (node.dwell_s, 0.0)
     done = itertools.takewhile(lambda child: not child.ends_plan, node.children)
     seconds, joules = zip((0.0, 0.0), *(service_of(child, robot) for child in done), strict=True)
     together = max if node.is_choice else sum

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -62,8 +63,13 @@ def start_place(drives: Drives) -> Place:
 
 def with_stands(drives: Drives, here: Place, places: Sequence[Place]) -> tuple[Place, ...]:
     """Return the places with the robot's stand at each; it stays put for the current place."""
-    at = {p.xy: here for p in (here,) if here.stand is not None and p.kind != "point"}
-    return drives.stands([at.get(p.xy, p) for p in places], here)
+    stands = here.stand is not None and here.kind != "point"
+    return drives.stands([_stay(here, p) if stands and here.covers(p) else p for p in places], here)
+
+
+def _stay(here: Place, place: Place) -> Place:
+    """Return a place with the stand at which the robot is already."""
+    return replace(place, stand=here.stand)
 
 
 def reachable(drives: Drives, places: Sequence[Place]) -> tuple[tuple[Place, ...], tuple[Place, ...]]:
@@ -132,7 +138,8 @@ def steps_in_order(node: AnyOrder, site: Site, drives: Drives, context: Context,
     """Return the order of an any-order set's steps with the least driving between where they begin.
 
     The end of a step does not count, and a step with several places begins at the nearest of them. Steps without a
-    place of their own come last in the given order, as do optional ones that cannot be reached.
+    place of their own, or whose first place readings determine, come last in the given order, as do optional ones that
+    cannot be reached.
 
     Raises:
         PlaceError: A step's place cannot be resolved.
@@ -151,13 +158,17 @@ def steps_in_order(node: AnyOrder, site: Site, drives: Drives, context: Context,
 
 
 def first_places(node: Node, site: Site, context: Context) -> tuple[Place, ...]:
-    """Return the places of a node's first selector; empty if the node stays at the current place."""
+    """Return the places of a node's first selector; empty if the node stays at the current place, or if the readings of
+    the mission determine them.
+    """
     from fieldhand.places.resolution import resolve
 
     for inner in plan.walk(node):
         selector = inner.selector
         if selector is None:
             continue
+        if selector.decided_by_readings:
+            return ()
         try:
             return resolve(selector, site, context)
         except PlaceError as error:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from fieldhand.forecast import visit_order
 from fieldhand.forecast.optional_work import LikelyOptionalWork
 from fieldhand.forecast.request_handler import ForecastHandler, OptionalWorkPolicy
-from fieldhand.forecast.walk_state import Answers
+from fieldhand.forecast.walk_state import Answers, ReadingsAnswer, nothing
 from fieldhand.forecast.walk_steps import NodeAnswer, Walk, never
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -24,6 +24,7 @@ def walk_branch(
     *,
     holds: NodeAnswer,
     fails: NodeAnswer = never,
+    measured: ReadingsAnswer = nothing,
     drives: Drives | None = None,
     charge_percent: float = 100.0,
     optional: OptionalWorkPolicy | None = None,
@@ -35,6 +36,7 @@ def walk_branch(
         site, robot: The site and the robot.
         holds: Called with the id of each ``If`` that is reached, and of a loop with ``until`` after each of its rounds.
         fails: Called with the id of each action inside a ``Try``; actions outside of one never fail in a forecast.
+        measured: Called with the id of each action whose readings the plan uses as a series; unknown by default.
         drives: Drives between places of the site; None to compute them.
         charge_percent: Battery charge at the start of the mission, 0 to 100.
         optional: Policy for optional visits and steps; by default the most probable ones are made.
@@ -50,7 +52,7 @@ def walk_branch(
         site,
         robot,
         ways,
-        Answers(holds=holds, fails=fails),
+        Answers(holds=holds, fails=fails, measured=measured),
         charge_percent,
         optional=optional or LikelyOptionalWork({}),
     )

@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from fieldhand.forecast import visit_order
 from fieldhand.forecast.mission_state import Spent, Work
 from fieldhand.forecast.possible_answers import BranchReadings
-from fieldhand.forecast.resource_limits import speed_of
+from fieldhand.forecast.resource_limits import slower_s_per_m, speed_of
 from fieldhand.forecast.sampled_costs import MissionSamples
 from fieldhand.forecast.walk_steps import Decision, DecisionKind, NodeAnswer, StepKind, WalkStep, never
 from fieldhand.places.context import Context, VisitedIds
+from fieldhand.places.reading_series import ReadingSeries, TakenReading
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
+from fieldhand.task.collected import collected
 from fieldhand.task.frames import Task
 from fieldhand.task.nodes.base import Failed
-from fieldhand.task.plan import Node
+from fieldhand.task.plan import Act, Node
 from fieldhand.task.run import PlanRun
 
 if TYPE_CHECKING:
@@ -29,6 +31,15 @@ def _always(node_id: str) -> bool:  # noqa: ARG001
     return True
 
 
+#: Returns the values of an action's captures, given its id.
+ReadingsAnswer = Callable[[str], Sequence[Mapping[str, float]]]
+
+
+def nothing(node_id: str) -> Sequence[Mapping[str, float]]:  # noqa: ARG001
+    """Answer that no value is known."""
+    return ()
+
+
 @dataclass(frozen=True, kw_only=True)
 class Answers:
     """Sources of the answers that a walk cannot determine itself.
@@ -38,12 +49,15 @@ class Answers:
         fails: Called with the id of each action inside a ``Try``; actions outside of one never fail on a walk.
         blocked: Called with the id of each driving node inside a ``Try``; True if the drive never arrives.
         taken: Called with the id of each optional step, if the walk does not make the most probable choice.
+        measured: Called with the id of each action whose readings are used as a series, for the values of its captures;
+            unknown in a forecast.
     """
 
     holds: NodeAnswer = _always
     fails: NodeAnswer = never
     blocked: NodeAnswer = never
     taken: NodeAnswer = never
+    measured: ReadingsAnswer = nothing
 
     def of(self, kind: DecisionKind) -> NodeAnswer:
         """Return the source of answers to a kind of decision."""
@@ -96,13 +110,14 @@ class WalkState:
         self.bound_for = ""
         #: Execution of the plan, with its current nodes.
         self.plan = PlanRun(task.composition.plan)
+        self._collected = collected(task.composition.plan)
         self.samples = samples
         self.spent = Spent()
         #: Destinations in order, including those at which the walk already was.
         self.stops: list[Place] = []
 
     def _drive_to(self, node: Node, place: Place) -> None:
-        if place.xy != self.context.here.xy or self._stuck:
+        if not self.context.here.covers(place) or self._stuck:
             leg = self._leg(node, "drive", place)
             if self.plan.is_caught and self.decide(node, "blocked"):
                 # Worst case: the whole way is driven, and the robot stops just before the place.
@@ -116,7 +131,7 @@ class WalkState:
         self.stops.append(place)
         if place.kind == "tree":
             self._visited = self._visited.plus(place.id)
-        self._stand(Context(here=place, visited=self._visited, bound=self.context.bound))
+        self._stand(replace(self.context, here=place, visited=self._visited))
 
     def _exit(self, node: Node, home: Place, *, goes: bool) -> None:
         if not goes or (home.xy == self.context.here.xy and not self._stuck):
@@ -128,7 +143,12 @@ class WalkState:
         self.note(leg)
         (home,) = leg.places
         self.stops.append(home)
-        self._stand(Context(here=home, visited=self.context.visited, bound=self.context.bound))
+        self._stand(replace(self.context, here=home))
+
+    @property
+    def slower_s_per_m(self) -> float:
+        """Return the seconds per metre that the pace of the current nodes adds to those of the mission."""
+        return slower_s_per_m(self.task.constraints, self.robot, self.plan.pace_m_s)
 
     @property
     def _stuck(self) -> bool:
@@ -140,14 +160,16 @@ class WalkState:
     def _leg(self, node: Node, kind: StepKind, place: Place) -> WalkStep:
         self.bound_for = node.id
         drive = self.drives.between(self._standing, place)
+        slower = 0.0 if kind == "exit" else self.slower_s_per_m
         return WalkStep(
             node=node,
             kind=kind,
             context=self.context,
             places=(drive.end,),
             drive=drive,
-            seconds=drive.length_m / self._speed,
+            seconds=drive.length_m * (1.0 / self._speed + slower),
             joules=drive.length_m * self.robot.energy.drive_j_per_m,
+            slower_s_per_m=slower,
         )
 
     def decide(self, node: Node, kind: DecisionKind) -> bool:
@@ -170,7 +192,26 @@ class WalkState:
     def _bind(self, label: str, *places: Place) -> None:
         if label:
             bound = {**self.context.bound, label: places}
-            self.context = Context(here=self.context.here, visited=self.context.visited, bound=bound)
+            self.context = replace(self.context, bound=bound)
+
+    def collect(self, node: Act, count: int) -> None:
+        """Add readings taken here by an action to their series, if the plan uses it."""
+        reading = node.reading
+        if reading not in self._collected:
+            return
+        series, known = self.context.series.get(reading, ReadingSeries()), self._answers.measured(node.id)
+        for number in range(count):
+            values = known[number] if number < len(known) else {}
+            series = series.plus(TakenReading(place=self.context.here, values=values))
+        self.context = replace(self.context, series={**self.context.series, reading: series})
+        if self.readings is not None:
+            self.readings.collect(reading, len(series))
+
+    def discard(self, reading: str) -> None:
+        """Begin a series anew."""
+        self.context = replace(self.context, series={k: v for k, v in self.context.series.items() if k != reading})
+        if self.readings is not None:
+            self.readings.collect(reading, 0)
 
     def note(self, step: WalkStep) -> None:
         """Add a step and the resources it uses."""
@@ -178,8 +219,8 @@ class WalkState:
         metres = 0.0 if step.drive is None else step.drive.length_m
         if self.samples is not None and self.plan.optional is None:
             if step.drive is not None:
-                self.samples.drive(metres)
-            elif step.kind == "act":
+                self.samples.drive(metres, step.slower_s_per_m)
+            elif step.kind in ("act", "wait"):
                 self.samples.work(Work(seconds=step.seconds, joules=step.joules))
         self.spent += Spent(
             metres=metres, seconds=step.seconds, percent=self.robot.percent(0.0, step.seconds, step.joules)

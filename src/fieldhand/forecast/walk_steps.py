@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
+from fieldhand.forecast.mission_state import Work
 from fieldhand.forecast.sampled_costs import SampledUse
 from fieldhand.places.context import Context
 from fieldhand.short_repr import short_repr
@@ -15,7 +16,7 @@ from fieldhand.task.plan import Node
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drive
 
-StepKind = Literal["drive", "act", "visit-list", "decide", "exit"]
+StepKind = Literal["drive", "act", "wait", "visit-list", "decide", "exit"]
 DecisionKind = Literal["holds", "fails", "blocked", "taken"]
 
 #: Answers a question about a node, given its id: whether its condition holds, or its action fails.
@@ -62,20 +63,21 @@ class VisitForecast:
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class WalkStep:
-    """A step of a walk: a drive, an action, a decision, a list of visits, or the exit.
+    """A step of a walk: a drive, an action, a wait, a decision, a list of visits, or the exit.
 
     Attributes:
         node: Plan node that the step belongs to; for the exit, the ``Stop`` that takes it or the root of the plan.
         kind: Kind of step. ``visit-list``: a for-each has found its places, or an optional step is decided on (a list
             of the one place where it begins); ``exit``: the way home; the others as named.
         context: The robot's place and visited trees before the step.
-        places: Destination of a drive or an exit, place of an act, or places of a visit list in order.
+        places: Destination of a drive or an exit, place of an act or a wait, or places of a visit list in order.
         shed: Places of a visit list for which the budget will probably not suffice.
         visit_forecast: Forecast of a list of optional visits.
         drive: Path of a drive, or of an exit that includes one.
         captures: Number of captures of an act.
         seconds, joules: Mean time in seconds and energy in joules of the step; energy without idle power.
         answer: Answer of a decision.
+        slower_s_per_m: Seconds per metre of a drive that the pace of its part of the plan adds to those of the mission.
         reached: False for a drive that is blocked just before its end.
     """
 
@@ -90,6 +92,7 @@ class WalkStep:
     seconds: float = 0.0
     joules: float = 0.0
     answer: bool | None = None
+    slower_s_per_m: float = 0.0
     reached: bool = True
 
     __repr__ = short_repr
@@ -124,6 +127,13 @@ class Walk:
 
     @property
     def work(self) -> tuple[float, float]:
-        """Return seconds and joules of all actions."""
-        acts = [s for s in self.steps if s.kind == "act"]
-        return (sum(s.seconds for s in acts), sum(s.joules for s in acts))
+        """Return seconds and joules of all actions and waits, and the seconds added by slower drives."""
+        work = [work_in(s) for s in self.steps]
+        return (sum(w.seconds for w in work), sum(w.joules for w in work))
+
+
+def work_in(step: WalkStep) -> Work:
+    """Return the work of a step: of actions and waits, and the time that a slower drive adds."""
+    if step.kind in ("act", "wait"):
+        return Work(seconds=step.seconds, joules=step.joules)
+    return Work(seconds=0.0 if step.drive is None else step.drive.length_m * step.slower_s_per_m)

@@ -107,10 +107,14 @@ def say_value(value: str | float | bool) -> str:
     return value if isinstance(value, str) else say_number(value)
 
 
-def say_place(kind: str, name: str) -> str:
-    """Return a place in the form that follows "at": "tree 12", "the end"."""
+def say_place(kind: str, name: str, side: str = "") -> str:
+    """Return a place in the form that follows "at": "tree 12", "the east side of tree 12", "the end"."""
+    if kind == "tree" and side in COMPASS:
+        return message("the {side} side of tree {id}", context="log", side=COMPASS[side], id=name)
     if kind == "tree":
         return message("tree {id}", context="log", id=name)
+    if kind == "gap":
+        return name
     return message("the {role}", context="log", role=named(name, "role"))
 
 
@@ -124,6 +128,11 @@ def say_near(kind: str, name: str, *, arrived: bool) -> str:
 def say_tree(tree: str) -> str:
     """Return a tree by its id: "tree 81"."""
     return message("tree {id}", id=tree)
+
+
+def say_side(tree: str, side: Side) -> str:
+    """Return a side of a tree: "the east side of tree 81"."""
+    return message("the {side} side of {tree}", side=COMPASS[side], tree=say_tree(tree))
 
 
 def say_marker(name: str) -> str:
@@ -166,6 +175,16 @@ def say_duration(seconds: float) -> str:
         return f"{seconds:.0f} s"
     minutes = round(seconds / 60)
     return f"{minutes} min" if minutes < 100 else f"{minutes // 60} h {minutes % 60:02d} min"
+
+
+def say_wait(seconds: float) -> str:
+    """Return a duration without rounding it to minutes: "45 s", "2 min 30 s", "1 h 30 min"."""
+    if seconds < 60 or seconds != round(seconds) or seconds > _YEARS_S:
+        return joined(" ", (say_number(seconds), "s"))
+    minutes, rest = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    parts = [f"{hours} h" if hours else "", f"{minutes} min" if minutes else "", f"{rest} s" if rest else ""]
+    return " ".join(filter(None, parts))
 
 
 def say_times(count: int) -> str:

@@ -10,6 +10,7 @@ from fieldhand.site.model import Site
 from fieldhand.task.build import make_task
 from fieldhand.task.frames import Budget, Constraints, Resource, Task, Then
 from fieldhand.task.plan import Node
+from fieldhand.task.watches import Watch
 from fieldhand.task.ways import Avoid, OnlyGate
 
 
@@ -24,6 +25,7 @@ def build_task(
     then: Then = "return_to_end",
     avoid: Sequence[Avoid] = (),
     only_gates: Sequence[str] = (),
+    watches: Sequence[Watch] = (),
 ) -> Task:
     """Build a Task for a site and a robot; :func:`review` checks it as it checks every Task.
 
@@ -37,6 +39,7 @@ def build_task(
         then: Where the robot goes when the plan is done.
         avoid: Places that the robot keeps away from.
         only_gates: Names of the gates that it may pass; empty for all gates.
+        watches: Conditions checked throughout the mission, each with its response.
     """
     return make_task(
         request=request,
@@ -53,4 +56,5 @@ def build_task(
             only_gates=tuple(OnlyGate(gate=gate) for gate in only_gates),
         ),
         nominal=then,
+        watches=tuple(watches),
     )

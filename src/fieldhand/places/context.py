@@ -6,6 +6,7 @@ import itertools
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
 
+from fieldhand.places.reading_series import SeriesByName
 from fieldhand.site.model import Place
 
 
@@ -60,8 +61,10 @@ class Context:
         here: Current place; the start before the first drive.
         visited: Ids of the visited trees in order, each once.
         bound: Places by label.
+        series: Readings taken so far, by their name, of those that the plan uses as a series.
     """
 
     here: Place
     visited: Collection[str] = ()
     bound: Mapping[str, tuple[Place, ...]] = field(default_factory=dict)
+    series: SeriesByName = field(default_factory=dict)

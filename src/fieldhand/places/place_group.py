@@ -20,7 +20,7 @@ class PlaceGroup:
 
     Attributes:
         index: For each place the index of its tree on the site, or ``-1 - k`` for place ``k`` of ``others``.
-        others: Places that are not trees of the site: markers and free points.
+        others: Places that are not trees of the site (markers and free points), and sides of trees.
     """
 
     site: Site
@@ -38,7 +38,7 @@ class PlaceGroup:
         index: dict[int, None] = {}
         others: dict[Place, int] = {}
         for place in places:
-            tree = site.by_id.get(place.id) if place.kind == "tree" else None
+            tree = site.by_id.get(place.id) if place.kind == "tree" and not place.side else None
             index.setdefault(tree.index if tree else -1 - others.setdefault(place, len(others)))
         return PlaceGroup(site=site, index=np.array(list(index), dtype=np.intp), others=tuple(others))
 

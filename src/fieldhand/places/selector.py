@@ -32,8 +32,8 @@ if TYPE_CHECKING:
     from fieldhand.terms import MarkerName, Side
 
 #: State that determines the places of a selector: only the site; the robot's position, which affects the choice but not
-#: the existence of places; or the mission so far.
-DependsOn = Literal["site", "nearness", "mission"]
+#: the existence of places; the mission so far; or the values that it has read.
+DependsOn = Literal["site", "nearness", "mission", "readings"]
 
 #: Reference group of a region around a selector (rules: :mod:`fieldhand.places`). ``own``: the selector itself.
 #: ``region``: the selector applied to the reference group of its ``of``. ``of``: the reference group of its ``of``, as
@@ -126,6 +126,16 @@ class Selector(ABC):
     def members(self) -> tuple[Selector, ...]:
         """The selectors whose places it joins: the parts of a union; for any other selector, the selector itself."""
         return (self,)
+
+    @property
+    def by_series(self) -> tuple[str, str] | None:
+        """The name and quantity of the readings of this mission by which it selects; None for other selectors."""
+        return None
+
+    @property
+    def decided_by_readings(self) -> bool:
+        """True if the values that the mission reads determine the places."""
+        return any(part.depends_on == "readings" for part in self.walk())
 
     @property
     def any_of(self) -> Selector | None:

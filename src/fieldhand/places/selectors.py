@@ -29,21 +29,28 @@ from fieldhand.places.neighbours.adjacent import Adjacent
 from fieldhand.places.neighbours.farthest import Farthest
 from fieldhand.places.neighbours.nearest import Nearest
 from fieldhand.places.picks.apart import Apart
+from fieldhand.places.picks.by_reading import ByReading
 from fieldhand.places.picks.evenly import Evenly
 from fieldhand.places.picks.first import First
+from fieldhand.places.picks.group_by_reading import GroupByReading
 from fieldhand.places.picks.last import Last
 from fieldhand.places.picks.nth import Nth
 from fieldhand.places.picks.ordered import Ordered
+from fieldhand.places.picks.quota import Quota
 from fieldhand.places.picks.random_sample import RandomSample
 from fieldhand.places.picks.spread import Spread
 from fieldhand.places.picks.take import Take
 from fieldhand.places.picks.top import Top
+from fieldhand.places.points.beside import Beside
+from fieldhand.places.points.grid import Grid
 from fieldhand.places.points.points_in import PointsIn
 from fieldhand.places.points.spaced import Spaced
+from fieldhand.places.points.transect import Transect
 from fieldhand.places.rows.across import Across
 from fieldhand.places.rows.along_row import AlongRow
 from fieldhand.places.rows.every_nth import EveryNth
 from fieldhand.places.rows.in_row import InRow
+from fieldhand.places.rows.missing import Missing
 from fieldhand.places.rows.row_of import RowOf
 from fieldhand.places.rows.rows import Rows
 from fieldhand.places.rows.successive import Successive
@@ -80,12 +87,15 @@ SELECTORS: tuple[type[Selector], ...] = (
     Excluding,
     Where,
     Top,
+    ByReading,
+    GroupByReading,
     InZone,
     Within,
     Take,
     RandomSample,
     Spread,
     Evenly,
+    Quota,
     InBlock,
     Rows,
     RowOf,
@@ -94,10 +104,14 @@ SELECTORS: tuple[type[Selector], ...] = (
     AlongRow,
     Across,
     Successive,
+    Missing,
     Ordered,
     Nth,
     Spaced,
     Apart,
     PointsIn,
+    Beside,
+    Grid,
+    Transect,
     UnionOf,
 )

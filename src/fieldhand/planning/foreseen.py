@@ -16,7 +16,7 @@ def foreseeable(selector: Selector) -> Iterator[Selector]:
     such parts are searched from the start.
     """
     near_start = selector.from_start
-    if not any(part.depends_on == "mission" for part in near_start.walk()):
+    if not any(part.depends_on in ("mission", "readings") for part in near_start.walk()):
         yield near_start
         return
     for part in selector.inner:

@@ -270,6 +270,30 @@ def as_some(selector: s.Selector) -> s.Take | None:
     return selector if isinstance(selector, s.Take) else None
 
 
+def of_each(selector: s.Selector, per: str, whole: s.Selector) -> s.Quota | None:
+    """Return a number of any trees, or of those drawn at random, as so many of each group; None for other selectors.
+
+    Args:
+        selector: Trees of one group.
+        per: Groups, as in :class:`~fieldhand.places.picks.quota.Quota`.
+        whole: Trees of all groups.
+    """
+    match selector:
+        case s.Take() if selector.of != s.NotVisited():
+            return s.Quota(per=per, count=selector.count, of=over(selector.of, whole))
+        case s.RandomSample():
+            return s.Quota(per=per, count=selector.count, how="random", seed=selector.seed, of=over(selector.of, whole))
+        case s.Quota() if not selector.per:
+            return replace(selector, per=per, of=over(selector.of, whole))
+        case _:
+            return None
+
+
+def as_quota(selector: s.Selector) -> s.Quota | None:
+    """Return the selector if it selects a number or a share of each group, None otherwise."""
+    return selector if isinstance(selector, s.Quota) else None
+
+
 def is_next_to_here(selector: s.Selector) -> bool:
     """Return True for trees that stand next to where the robot is."""
     return isinstance(selector, s.Nearest) and selector.adjacent and selector.to == s.Here()

@@ -48,6 +48,10 @@ class MissionOptions:
     store: Annotated[
         Path | None, typer.Option("--store", help="Folder of its missions; else in the user's state folder.")
     ] = None
+    timezone: Annotated[
+        str,
+        typer.Option("--timezone", help="Time zone of missions that state none, such as Europe/Rome."),
+    ] = ""
     resume: Annotated[bool, typer.Option("--resume", help="Resume an interrupted mission after a power cut.")] = False
 
 
@@ -66,7 +70,7 @@ class AgentSimulationOptions:
 
 
 @grouped(
-    "robot site store host port cert key token_file insecure resume world seed speed"
+    "robot site store host port cert key token_file insecure resume timezone world seed speed"
     " on domain namespace sim_time driver_option lenient"
 )
 def agent(
@@ -96,6 +100,7 @@ def agent(
         speed=speed,
         lenient=missions.lenient,
         connection=connection,
+        zone=missions.timezone,
         warn=_warn,
     )
     try:
@@ -103,6 +108,7 @@ def agent(
         robot_agent.supervisor.write_missing_report()
         if missions.resume and (interrupted := robot_agent.supervisor.continue_interrupted()):
             print_error(f"going on with mission {interrupted[:16]}")
+        robot_agent.supervisor.timetables.begin_watch()
         _serve(app, listen.host, listen.port, tls, token)
     finally:
         robot_agent.close()

@@ -6,9 +6,9 @@ import time
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from dataclasses import dataclass, field
-from datetime import UTC, datetime
+from datetime import UTC, datetime, tzinfo
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypedDict
 
 from fieldhand.delivery.mission_store import MissionStore
 from fieldhand.delivery.mission_supervisor import MissionSupervisor
@@ -78,7 +78,8 @@ class RobotAgent:
         self.supervisor.pause_for_exit(wait)
 
     def close(self) -> None:
-        """Pause the running mission, and close all connections and the store."""
+        """Pause the running mission, begin no other run, and close all connections and the store."""
+        self.supervisor.timetables.close()
         self.pause_for_exit()
         self.resources.close()
         self.mission_store.close()
@@ -95,6 +96,7 @@ def compose_robot_agent(
     speed: float | None = None,
     lenient: bool = False,
     connection: Connection | None = None,
+    zone: str = "",
     warn: Callable[[str], None],
 ) -> RobotAgent:
     """Compose the agent of a robot.
@@ -109,6 +111,7 @@ def compose_robot_agent(
         speed: Simulated seconds per second; None for as fast as possible.
         lenient: True to read sites leniently.
         connection: Connection to the robot, opened for each mission; None for the simulation.
+        zone: Time zone of the robot, for timetables that state none; empty for that of this machine.
         warn: Prints a warning when the cost of a mission cannot be recorded.
 
     Raises:
@@ -123,6 +126,7 @@ def compose_robot_agent(
     from fieldhand.execution.drivers.simulation.world_file import load_world
     from fieldhand.robot.loader import load_robot
     from fieldhand.site.loader import open_site
+    from fieldhand.timetable.day_times import local_zone, zone_of
 
     profile = load_robot(robot)
     places = tuple(open_site(one, lenient=lenient) for one in sites)
@@ -141,6 +145,12 @@ def compose_robot_agent(
         admit=admit,
     )
     reviews = ReviewCache()
+
+    def lasts(bundle: Bundle) -> float:
+        estimate = reviews.review(bundle.authorized, bundle.site, bundle.robot).estimate
+        return 0.0 if estimate is None else max(branch.seconds.p90 for branch in estimate.branches)
+
+    times: _Times = {"now": _now, "zone": zone_of(zone, local_zone(environ)), "lasts": lasts}
     conclude = partial(_conclude, reviews, finished_missions.history_folder(environ), warn)
     if connection is None:
         supervisor = MissionSupervisor(
@@ -150,6 +160,7 @@ def compose_robot_agent(
             check=partial(_require_valid, reviews, simulated_world),
             conclude=conclude,
             seed=seed,
+            **times,
         )
         return RobotAgent(robot=profile, sites=places, mission_store=mission_store, supervisor=supervisor)
     from fieldhand.execution.drivers.registry import driver_kind
@@ -171,12 +182,20 @@ def compose_robot_agent(
         sites=places,
         mission_store=mission_store,
         supervisor=MissionSupervisor(
-            mission_store, carry=connector.carry, check=connector.check, conclude=conclude, seed=seed
+            mission_store, carry=connector.carry, check=connector.check, conclude=conclude, seed=seed, **times
         ),
         on=str(connection),
         missing=missing or tuple,
         resources=resources,
     )
+
+
+class _Times(TypedDict):
+    """Clock, time zone and durations for the supervisor of missions."""
+
+    now: Callable[[], datetime]
+    zone: tzinfo
+    lasts: Callable[[Bundle], float]
 
 
 def _now() -> datetime:

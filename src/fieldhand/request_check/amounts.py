@@ -114,6 +114,8 @@ def _amount(
         return made
     if after in w.LENGTHS and (pace := _pace(tokens, k + 1)):
         return replace(made, kind="speed", values=(value * w.LENGTHS[after] / pace,))
+    if after in w.SPEEDS:
+        return replace(made, kind="speed", values=(value * w.SPEEDS[after],))
     if after in w.LENGTHS:
         return replace(made, kind="length", values=(value * w.LENGTHS[after],))
     if after in w.TIMES:

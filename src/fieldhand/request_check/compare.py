@@ -7,6 +7,7 @@ of the plan that do not follow from the request.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import accumulate, takewhile
 
 from fieldhand.language import Number, message
@@ -21,6 +22,7 @@ from fieldhand.request_check.plan_facts import PlanFacts, PlannedCaptures, Plann
 from fieldhand.request_check.request_facts import RequestFacts, hints, request_facts
 from fieldhand.request_check.selector_sizes import SelectorSizes
 from fieldhand.request_check.thresholds import threshold_mismatches
+from fieldhand.request_check.times import without_stated_times
 from fieldhand.request_check.unsupported import unsupported_words
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -40,9 +42,11 @@ def mismatches(task: Task, site: Site, robot: RobotProfile) -> tuple[PlanMismatc
 
     A plan without contradictions may still be wrong.
     """
-    request = task.command.read_as or task.command.request
+    request = without_stated_times(task.command.read_as or task.command.request, task)
     sizes = SelectorSizes(task, site)
-    facts, plan = request_facts(request, robot, site), plan_facts(task, sizes.of_node)
+    waits = [watch for watch in task.composition.watches if watch.response == "wait"]
+    longest = tuple(robot.patience.event_wait_s if one.at_most_s is None else one.at_most_s for one in waits)
+    facts, plan = request_facts(request, robot, site), replace(plan_facts(task, sizes.of_node), waits=longest)
     found = [
         *_sensors(facts, plan, robot),
         *_counts(facts, plan, sizes),
@@ -90,7 +94,8 @@ def _counts(facts: RequestFacts, plan: PlanFacts, sizes: SelectorSizes) -> Itera
         n = int(amount.values[0]) if float(amount.values[0]).is_integer() else 0
         if amount.kind not in ("captures", "trees", "corners") or n < 2 or facts.negated(amount.index):
             continue
-        if amount.compared or n in _explained(plan, amount) or n in _visited(plan, sizes):
+        counted = {value for test in plan.tests if test.quantity and not test.unit for value in test.values}
+        if amount.compared or n in _explained(plan, amount) or n in _visited(plan, sizes) or n in counted:
             continue
         yield PlanMismatch(
             kind="count",
@@ -195,4 +200,6 @@ def _by_itself(facts: RequestFacts, number: PlannedNumber) -> bool:
     """Return True if a number follows without being stated, such as one row of "each row"."""
     if number.selector is InRow and facts.words & _PARTS:
         return True  # the trees of the first half of a row
+    if number.field == "legs" and facts.words.isdisjoint(w.LEGS):
+        return True  # a V has two legs, an N three, a diagonal one
     return facts.vague or (number.selector is Rows and bool(facts.words & {"each", "every", "all", "per"}))

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
+from itertools import takewhile
 
 from fieldhand.language import Number, message
 from fieldhand.request_check.amounts import StatedAmount
 from fieldhand.request_check.mismatch import PlanMismatch
 from fieldhand.request_check.plan_facts import PlanFacts
 from fieldhand.request_check.request_facts import RequestFacts
-from fieldhand.request_check.words import words_in
+from fieldhand.request_check.words import TREES, quoted, words_in
 from fieldhand.task.frames import BudgetKind
 
 _KINDS: dict[BudgetKind, tuple[str, str]] = {
@@ -28,7 +30,16 @@ _LIMITS = words_in("""
     """)
 #: Relative tolerance for rounded conversions.
 _CLOSE = 0.02
-_PARTS = {"half": 0.5, "quarter": 0.25, "third": 1 / 3}
+#: Words that ask for a speed by other means than its number.
+_SPEEDS = frozenset({"slow", "slowly", "slower", "speed", "pace", "fast", "faster", "throttle"})
+#: Words of waits, and the number of words behind one within which its time is stated.
+_WAITS = words_in(
+    "wait waits waiting pause pauses pausing linger lingering dwell settle settling stay staying stop stopping"
+)
+_NEAR = 4
+_PARTS = {
+    "half": 0.5, "quarter": 0.25, "third": 1 / 3, "fifth": 0.2, "tenth": 0.1, "thirds": 2 / 3, "quarters": 0.75,
+}  # fmt: skip
 
 
 def limit_mismatches(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
@@ -36,6 +47,7 @@ def limit_mismatches(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMisma
     for amount in facts.amounts:
         if amount.kind == "percent":
             yield from _battery(facts, plan, amount)
+            yield from _share(facts, plan, amount)
         elif amount.kind in ("time", "length"):
             yield from _dropped(facts, plan, amount)
         elif amount.kind == "speed" and not _drives(plan, amount.values[0]):
@@ -44,6 +56,7 @@ def limit_mismatches(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMisma
             )
             yield PlanMismatch(kind="limit", what=what_differs)
     yield from _invented(facts, plan)
+    yield from _waits(facts, plan)
     if facts.as_many and not any(getattr(node, "optional", False) for node in plan.nodes):
         yield PlanMismatch(
             kind="limit",
@@ -70,12 +83,27 @@ def _battery(facts: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> Iter
         )
 
 
+def _share(facts: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> Iterator[PlanMismatch]:
+    """Yield a share of the trees in the request that the plan lacks ("10 % of the vines")."""
+    near = [token.text for token in facts.tokens[amount.index + 1 : amount.index + 8]]
+    behind = list(takewhile(lambda word: word not in ".,;:!?", near))
+    if "of" not in behind[:2] or TREES.isdisjoint(behind) or BATTERY & set(behind) or facts.negated(amount.index):
+        return
+    if not any(number.kind == "percent" and _close(number.value, amount.values[0]) for number in plan.numbers):
+        yield PlanMismatch(
+            kind="count",
+            what=message("the request says '{amount}', which the plan does not contain", amount=amount.words),
+        )
+
+
 def _dropped(facts: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> Iterator[PlanMismatch]:
     """Yield a stated distance or time that the plan lacks."""
     value = amount.values[0]
     limit: BudgetKind = "distance_m" if amount.kind == "length" else "duration_s"
     have = [b.limit for b in plan.task.constraints.budgets if b.kind == limit]
     have += [x for test in plan.tests for x in test.values]
+    have += [node.dwell_s for node in plan.nodes if node.dwell_s] if amount.kind == "time" else []
+    have += plan.waits
     if amount.kind == "length":
         have += [number.value for number in plan.numbers if number.kind == "length"]
         have += _parameters(plan)
@@ -95,9 +123,38 @@ def _dropped(facts: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> Iter
 
 
 def _drives(plan: PlanFacts, metres_per_second: float) -> bool:
-    """Return True if the plan limits its speed to this value."""
-    speed = plan.task.constraints.speed_m_s
-    return speed is not None and _close(speed, metres_per_second)
+    """Return True if the plan limits the speed of the mission or of a part to this value, or watches for it."""
+    if any(test.unit in ("m/s", "km/h") and _close(metres_per_second, x) for test in plan.tests for x in test.values):
+        return True
+    return any(_close(speed, metres_per_second) for _, speed in _speeds(plan))
+
+
+def _speeds(plan: PlanFacts) -> list[tuple[str, float]]:
+    """Return the speed limits of a plan, each with its node; that of the whole mission without one."""
+    whole = plan.task.constraints.speed_m_s
+    parts = [(node.id, node.pace_m_s) for node in plan.nodes if math.isfinite(node.pace_m_s)]
+    return [*([] if whole is None else [("", whole)]), *parts]
+
+
+def _waits(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
+    """Yield waits of the request that the plan lacks, and waits of the plan whose time the request does not state."""
+    planned = [node for node in plan.nodes if node.dwell_s]
+    if not planned and not plan.waits:
+        for amount in facts.amounts:
+            near = facts.tokens[max(0, amount.index - _NEAR) : amount.index]
+            before = {token.text for token in near if token.sentence == amount.sentence}
+            if amount.kind == "time" and _WAITS & before and not facts.negated(amount.index):
+                what = message(
+                    "the request says '{words}', but nothing in the plan waits",
+                    words=quoted(facts.tokens[amount.index - 1 : amount.index + 2]),
+                )
+                yield PlanMismatch(kind="limit", what=what)
+    for node in planned:
+        if not any(_close(node.dwell_s, x) for x in _stated(facts, "time")):
+            what = message(
+                "the plan waits {seconds} s, which the request does not mention", seconds=Number(f"{node.dwell_s:g}")
+            )
+            yield PlanMismatch(kind="limit", what=what, node=node.id)
 
 
 def _parameters(plan: PlanFacts) -> list[float]:
@@ -130,15 +187,27 @@ def _invented(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
                 percent=Number(f"{reserve:g}"),
             ),
         )
-    speed = plan.task.constraints.speed_m_s
-    if speed is not None and not any(_close(speed, x) for a in facts.amounts for x in a.values):
+    for node, speed in _speeds(plan):
+        if facts.words & _SPEEDS or any(_close(speed, x) for a in facts.amounts for x in a.values):
+            continue
         yield PlanMismatch(
             kind="limit",
             what=message(
                 "the plan drives at {speed} m/s, which the request does not mention", speed=Number(f"{speed:g}")
             ),
+            node=node,
         )
     for number in plan.numbers:
+        if number.kind == "percent" and not any(_close(number.value, x) for x in _stated(facts, "percent")):
+            yield PlanMismatch(
+                kind="count",
+                what=message(
+                    "the plan holds {number} % ({what}), which the request does not mention",
+                    number=Number(f"{number.value:g}"),
+                    what=number.what,
+                ),
+                node=number.node,
+            )
         if number.kind == "length" and not any(_close(number.value, x) for x in _stated(facts, "length")):
             yield PlanMismatch(
                 kind="distance",

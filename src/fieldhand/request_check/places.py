@@ -320,7 +320,9 @@ def _ends(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMism
     driven = any(
         n.only_drives and n.selector is not None and n.selector.named_marker == facts.returns for n in plan.nodes
     )
-    if plan.task.composition.nominal != wanted and not driven:
+    composition = plan.task.composition
+    ends = {composition.nominal, *(end for watch in composition.watches for end in (watch.response, watch.fallback))}
+    if wanted not in ends and not driven:
         yield PlanMismatch(
             kind="return",
             what=message("the request ends at the {marker}, but the plan does not", marker=facts.returns),

@@ -16,8 +16,10 @@ from fieldhand.places.count_range import ONE, CountRange, exactly
 from fieldhand.places.selector import Selector
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
+from fieldhand.task.aggregates import CompareSeries, CountReadings, MeanKnown
 from fieldhand.task.codec_shapes import element_name
 from fieldhand.task.frames import Task
+from fieldhand.task.watches import EventBeyond, ReadingBeyond
 from fieldhand.terms import Side, Test, Value
 
 #: Opposite sides.
@@ -78,13 +80,13 @@ class PlannedTest:
 
 @dataclass(frozen=True, kw_only=True)
 class PlannedNumber:
-    """A whole number or distance in a selector or node that differs from the default.
+    """A whole number, share or distance in a selector or node that differs from the default.
 
     Attributes:
         node: Id of the node.
         what: Name of the number, for messages.
         value: The number.
-        kind: ``count`` for a whole number, ``length`` for metres.
+        kind: ``count`` for a whole number, ``length`` for metres, ``percent`` for a share of a group.
         field: Field of the selector or the node.
         selector: Class of the selector; None for a number of the node itself.
     """
@@ -92,14 +94,14 @@ class PlannedNumber:
     node: str
     what: str
     value: float
-    kind: Literal["count", "length"]
+    kind: Literal["count", "length", "percent"]
     field: str
     selector: type[Selector] | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
 class PlanFacts:
-    """The facts of a Task: its plan nodes in order, every selector of these, captures, tests and numbers."""
+    """The facts of a Task: its plan nodes in order, every selector of these, captures, tests, numbers and waits."""
 
     task: Task
     nodes: tuple[p.Node, ...]
@@ -107,6 +109,7 @@ class PlanFacts:
     captures: tuple[PlannedCaptures, ...]
     tests: tuple[PlannedTest, ...]
     numbers: tuple[PlannedNumber, ...]
+    waits: tuple[float, ...] = ()
 
     def having(self, *classes: type) -> Iterator[tuple[str, Selector]]:
         """Return the selectors of some classes, each with its node."""
@@ -185,9 +188,21 @@ def plan_facts(task: Task, size: Callable[[str], int | None]) -> PlanFacts:
         nodes=nodes,
         selectors=selectors,
         captures=tuple(_captures(root, _Surroundings(), size)),
-        tests=tuple(_tests(nodes, selectors)),
+        tests=(*_tests(nodes, selectors), *_watched(task)),
         numbers=(*_numbers(nodes, selectors), *_kept_distances(task)),
     )
+
+
+def _watched(task: Task) -> Iterator[PlannedTest]:
+    """Yield the thresholds that the mission watches."""
+    for watch in task.composition.watches:
+        match watch.condition:
+            case EventBeyond(event=name, test=test, value=value, unit=unit):
+                yield PlannedTest(node="", quantity=name, attribute="", test=test, values=(value,), unit=unit)
+            case ReadingBeyond(quantity=name, test=test, value=value, unit=unit):
+                yield PlannedTest(node="", quantity=name, attribute="", test=test, values=(value,), unit=unit)
+            case _:
+                pass
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -285,10 +300,30 @@ def _tested(part: c.Condition, node: str) -> Iterator[PlannedTest]:
             yield PlannedTest(
                 node=node, quantity=part.quantity, attribute="", test="level", values=(), level=part.level,
             )  # fmt: skip
+        case CountReadings(condition=inner, number=number, percent=percent) if not _in_words(part):
+            unit = "percent" if percent else ""
+            yield PlannedTest(
+                node=node, quantity=inner.quantity, attribute="", test=part.test, values=(number,), unit=unit,
+            )  # fmt: skip
+        case MeanKnown(percent=percent, value=value) if within := percent or value:
+            unit = "percent" if percent else part.unit
+            yield PlannedTest(
+                node=node, quantity=part.quantity, attribute="", test="le", values=(within,), unit=unit,
+            )  # fmt: skip
+        case CompareSeries(value=by) if by:
+            yield PlannedTest(
+                node=node, quantity=part.quantity, attribute="", test=part.test, values=(abs(by),), unit=part.unit,
+            )  # fmt: skip
         case c.TreeHas(value=value) if isinstance(value, float | int) and not isinstance(value, bool):
             yield PlannedTest(node=node, quantity="", attribute=part.attribute, test=part.test, values=(float(value),))
         case _:
             return
+
+
+def _in_words(condition: CountReadings) -> bool:
+    """Return True for a number of readings that requests say in words: any, none, all, most, half."""
+    whole = (50, 100) if condition.percent else (0, 1)
+    return condition.number in whole or (condition.percent and condition.number == 0)
 
 
 def _kept_distances(task: Task) -> Iterator[PlannedNumber]:
@@ -325,6 +360,6 @@ def _numbers(nodes: tuple[p.Node, ...], selectors: tuple[tuple[str, Selector], .
             what = re.sub("[-_]", " ", f"{element_name(type(x))} {field.name}")
             number = partial(PlannedNumber, node=name, what=what, field=field.name, selector=type(x))
             if isinstance(value, float):
-                yield number(value=value, kind="length")
+                yield number(value=value, kind="percent" if field.name == "percent" else "length")
             elif isinstance(value, int) and abs(value) > 1:
                 yield number(value=abs(value), kind="count")

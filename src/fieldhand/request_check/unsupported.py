@@ -1,4 +1,4 @@
-"""Report parts of a request that no plan can express: times of day, schedules, past days, waiting.
+"""Report parts of a request that no plan can express, such as past days, and times that this one does not.
 
 They are recognized by words alone; names of the site ("the Sunday block") do not count.
 """
@@ -38,12 +38,6 @@ _PAST = (
     rf"yesterday(?: (?:{_PARTS}))?|last (?:{_PARTS}|{_DAYS}|week|month|time)",
     rf"{_AMOUNT} (?:hours?|days?|weeks?|months?) ago|earlier today",
 )
-_WAITING = (
-    r"(?<!for there i )(?<!for there we )(?<!for here i )"
-    r"(?:wait|waits|waiting|pause|pauses|pausing|linger|lingers)(?: there| here)?"
-    rf"(?: (?:for )?(?:{_AMOUNT} )?(?:seconds?|minutes?|hours?|while))?",
-    rf"stay (?:there |here )?for (?:{_AMOUNT} )?(?:seconds?|minutes?|hours?|while)",
-)
 
 
 def _pattern(forms: tuple[str, ...]) -> re.Pattern[str]:
@@ -51,9 +45,8 @@ def _pattern(forms: tuple[str, ...]) -> re.Pattern[str]:
 
 
 _KINDS = (
-    (_pattern(_SCHEDULES), message("a plan cannot contain times or days: it runs once, when it is approved")),
+    (_pattern(_SCHEDULES), message("the plan says nothing of it, or another time")),
     (_pattern(_PAST), message("a plan has no access to earlier missions")),
-    (_pattern(_WAITING), message("a plan cannot contain waiting")),
 )
 #: Times at which a mission may be to start anyway, if they are all that a request says of time.
 _START = _pattern((r"this (?:morning|afternoon|evening)", r"(?:before|after) (?:lunch|lunchtime)"))
@@ -68,7 +61,7 @@ _REMARKS = _KINDS[1][0]
 
 
 def unsupported_words(facts: RequestFacts) -> Iterator[PlanMismatch]:
-    """Yield a contradiction for each part of the request that no plan can express."""
+    """Yield a contradiction for each part of the request that no plan can express, and for times that it lacks."""
     starts: dict[int, int] = {}
     at = 0
     for k, token in enumerate(facts.tokens):

@@ -71,6 +71,10 @@ TIMES = {
     **dict.fromkeys(["min", "mins", "minute", "minutes"], 60.0),
     **dict.fromkeys(["h", "hr", "hrs", "hour", "hours"], 3600.0),
 }
+#: Words of speeds of one token, in metres per second.
+SPEEDS = {
+    **dict.fromkeys(["mph"], 0.44704), **dict.fromkeys(["kmh", "kph"], 1 / 3.6), "mps": 1.0, "fps": 0.3048,
+}  # fmt: skip
 AGES = words_in("""
     year years yr yrs month months kg kilo kilos kilogram kilograms lb lbs pound pounds g t ton tons
     """)
@@ -102,6 +106,8 @@ TREES = words_in("""
     locations site sites position positions ones them these those
     """)
 CORNERS = frozenset({"corner", "corners"})
+#: Words for the legs of a zigzag.
+LEGS = words_in("leg legs segment segments stroke strokes")
 ROWS = frozenset({"row", "rows"})
 #: Words that end the noun phrase that a number counts.
 ENDS_PHRASE = words_in("""

@@ -24,6 +24,9 @@ NavigationType = Literal[
     "nav2_msgs/action/NavigateToPose", "nav2_msgs/action/NavigateThroughPoses", "nav2_msgs/action/FollowGPSWaypoints"
 ]
 
+#: Action type for a path on which an implement works: waypoints to drive through, or the path itself.
+WorkingType = Literal["nav2_msgs/action/NavigateThroughPoses", "nav2_msgs/action/FollowPath"]
+
 #: Meaning of a navigation failure code for a mission: a fault kind of ``execution/drivers/protocol.py``.
 NavigationFault = Literal["failed", "blocked", "lost"]
 
@@ -108,6 +111,30 @@ class CallBinding:
 
 
 @dataclass(frozen=True, kw_only=True)
+class SwitchBinding:
+    """The switch of an implement: a service that is called, or a topic to which is published.
+
+    Attributes:
+        kind: ``service`` or ``topic``.
+        name: Name of the service or topic.
+        type: Its type.
+        on, off: Values of the request or message by path, as in :class:`CallBinding`; without a reference to the place.
+        success: Path of the success flag of a service; empty if there is none.
+        message: Path of the text that explains a failure; empty if there is none.
+        within_s: Maximum time from sending the request to the response, in seconds.
+    """
+
+    kind: Literal["service", "topic"]
+    name: str
+    type: str
+    on: Mapping[str, RequestValue] = field(default_factory=dict)
+    off: Mapping[str, RequestValue] = field(default_factory=dict)
+    success: str = ""
+    message: str = ""
+    within_s: float = 5.0
+
+
+@dataclass(frozen=True, kw_only=True)
 class ActionBinding:
     """Execution of an action of the profile: a call, readings from topics, or a call followed by readings.
 
@@ -115,10 +142,12 @@ class ActionBinding:
         call: ROS action or service to call; None if the action only reads topics.
         topics: Quantities read from topics, each from the next message after the call; if none arrives in time, from
             the last message since the call was sent.
+        switch: Switch of an implement; None for an action at a place.
     """
 
     call: CallBinding | None = None
     topics: Mapping[str, NextMessage] = field(default_factory=dict)
+    switch: SwitchBinding | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -155,6 +184,9 @@ class NavigationBinding:
         quiet_s: Seconds without feedback after which navigation counts as lost.
         slower: Maximum duration of a drive, as a multiple of its length divided by its speed, plus ``extra_s``.
         extra_s: Seconds added to the maximum duration of a drive.
+        working: Action type for the paths of implements; empty to use ``type``.
+        working_action: Name of that action.
+        controller: Controller that follows these paths; empty for Nav2's default.
     """
 
     action: str
@@ -171,6 +203,9 @@ class NavigationBinding:
     quiet_s: float = 15.0
     slower: float = 5.0
     extra_s: float = 60.0
+    working: WorkingType | Literal[""] = ""
+    working_action: str = ""
+    controller: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -204,6 +239,23 @@ class StopBinding:
     stopped: bool = True
 
 
+@dataclass(frozen=True, kw_only=True)
+class EventBinding:
+    """An event in a message: the value of a measured event, or the test under which an event holds.
+
+    Attributes:
+        value: Value in the message, true and false as 1 and 0; a path that names a list gives its length.
+        equals: Value at which the event holds.
+        above, below: Threshold beyond which it holds.
+    """
+
+    topic: TopicBinding
+    value: FieldBinding
+    equals: float | None = None
+    above: float | None = None
+    below: float | None = None
+
+
 @dataclass(frozen=True, kw_only=True, repr=False)
 class Ros2Bindings:
     """The ROS 2 interfaces of a robot.
@@ -219,6 +271,7 @@ class Ros2Bindings:
         actions: Bindings by action name; an action without one cannot be executed on this robot.
         interfaces: Definitions of non-standard types by type, as in ``.msg``, ``.srv`` and ``.action`` files.
         use_sim_time: True for a simulated robot that publishes its time on ``/clock``.
+        events: Bindings by event name; an event without one is unknown on this robot.
     """
 
     distro: Distro
@@ -231,6 +284,7 @@ class Ros2Bindings:
     actions: Mapping[str, ActionBinding] = field(default_factory=dict)
     interfaces: Mapping[str, str] = field(default_factory=dict)
     use_sim_time: bool = False
+    events: Mapping[str, EventBinding] = field(default_factory=dict)
 
     __repr__ = short_repr
 

@@ -13,7 +13,7 @@ from typing import Annotated, Literal, get_args
 
 from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator, model_validator
 
-from fieldhand.robot.bindings import Distro, NavigationFault, NavigationType, RequestValue
+from fieldhand.robot.bindings import Distro, NavigationFault, NavigationType, RequestValue, WorkingType
 from fieldhand.robot.fields import IdentifierField, Keyed, NumberField, Positive, UnitField, no_bool
 
 #: Maximum length of a name; ROS requires shorter ones.
@@ -168,15 +168,67 @@ class ServiceCallDocument(_CallDocument):
     type: ServiceType
 
 
+#: Types of switches for which the values and the success flag need not be given.
+_SWITCH_TYPES = {
+    "std_srvs/srv/SetBool": ("data", "success", "message"),
+    "std_msgs/msg/Bool": ("data", None, None),
+}
+
+
+class SwitchDocument(Keyed):
+    """The switch of an implement: ``{service: mower/enable}``, or a topic."""
+
+    service: RosName | None = None
+    topic: RosName | None = None
+    type: AnyType | None = None
+    enable: Annotated[dict[FieldPath, Constant], Field(max_length=100)] = Field(default_factory=dict)
+    disable: Annotated[dict[FieldPath, Constant], Field(max_length=100)] = Field(default_factory=dict)
+    success: FieldPath | None = None
+    message: FieldPath | None = None
+    within_s: TimeLimitField = 5.0
+
+    @property
+    def whole_type(self) -> str:
+        """Return the type: that of the file, else the standard one of its kind."""
+        return self.type or ("std_srvs/srv/SetBool" if self.service is not None else "std_msgs/msg/Bool")
+
+    @property
+    def values(self) -> tuple[dict[str, RequestValue], dict[str, RequestValue], str, str]:
+        """Return the values that switch it on and off, and the paths of success flag and message."""
+        flag, success, message = _SWITCH_TYPES.get(self.whole_type, (None, None, None))
+        on = self.enable or ({} if flag is None else {flag: True})
+        off = self.disable or ({} if flag is None else {flag: False})
+        return on, off, self.success or success or "", self.message or message or ""
+
+    @model_validator(mode="after")
+    def _one_switch(self) -> SwitchDocument:
+        if (self.service is None) == (self.topic is None):
+            raise ValueError("give either service or topic, the switch of the implement")
+        kind = "srv" if self.service is not None else "msg"
+        if f"/{kind}/" not in self.whole_type:
+            raise ValueError(f"the type {self.whole_type} does not belong to it; write package/{kind}/Name")
+        on, off, _, _ = self.values
+        if not on or not off or on == off:
+            raise ValueError("enable and disable must differ; give the values that switch the implement on and off")
+        if self.topic is not None and (self.success is not None or self.message is not None):
+            raise ValueError("a topic answers nothing; leave success and message out")
+        return self
+
+
 class ActionBindingDocument(Keyed):
-    """The binding of an action of the profile: a call, topics, or both."""
+    """The binding of an action of the profile: a call, topics, or both; for an implement its switch."""
 
     action: ActionCallDocument | None = None
     service: ServiceCallDocument | None = None
     topics: dict[str, NextMessageDocument] = Field(default_factory=dict)
+    switch: SwitchDocument | None = None
 
     @model_validator(mode="after")
     def _by_something(self) -> ActionBindingDocument:
+        if self.switch is not None:
+            if self.action is not None or self.service is not None or self.topics:
+                raise ValueError("switch belongs to an implement; leave action, service and topics out")
+            return self
         if self.action is not None and self.service is not None:
             raise ValueError("both action and service are given; give only one of them")
         if self.action is None and self.service is None and not self.topics:
@@ -209,6 +261,9 @@ class NavigationDocument(Keyed):
     quiet_s: TimeLimitField = 15.0
     slower: Annotated[NumberField, Field(ge=1, le=100)] = 5.0
     extra_s: Annotated[NumberField, Field(ge=0, le=3600)] = 60.0
+    working: Annotated[WorkingType, BeforeValidator(_navigation)] | None = None
+    working_action: RosName | None = None
+    controller: Annotated[str, Field(max_length=100)] = ""
 
     @model_validator(mode="after")
     def _one_map(self) -> NavigationDocument:
@@ -251,6 +306,22 @@ class StopDocument(_TopicDocument):
     stale_s: Stale = 10.0
 
 
+class EventBindingDocument(_TopicDocument, _ConvertedDocument):
+    """A topic that reports an event."""
+
+    type: MessageType = "std_msgs/msg/Bool"
+    equals: bool | NumberField | None = None
+    above: NumberField | None = None
+    below: NumberField | None = None
+    stale_s: Stale = 10.0
+
+    @model_validator(mode="after")
+    def _one_test(self) -> EventBindingDocument:
+        if sum(test is not None for test in (self.equals, self.above, self.below)) > 1:
+            raise ValueError("several tests are given; give only one of equals, above and below")
+        return self
+
+
 class Ros2Document(Keyed):
     """The ``ros2`` part of a profile."""
 
@@ -263,6 +334,7 @@ class Ros2Document(Keyed):
     odometry: OdometryDocument | None = None
     stop: StopDocument | None = None
     actions: dict[IdentifierField, ActionBindingDocument] = Field(default_factory=dict)
+    events: dict[IdentifierField, EventBindingDocument] = Field(default_factory=dict)
     interfaces: Annotated[dict[AnyType, Annotated[str, AfterValidator(_text)]], Field(max_length=_MOST_INTERFACES)] = (
         Field(default_factory=dict)
     )

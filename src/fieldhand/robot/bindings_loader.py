@@ -17,17 +17,20 @@ from fieldhand.robot.bindings import (
     BatteryBinding,
     CallBinding,
     Datum,
+    EventBinding,
     FieldBinding,
     NavigationBinding,
     NextMessage,
     PositionBinding,
     Ros2Bindings,
     StopBinding,
+    SwitchBinding,
     TopicBinding,
 )
 from fieldhand.robot.bindings_document import (
     ActionBindingDocument,
     BatteryDocument,
+    EventBindingDocument,
     NavigationDocument,
     NextMessageDocument,
     OdometryDocument,
@@ -35,18 +38,19 @@ from fieldhand.robot.bindings_document import (
     ReadingDocument,
     Ros2Document,
     StopDocument,
+    SwitchDocument,
 )
 from fieldhand.robot.units import STANDARD_FIELDS, conversion, known_units
 
 if TYPE_CHECKING:
-    from fieldhand.robot.document import ActionDocument, ProfileDocument
+    from fieldhand.robot.document import ActionDocument, EventDocument, ProfileDocument
 
 #: Default time limit of a call: this multiple of the action's duration, at least this many seconds.
 _TIMES, _LEAST_S = 3.0, 30.0
 #: Default wait for the next message of a topic, in seconds.
 _NEXT_S = 10.0
 
-Valued = ReadingDocument | NextMessageDocument | BatteryDocument
+Valued = ReadingDocument | NextMessageDocument | BatteryDocument | EventBindingDocument
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,12 +86,14 @@ def bindings_of(document: ProfileDocument) -> Ros2Bindings | None:
         else StopBinding(topic=_topic(ros2.stop), path=ros2.stop.path, stopped=ros2.stop.stopped),
         actions={name: _action(bound, document.actions[name], units) for name, bound in ros2.actions.items()},
         interfaces=ros2.interfaces,
+        events={name: _event(bound, document.events[name]) for name, bound in ros2.events.items()},
     )
 
 
 def _binding_problems(document: ProfileDocument, ros2: Ros2Document) -> Iterator[ProfileProblem]:
     units = {name: quantity.unit for name, quantity in document.quantities.items()}
     yield from _unreadable(ros2.battery, ros2.battery.type, "percent", "ros2.battery")
+    yield from _event_problems(document, ros2)
     for name, bound in ros2.actions.items():
         where = f"ros2.actions.{name}"
         action = document.actions.get(name)
@@ -97,6 +103,7 @@ def _binding_problems(document: ProfileDocument, ros2: Ros2Document) -> Iterator
             )
             continue
         yield from _requests(bound, action, where)
+        yield from _switches(bound, action, where)
         yield from _sources(bound, action, where)
         call = bound.action or bound.service
         for quantity, reading in call.readings.items() if call is not None else ():
@@ -106,6 +113,33 @@ def _binding_problems(document: ProfileDocument, ros2: Ros2Document) -> Iterator
         for quantity, message in bound.topics.items():
             if quantity in units:
                 yield from _unreadable(message, message.type, units[quantity], f"{where}.topics.{quantity}")
+
+
+def _event_problems(document: ProfileDocument, ros2: Ros2Document) -> Iterator[ProfileProblem]:
+    for name, bound in ros2.events.items():
+        where, event = f"ros2.events.{name}", document.events.get(name)
+        if event is None:
+            what = f"the profile has no event {name!r}"
+            yield ProfileProblem(path=where, what=what, advice=_nearest(name, document.events))
+            continue
+        tested = (bound.equals, bound.above, bound.below) != (None, None, None)
+        if event.unit is not None:
+            if tested:
+                what = "a measured event has no equals, above or below here"
+                yield ProfileProblem(path=where, what=what, advice="put its threshold into events, or leave it out")
+            yield from _unreadable(bound, bound.type, event.unit, where)
+        elif bound.unit is not None:
+            what = "an event that is true or false has no unit"
+            yield ProfileProblem(path=where, what=what, advice="leave unit out")
+
+
+def _event(bound: EventBindingDocument, event: EventDocument) -> EventBinding:
+    if event.unit is not None:
+        return EventBinding(topic=_topic(bound), value=_field(bound, bound.type, event.unit))
+    value = FieldBinding(path=bound.path or "data", scale=bound.scale or 1.0, offset=bound.offset or 0.0)
+    tested = (bound.above, bound.below) != (None, None)
+    equals = None if tested else 1.0 if bound.equals is None else float(bound.equals)
+    return EventBinding(topic=_topic(bound), value=value, equals=equals, above=bound.above, below=bound.below)
 
 
 def _requests(bound: ActionBindingDocument, action: ActionDocument, where: str) -> Iterator[ProfileProblem]:
@@ -120,6 +154,29 @@ def _requests(bound: ActionBindingDocument, action: ActionDocument, where: str) 
                 what=f"{value!r} is neither a parameter of the action nor the place",
                 advice=_nearest(value, known),
             )
+
+
+def _switches(bound: ActionBindingDocument, action: ActionDocument, where: str) -> Iterator[ProfileProblem]:
+    """Yield an implement without a switch, a switch without an implement, and unknown references in its values."""
+    if (bound.switch is None) != (action.implement is None):
+        implement = action.implement is not None
+        yield ProfileProblem(
+            path=where,
+            what="the action is on while driving, but has no switch" if implement else "only an implement has a switch",
+            advice="give switch with a service or a topic" if implement else "give action, service or topics",
+        )
+        return
+    if bound.switch is None:
+        return
+    known = [f"${name}" for name in action.parameters]
+    for key, values in (("enable", bound.switch.enable), ("disable", bound.switch.disable)):
+        for path, value in values.items():
+            if isinstance(value, str) and value.startswith("$") and value not in known:
+                yield ProfileProblem(
+                    path=f"{where}.switch.{key}.{path}",
+                    what=f"{value!r} is not a parameter of the action",
+                    advice=_nearest(value, known) if known else "give a constant",
+                )
 
 
 def _sources(bound: ActionBindingDocument, action: ActionDocument, where: str) -> Iterator[ProfileProblem]:
@@ -175,7 +232,9 @@ def _place_and_unit(valued: Valued, type_name: str) -> tuple[str, str]:
     return valued.path or path, unit
 
 
-def _topic(document: PositionDocument | BatteryDocument | OdometryDocument | StopDocument) -> TopicBinding:
+def _topic(
+    document: PositionDocument | BatteryDocument | OdometryDocument | StopDocument | EventBindingDocument,
+) -> TopicBinding:
     return TopicBinding(
         topic=document.topic,
         type=document.type,
@@ -187,13 +246,16 @@ def _topic(document: PositionDocument | BatteryDocument | OdometryDocument | Sto
 
 def _navigation(document: NavigationDocument) -> NavigationBinding:
     datum = document.datum
-    values = document.model_dump(exclude={"datum", "action", "from_ll", "speed_limit"})
+    values = document.model_dump(exclude={"datum", "action", "from_ll", "speed_limit", "working", "working_action"})
+    working = document.working or ""
     return NavigationBinding(
         **values,
         action=document.action or _USUAL_NAMES[document.type],
         datum=None if datum is None else Datum(lat=datum.lat, lon=datum.lon, heading_deg=datum.heading_deg),
         from_ll=document.from_ll or "",
         speed_limit=document.speed_limit or "",
+        working=working,
+        working_action=document.working_action or (_USUAL_NAMES[working] if working else ""),
     )
 
 
@@ -202,12 +264,14 @@ _USUAL_NAMES = {
     "nav2_msgs/action/NavigateToPose": "navigate_to_pose",
     "nav2_msgs/action/NavigateThroughPoses": "navigate_through_poses",
     "nav2_msgs/action/FollowGPSWaypoints": "follow_gps_waypoints",
+    "nav2_msgs/action/FollowPath": "follow_path",
 }
 
 
 def _action(bound: ActionBindingDocument, action: ActionDocument, units: dict[str, str]) -> ActionBinding:
     return ActionBinding(
         call=_call(bound, action, units),
+        switch=None if bound.switch is None else _switch(bound.switch),
         topics={
             name: NextMessage(
                 topic=message.topic,
@@ -234,6 +298,20 @@ def _call(bound: ActionBindingDocument, action: ActionDocument, units: dict[str,
         success=call.success or "",
         message=call.message or "",
         within_s=call.within_s or max(_LEAST_S, _TIMES * action.duration_s),
+    )
+
+
+def _switch(switch: SwitchDocument) -> SwitchBinding:
+    on, off, success, message = switch.values
+    return SwitchBinding(
+        kind="service" if switch.service is not None else "topic",
+        name=switch.service or switch.topic or "",
+        type=switch.whole_type,
+        on=on,
+        off=off,
+        success=success,
+        message=message,
+        within_s=switch.within_s,
     )
 
 

@@ -12,3 +12,4 @@ _FOLDER = resources.files("fieldhand.robot") / "profiles"
 
 AMIGA = _FOLDER / "amiga.yaml"
 HUSKY = _FOLDER / "husky.yaml"
+TRACTOR = _FOLDER / "tractor.yaml"

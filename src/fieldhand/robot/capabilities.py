@@ -9,6 +9,7 @@ from fieldhand.task.capabilities import (
     ActionCapability,
     Capabilities,
     ChoiceParameter,
+    EventCapability,
     NumberParameter,
     QuantityCapability,
 )
@@ -22,6 +23,7 @@ def capabilities_of(profile: RobotProfile) -> Capabilities:
             for a in profile.actions
         },
         quantities={q.name: QuantityCapability(unit=q.unit, levels=tuple(q.levels)) for q in profile.quantities},
+        events={e.name: EventCapability(unit=e.unit, holds=e.can_hold) for e in profile.events},
     )
 
 

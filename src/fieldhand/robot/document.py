@@ -12,6 +12,7 @@ from typing import Annotated
 from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
 from fieldhand.robot.bindings_document import Ros2Document
+from fieldhand.robot.events import CLEAR_S, Unheard
 from fieldhand.robot.fields import (
     IdentifierField,
     Keyed,
@@ -22,6 +23,7 @@ from fieldhand.robot.fields import (
     each_once,
     no_bool,
 )
+from fieldhand.robot.implement import ImplementSide, rate_unit
 from fieldhand.robot.model import HOLD_S, InDoubtPolicy
 from fieldhand.task.capabilities import RESERVED_ACTIONS
 
@@ -135,8 +137,27 @@ class ParameterDocument(Keyed):
         return self
 
 
+class ImplementDocument(Keyed):
+    """Properties of an action that is on while the robot drives."""
+
+    speed_m_s: Positive
+    power_w: NotNegative = 0.0
+    width_m: Breadth | None = None
+    side: ImplementSide = "both"
+    rate: IdentifierField | None = None
+    tank: Positive | None = None
+    on_delay_s: Annotated[NumberField, Field(ge=0, le=60)] = 0.0
+    off_delay_s: Annotated[NumberField, Field(ge=0, le=60)] = 0.0
+
+    @model_validator(mode="after")
+    def _amounts(self) -> ImplementDocument:
+        if self.tank is not None and self.rate is None:
+            raise ValueError("tank is given without rate; name the parameter with the rate, such as rate: rate_l_ha")
+        return self
+
+
 class ActionDocument(Keyed):
-    """An action that the robot performs at a place."""
+    """An action that the robot performs at a place, or with ``implement`` while it drives."""
 
     labels: LanguageLabels = Field(default_factory=dict)
     description: str = ""
@@ -144,11 +165,67 @@ class ActionDocument(Keyed):
     verbs: Synonyms = ()
     measures: Annotated[tuple[str, ...], AfterValidator(each_once)] = ()
     parameters: dict[IdentifierField, ParameterDocument] = Field(default_factory=dict)
-    duration_s: Positive
-    energy_j: NotNegative
+    duration_s: Positive | None = None
+    energy_j: NotNegative | None = None
     retries: Retries | None = None
     retry_wait_s: Wait | None = None
     in_doubt: InDoubtPolicy = "repeat"
+    implement: ImplementDocument | None = None
+
+    @model_validator(mode="after")
+    def _at_a_place_or_along_a_path(self) -> ActionDocument:
+        implement = self.implement
+        if implement is None:
+            for key, value in (("duration_s", self.duration_s), ("energy_j", self.energy_j)):
+                if value is None:
+                    raise ValueError(f"the key {key!r} is missing; add it, or implement if it is on while driving")
+            return self
+        if self.duration_s is not None or self.energy_j is not None:
+            raise ValueError(
+                "duration_s and energy_j belong to an action at a place; leave them out, implement has speed_m_s and"
+                " power_w"
+            )
+        if self.measures:
+            raise ValueError(
+                "an implement measures nothing; leave measures out, and add an action that reads at a place"
+            )
+        if implement.rate is not None:
+            parameter = self.parameters.get(implement.rate)
+            if parameter is None:
+                raise ValueError(f"rate names {implement.rate!r}, which is not a parameter of the action; add it")
+            unit = rate_unit(parameter.unit or "")
+            if unit is None:
+                raise ValueError(
+                    f"the unit {parameter.unit!r} of {implement.rate!r} is not that of a rate; write an amount per ha,"
+                    " m2, m or km, such as l/ha"
+                )
+            if unit.area_m2 and implement.width_m is None:
+                raise ValueError("the rate is per area, so width_m is needed; add the working width in metres")
+        return self
+
+
+class EventDocument(Keyed):
+    """An event that the robot detects all the time: true or false, or with ``unit`` a measured value."""
+
+    description: Annotated[str, AfterValidator(_label)]
+    words: Annotated[Synonyms, Field(min_length=1)]
+    verbs: Synonyms = ()
+    states: Synonyms = ()
+    unit: UnitField | None = None
+    above: NumberField | None = None
+    below: NumberField | None = None
+    typical: NumberField = 0.0
+    clear_s: Annotated[NumberField, Field(ge=0, le=3600)] = CLEAR_S
+    unless_heard: Unheard = "holds"
+    labels: LanguageLabels = Field(default_factory=dict)
+
+    @model_validator(mode="after")
+    def _measured(self) -> EventDocument:
+        if self.unit is None and (self.above, self.below, self.typical) != (None, None, 0.0):
+            raise ValueError("above, below and typical need a unit; an event without one is true or false")
+        if self.above is not None and self.below is not None:
+            raise ValueError("give either above or below, not both")
+        return self
 
 
 class PatienceDocument(Keyed):
@@ -157,6 +234,7 @@ class PatienceDocument(Keyed):
     retry_wait_s: Wait = 0.0
     blocked_wait_s: Wait = 60.0
     lost_wait_s: Wait = 60.0
+    event_wait_s: Annotated[NumberField, Field(ge=1, le=86_400)] = 3600.0
 
 
 class EnergyDocument(Keyed):
@@ -206,16 +284,20 @@ class ProfileDocument(Keyed):
     speed_m_s: Positive
     width_m: Breadth
     standoff_m: Breadth | None = None
+    slow_m_s: Positive | None = None
     retries: Retries = 1
     patience: PatienceDocument = PatienceDocument()
     energy: EnergyDocument
     leg_cost: LegCostDocument
     quantities: dict[IdentifierField, QuantityDocument] = Field(default_factory=dict)
     actions: Annotated[dict[IdentifierField, ActionDocument], Field(min_length=1)]
+    events: dict[IdentifierField, EventDocument] = Field(default_factory=dict)
     ros2: Ros2Document | None = None
 
     @model_validator(mode="after")
     def _stands_beside_the_tree(self) -> ProfileDocument:
+        if self.slow_m_s is not None and self.slow_m_s > self.speed_m_s:
+            raise ValueError(f"slow_m_s {self.slow_m_s:g} is more than speed_m_s ({self.speed_m_s:g})")
         if self.standoff_m is not None and self.standoff_m < self.width_m / 2:
             raise ValueError(
                 f"standoff_m {self.standoff_m:g} is less than half of width_m ({self.width_m / 2:g}): the robot would"

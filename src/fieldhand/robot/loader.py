@@ -19,11 +19,15 @@ from fieldhand.plugins import Plugin, active
 from fieldhand.robot.bindings_loader import ProfileProblem, binding_problems, bindings_of
 from fieldhand.robot.document import (
     ActionDocument,
+    EventDocument,
+    ImplementDocument,
     LevelDocument,
     ParameterDocument,
     ProfileDocument,
     QuantityDocument,
 )
+from fieldhand.robot.events import MonitoredEvent
+from fieldhand.robot.implement import Implement
 from fieldhand.robot.model import Action, Energy, LegCost, LevelThreshold, Parameter, Patience, Quantity, RobotProfile
 from fieldhand.strict_yaml import YamlFault, read_yaml
 
@@ -256,6 +260,7 @@ def _profile(document: ProfileDocument, *, sha256: str, source: str) -> RobotPro
         actions=tuple(_action(name, a) for name, a in document.actions.items()),
         quantities=tuple(_quantity(name, q) for name, q in document.quantities.items()),
         speed_m_s=document.speed_m_s,
+        slow_m_s=document.slow_m_s,
         width_m=document.width_m,
         standoff_m=document.width_m / 2 + CANOPY_M if document.standoff_m is None else document.standoff_m,
         energy=Energy(
@@ -272,6 +277,7 @@ def _profile(document: ProfileDocument, *, sha256: str, source: str) -> RobotPro
         retries=document.retries,
         patience=Patience(**document.patience.model_dump()),
         ros2=bindings_of(document),
+        events=tuple(_event(name, e) for name, e in document.events.items()),
         sha256=sha256,
         source=source,
     )
@@ -291,11 +297,19 @@ def _quantity(name: str, document: QuantityDocument) -> Quantity:
     )
 
 
+def _event(name: str, document: EventDocument) -> MonitoredEvent:
+    return MonitoredEvent(name=name, **{**dict(document), "unit": document.unit or ""})
+
+
 def _level(document: LevelDocument) -> LevelThreshold:
     if document.below is not None:
         return LevelThreshold(direction="below", value=document.below)
     assert document.above is not None  # noqa: S101  LevelDocument has exactly one of the two
     return LevelThreshold(direction="above", value=document.above)
+
+
+#: Duration in the model of an action that is on while driving, whose time is that of the path.
+_SWITCH_S = 1.0
 
 
 def _action(name: str, document: ActionDocument) -> Action:
@@ -304,15 +318,21 @@ def _action(name: str, document: ActionDocument) -> Action:
         words=document.words,
         verbs=document.verbs,
         measures=document.measures,
-        duration_s=document.duration_s,
-        energy_j=document.energy_j,
+        duration_s=_SWITCH_S if document.duration_s is None else document.duration_s,
+        energy_j=document.energy_j or 0.0,
         parameters=tuple(_parameter(key, p) for key, p in document.parameters.items()),
         description=document.description,
         labels=document.labels,
         retries=document.retries,
         retry_wait_s=document.retry_wait_s,
         in_doubt=document.in_doubt,
+        implement=None if document.implement is None else _implement(document.implement),
     )
+
+
+def _implement(document: ImplementDocument) -> Implement:
+    values = document.model_dump()
+    return Implement(**values | {"rate": document.rate or ""})
 
 
 def _parameter(name: str, document: ParameterDocument) -> Parameter:

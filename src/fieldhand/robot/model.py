@@ -9,6 +9,8 @@ from pathlib import Path
 from typing import Any, Literal
 
 from fieldhand.robot.bindings import Ros2Bindings
+from fieldhand.robot.events import MonitoredEvent
+from fieldhand.robot.implement import Implement
 from fieldhand.short_repr import short_repr
 
 Direction = Literal["below", "above"]
@@ -89,6 +91,7 @@ class Action:
         retry_wait_s: Seconds between two attempts; None for :attr:`Patience.retry_wait_s`.
         in_doubt: Handling of a capture interrupted by a power cut: ``repeat``, or ``skip`` if doing it twice does harm,
             as cutting a leaf.
+        implement: Properties of an action that is on while the robot drives; None for one that is done at a place.
     """
 
     name: str
@@ -103,6 +106,7 @@ class Action:
     retries: int | None = None
     retry_wait_s: float | None = None
     in_doubt: InDoubtPolicy = "repeat"
+    implement: Implement | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -113,11 +117,13 @@ class Patience:
         retry_wait_s: Seconds before a failed drive or action is retried.
         blocked_wait_s: Seconds to wait for an obstacle in the only way to a place.
         lost_wait_s: Seconds to wait for the position to return.
+        event_wait_s: Seconds to wait for an event to be over where the Task sets no maximum.
     """
 
     retry_wait_s: float = 0.0
     blocked_wait_s: float = 60.0
     lost_wait_s: float = 60.0
+    event_wait_s: float = 3600.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -213,6 +219,8 @@ class RobotProfile:
         source: Name or path from which the profile was loaded.
         patience: Waiting times for faults.
         ros2: ROS 2 interfaces; None for a robot that is only simulated.
+        slow_m_s: Driving speed that "slowly" means in a request, in metres per second; None to ask.
+        events: Events that it detects all the time.
     """
 
     name: str
@@ -229,6 +237,8 @@ class RobotProfile:
     source: str = ""
     patience: Patience = Patience()
     ros2: Ros2Bindings | None = None
+    slow_m_s: float | None = None
+    events: tuple[MonitoredEvent, ...] = ()
 
     __repr__ = short_repr
 
@@ -255,9 +265,19 @@ class RobotProfile:
         return {a.name: a for a in self.actions}
 
     @cached_property
+    def implements(self) -> Mapping[str, Action]:
+        """Return the actions that are on while the robot drives, by name."""
+        return {a.name: a for a in self.actions if a.implement is not None}
+
+    @cached_property
     def quantity(self) -> Mapping[str, Quantity]:
         """Return the quantities by name."""
         return {q.name: q for q in self.quantities}
+
+    @cached_property
+    def event(self) -> Mapping[str, MonitoredEvent]:
+        """Return the events by name."""
+        return {e.name: e for e in self.events}
 
     def percent(self, metres: float, seconds: float, action_j: float = 0.0) -> float:
         """Return the energy of driving, idling and actions in percent of a full battery.

@@ -20,7 +20,7 @@ from shapely.geometry import Point
 
 from fieldhand.errors import DriveFault
 from fieldhand.language import message
-from fieldhand.language.words import listed, say_marker, say_number, say_tree
+from fieldhand.language.words import listed, say_marker, say_number, say_side, say_tree
 from fieldhand.site.driving.lane_choice import RowVisits, choose_lanes, pick_candidate
 from fieldhand.site.driving.layout import Layout, Spot
 from fieldhand.site.driving.network import DrivableNetwork, network_of
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from fieldhand.site.closed_ground import ClosedGround
 
 XY = tuple[float, float]
-DriveKey = tuple[str, str, XY, XY | None]
+DriveKey = tuple[tuple[str, str, str], XY, XY | None]
 
 #: Number of drives that are kept; guards look again and again at the drives between the stops that remain.
 _MOST_DRIVES = 20_000
@@ -114,7 +114,7 @@ class Drives:
 
     def _shortest(self, a: Place, b: Place) -> Drive:
         self._check((a, b))
-        if a.stand is None and b.stand is None and a.xy == b.xy:
+        if a.stand is None and b.stand is None and a == b:
             a = b = self.stands((a,))[0]
         best: tuple[tuple[XY, ...], float] | None = None
         for one in self._able(a):
@@ -428,7 +428,7 @@ class Drives:
 
 
 def _key(place: Place) -> DriveKey:
-    return place.kind, place.id, place.xy, place.stand
+    return place.key, place.xy, place.stand
 
 
 def _out_of_reach(closed: Sequence[ClosedGround]) -> str:
@@ -439,5 +439,5 @@ def _out_of_reach(closed: Sequence[ClosedGround]) -> str:
 
 def _called(place: Place) -> str:
     if place.kind == "tree":
-        return say_tree(place.id)
+        return say_side(place.id, place.side) if place.side else say_tree(place.id)
     return say_marker(place.id) if place.kind == "marker" else place.id

@@ -13,6 +13,7 @@ from contextlib import contextmanager
 from functools import lru_cache
 from importlib import resources
 from pathlib import Path
+from typing import Literal, get_args
 
 from fieldhand.site.build_site import build
 from fieldhand.site.features import parse_features
@@ -22,40 +23,54 @@ from fieldhand.site.formats.geojson import geojson_records
 from fieldhand.site.formats.records import MAX_BYTES, SiteRecords, too_big
 from fieldhand.site.model import Site
 
+#: The sites of the package: an orchard and a vineyard.
+BuiltInSite = Literal["demo", "vineyard"]
+BUILT_IN_SITES: tuple[BuiltInSite, ...] = get_args(BuiltInSite)
+
+
+def built_in_path(name: str) -> Path:
+    """Return the path of the file of a built-in site, one of :data:`BUILT_IN_SITES`."""
+    return Path(str(resources.files("fieldhand.site") / "data" / f"{name}.geojson"))
+
 
 def demo_path() -> Path:
     """Return the path of the built-in orchard's file."""
-    return Path(str(resources.files("fieldhand.site") / "data" / "demo.geojson"))
+    return built_in_path("demo")
 
 
-@lru_cache(maxsize=1)
+@lru_cache(maxsize=len(BUILT_IN_SITES))
+def load_built_in(name: str) -> Site:
+    """Load a built-in site; later calls return the same site, with what has been computed from it."""
+    return load_site(built_in_path(name))
+
+
 def load_demo() -> Site:
     """Load the built-in orchard; later calls return the same site, with what has been computed from it."""
-    return load_site(demo_path())
+    return load_built_in("demo")
 
 
 def open_site(name_or_path: str, *, lenient: bool = False) -> Site:
-    """Load the built-in orchard for ``demo``, else the site of that file (``./demo`` for a file of that name).
+    """Load the built-in site of that name (``demo``, ``vineyard``), else the site of that file (``./demo``).
 
     Args:
-        name_or_path: ``demo`` or a path, as given on a command line.
+        name_or_path: Name of a built-in site or a path, as given on a command line.
         lenient: Skip unusable features, with a note for each; see :func:`load_site`.
 
     Raises:
         SiteError: The file cannot be read or used; see :func:`load_site`.
     """
-    if name_or_path == "demo" and not lenient:
-        return load_demo()
+    if name_or_path in BUILT_IN_SITES and not lenient:
+        return load_built_in(name_or_path)
     return site_of(site_files(name_or_path), lenient=lenient)
 
 
 def site_files(name_or_path: str) -> SiteFiles:
-    """Read the files of the built-in orchard for ``demo``, else of that path, without parsing them.
+    """Read the files of the built-in site of that name, else of that path, without parsing them.
 
     Raises:
         SiteError: The file is missing or cannot be read.
     """
-    return read_files(demo_path() if name_or_path == "demo" else Path(name_or_path))
+    return read_files(built_in_path(name_or_path) if name_or_path in BUILT_IN_SITES else Path(name_or_path))
 
 
 def load_site(path: Path, *, lenient: bool = False) -> Site:
@@ -130,4 +145,16 @@ def _garbage_collection_paused() -> Iterator[None]:
             gc.enable()
 
 
-__all__ = ["demo_path", "load_demo", "load_site", "open_site", "parse_site", "site_files", "site_of"]
+__all__ = [
+    "BUILT_IN_SITES",
+    "BuiltInSite",
+    "built_in_path",
+    "demo_path",
+    "load_built_in",
+    "load_demo",
+    "load_site",
+    "open_site",
+    "parse_site",
+    "site_files",
+    "site_of",
+]

@@ -20,24 +20,25 @@ from fieldhand.short_repr import short_repr
 from fieldhand.site.feature_kinds import ZoneKind
 from fieldhand.site.planting import Planting
 from fieldhand.site.projection import Projection
-from fieldhand.terms import Value
+from fieldhand.terms import Side, Value
 
 #: Sample size for the median tree spacing; the median of this many trees differs from that of all by about 1 mm.
 _ENOUGH_TREES = 5_000
 
-PlaceKind = Literal["tree", "marker", "point"]
+PlaceKind = Literal["tree", "marker", "point", "gap"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Place:
-    """A position that a robot can be sent to: a tree, a marker or a free point.
+    """A position that a robot can be sent to: a tree, a marker, a free point or an empty position of a row.
 
     Attributes:
-        id: Id of the tree, name of the marker, or name of the point.
+        id: Id of the tree, name of the marker, name of the point or of the gap.
         x, y: Metres east and north in the site's projection.
         lat, lon: Degrees, WGS 84.
         stand: Position from which the robot works on the place, in metres; None until :mod:`fieldhand.site.drives`
-            chooses it. A robot works on a tree from the aisle beside it.
+            chooses it. A robot works on a tree, or on the gap that a missing one left, from the aisle beside it.
+        side: Side of the tree on which the stand has to lie; empty for any.
     """
 
     kind: PlaceKind
@@ -47,6 +48,7 @@ class Place:
     lat: float
     lon: float
     stand: tuple[float, float] | None = field(default=None, compare=False)
+    side: Side | Literal[""] = ""
 
     @classmethod
     def of_robot(cls, xy: tuple[float, float], *, lat: float, lon: float, name: str = "on the way") -> Place:
@@ -63,6 +65,27 @@ class Place:
     def xy(self) -> tuple[float, float]:
         """Metres east and north."""
         return (self.x, self.y)
+
+    @property
+    def key(self) -> tuple[str, str, str]:
+        """Kind, id and side, which identify the place on its site."""
+        return (self.kind, self.id, self.side)
+
+    def serves(self, wanted: Place) -> bool:
+        """Return True if a robot that has stopped at this place is at the wanted one: the same, on a side that fits."""
+        return (self.kind, self.id) == (wanted.kind, wanted.id) and self._suits(wanted)
+
+    def covers(self, wanted: Place) -> bool:
+        """Return True if the wanted place has the same position, and this one a side that fits: no drive is needed."""
+        return self.xy == wanted.xy and self._suits(wanted)
+
+    def _suits(self, wanted: Place) -> bool:
+        return wanted.side in ("", self.side)
+
+    @property
+    def planted(self) -> bool:
+        """True for a tree or a gap, which are worked on from one of several stands."""
+        return self.kind in ("tree", "gap")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -22,6 +22,8 @@ from fieldhand.task.frames import (
     Variable,
 )
 from fieldhand.task.plan import Node, Span, acts
+from fieldhand.task.timing import Timing
+from fieldhand.task.watches import Watch
 
 #: Default exits on faults.
 FAULTED_EXITS = (
@@ -52,6 +54,8 @@ def make_task(
     no_part: tuple[Span, ...] = (),
     read_as: str = "",
     warnings: tuple[str, ...] = (),
+    timing: Timing | None = None,
+    watches: tuple[Watch, ...] = (),
 ) -> Task:
     """Return a Task whose ids, goals and variables are derived from its plan.
 
@@ -68,12 +72,16 @@ def make_task(
         no_part: Ranges of the request that have no part in the plan.
         read_as: The request with the answers to clarifying questions; empty without questions.
         warnings: Warnings to confirm before approval, as sentences.
+        timing: Time at which the mission begins, or its schedule.
+        watches: Conditions checked throughout the mission, and their responses.
 
     Returns:
         The Task; its id is a hash of request, plan and resources, so equal arguments give equal Tasks.
     """
     numbered = number(plan)
-    digest = hashlib.sha256(repr((request, numbered, resources, constraints, nominal)).encode()).hexdigest()
+    added = (*((watches,) if watches else ()), *((timing,) if timing is not None else ()))
+    known = (request, numbered, resources, constraints, nominal, *added)
+    digest = hashlib.sha256(repr(known).encode()).hexdigest()
     return Task(
         id=f"task-{digest[:12]}",
         command=Command(
@@ -85,9 +93,12 @@ def make_task(
             read_as=read_as,
             warnings=warnings,
         ),
-        composition=Composition(plan=numbered, nominal=nominal, nominal_said=nominal_said, faulted=faulted),
+        composition=Composition(
+            plan=numbered, nominal=nominal, nominal_said=nominal_said, faulted=faulted, watches=watches
+        ),
         constraints=constraints or Constraints(),
         resources=resources,
+        timing=timing,
     )
 
 

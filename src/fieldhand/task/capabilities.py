@@ -45,8 +45,20 @@ class QuantityCapability:
 
 
 @dataclass(frozen=True, kw_only=True)
+class EventCapability:
+    """An event that the robot detects all the time: its unit if it is measured, and whether it can simply hold.
+
+    A measured event simply holds if the profile gives its threshold.
+    """
+
+    unit: str = ""
+    holds: bool = True
+
+
+@dataclass(frozen=True, kw_only=True)
 class Capabilities:
-    """The actions and quantities of a robot by name. The order of the mappings is the order in the schema."""
+    """The actions, quantities and events of a robot by name. The order of the mappings is the order in the schema."""
 
     actions: Mapping[str, ActionCapability]
     quantities: Mapping[str, QuantityCapability]
+    events: Mapping[str, EventCapability] = field(default_factory=dict)

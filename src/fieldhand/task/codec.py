@@ -19,6 +19,8 @@ from fieldhand.task.codec_text import SEVERAL_LINES, attribute_text, bare_value,
 from fieldhand.task.codec_xml import MAX_BYTES, MAX_DEPTH, local_name, parse_xml
 from fieldhand.task.frames import Constraints, FaultedExit, Task, Then
 from fieldhand.task.plan import Node, Span
+from fieldhand.task.timing import Timing
+from fieldhand.task.watches import Watch
 
 if TYPE_CHECKING:
     from lxml.etree import _Element
@@ -42,6 +44,8 @@ class TaskDraft:
     nominal_said: tuple[Span, ...] = ()
     no_part: tuple[Span, ...] = ()
     warnings: tuple[str, ...] = ()
+    timing: Timing | None = None
+    watches: tuple[Watch, ...] = ()
 
 
 def encode(task: Task) -> bytes:
@@ -91,6 +95,8 @@ def decode_draft(data: bytes, *, source: str = "") -> TaskDraft:
         nominal_said=task.composition.nominal_said,
         no_part=task.command.no_part,
         warnings=task.command.warnings,
+        timing=task.timing,
+        watches=task.composition.watches,
     )
 
 

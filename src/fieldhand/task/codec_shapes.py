@@ -22,9 +22,11 @@ from fieldhand.places.picks.random_sample import RandomSample
 from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import SELECTORS
 from fieldhand.places.sources.union_of import UnionOf
-from fieldhand.task.conditions import Condition
+from fieldhand.task.conditions import Between, Compare, Condition, Level
 from fieldhand.task.frames import Budget, Command, Composition, Constraints, FaultedExit, Task, Then
 from fieldhand.task.plan import Act, InOrder, Node, OptionalStep, Span, StopMission
+from fieldhand.task.timing import Timing
+from fieldhand.task.watches import Watch, WatchCondition
 from fieldhand.task.ways import Avoid, OnlyGate
 from fieldhand.terms import Value
 
@@ -45,10 +47,11 @@ class ExitsElement:
 
 @dataclass(frozen=True, kw_only=True)
 class TaskComposition:
-    """The ``<task-composition>`` element: plan and exits. XML stand-in for ``frames.Composition``."""
+    """The ``<task-composition>`` element: plan, exits and watches. XML stand-in for ``frames.Composition``."""
 
     plan: Node
     exits: ExitsElement = ExitsElement()
+    watches: tuple[Watch, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -131,15 +134,15 @@ class Child:
 
 @dataclass(frozen=True, kw_only=True)
 class NamedElement:
-    """A child element named after an action or a quantity, with everything that depends on it.
+    """A child element named after an action, a quantity or an event, with everything that depends on it.
 
     Attributes:
-        attributes: Attributes that depend on the quantity. An action's parameters are not listed: only a profile
-            defines them.
+        attributes: Attributes that depend on the quantity or event. An action's parameters are not listed: only a
+            profile defines them.
     """
 
     field: str
-    of: Literal["action", "quantity"]
+    of: Literal["action", "quantity", "event"]
     attributes: tuple[Attribute, ...] = ()
 
 
@@ -159,10 +162,16 @@ SURROGATES: dict[type, tuple[type, Callable[[Any], Any], Callable[[Any], Any]]] 
     Composition: (
         TaskComposition,
         lambda c: TaskComposition(
-            plan=c.plan, exits=ExitsElement(nominal=c.nominal, nominal_said=c.nominal_said, faulted=c.faulted)
+            plan=c.plan,
+            exits=ExitsElement(nominal=c.nominal, nominal_said=c.nominal_said, faulted=c.faulted),
+            watches=c.watches,
         ),
         lambda t: Composition(
-            plan=t.plan, nominal=t.exits.nominal, nominal_said=t.exits.nominal_said, faulted=t.exits.faulted
+            plan=t.plan,
+            nominal=t.exits.nominal,
+            nominal_said=t.exits.nominal_said,
+            faulted=t.exits.faulted,
+            watches=t.watches,
         ),
     ),
     Constraints: (
@@ -188,7 +197,9 @@ SURROGATES: dict[type, tuple[type, Callable[[Any], Any], Callable[[Any], Any]]] 
 FAMILIES: dict[tuple[type, ...], str] = {
     SELECTORS: "selector",
     get_args(Condition): "condition",
+    get_args(WatchCondition): "watched",
     get_args(Node): "node",
+    get_args(Timing): "timing",
 }
 
 
@@ -199,7 +210,8 @@ def element_name(cls: type) -> str:
 
 def hints_of(cls: type) -> dict[str, Any]:
     """Return the type of each field, with the mutually recursive families resolved."""
-    return get_type_hints(cls, localns={"Node": Node, "Selector": Selector, "Condition": Condition})
+    tests = {"Compare": Compare, "Between": Between, "Level": Level}
+    return get_type_hints(cls, localns={"Node": Node, "Selector": Selector, "Condition": Condition, **tests})
 
 
 @cache
@@ -209,8 +221,8 @@ def shape_of(cls: type) -> Shape:
         return shape_of(SURROGATES[cls][0])
     hints = hints_of(cls)
     names = [f.name for f in fields(cls)]
-    of_head = _OF_QUANTITY if "quantity" in names else ()
-    in_head = ("action", "parameters") if cls is Act else ("quantity",)
+    of_head = _OF_QUANTITY if {"quantity", "event"} & set(names) else ()
+    in_head = ("action", "parameters") if cls is Act else ("quantity", "event")
     attributes: list[Attribute] = []
     of_quantity: list[Attribute] = []
     children: list[Child] = []
@@ -237,6 +249,8 @@ def shape_of(cls: type) -> Shape:
 def _head(cls: type, names: list[str], of_quantity: tuple[Attribute, ...]) -> NamedElement | None:
     if cls is Act:
         return NamedElement(field="action", of="action")
+    if "event" in names:
+        return NamedElement(field="event", of="event", attributes=of_quantity)
     return NamedElement(field="quantity", of="quantity", attributes=of_quantity) if "quantity" in names else None
 
 

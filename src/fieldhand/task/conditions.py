@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from fieldhand.task.aggregates import Aggregate, CompareSeries, CountReadings, MeanKnown, SeriesCondition, series_of
 from fieldhand.terms import Test, Value
 
 
@@ -73,7 +74,9 @@ class Not:
     condition: Condition
 
 
-Condition = Compare | Between | Level | TreeHas | AllOf | AnyOf | Not
+Condition = (
+    Compare | Between | Level | TreeHas | AllOf | AnyOf | Not | Aggregate | CountReadings | MeanKnown | CompareSeries
+)
 
 
 def walk(condition: Condition) -> Iterator[Condition]:
@@ -83,7 +86,7 @@ def walk(condition: Condition) -> Iterator[Condition]:
         case AllOf(conditions=inner) | AnyOf(conditions=inner):
             for part in inner:
                 yield from walk(part)
-        case Not(condition=part):
+        case Not(condition=part) | Aggregate(condition=part) | CountReadings(condition=part):
             yield from walk(part)
         case _:
             pass
@@ -91,4 +94,10 @@ def walk(condition: Condition) -> Iterator[Condition]:
 
 def readings(condition: Condition) -> frozenset[str]:
     """Return the names of the readings that a condition needs."""
-    return frozenset(c.reading for c in walk(condition) if isinstance(c, Compare | Between | Level))
+    single = (c.reading for c in walk(condition) if isinstance(c, Compare | Between | Level))
+    return frozenset(single) | series(condition)
+
+
+def series(condition: Condition) -> frozenset[str]:
+    """Return the names of the readings of which a condition needs all that were taken."""
+    return frozenset(name for c in walk(condition) if isinstance(c, SeriesCondition) for name in series_of(c))

@@ -12,6 +12,8 @@ from typing import Literal
 
 from fieldhand.short_repr import short_repr
 from fieldhand.task.plan import Node, Span
+from fieldhand.task.timing import Timing
+from fieldhand.task.watches import Watch
 from fieldhand.task.ways import Avoid, OnlyGate
 
 Then = Literal["return_to_end", "return_to_start", "stay"]
@@ -97,12 +99,14 @@ class Composition:
         nominal: Exit after the plan.
         nominal_said: Character ranges of the request that state the nominal exit.
         faulted: Exit after each kind of fault; default exits apply to the others.
+        watches: Conditions that are checked throughout the mission, each with its response.
     """
 
     plan: Node
     nominal: Then = "return_to_end"
     nominal_said: tuple[Span, ...] = ()
     faulted: tuple[FaultedExit, ...] = ()
+    watches: tuple[Watch, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -180,6 +184,7 @@ class Task:
         composition: Plan and exits.
         constraints: Budgets, reserve and maximum speed.
         resources: Site and robot for which the Task was planned.
+        timing: Time at which it begins, or schedule of a standing mission; None to begin when it is started.
     """
 
     id: str
@@ -187,6 +192,7 @@ class Task:
     composition: Composition
     constraints: Constraints = Constraints()
     resources: tuple[Resource, ...] = ()
+    timing: Timing | None = None
 
     __repr__ = short_repr
 

@@ -74,6 +74,14 @@ class Capture:
 
 
 @dataclass(frozen=True, kw_only=True)
+class WaitFor:
+    """Ask permission to stand still for some seconds, and do so. Result: none; a refusal is as that of ``Permit``."""
+
+    node: Node
+    seconds: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class ForgetReading:
     """Clear a reading. Result: none."""
 
@@ -88,6 +96,14 @@ class SetReading:
     node: Act
     reading: str
     value: Reading
+
+
+@dataclass(frozen=True, kw_only=True)
+class BeginSeries:
+    """Discard the readings of a series, which begins anew. Result: none."""
+
+    node: Node
+    reading: str
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -142,8 +158,10 @@ Instruction = (
     | DriveTo
     | BindLabel
     | Capture
+    | WaitFor
     | ForgetReading
     | SetReading
+    | BeginSeries
     | Decide
     | ArrangeSteps
     | BeginVisits

@@ -23,9 +23,11 @@ from fieldhand.task.nodes.go_to import GoTo
 from fieldhand.task.nodes.if_else import If
 from fieldhand.task.nodes.in_order import InOrder
 from fieldhand.task.nodes.optional_step import OptionalStep
+from fieldhand.task.nodes.pace import Pace
 from fieldhand.task.nodes.repeat import Repeat
 from fieldhand.task.nodes.stop_mission import StopMission
 from fieldhand.task.nodes.try_otherwise import Try
+from fieldhand.task.nodes.wait import Wait
 
 __all__ = [
     "Act",
@@ -36,15 +38,17 @@ __all__ = [
     "InOrder",
     "Node",
     "OptionalStep",
+    "Pace",
     "Repeat",
     "Span",
     "StopMission",
     "Try",
+    "Wait",
     "acts",
     "walk",
 ]
 
-Node = InOrder | AnyOrder | ForEach | Repeat | If | Try | OptionalStep | GoTo | Act | StopMission
+Node = InOrder | AnyOrder | ForEach | Repeat | If | Try | OptionalStep | GoTo | Act | StopMission | Wait | Pace
 
 
 def walk(node: Node) -> Iterator[Node]:

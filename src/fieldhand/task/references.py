@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 
 from fieldhand.places.selectors import Bound
 from fieldhand.task import conditions
+from fieldhand.task.aggregates import CompareSeries, MeanKnown, series_faults, series_of
 from fieldhand.task.capabilities import Capabilities
 from fieldhand.task.conditions import Between, Compare, Condition, Level
 from fieldhand.task.frames import Task
@@ -45,6 +46,7 @@ def reference_problems(task: Task, capabilities: Capabilities | None = None) -> 
     problems = [*_ids(task), *_frames(task, nodes), *_endless(task.composition.plan)]
     problems.extend(_twice_optional(task.composition.plan))
     problems.extend(_ordered_optional(task.composition.plan))
+    problems.extend(_never_collected(task.composition.plan))
     _visit(task.composition.plan, _Known(), _ReferenceCheck(problems=problems, capabilities=capabilities))
     return tuple(problems)
 
@@ -120,6 +122,14 @@ def _ordered_optional(plan: Node) -> Iterator[ReferenceProblem]:
             )
 
 
+def _never_collected(plan: Node) -> Iterator[ReferenceProblem]:
+    """Yield a problem for each loop that begins the series of a reading that nothing inside takes."""
+    for node in walk(plan):
+        if node.collects and all(inner.reading != node.collects for inner in walk(node)):
+            what = f"node {node.id!r} collects the reading {node.collects!r}, which nothing inside it takes"
+            yield ReferenceProblem(node=node.id, what=what)
+
+
 @dataclass(frozen=True, kw_only=True)
 class _Known:
     """Bindings possible when a node is reached: labels, and for each reading the actions that may have taken it."""
@@ -186,6 +196,8 @@ def _check_places(node: Node, known: _Known, check: _ReferenceCheck) -> None:
         if isinstance(part, Bound) and part.label not in known.labels:
             by = "only an optional step binds: name it inside that" if part.label in check.shed else _NOTHING_BINDS
             check.add(node, f"node {node.id!r} names the place {part.label!r}, which {by}")
+        if part.by_series is not None:
+            _check_reading(node, "chooses places by", *part.by_series, known, check)
 
 
 def _check_condition(node: Node, known: _Known, check: _ReferenceCheck) -> None:
@@ -197,18 +209,26 @@ def _check_condition(node: Node, known: _Known, check: _ReferenceCheck) -> None:
                 f"node {node.id!r} tests whether the {part.quantity} is between {part.low:g} and {part.high:g}, which "
                 "is impossible: give the low end first",
             )
-        if not isinstance(part, Compare | Between | Level):
-            continue
-        actions = known.readings.get(part.reading)
-        if actions is None:
-            by = "only an optional step takes: test it inside that" if part.reading in check.shed else _NOTHING_TAKES
-            check.add(node, f"node {node.id!r} tests the reading {part.reading!r}, which {by}")
-            continue
-        for action in sorted(actions) if check.capabilities else ():
-            able = check.capabilities.actions.get(action) if check.capabilities else None
-            if able is None or part.quantity not in able.measures:
-                check.add(
-                    node,
-                    f"node {node.id!r} tests the {part.quantity} of the reading {part.reading!r}, "
-                    f"but {action} does not measure it",
-                )
+        if isinstance(part, Compare | Between | Level):
+            _check_reading(node, "tests", part.reading, part.quantity, known, check)
+        elif isinstance(part, MeanKnown | CompareSeries):
+            for reading in series_of(part):
+                _check_reading(node, "tests", reading, part.quantity, known, check)
+        for what in series_faults(part):
+            check.add(node, f"node {node.id!r} {what}")
+
+
+def _check_reading(node: Node, uses: str, reading: str, quantity: str, known: _Known, check: _ReferenceCheck) -> None:
+    """Check that a reading that a node uses was taken, by actions that measure the quantity."""
+    actions = known.readings.get(reading)
+    if actions is None:
+        by = "only an optional step takes: test it inside that" if reading in check.shed else _NOTHING_TAKES
+        check.add(node, f"node {node.id!r} {uses} the reading {reading!r}, which {by}")
+        return
+    for action in sorted(actions) if check.capabilities else ():
+        able = check.capabilities.actions.get(action) if check.capabilities else None
+        if able is None or quantity not in able.measures:
+            check.add(
+                node,
+                f"node {node.id!r} {uses} the {quantity} of the reading {reading!r}, but {action} does not measure it",
+            )

@@ -20,7 +20,7 @@ from fieldhand.task.frames import Task
 from fieldhand.task.plan import Span, acts, walk
 
 #: Roles of words. Where two ranges coincide, the role listed first is shown.
-WordRole = Literal["condition", "limit", "end", "action", "place", "order", "no_part", "nothing", "between"]
+WordRole = Literal["condition", "limit", "time", "end", "action", "place", "order", "no_part", "nothing", "between"]
 ROLES: tuple[WordRole, ...] = get_args(WordRole)
 
 #: Display name of each role; ``between`` has none, since it is not shown.
@@ -31,6 +31,7 @@ ROLE_NAMES: dict[WordRole, str] = {
     "limit": message("limit", context="role"),
     "order": message("order", context="role"),
     "end": message("end", context="role"),
+    "time": message("time", context="role"),
     "no_part": message("no part in the plan", context="role"),
     "nothing": message("not in the plan", context="role"),
 }
@@ -42,9 +43,9 @@ class Piece:
     """A stretch of the request whose words have one role.
 
     Attributes:
-        role: ``condition``, ``limit``, ``end``, ``action``, ``place``, ``order`` (also numbers); ``no_part`` for words
-            that the planner marked as having no part in the plan; ``nothing`` for words missing from the plan;
-            ``between`` for words and punctuation between the others.
+        role: ``condition``, ``limit``, ``time``, ``end``, ``action``, ``place``, ``order`` (also numbers); ``no_part``
+            for words that the planner marked as having no part in the plan; ``nothing`` for words missing from the
+            plan; ``between`` for words and punctuation between the others.
     """
 
     text: str
@@ -106,7 +107,11 @@ def _ranges(task: Task) -> Iterator[tuple[Span, WordRole]]:
     yield from ((span, "limit") for span in task.constraints.reserve_said)
     for way in (*task.constraints.avoid, *task.constraints.only_gates):
         yield from ((span, "limit") for span in way.said)
+    for watch in task.composition.watches:
+        yield from ((span, "condition") for span in watch.said)
     yield from ((span, "end") for span in task.composition.nominal_said)
+    if task.timing is not None:
+        yield from ((span, "time") for span in task.timing.said)
     yield from ((span, "no_part") for span in task.command.no_part)
 
 

@@ -43,18 +43,22 @@ class Started:
 
 @dataclass(frozen=True, kw_only=True)
 class Visiting:
-    """A for-each resolved its selector: ids of its places in the planned order."""
+    """A for-each resolved its selector: ids of its places in the planned order; their sides, if the plan names any."""
 
     event: ClassVar[str] = "visiting"
     t: float
     node: str
     places: tuple[str, ...]
     optional: bool = False
+    sides: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
 class Driving:
-    """A drive begins. ``path`` lists its corners as (lat, lon), ``speed_m_s`` is the commanded speed."""
+    """A drive begins. ``path`` lists its corners as (lat, lon), ``speed_m_s`` is the commanded speed.
+
+    ``side``, here and in the events below, is the side of the tree on which the robot is to stand, if the plan says so.
+    """
 
     event: ClassVar[str] = "drive"
     t: float
@@ -64,6 +68,7 @@ class Driving:
     planned_m: float
     path: tuple[tuple[float, float], ...]
     speed_m_s: float | None = None
+    side: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -80,6 +85,7 @@ class Arrived:
     leg_m: float
     travelled_m: float
     charge_percent: float
+    side: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -105,6 +111,7 @@ class Acted:
     units: Mapping[str, str] = field(default_factory=dict)
     what: str = ""
     charge_percent: float = 100.0
+    side: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -129,6 +136,7 @@ class InDoubt:
     attempt: int = 1
     what: str = ""
     charge_percent: float = 100.0
+    side: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -175,8 +183,9 @@ class Decided:
     why: str
 
 
-#: Why work is given up: to stay within the budget, or because there is no way to its place.
-ShedCause = Literal["budget", "unreachable"]
+#: Why work is given up: to stay within the budget, because there is no way to its place, or because of an event for
+#: which the Task says to skip it.
+ShedCause = Literal["budget", "unreachable", "event"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -220,19 +229,76 @@ class Obstructed:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Waited:
-    """The robot waited for a problem to resolve itself: a blocked way, or a lost position.
+class Dwelling:
+    """The robot begins to stand still for some seconds, because the plan says so."""
 
-    ``over``: the position is known again, or there is a way to try.
+    event: ClassVar[str] = "waiting"
+    t: float
+    node: str
+    seconds: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Dwelt:
+    """The robot has stood still for some seconds, because the plan says so."""
+
+    event: ClassVar[str] = "waited"
+    t: float
+    node: str
+    seconds: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Waited:
+    """The robot waited for a problem to resolve itself: a blocked way, a lost position, or an event that it watches.
+
+    ``over``: the position is known again, there is a way to try, or the event is over.
     """
 
     event: ClassVar[str] = "wait"
     t: float
     node: str
-    wanted: Literal["way", "position"]
+    wanted: Literal["way", "position", "event"]
     seconds: float
     over: bool
     what: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class EventBegan:
+    """A condition that the mission watches began to hold.
+
+    ``watch`` is its position in the Task, from 1, ``name`` the event or quantity, and ``value`` its value: 1 for an
+    event that is true or false, None for one that is unknown and counts as holding. ``response`` is what the robot
+    does.
+    """
+
+    event: ClassVar[str] = "event_began"
+    t: float
+    node: str = ""
+    watch: int
+    name: str
+    response: Literal["wait", "skip", "skip_row", "return_to_start", "return_to_end", "end"]
+    value: float | None
+    unit: str = ""
+    what: str
+    lat: float
+    lon: float
+    travelled_m: float
+    charge_percent: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class EventEnded:
+    """A watched condition is over: it has not held for the time that the profile sets. ``seconds``: its duration."""
+
+    event: ClassVar[str] = "event_ended"
+    t: float
+    node: str = ""
+    watch: int
+    name: str
+    seconds: float
+    what: str
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -302,9 +368,9 @@ class Exited:
 class Ended:
     """The mission is over: position of the robot and resources used.
 
-    ``completed``: the plan was done and its exit taken. ``returned``: the robot came home early to keep a limit.
-    ``exceeded``: either of these, beyond a limit (:mod:`fieldhand.task.exceeded`). ``faulted``: a fault ended it.
-    ``aborted``: an operator did.
+    ``completed``: the plan was done and its exit taken. ``returned``: the robot gave up the rest early, to keep a limit
+    or because of an event. ``exceeded``: either of these, beyond a limit (:mod:`fieldhand.task.exceeded`).
+    ``faulted``: a fault ended it. ``aborted``: an operator did.
     """
 
     event: ClassVar[str] = "mission"
@@ -331,7 +397,11 @@ Event = (
     | Decided
     | Shed
     | Obstructed
+    | Dwelling
+    | Dwelt
     | Waited
+    | EventBegan
+    | EventEnded
     | LimitCrossed
     | ClockSet
     | Faulted

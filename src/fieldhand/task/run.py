@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Iterator
+import math
+from collections.abc import Callable, Generator, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -34,6 +35,11 @@ class StackFrame:
     tour: OpaqueTour | None = None
     made: int = 0
     instead: tuple[Node, ...] = ()
+
+
+def pace_of(frames: Sequence[StackFrame]) -> float:
+    """Return the highest driving speed that active nodes allow in m/s; infinite without a limit."""
+    return min((frame.node.pace_m_s for frame in frames), default=math.inf)
 
 
 def _unheard(*_: object) -> None:
@@ -94,6 +100,11 @@ class PlanRun:
     def optional(self) -> StackFrame | None:
         """The active optional visit or step; there is at most one."""
         return next((frame for frame in self.outwards() if frame.node.is_optional), None)
+
+    @property
+    def pace_m_s(self) -> float:
+        """Return the highest driving speed that the active nodes allow in m/s; infinite without a limit."""
+        return pace_of(self.frames)
 
     @property
     def is_caught(self) -> bool:

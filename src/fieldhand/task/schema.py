@@ -72,7 +72,7 @@ class _Key:
     def __init__(self, capabilities: Capabilities) -> None:
         self.capabilities = capabilities
         actions = [(name, a.measures, tuple(a.parameters.items())) for name, a in capabilities.actions.items()]
-        self._value = (tuple(actions), tuple(capabilities.quantities.items()))
+        self._value = (tuple(actions), tuple(capabilities.quantities.items()), tuple(capabilities.events.items()))
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, _Key) and self._value == other._value

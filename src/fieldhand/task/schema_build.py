@@ -34,13 +34,21 @@ _FACETS: dict[str, dict[str, str]] = {
     "count": {"minInclusive": "1", "maxInclusive": "1000"},
     "times": {"minInclusive": "1", "maxInclusive": "1000"},
     "at_most": {"minInclusive": "1", "maxInclusive": "1000000"},
+    "at_least": {"minInclusive": "2", "maxInclusive": "1000"},
     "expected": {"minInclusive": "0"},
     "distance_m": {"minInclusive": "0"},
     "limit": {"minExclusive": "0"},
     "failure_probability": {"minExclusive": "0", "maxExclusive": "1"},
     "reserve_percent": {"minInclusive": "0", "maxExclusive": "100"},
     "reward": {"minInclusive": "0"},
+    "every_min": {"minInclusive": "0", "maxInclusive": "1440"},
+    "every_days": {"minInclusive": "1", "maxInclusive": "366"},
+    "late_min": {"minInclusive": "0", "maxInclusive": "10080"},
+    "done_by_min": {"minInclusive": "0", "maxInclusive": "10080"},
+    "offset_min": {"minInclusive": "-1440", "maxInclusive": "1440"},
+    "seconds": {"minExclusive": "0", "maxInclusive": "86400"},
     "speed_m_s": {"minInclusive": "0.01", "maxInclusive": "20"},
+    "at_most_s": {"minInclusive": "1", "maxInclusive": "86400"},
 }
 
 
@@ -68,11 +76,14 @@ class SchemaBuilder:
         return [o for o in options if shape_of(o).cls in known]
 
     def heads(self, shape: Shape) -> list[str]:
-        """Return the actions or quantities allowed in an element."""
+        """Return the actions, quantities or events allowed in an element."""
         if shape.head is None:
             return []
         if shape.head.of == "action":
             return list(self.capabilities.actions)
+        if shape.head.of == "event":
+            measured = bool(shape.head.attributes)
+            return [name for name, e in self.capabilities.events.items() if (e.unit if measured else e.holds)]
         needs_level = any(a.field == "level" for a in shape.head.attributes)
         return [name for name, q in self.capabilities.quantities.items() if q.levels or not needs_level]
 
@@ -155,6 +166,11 @@ class SchemaBuilder:
                     words = {"unit": (quantity.unit,), "level": quantity.levels}.get(attribute.field)
                     self.attribute(made, shape.cls, attribute, words=words)
                 continue
+            if shape.head and shape.head.of == "event":
+                for attribute in shape.head.attributes:
+                    unit = (self.capabilities.events[name].unit,) if attribute.field == "unit" else None
+                    self.attribute(made, shape.cls, attribute, words=unit)
+                continue
             for key, parameter in self.capabilities.actions[name].parameters.items():
                 _parameter(_xs(made, "attribute", name=key), parameter)
 
@@ -183,9 +199,13 @@ class SchemaBuilder:
             _xs(inside, "element", name=child.name.removesuffix("s"), type="xs:string", **occurs)
         elif child.options in FAMILIES:
             _xs(inside, "group", ref=f"f:{FAMILIES[child.options]}", **occurs)
-        else:
+        elif len(child.options) == 1:
             for option in self.usable(child.options):
                 _xs(inside, "element", name=element_name(option), type=f"f:{type_name(option)}", **occurs)
+        else:
+            either = _xs(inside, "choice", **occurs)
+            for option in self.usable(child.options):
+                _xs(either, "element", name=element_name(option), type=f"f:{type_name(option)}")
 
     def required(self, cls: type, field: str, default: object) -> bool:
         """Return True if a field is required."""

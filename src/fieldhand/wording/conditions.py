@@ -10,13 +10,21 @@ from fieldhand.language.words import listed, say_action, say_name, say_number, s
 from fieldhand.places.filters.attribute_words import say_of_tree, say_with_article
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task import conditions as c
+from fieldhand.task.aggregates import Aggregate, CompareSeries, CountReadings, MeanKnown, SeriesCondition
 from fieldhand.task.plan import Act
+from fieldhand.terms import Test
+from fieldhand.wording.series_conditions import say_other_series, say_series_condition
 
 Names = Mapping[str, str]
 
 
 def say_condition(
-    condition: c.Condition, where: Names | None = None, robot: RobotProfile | None = None, *, negated: bool = False
+    condition: c.Condition,
+    where: Names | None = None,
+    robot: RobotProfile | None = None,
+    *,
+    negated: bool = False,
+    series: Names | None = None,
 ) -> str:
     """Return a condition as a clause: "the canopy temperature there is below 33 °C".
 
@@ -25,14 +33,37 @@ def say_condition(
         where: Place of each reading ("there", "of step 3"); readings not listed are quoted by name.
         robot: Robot profile that defines levels such as "low" and "high".
         negated: Describe the opposite condition.
+        series: Origin of all readings of a name ("of step 3"); by default as in ``where``.
     """
     places = where or {}
+    all_of = places if series is None else series
+    match condition:
+        case c.Compare() | c.Between() | c.Level():
+            return _tested(condition, _reading(condition, places, robot), robot, negated=negated)
+        case c.TreeHas():
+            clause = say_of_tree(condition.attribute, condition.test, condition.value)
+            return message("it is not the case that {clause}", clause=clause) if negated else clause
+        case c.AllOf() | c.AnyOf():
+            whole = _joined(condition, places, robot, all_of)
+            return message("it is not the case that {clause}", clause=whole) if negated else whole
+        case c.Not(condition=inner_condition):
+            return say_condition(inner_condition, places, robot, negated=not negated, series=all_of)
+        case Aggregate() | CountReadings() | MeanKnown() | CompareSeries():
+            return _of_series(condition, all_of, robot, negated=negated)
+        case _:
+            assert_never(condition)
+
+
+def _tested(
+    condition: c.Compare | c.Between | c.Level, reading: str, robot: RobotProfile | None, *, negated: bool
+) -> str:
+    """Return the test of a reading, or of a statistic of several."""
     match condition:
         case c.Compare():
-            return _compared(condition, _reading(condition, places, robot), negated=negated)
+            return _compared(condition.test, reading, say_quantity(condition.value, condition.unit), negated=negated)
         case c.Between():
             fills = {
-                "reading": _reading(condition, places, robot),
+                "reading": reading,
                 "low": say_number(condition.low),
                 "high": say_quantity(condition.high, condition.unit),
             }
@@ -41,29 +72,18 @@ def say_condition(
             return message("{reading} is between {low} and {high}", **fills)
         case c.Level():
             fills = {
-                "reading": _reading(condition, places, robot),
+                "reading": reading,
                 "low": named(say_name(condition.level), "level", message("“{name}”", name=condition.level)),
                 "threshold": _threshold(condition, robot),
             }
             if negated:
                 return message("{reading} is not {low} {threshold}", **fills)
             return message("{reading} is {low} {threshold}", **fills)
-        case c.TreeHas():
-            clause = say_of_tree(condition.attribute, condition.test, condition.value)
-            return message("it is not the case that {clause}", clause=clause) if negated else clause
-        case c.AllOf() | c.AnyOf():
-            whole = _joined(condition, places, robot)
-            return message("it is not the case that {clause}", clause=whole) if negated else whole
-        case c.Not(condition=inner_condition):
-            return say_condition(inner_condition, places, robot, negated=not negated)
-        case _:
-            assert_never(condition)
 
 
-def _compared(condition: c.Compare, reading: str, *, negated: bool) -> str:
+def _compared(test: Test, reading: str, amount: str, *, negated: bool) -> str:
     """Return the comparison of a reading with a threshold; each test and each negation is a message of its own."""
-    amount = say_quantity(condition.value, condition.unit)
-    match condition.test, negated:
+    match test, negated:
         case "lt", False:
             return message("{reading} is below {amount}", reading=reading, amount=amount)
         case "lt", True:
@@ -118,14 +138,33 @@ def _threshold(condition: c.Level, robot: RobotProfile | None) -> str:
     )
 
 
-def _joined(condition: c.AllOf | c.AnyOf, where: Names, robot: RobotProfile | None) -> str:
+def _of_series(condition: SeriesCondition, series: Names, robot: RobotProfile | None, *, negated: bool) -> str:
+    """Return a condition on a series; a statistic is compared in the words of a single reading."""
+
+    def readings(name: str, quantity: str) -> str:
+        return _reading(c.Level(reading=name, quantity=quantity, level=""), series, robot)
+
+    def level(tested: c.Level) -> str:
+        low = named(say_name(tested.level), "level", message("“{name}”", name=tested.level))
+        return message("{low} {threshold}", low=low, threshold=_threshold(tested, robot))
+
+    clause, subject = say_series_condition(condition, readings, level)
+    match condition:
+        case Aggregate(condition=inner):
+            return _tested(inner, subject, robot, negated=negated)
+        case CompareSeries(test=test):
+            return _compared(test, subject, say_other_series(condition, readings), negated=negated)
+    return message("it is not the case that {clause}", clause=clause) if negated else clause
+
+
+def _joined(condition: c.AllOf | c.AnyOf, where: Names, robot: RobotProfile | None, series: Names) -> str:
     """Return the parts joined by "and" or "or", with nested groups in brackets to avoid ambiguity."""
     every = isinstance(condition, c.AllOf)
     if not condition.conditions:
         return message("always") if every else message("never")
     clauses = ""
     for part in condition.conditions:
-        text = say_condition(part, where, robot)
+        text = say_condition(part, where, robot, series=series)
         if isinstance(part, c.AllOf | c.AnyOf) and len(part.conditions) > 1:
             text = joined("", ("(", text, ")"))
         if not clauses:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from fieldhand.clock import clock_time
 from fieldhand.language import counted, joined, kept_in_log, message, named, shaped
-from fieldhand.language.words import capitalised, say_name, say_number, say_place, say_unit, some_names
+from fieldhand.language.words import capitalised, say_name, say_number, say_place, say_unit, say_wait, some_names
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.exceeded import say_status
 from fieldhand.task.frames import Task
@@ -16,8 +16,12 @@ from fieldhand.task.results import (
     ClockSet,
     Continued,
     Decided,
+    Dwelling,
+    Dwelt,
     Ended,
     Event,
+    EventBegan,
+    EventEnded,
     Exited,
     Faulted,
     InDoubt,
@@ -32,6 +36,7 @@ from fieldhand.task.results import (
     Waited,
 )
 from fieldhand.wording.limits import say_crossing
+from fieldhand.wording.watches import say_began
 
 #: A list of places longer than this is counted, not named.
 NAMED = 8
@@ -65,7 +70,7 @@ class EventText:
                     "{robot} starts on {site}, battery at {charge} %", robot=event.robot, site=event.site, charge=charge
                 )
             case Visiting():
-                names = _names(event.places)
+                names = _names(tuple(dict.fromkeys(event.places)))
                 return counted(
                     "{count} place to visit: {names}",
                     "{count} places to visit: {names}",
@@ -75,7 +80,7 @@ class EventText:
             case Arrived():
                 return message(
                     "at {place} ({metres} m, battery at {charge} %)",
-                    place=say_place(event.kind, event.place),
+                    place=say_place(event.kind, event.place, event.side),
                     metres=f"{event.travelled_m:.0f}",
                     charge=f"{event.charge_percent:.0f}",
                 )
@@ -99,8 +104,18 @@ class EventText:
                 return _shed(event)
             case Obstructed():
                 return _obstructed(event)
+            case Dwelling():
+                return message("waits {time}", time=say_wait(event.seconds))
+            case Dwelt():
+                return message("waited {time}", time=say_wait(round(event.seconds)))
             case Waited():
                 return _waited(event)
+            case EventBegan():
+                return say_began(event)
+            case EventEnded():
+                return message(
+                    "over after {time}: {what}", time=clock_time(event.seconds), what=kept_in_log(event.what)
+                )
             case LimitCrossed():
                 return say_crossing(event)
             case ClockSet():
@@ -177,6 +192,10 @@ def _obstructed(event: Obstructed) -> str:
 
 def _waited(event: Waited) -> str:
     time = clock_time(event.seconds)
+    if event.wanted == "event":
+        if event.over:
+            return message("waited {time} until it was over", time=time)
+        return message("waited {time}, and it is not over", time=time)
     if event.wanted == "way":
         return message("waited {time} for a way to become free", time=time)
     if event.over:

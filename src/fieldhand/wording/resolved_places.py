@@ -83,7 +83,9 @@ def _of_walk(walk: Walk) -> dict[str, list[_Visit]]:
 
 
 def _doubtful(plan: Node) -> frozenset[str]:
-    """Return nodes with relative places in or after optional visits or steps, which depend on the budget."""
+    """Return nodes whose places depend on readings, and those with relative places in or after such nodes, or in or
+    after optional visits or steps, which depend on the budget.
+    """
     found: set[str] = set()
     after = False
 
@@ -92,6 +94,9 @@ def _doubtful(plan: Node) -> frozenset[str]:
         selector = node.selector
         if after and selector is not None and selector.relative:
             found.add(node.id)
+        if selector is not None and selector.decided_by_readings:
+            found.add(node.id)
+            after = True
         after = after or (node.is_optional and node.visits_each)
         for child in node.children:
             visit(child)

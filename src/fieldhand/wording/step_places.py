@@ -52,6 +52,8 @@ def say_ids(selector: Selector, resolved: ResolvedPlaces | None) -> str:
         return ""
     ids = tuple(p.id for p in resolved.places)
     text = say_selector(selector)
+    if selector.decided_by_readings:
+        return message("(decided on the way by the readings)")
     if not resolved.known:
         return message("(decided on the way; most likely {ids})", ids=say_places(ids))
     new = 0 < len(ids) <= 12 and not all(i in text.split() for i in ids)

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from fieldhand.language import counted, message, shaped
-from fieldhand.language.words import say_marker, say_name, say_number, say_times, say_tree
+from fieldhand.language.words import say_marker, say_name, say_number, say_side, say_times, say_tree, say_wait
 from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import Trees
 from fieldhand.places.wording import SelectorWording, say_places, say_selector
@@ -14,10 +14,25 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.conditions import Condition
 from fieldhand.task.frames import Task, Then
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, InOrder, Node, OptionalStep, Repeat, StopMission, Try
+from fieldhand.task.plan import (
+    Act,
+    AnyOrder,
+    ForEach,
+    GoTo,
+    If,
+    InOrder,
+    Node,
+    OptionalStep,
+    Pace,
+    Repeat,
+    StopMission,
+    Try,
+    Wait,
+)
 from fieldhand.wording.conditions import say_act, say_condition
 from fieldhand.wording.resolved_places import ResolvedPlaces
 from fieldhand.wording.step_places import in_order, say_expected, say_expected_visits, say_ids
+from fieldhand.wording.watches import say_watch
 
 Names = dict[str, str]
 
@@ -43,14 +58,14 @@ class ReadBackLine:
 def say_place(place: Place) -> str:
     """Return the name of a place in the read-back: "tree 81", "the end marker"."""
     if place.kind == "tree":
-        return say_tree(place.id)
+        return say_side(place.id, place.side) if place.side else say_tree(place.id)
     return say_marker(place.id) if place.kind == "marker" else place.id
 
 
 def write_lines(
     task: Task, site: Site, robot: RobotProfile, resolved: Mapping[str, ResolvedPlaces]
 ) -> tuple[ReadBackLine, ...]:
-    """Return the plan and its nominal exit as lines.
+    """Return the watched conditions, the plan and its nominal exit as lines.
 
     Args:
         task: Task to describe.
@@ -59,8 +74,12 @@ def write_lines(
     """
     writer = _LineWriter(robot, resolved)
     writer.node(task.composition.plan, 0)
+    watches = [
+        ReadBackLine(number=None, node=task.composition.plan.id, indent=0, text=say_watch(watch, robot))
+        for watch in task.composition.watches
+    ]
     writer.step(task.composition.plan.id, 0, say_exit(task.composition.nominal, site))
-    return tuple(writer.lines)
+    return (*watches, *writer.lines)
 
 
 def say_exit(then: Then, site: Site) -> str:
@@ -147,6 +166,17 @@ class _LineWriter:
                 self._arrived(node.label, node.id, number)
             case Act():
                 self._act(node, indent)
+            case Wait(seconds=seconds):
+                time = say_wait(seconds)
+                there = message("Wait there for {time}.", time=time)
+                self.step(
+                    node.id, indent, there if self._moved else message("Wait at the start for {time}.", time=time)
+                )
+            case Pace(body=body, speed_m_s=speed):
+                self._open(
+                    node.id, indent, message("Drive no faster than {speed} m/s for this:", speed=say_number(speed))
+                )
+                self.node(body, indent + 1)
             case StopMission(exit=taken):
                 failed = message("End the mission here, which counts as failed.")
                 self.step(node.id, indent, message("End the mission here.") if taken == "nominal" else failed)
@@ -175,6 +205,8 @@ class _LineWriter:
             place = say_place(one)
             aside = selector.aside(text)
             return message("{place} ({words})", place=place, words=aside) if aside else place
+        if selector.decided_by_readings:
+            return message("{place} (decided on the way by the readings)", place=text)
         if resolved is None:
             return text
         if resolved.known:
@@ -312,7 +344,8 @@ class _LineWriter:
             name: message("there", context="reading") if t.there else message("of step {number}", number=t.step)
             for name, t in self._taken.items()
         }
-        return say_condition(condition, where, self._robot)
+        series = {name: message("of step {number}", number=t.step) for name, t in self._taken.items()}
+        return say_condition(condition, where, self._robot, series=series)
 
 
 def _one_line(text: str) -> str:

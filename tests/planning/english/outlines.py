@@ -7,7 +7,9 @@ from dataclasses import fields
 from fieldhand.places import selectors as s
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
+from fieldhand.task.aggregates import Aggregate, CompareSeries, CountReadings, MeanKnown
 from fieldhand.task.frames import Task
+from fieldhand.task.timing import DayTime, Schedule, StartTime
 
 SHORT = {"take_thermal_picture": "picture", "take_picture": "picture", "read_co2": "co2"}
 SHORT |= {"read_ambient_temperature": "air", "read_soil_moisture": "moisture", "read_soil_nitrate": "nitrate"}
@@ -19,11 +21,33 @@ def outline(task: Task) -> str:
     limits = "".join(f" | {b.kind} {b.limit:g}" for b in task.constraints.budgets)
     if task.constraints.reserve_percent is not None:
         limits += f" | reserve {task.constraints.reserve_percent:g}"
+    if task.constraints.speed_m_s is not None:
+        limits += f" | speed {task.constraints.speed_m_s:g}"
     for avoid in task.constraints.avoid:
         limits += f" | avoid {selector(avoid.places)}" + (f" {avoid.distance_m:g} m" if avoid.distance_m else "")
     limits += "".join(f" | only {only.gate}" for only in task.constraints.only_gates)
     exit_ = "" if task.composition.nominal == "return_to_end" else f" | {task.composition.nominal}"
-    return node(task.composition.plan) + limits + exit_
+    times = "" if task.timing is None else " | " + " ".join(timing(task.timing))
+    return node(task.composition.plan) + limits + times + exit_
+
+
+def timing(when: StartTime | Schedule) -> list[str]:
+    """The fields of a timing that are not their defaults."""
+    said = []
+    for field in fields(when):
+        value = getattr(when, field.name)
+        if field.name in ("said", "time_zone") or value == field.default:
+            continue
+        many = value if isinstance(value, tuple) else (value,)
+        said.append(f"{field.name}={','.join(day_time(v) if isinstance(v, DayTime) else str(v) for v in many)}")
+    return said
+
+
+def day_time(at: DayTime) -> str:
+    """A time of day."""
+    if at.sun is None:
+        return at.clock
+    return f"{at.sun}{at.offset_min:+g}" if at.offset_min else at.sun
 
 
 def node(n: p.Node) -> str:
@@ -58,6 +82,10 @@ def node(n: p.Node) -> str:
             return "; ".join(node(step) for step in n.steps)
         case p.StopMission():
             return "stop"
+        case p.Wait():
+            return f"wait {n.seconds:g}"
+        case p.Pace():
+            return f"at {n.speed_m_s:g} m/s: [{node(n.body)}]"
         case _:
             raise AssertionError(n)
 
@@ -91,6 +119,16 @@ def condition(x: c.Condition) -> str:
         case c.TreeHas():
             value = f"{x.value:g}" if isinstance(x.value, float) else x.value
             return f"{x.attribute} {SIGNS[x.test]} {value}"
+        case Aggregate():
+            return f"{x.of}({condition(x.condition)})"
+        case CountReadings():
+            return f"count({condition(x.condition)}) {SIGNS[x.test]} {x.number:g}{' %' if x.percent else ''}"
+        case MeanKnown():
+            width = f"{x.percent:g} %" if x.percent else f"{x.value:g} {x.unit}"
+            return f"mean({x.reading}) +- {width} from {x.at_least}"
+        case CompareSeries():
+            by = f" + {x.value:g} {x.unit}" if x.value else ""
+            return f"{x.of}({x.reading}) {SIGNS[x.test]} {x.of}({x.than}){by}"
         case c.Not():
             return f"not {condition(x.condition)}"
         case c.AllOf():

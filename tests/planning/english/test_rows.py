@@ -105,10 +105,10 @@ def test_an_assumption_says_which_way_is_counted() -> None:
             "take a picture of the oldest tree in each block",
             "UnionOf(Top(age, 1, of InBlock(A))+Top(age, 1, of InBlock(B)))",
         ),
-        ("take pictures of 3 trees per block", "UnionOf(Take(3, of InBlock(A))+Take(3, of InBlock(B)))"),
+        ("take pictures of 3 trees per block", "Quota(block, 3)"),
         ("take pictures at each corner of both blocks", "UnionOf(Corners(of InBlock(A))+Corners(of InBlock(B)))"),
         ("take pictures of every third row of each block", "UnionOf(Rows(3, of InBlock(A))+Rows(3, of InBlock(B)))"),
-        ("in each block, take a picture of two trees", "UnionOf(Take(2, of InBlock(A))+Take(2, of InBlock(B)))"),
+        ("in each block, take a picture of two trees", "Quota(block, 2)"),
         ("take pictures of all blocks", "UnionOf(InBlock(A)+InBlock(B))"),
     ],
 )

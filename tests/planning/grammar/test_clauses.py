@@ -300,17 +300,17 @@ PLANNED = [
     (
         "husky",
         "Take 5 CO2 readings in each of rows 3 and 4.",
-        "for UnionOf(Take(5, of Rows(3, 3))+Take(5, of Rows(4, 4))): [co2]",
+        "for Quota(row, 5, of UnionOf(Rows(3, 3)+Rows(4, 4))): [co2]",
     ),
     (
         "husky",
         "Take 5 CO2 readings per row in rows 3 to 6.",
-        "for UnionOf(Take(5, of Rows(3, 3))+Take(5, of Rows(4, 4))+Take(5, of Rows(5, 5))+Take(5, of Rows(6, 6))): [co2]",
+        "for Quota(row, 5, of Rows(3, 6)): [co2]",
     ),
     (
         "husky",
         "Take a picture of two random trees in each of rows 1 to 4.",
-        "for UnionOf(RandomSample(2, of Rows(1, 1))+RandomSample(2, 1, of Rows(2, 2))+RandomSample(2, 2, of Rows(3, 3))+RandomSample(2, 3, of Rows(4, 4))): [picture]",
+        "for Quota(row, 2, random, of Rows(1, 4)): [picture]",
     ),
     ("husky", "Pictures of any 10 trees of row 3.", "for Take(10, of Rows(3, 3)): [picture]"),
     ("husky", "Pictures of 10 trees of your choice in row 3.", "for Take(10, of Rows(3, 3)): [picture]"),

@@ -488,11 +488,11 @@ PLANNED = {
         ),
         (
             "Photograph one tree in every row.",
-            "for UnionOf(Take(1, of Rows(1, 1))+Take(1, of Rows(2, 2))+Take(1, of Rows(3, 3))+Take(1, of Rows(4, 4))+Take(1, of Rows(5, 5))+Take(1, of Rows(6, 6))+Take(1, of Rows(7, 7))+Take(1, of Rows(8, 8))+Take(1, of Rows(9, 9))+Take(1, of Rows(10, 10))): [picture]",
+            "for Quota(row, 1, of Rows): [picture]",
         ),
         (
             "Photograph one random tree in every row.",
-            "for UnionOf(RandomSample(1, of Rows(1, 1))+RandomSample(1, 1, of Rows(2, 2))+RandomSample(1, 2, of Rows(3, 3))+RandomSample(1, 3, of Rows(4, 4))+RandomSample(1, 4, of Rows(5, 5))+RandomSample(1, 5, of Rows(6, 6))+RandomSample(1, 6, of Rows(7, 7))+RandomSample(1, 7, of Rows(8, 8))+RandomSample(1, 8, of Rows(9, 9))+RandomSample(1, 9, of Rows(10, 10))): [picture]",
+            "for Quota(row, 1, random, of Rows): [picture]",
         ),
         (
             "Photograph the oldest tree of every row but the last.",
@@ -546,7 +546,7 @@ PLANNED = {
         ),
         (
             "Photograph two random trees in each of rows 2, 3 and 4.",
-            "for UnionOf(RandomSample(2, of Rows(2, 2))+RandomSample(2, 1, of Rows(3, 3))+RandomSample(2, 2, of Rows(4, 4))): [picture]",
+            "for Quota(row, 2, random, of UnionOf(Rows(2, 2)+Rows(3, 3)+Rows(4, 4))): [picture]",
         ),
         (
             "Photograph any tree of row 3 except the first.",
@@ -780,7 +780,6 @@ REFUSED = [
     "Photograph every third tree of row 3 except the last.",
     "Photograph the trees of row 3 that are not yellow and older than 8 years.",
     "Photograph the last row but one.",
-    "Photograph half of the yellow trees.",
     "Photograph row 3 starting with the fifth tree.",
     "Photograph the wet corner. Photograph any three trees outside it.",
     "Photograph row 3, not just 40.",

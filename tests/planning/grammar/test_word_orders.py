@@ -31,7 +31,7 @@ PLANNED = [
     ("Visit trees 45, 90 and 135. At each one take a picture and a CO2 reading.", "for UnionOf(TreeIs(45)+TreeIs(90)+TreeIs(135)): [picture; co2]"),
     ("Give me a CO2 reading from somewhere in row 3.", "co2 @ Take(1, of Rows(3, 3))"),
     ("Measure CO2 at five Carmel trees. Any five will do.", "for Take(5, of Where(variety, eq, Carmel)): [co2]"),
-    ("Measure CO2 once per row in rows 2 and 3.", "for UnionOf(Take(1, of Rows(2, 2))+Take(1, of Rows(3, 3))): [co2]"),
+    ("Measure CO2 once per row in rows 2 and 3.", "for Quota(row, 1, of UnionOf(Rows(2, 2)+Rows(3, 3))): [co2]"),
     ("Inspect every third tree of row 1: one thermal picture and one temperature reading at each.", "for EveryNth(3, of Rows(1, 1)): [picture; air]"),
     ("Take a picture of the westernmost tree and one of the easternmost.", "picture @ Extreme(west); picture @ Extreme(east)"),
     ("Take one picture of tree 5 and two of tree 9.", "picture @ TreeIs(5); picture x2 @ TreeIs(9)"),

@@ -90,6 +90,7 @@ def filled(form: str, *, whole: bool) -> str:
     """A form of the prompt as an element: one value for each placeholder, optional parts in it or left out."""
     form = re.sub(r"\[((?:[^\[\]]|\[[^\]]*\])*)\]", r"\1" if whole else "", form)
     form = re.sub(r"\bOF\b", "<of>S</of>", form).replace(" = origin", "").replace(" (<here/>)", "")
+    form = re.sub(r"(?<=>)<([a-z-]+)/>\|\S*", lambda m: filled(paragraphs()[m[1]][0], whole=whole), form)
     form = re.sub(r"<(budget|faulted)/>", lambda m: filled(paragraphs()[m[1]][0], whole=whole), form)
     for short, one in (("SIDE", "north"), ("TEST", "lt"), ("some of: ", ""), ("int", "1"), ("number", "0.5")):
         form = form.replace(f'"{short}', f'"{one}')
@@ -110,6 +111,7 @@ def test_every_form_that_is_shown_is_valid_with_all_that_may_be_left_out_and_wit
     element = filled(paragraphs()[element_name(cls)][0], whole=whole).replace("<drive/>", f"<{action}/>")
     element = (
         element.replace("<height ", f"<{quantity} ")
+        .replace("<height/>", f"<{quantity}/>")
         .replace('unit="name"', 'unit="ppm"')
         .replace('level="name"', 'level="low"')
     )

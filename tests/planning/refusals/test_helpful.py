@@ -21,10 +21,10 @@ from planning.english.vineyards import vineyard
 HUSKY, DEMO = load_robot("husky"), load_demo()
 #: A wish that no plan can express, and what it is called.
 WISHES = [
-    ("Photograph the south block every Tuesday at noon.", "a schedule"),
+    ("Photograph the south block every Tuesday by lunchtime.", "a schedule"),
     ("Measure CO2 at vine N100 three times a week.", "a schedule"),
-    ("Start at 5:30 am and take pictures of row 2 of the north block.", "a start time"),
-    ("As soon as the sun is up, photograph row 1 of the south block.", "a start time"),
+    ("Photograph row 1, then at 5:30 am take pictures of row 2 of the north block.", "the whole mission can begin"),
+    ("As soon as the fog lifts, photograph row 1 of the south block.", "the whole mission can begin"),
     ("Wait at the gate until I come back.", "waiting"),
     ("Take pictures of row 7 of the north block and then mow it.", "no tool for"),
     ("Spray sulfur on rows 1 to 6 of the south block.", "no tool for"),
@@ -35,9 +35,9 @@ WISHES = [
     ("Count how many vines are dead in the north block.", "asks to count"),
     ("Tell me which vines have mildew in row 2 of the south block.", "to recognise something"),
     ("Check whether the drip lines leak in row 8 of the north block.", "to recognise something"),
-    ("Take pictures of the hottest vine in row 4 of the north block.", "to compare readings"),
+    ("Compare vine N100 with vine N101.", "to compare readings"),
     ("Record the average temperature of the north block.", "a statistic"),
-    ("Measure CO2 at vine N100 and stop when you see a person.", "to react to people"),
+    ("Measure CO2 at vine N100 and stop when you see a person.", "cannot tell"),
     ("Take a picture of vine N100 unless it rains.", "the weather"),
     ("If the battery gets low go back to the start.", "the battery"),
     ("Follow the tractor through row 5 of the north block.", "to follow or lead"),
@@ -96,7 +96,7 @@ def test_what_is_suggested_can_be_planned_on_the_site(request_: str) -> None:
 
 
 def test_what_was_understood_is_said_in_the_words_of_the_read_back_and_suggested() -> None:
-    outcome = refused("Every morning take pictures of row 5 of the north block.", vineyard())
+    outcome = refused("Sometimes take pictures of row 5 of the north block.", vineyard())
     assert outcome.understood == ("At each of the trees of row 5 of block North: take a thermal picture.",)
     assert outcome.example == "Take pictures of row 5 of the north block."
     several = refused("Water tree 5 and measure CO2 there.", DEMO)

@@ -6,6 +6,7 @@ import io
 import json
 import zipfile
 from collections.abc import Mapping
+from dataclasses import replace
 from datetime import UTC, datetime
 from functools import cache
 from typing import Any
@@ -26,6 +27,7 @@ from fieldhand.robot.loader import parse_profile, profile_bytes
 from fieldhand.site.formats.files import SiteFiles
 from fieldhand.site.loader import site_of
 from fieldhand.task.plan import Act
+from fieldhand.task.timing import Timing
 from fieldhand.testing.small_orchard import at, task_for
 from support.sites.points import collection, point
 
@@ -67,6 +69,7 @@ def pack_mission(
     lenient: bool = False,
     at: str = WHEN,
     by: str = "Ada",
+    timing: Timing | None = None,
     **more: Any,
 ) -> bytes:
     """A good bundle: CO2 at tree 1, with what is warned of (once, not three times) confirmed."""
@@ -76,6 +79,7 @@ def pack_mission(
     site = site_of(files, lenient=lenient)
     act = Act(id="", action="read_co2", at=TreeIs(tree="1"), said=((0, 30),))
     task = task_for(site, act, "Take 3 CO2 readings at tree 1.")
+    task = replace(task, timing=timing)
     authorized = approve(examine(task, site, robot), by=by, at=at, confirmed=EveryWarning())
     return pack(
         authorized, site, robot, files=files, lenient=lenient, profile=profile, key=key, planner="english", **more

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import AsyncIterator, Callable
 from dataclasses import dataclass, field
-from datetime import datetime
+from datetime import UTC, datetime, tzinfo
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -54,6 +54,7 @@ class RobotAgentInProcess:
 
     folder: Path
     now: Callable[[], datetime] = lambda: NOW
+    zone: tzinfo = UTC
     sites: tuple[Site, ...] = ()
     robot: str = "husky"
     carry: Carry = fly
@@ -74,7 +75,11 @@ class RobotAgentInProcess:
         accept = acceptance(robot=profile, sites=self.sites, trusted=self.trusted, now=lambda: self.now())
         self.mission_store = MissionStore(self.store, accept=accept, now=lambda: self.now())
         self.supervisor = MissionSupervisor(
-            self.mission_store, carry=lambda given: self.carry(given), conclude=lambda given: self.conclude(given)
+            self.mission_store,
+            carry=lambda given: self.carry(given),
+            conclude=lambda given: self.conclude(given),
+            now=lambda: self.now(),
+            zone=self.zone,
         )
         self.app: FastAPI = create_agent(
             self.mission_store,

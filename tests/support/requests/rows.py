@@ -81,7 +81,7 @@ PLANNED = [
     (
         "husky",
         "Take one picture per row.",
-        "for UnionOf(Take(1, of Rows(1, 1))+Take(1, of Rows(2, 2))+Take(1, of Rows(3, 3))+Take(1, of Rows(4, 4))+Take(1, of Rows(5, 5))+Take(1, of Rows(6, 6))+Take(1, of Rows(7, 7))+Take(1, of Rows(8, 8))+Take(1, of Rows(9, 9))+Take(1, of Rows(10, 10))): [picture]",
+        "for Quota(row, 1, of Rows): [picture]",
     ),
     (
         "husky",
@@ -105,7 +105,7 @@ PLANNED = [
     (
         "husky",
         "take a picture of a tree in each row",
-        "for UnionOf(Take(1, of Rows(1, 1))+Take(1, of Rows(2, 2))+Take(1, of Rows(3, 3))+Take(1, of Rows(4, 4))+Take(1, of Rows(5, 5))+Take(1, of Rows(6, 6))+Take(1, of Rows(7, 7))+Take(1, of Rows(8, 8))+Take(1, of Rows(9, 9))+Take(1, of Rows(10, 10))): [picture]",
+        "for Quota(row, 1, of Rows): [picture]",
     ),
     ("husky", "take a picture of trees 4-9 of row 2", "for InRow(4, 9, of Rows(2, 2)): [picture]"),
     ("husky", "take a picture of tree 7 in row 3", "picture @ InRow(7, 7, of Rows(3, 3))"),
@@ -367,7 +367,7 @@ PLANNED = [
     (
         "husky",
         "Take two pictures in each row.",
-        "for UnionOf(Take(2, of Rows(1, 1))+Take(2, of Rows(2, 2))+Take(2, of Rows(3, 3))+Take(2, of Rows(4, 4))+Take(2, of Rows(5, 5))+Take(2, of Rows(6, 6))+Take(2, of Rows(7, 7))+Take(2, of Rows(8, 8))+Take(2, of Rows(9, 9))+Take(2, of Rows(10, 10))): [picture]",
+        "for Quota(row, 2, of Rows): [picture]",
     ),
     (
         "husky",
@@ -661,7 +661,7 @@ PLANNED = [
     (
         "husky",
         "photograph three trees in every second row",
-        "for UnionOf(Take(3, of Rows(1, 1))+Take(3, of Rows(3, 3))+Take(3, of Rows(5, 5))+Take(3, of Rows(7, 7))+Take(3, of Rows(9, 9))): [picture]",
+        "for Quota(row, 3, of Rows(2)): [picture]",
     ),
     (
         "husky",
@@ -856,7 +856,7 @@ PLANNED = [
     (
         "husky",
         "take a picture of a tree in each of rows 2 to 4",
-        "for UnionOf(Take(1, of Rows(2, 2))+Take(1, of Rows(3, 3))+Take(1, of Rows(4, 4))): [picture]",
+        "for Quota(row, 1, of Rows(2, 4)): [picture]",
     ),
     ("husky", "take pictures of every third row of trees", "for Rows(3): [picture]"),
     ("husky", "take 5 CO2 readings spaced every 15 m along row 4", "for Spaced(15, 5, of Rows(4, 4)): [co2]"),
@@ -901,7 +901,7 @@ PLANNED = [
     (
         "husky",
         "visit row 2, row 4 and row 6 and take 2 pictures in each",
-        "for UnionOf(Take(2, of Rows(2, 2))+Take(2, of Rows(4, 4))+Take(2, of Rows(6, 6))): [picture]",
+        "for Quota(row, 2, of UnionOf(Rows(2, 2)+Rows(4, 4)+Rows(6, 6))): [picture]",
     ),
     (
         "husky",
@@ -974,7 +974,7 @@ PLANNED = [
     (
         "husky",
         "visit rows 2 to 4 and take a picture in each",
-        "for UnionOf(Take(1, of Rows(2, 2))+Take(1, of Rows(3, 3))+Take(1, of Rows(4, 4))): [picture]",
+        "for Quota(row, 1, of Rows(2, 4)): [picture]",
     ),
     (
         "husky",
@@ -1185,11 +1185,7 @@ ASKED = [
 ]
 
 REFUSED = [
-    (
-        "husky",
-        "Take CO2 readings at 3 random points in the wet corner.",
-        "'3 random points': points are spread evenly over a zone, not at random",
-    ),
+    ("husky", "Take CO2 readings at 3 random points.", "'3 random points': random points are drawn in a zone"),
     (
         "husky",
         "Photograph two trees that are 300 metres apart.",
@@ -1482,7 +1478,7 @@ ELSEWHERE = [
     (
         "blocks",
         "take a picture of a tree in each block",
-        "for UnionOf(Take(1, of InBlock(A))+Take(1, of InBlock(B))): [picture]",
+        "for Quota(block, 1): [picture]",
     ),
     ("blocks", "take pictures in the block", "asks 'take pictures in the block': which is meant?"),
     ("blocks", "take pictures in block C", "refuses there is no block 'C'"),

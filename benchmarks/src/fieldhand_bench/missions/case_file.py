@@ -18,7 +18,7 @@ from fieldhand.execution.drivers.simulation.world_file import parse_world
 from fieldhand.files import FileFault, read_file
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
-from fieldhand.site.loader import demo_path
+from fieldhand.site.loader import BUILT_IN_SITES, built_in_path
 from fieldhand.strict_yaml import YamlFault, read_yaml
 from fieldhand_bench.missions.case_form import (
     BookForm,
@@ -40,7 +40,7 @@ BUILTIN = "builtin"
 MAX_BYTES = 5_000_000
 GUIDE = "see docs/bench-missions.md"
 
-_SITES = {"builtin:demo": demo_path}
+_SITES = {f"builtin:{name}": built_in_path(name) for name in BUILT_IN_SITES}
 #: Forms by the key that contains them.
 _FORMS: dict[str, type[Form]] = {
     "cases": CaseForm,
@@ -127,6 +127,7 @@ def _case(form: CaseForm, book: BookForm, path: Path, loaders: _Loaders) -> Case
         robot=robot_name,
         worlds=tuple(worlds),
         asks=form.ask,
+        runs=form.runs,
         source=str(path),
     )
 
@@ -137,7 +138,7 @@ def _site(named: str, path: Path, where: str) -> Path:
             raise CaseError(
                 f"there is no built-in site '{named}'", where=where, advice=f"use {' or '.join(_SITES)}, or a file"
             )
-        return _SITES[named]()
+        return _SITES[named]
     site = (path.parent / named).resolve()
     if not site.is_file():
         raise CaseError(

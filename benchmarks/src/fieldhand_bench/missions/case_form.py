@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import (
     AfterValidator,
+    AwareDatetime,
     BaseModel,
     BeforeValidator,
     ConfigDict,
@@ -286,6 +287,7 @@ class CaseForm(Form):
     site: Text | None = None
     robot: Text | None = None
     ask: StrictBool = False
+    runs: tuple[AwareDatetime, ...] = ()
     worlds: Annotated[tuple[WorldForm, ...], Field(min_length=1)] | None = None
 
     @model_validator(mode="after")

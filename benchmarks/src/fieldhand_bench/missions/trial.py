@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
-from datetime import UTC, datetime
+from datetime import UTC, datetime, timedelta
+from itertools import islice
 from pathlib import Path
 from typing import Literal
 
@@ -21,6 +22,7 @@ from fieldhand.site.model import Site
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import walk
+from fieldhand.timetable.runs import Calendar
 from fieldhand_bench.missions.case_site import CaseSite, load_case_site
 from fieldhand_bench.missions.cases import Case, CaseWorld
 from fieldhand_bench.missions.judge import judge
@@ -31,6 +33,8 @@ from fieldhand_bench.missions.log import read_log
 TrialAnswer = Literal["planned", "asked", "refused", "failed", "not approved"]
 
 _APPROVED_AT = datetime(2026, 1, 1, tzinfo=UTC)
+#: Tolerance of the times of the sun.
+_SAME_TIME = timedelta(minutes=3)
 _FIRST = "go to the first tree"
 
 
@@ -152,7 +156,8 @@ def _try(case: Case, robot: RobotProfile, setup: TrialSetup) -> CaseTrial:
     tasks, conditionals, wrong = 0, 0, []
     if isinstance(outcome, Planned):
         tasks, conditionals = _size(outcome.task)
-        if not case.asks:
+        why = _other_runs(case, outcome.task, site)
+        if not case.asks and not why:
             try:
                 approved = _approve(outcome.task, site, robot)
                 logs = [_drive(approved, world, setup.seed) for world in case.worlds]
@@ -175,6 +180,27 @@ def _try(case: Case, robot: RobotProfile, setup: TrialSetup) -> CaseTrial:
         tokens=0 if setup.model is None else setup.model.tokens - tokens,
         tries=0 if setup.model is None else setup.model.tries - tries,
     )
+
+
+def _other_runs(case: Case, task: Task, site: Site) -> str:
+    """Return how the runs of a plan differ from those of its case; empty if they do not."""
+    if task.timing is None:
+        return "it has no times" if case.runs else ""
+    if not case.runs:
+        return "it begins at a time that nobody asked for"
+    calendar = Calendar(
+        approved=_APPROVED_AT,
+        expires=_APPROVED_AT + timedelta(days=90),
+        zone=UTC,
+        lat=site.start.lat,
+        lon=site.start.lon,
+    )
+    found = list(islice(calendar.runs(task.timing, _APPROVED_AT), len(case.runs) + 1))
+    if any(abs(run.due - wanted) > _SAME_TIME for run, wanted in zip(found, case.runs, strict=False)) or len(
+        found
+    ) < len(case.runs):
+        return f"it runs at {', '.join(run.due.isoformat(timespec='minutes') for run in found)}"
+    return ""
 
 
 def _plan(case: Case, site: Site, robot: RobotProfile, planner: Planner) -> Outcome | ModelError:

@@ -16,6 +16,7 @@ from fieldhand.task.results import (
     Arrived,
     Decided,
     Driving,
+    Dwelt,
     Ended,
     Event,
     Shed,
@@ -26,7 +27,7 @@ from fieldhand.task.results import (
 MeasuredKind = Literal["leg", "capture", "rest"]
 
 #: A capture begins where one of these ends; behind a fault, a pause or a power cut nobody knows since when it took.
-_PROMPT = (Arrived, Acted, Decided, Visiting, Shed)
+_PROMPT = (Arrived, Acted, Dwelt, Decided, Visiting, Shed)
 #: Percent by which a charge may seem to rise between two readings of it.
 _NOISE_PERCENT = 0.5
 

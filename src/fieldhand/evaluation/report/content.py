@@ -19,6 +19,7 @@ from fieldhand.task.exceeded import say_status
 from fieldhand.task.frames import BudgetKind, Task
 from fieldhand.task.request_coverage import ROLE_NAMES, has_ranges, request_pieces
 from fieldhand.task.results import Event, GoalOutcome
+from fieldhand.wording.watches import say_watch
 from fieldhand.wording.ways import say_ways
 
 _MARKS = {"success": "✓ met", "failure": "✗ not met", "indeterminate": "? not known"}
@@ -281,6 +282,8 @@ def _record(
         yield "Budget", f"at most {listed(budgets)}"
     for text in say_ways(task.constraints):
         yield "Way", text
+    for watch in task.composition.watches:
+        yield "Watched", say_watch(watch, robot)
     for text in task.command.assumptions:
         yield "Assumed", text
     if authorization is not None:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fieldhand.clock import clock_time
 from fieldhand.evaluation.report.log_facts import end_of, places_ahead
 from fieldhand.evaluation.report.place_names import PlaceNames
-from fieldhand.language.words import say_action, say_count
+from fieldhand.language.words import listed, say_action, say_count
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.frames import Task
 from fieldhand.task.results import (
@@ -18,6 +18,8 @@ from fieldhand.task.results import (
     Continued,
     Decided,
     Event,
+    EventBegan,
+    EventEnded,
     Faulted,
     InDoubt,
     LimitCrossed,
@@ -26,6 +28,7 @@ from fieldhand.task.results import (
     Paused,
     Resumed,
     Shed,
+    ShedCause,
     Waited,
 )
 from fieldhand.wording.events import EventText
@@ -34,6 +37,10 @@ from fieldhand.wording.events import EventText
 _MOST_DETAILS = 60
 #: Above the first number lines are folded; above the second they are counted.
 _FEW_LINES, _MOST_LINES = 12, 200
+
+
+#: Causes of giving work up, in the order of the sections.
+_CAUSES: tuple[ShedCause, ...] = ("budget", "event", "unreachable")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,13 +68,13 @@ class FoldedLines:
 
 def left_out(task: Task, events: Sequence[Event], names: PlaceNames) -> tuple[LeftOut, ...]:
     """Return the work that was not done: places not reached before the end, then what was given up, by cause."""
-    groups: dict[tuple[bool, bool], list[Shed]] = {}
+    groups: dict[tuple[bool, int], list[Shed]] = {}
     for event in events:
         if isinstance(event, Shed):
-            groups.setdefault((event.optional, event.cause == "unreachable"), []).append(event)
+            groups.setdefault((event.optional, _CAUSES.index(event.cause)), []).append(event)
     found = [
-        _given_up(group, optional=optional, cut_off=cut_off, names=names)
-        for (optional, cut_off), group in sorted(groups.items())
+        _given_up(group, optional=optional, cause=_CAUSES[cause], names=names)
+        for (optional, cause), group in sorted(groups.items())
     ]
     ahead = places_ahead(task, events)
     return (_not_reached(ahead, events, names), *found) if ahead else tuple(found)
@@ -87,7 +94,10 @@ def faults(robot: RobotProfile, events: Sequence[Event], names: PlaceNames) -> F
             then = "it was taken again" if event.then == "repeat" else "it was not taken again"
             what = f"{say_action(event.action)} at {names.name(event.kind, event.place)} is in doubt; {then}"
             lines.append(f"{clock_time(event.t)}: {what}: {event.what}")
-        elif isinstance(event, Obstructed | Waited | LimitCrossed | ClockSet | Resumed | Paused | Continued):
+        elif isinstance(
+            event,
+            Obstructed | Waited | EventBegan | EventEnded | LimitCrossed | ClockSet | Resumed | Paused | Continued,
+        ):
             lines.append(f"{clock_time(event.t)}: {text.brief(event)}")
     return _folded(lines, f"{say_count(len(lines), 'line')}, including failed tries.")
 
@@ -120,13 +130,17 @@ def _not_reached(ahead: Sequence[str], events: Sequence[Event], names: PlaceName
     return LeftOut(mandatory=True, sentence=summary, details=())
 
 
-def _given_up(group: Sequence[Shed], *, optional: bool, cut_off: bool, names: PlaceNames) -> LeftOut:
+def _given_up(group: Sequence[Shed], *, optional: bool, cause: ShedCause, names: PlaceNames) -> LeftOut:
     places = list(dict.fromkeys(place for event in group for place in event.places))
     what = say_count(len(places), "place") if places else say_count(len(group), "step")
     done = "left out" if optional else "given up, though to be done,"
     where = f": {names.many(places)}" if places else ""
     them = "it" if len(places) == 1 else "them"
-    why = f"no way led to {them}" if cut_off else f"the budget would probably not have been enough{_chances(group)}"
+    why = {
+        "budget": f"the budget would probably not have been enough{_chances(group)}",
+        "event": f"of what the mission watched: {listed(list(dict.fromkeys(event.reason for event in group)))}",
+        "unreachable": f"no way led to {them}",
+    }[cause]
     details = [f"{clock_time(event.t)}  {' '.join(event.reason.split())}" for event in group[:_MOST_DETAILS]]
     if len(group) > _MOST_DETAILS:
         details.append(f"and {len(group) - _MOST_DETAILS} more in the event log")

@@ -90,9 +90,10 @@ def places_ahead(task: Task, events: Sequence[Event]) -> tuple[str, ...]:
         or node.tested
     ):
         return ()
-    gone = {e.place for e in events[begun:] if isinstance(e, Arrived | Acted)}
-    gone |= {p for e in events[begun:] if isinstance(e, Shed) for p in e.places}
-    return tuple(place for place in loop.places if place not in gone)
+    gone = {(e.place, e.side if loop.sides else "") for e in events[begun:] if isinstance(e, Arrived | Acted)}
+    shed = {p for e in events[begun:] if isinstance(e, Shed) for p in e.places}
+    each = zip(loop.places, loop.sides or [""] * len(loop.places), strict=False)
+    return tuple(dict.fromkeys(p for p, side in each if (p, side) not in gone and p not in shed))
 
 
 def failed_targets(events: Sequence[Event]) -> tuple[str, ...]:

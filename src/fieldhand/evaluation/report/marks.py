@@ -96,7 +96,7 @@ def draw_left_out(
     """Draw trees that were given up or not reached, and those to which a drive failed."""
     entries: list[LegendEntry] = []
     # Those to which no way led are drawn by draw_incidents.
-    shed = [e for e in events if isinstance(e, Shed) and e.cause == "budget"]
+    shed = [e for e in events if isinstance(e, Shed) and e.cause in ("budget", "event")]
     groups: tuple[tuple[str, str, Sequence[str]], ...] = (
         ("ring", "left out", [p for e in shed if e.optional for p in e.places]),
         ("cross", "given up, though to be done", [p for e in shed if not e.optional for p in e.places]),

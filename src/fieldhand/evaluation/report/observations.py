@@ -24,6 +24,7 @@ class ObservationRow:
         quantity, value, unit: The reading; empty and None where there is none.
         charge_percent: Charge afterwards, in percent of a full battery.
         what: What the robot reported, in words.
+        side: Side of the tree from which it was taken, if the plan says so.
     """
 
     t_s: float
@@ -40,6 +41,7 @@ class ObservationRow:
     unit: str
     charge_percent: float
     what: str
+    side: str
 
 
 COLUMNS = tuple(field.name for field in fields(ObservationRow))
@@ -63,6 +65,7 @@ def observation_rows(events: Sequence[Event]) -> tuple[ObservationRow, ...]:
             unit=event.units.get(quantity, ""),
             charge_percent=round(event.charge_percent, 3),
             what=event.what,
+            side=event.side,
         )
         for event in _tried(events)
         for quantity, value in _readings_of(event)
@@ -107,6 +110,8 @@ def _feature(event: Acted | InDoubt) -> dict[str, Any]:
         properties[quantity] = value if math.isfinite(value) else None
         if quantity in event.units:
             properties[f"{quantity}_unit"] = event.units[quantity]
+    if event.side:
+        properties["side"] = event.side
     if event.what:
         properties["what"] = event.what
     known = math.isfinite(event.lat) and math.isfinite(event.lon)

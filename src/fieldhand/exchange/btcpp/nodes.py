@@ -5,13 +5,26 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, get_args
 
 from fieldhand.exchange.btcpp.elements import Elements, Tag
-from fieldhand.exchange.btcpp.vocabulary import ALLOWS, CONDITIONS, GO_TO, IF_UNKNOWN, ORDER, RESOLVE
+from fieldhand.exchange.btcpp.vocabulary import (
+    ALLOWS,
+    BEGIN_SERIES,
+    CONDITIONS,
+    GO_TO,
+    IF_UNKNOWN,
+    LIMIT,
+    ORDER,
+    RESOLVE,
+    TEST_SERIES,
+    WAIT,
+    WAIT_PORT,
+)
 from fieldhand.exchange.btcpp.writing import EXIT_ENTRY
 from fieldhand.places.selectors import SELECTORS
 from fieldhand.task import plan as p
+from fieldhand.task.aggregates import SeriesCondition
 from fieldhand.task.capabilities import ChoiceParameter
 from fieldhand.task.codec_shapes import shape_of
 from fieldhand.task.codec_text import bare_value
@@ -70,6 +83,12 @@ class NodeReader:
             case str() if tag.kind == GO_TO:
                 place = self.elements.parts(tag, "place", SELECTORS)
                 return p.GoTo(**beside, place=place, **self.elements.fields(tag, p.GoTo))
+            case str() if tag.kind == WAIT:
+                renamed = {("seconds" if port == WAIT_PORT else port): text for port, text in tag.ports.items()}
+                return p.Wait(**beside, **self.elements.fields(replace(tag, ports=renamed), p.Wait))
+            case str() if tag.kind == LIMIT:
+                (body,) = self.elements.children(tag, 1)
+                return p.Pace(**beside, body=self.node(body), **self.elements.fields(tag, p.Pace))
             case str() if tag.kind in self.elements.capabilities.actions:
                 return self._act(tag, beside | {"at_said": self.elements.spans(tag, "_at_said")})
         raise self.elements.error(
@@ -83,8 +102,8 @@ class NodeReader:
             return self._for_each(tag, inside, beside)
         if kinds == [ORDER, "LoopInt"]:
             return self._any_order(inside[1], beside)
-        if kinds == ["Script", "Repeat"]:
-            return self._repeat_until(inside, beside)
+        if kinds in (["Script", "Repeat"], [BEGIN_SERIES, "Repeat"], [BEGIN_SERIES, "Script", "Repeat"]):
+            return self._repeat(inside, beside)
         if kinds == ["Script", "AlwaysFailure"]:
             return self._stop(inside[0], beside)
         acts = self.elements.capabilities.actions
@@ -144,9 +163,16 @@ class NodeReader:
             **self.elements.fields(resolve, p.ForEach, beside=("label",)),
         )
 
-    def _repeat_until(self, inside: list[Tag], beside: dict[str, Any]) -> p.Repeat:
-        repeat = inside[1]
+    def _repeat(self, inside: list[Tag], beside: dict[str, Any]) -> p.Repeat:
+        """Convert a repeat with a test, or with a series that begins anew."""
+        repeat = inside[-1]
         (once,) = self.elements.children(repeat, 1)
+        if inside[0].kind == BEGIN_SERIES:
+            self.elements.ports(inside[0], self.elements.known[BEGIN_SERIES])
+            beside |= {"collects": inside[0].ports.get("reading", "")}
+            if len(inside) == 2:
+                self.elements.ports(repeat, ("num_cycles",))
+                return p.Repeat(**beside, times=self._times(repeat), body=self.node(once))
         body = list(once)
         if once.tag != "Sequence" or len(body) != 2:
             raise self.elements.error(once, "a round is a <Sequence> of one node and a test", "correct it")
@@ -197,6 +223,9 @@ class NodeReader:
             case "Inverter":
                 (inner,) = self.elements.children(tag, 1)
                 return Not(condition=self._condition(inner))
+        if tag.kind == TEST_SERIES:
+            tested: Condition = self.elements.parts(tag, "condition", get_args(SeriesCondition))
+            return tested
         cls = next((cls for cls, kind in CONDITIONS.items() if kind == tag.kind), None)
         if cls is None:
             raise self.elements.error(

@@ -20,6 +20,7 @@ from fieldhand.task.capabilities import Capabilities
 from fieldhand.task.codec import decode_parts
 from fieldhand.task.codec_xml import at_line, parse_xml, require_visible
 from fieldhand.task.frames import Command, Constraints, Fault, FaultedExit, Resource, Task, Then
+from fieldhand.task.watches import Watch
 
 if TYPE_CHECKING:
     from lxml.etree import _Element
@@ -36,6 +37,7 @@ class _Frames:
     nominal: Then = "return_to_end"
     nominal_said: tuple[p.Span, ...] = ()
     faulted: tuple[FaultedExit, ...] = FAULTED_EXITS
+    watches: tuple[Watch, ...] = ()
 
 
 def read_tree(
@@ -84,6 +86,7 @@ def read_tree(
         no_part=frames.command.no_part,
         read_as=frames.command.read_as,
         warnings=frames.command.warnings,
+        watches=frames.watches,
     )
     if not frames.id or not _fits(frames.command, plan):
         return made
@@ -138,7 +141,7 @@ def _mission(tree: _Element, reader: NodeReader, frames: _Frames) -> tuple[_Fram
     if tag.kind != "Sequence" or not inside or inside[0].kind != BEGIN:
         return frames, reader.node(top)
     begin = inside[0]
-    elements.ports(begin, ("task", "command", "constraints", "resources"))
+    elements.ports(begin, ("task", "command", "constraints", "resources", "watches"))
     frames = _begun(begin, elements, frames)
     rest = inside[1:]
     if rest and rest[0].kind == "Script":
@@ -167,6 +170,7 @@ def _begun(begin: Tag, elements: Elements, frames: _Frames) -> _Frames:
         command=command[0] if command else frames.command,
         constraints=constraints[0] if constraints else frames.constraints,
         resources=parts("resources", Resource, 0, 9) if "resources" in begin.ports else (),
+        watches=parts("watches", Watch, 0, 999) if "watches" in begin.ports else (),
         faulted=(),
     )
 

@@ -13,14 +13,18 @@ from fieldhand.task.capabilities import Capabilities, ChoiceParameter, NumberPar
 from fieldhand.task.codec_shapes import Attribute, shape_of
 from fieldhand.task.codec_text import attribute_text, number_text
 from fieldhand.task.conditions import Between, Compare, Level, TreeHas
-from fieldhand.task.plan import Act, ForEach, OptionalStep
+from fieldhand.task.plan import Act, ForEach, OptionalStep, Pace
 
 if TYPE_CHECKING:
     from lxml.etree import _Element
 
-BEGIN, GO_TO, RESOLVE, ORDER, ALLOWS, EXIT, FAULT = (
-    "BeginMission", "GoToPlace", "ResolvePlaces", "OrderSteps", "BudgetAllows", "TakeExit", "HandleFault",
+BEGIN, GO_TO, RESOLVE, ORDER, ALLOWS, EXIT, FAULT, LIMIT = (
+    "BeginMission", "GoToPlace", "ResolvePlaces", "OrderSteps", "BudgetAllows", "TakeExit", "HandleFault", "LimitSpeed",
 )  # fmt: skip
+#: The wait of Nav2, which waits for the seconds of its port.
+WAIT, WAIT_PORT = "Wait", "wait_duration"
+#: Leaves about all readings of a name: forget them, and test a condition on them.
+BEGIN_SERIES, TEST_SERIES = "BeginReadings", "TestReadings"
 #: Leaf of each kind of condition.
 CONDITIONS: dict[type, str] = {
     Compare: "CompareReading",
@@ -55,10 +59,10 @@ class Port:
 
 @dataclass(frozen=True, kw_only=True)
 class Leaf:
-    """A leaf: an action or a condition."""
+    """A leaf: an action or a condition; or a decorator around one node."""
 
     id: str
-    kind: Literal["Action", "Condition"]
+    kind: Literal["Action", "Condition", "Decorator"]
     ports: tuple[Port, ...]
 
 
@@ -79,25 +83,32 @@ def leaves(capabilities: Capabilities) -> tuple[Leaf, ...]:
     frames = tuple(Port(name=n, type=_TEXT, about=f"<{n}> of the Task, as XML") for n in ("command", "constraints"))
     task = Port(name="task", type=_TEXT, about="Id of the Task")
     resources = Port(name="resources", type=_TEXT, default="", about="Robot and site that it was planned for, as XML")
+    watches = Port(name="watches", type=_TEXT, default="", about="Conditions checked throughout the mission, as XML")
     places = Port(name="places", type=_PLACES, direction="output", about="The places found, in the order to visit them")
     first = Port(name="places", type=_TEXT, about="First place of each step, as XML, in the order of the steps")
     order = Port(name="order", type=_STEPS, direction="output", about="Numbers of the steps from 1, best order first")
     node = Port(name="node", type=_TEXT, about="Name of the loop or step that the budget may leave out")
     then = Port(name="then", type=_TEXT, about="return_to_end, return_to_start or stay")
     exits = Port(name="exits", type=_TEXT, default="", about="What to do about each fault, as fault:exit")
+    series = Port(name="reading", type=_TEXT, about="Name of the readings of which none is kept from before")
+    tested = Port(name="condition", type=_TEXT, about="Condition on all readings of a name, as XML")
     ours = (
-        Leaf(id=BEGIN, kind="Action", ports=(task, *frames, resources)),
+        Leaf(id=BEGIN, kind="Action", ports=(task, *frames, resources, watches)),
         Leaf(id=GO_TO, kind="Action", ports=(_PLACE, _LABEL)),
         Leaf(id=RESOLVE, kind="Action", ports=(_SELECT, *_ports(ForEach, beside=("label",)), places)),
         Leaf(id=ORDER, kind="Action", ports=(first, order)),
+        Leaf(id=BEGIN_SERIES, kind="Action", ports=(series,)),
         Leaf(id=EXIT, kind="Action", ports=(then,)),
         Leaf(id=FAULT, kind="Action", ports=(exits,)),
+        Leaf(id=WAIT, kind="Action", ports=(Port(name=WAIT_PORT, type="double", about="Seconds to stand still"),)),
+        Leaf(id=LIMIT, kind="Decorator", ports=_ports(Pace)),
         Leaf(
             id=ALLOWS, kind="Condition", ports=(node, Port(name="place", type=_TEXT, default=""), *_ports(OptionalStep))
         ),
     )
+    test = Leaf(id=TEST_SERIES, kind="Condition", ports=(tested, _UNKNOWN))
     conditions = (Leaf(id=name, kind="Condition", ports=_condition_ports(cls)) for cls, name in CONDITIONS.items())
-    return (*ours, *conditions, *(_action(name, capabilities) for name in capabilities.actions))
+    return (*ours, *conditions, test, *(_action(name, capabilities) for name in capabilities.actions))
 
 
 def models(capabilities: Capabilities) -> _Element:
@@ -122,6 +133,7 @@ _TEXT, _PLACES, _STEPS, _READING = (
 _PLACE = Port(name="place", type=_TEXT, about="A place that was resolved, or a selector as XML")
 _LABEL = Port(name="label", type=_TEXT, default="", about="Binds the place for later nodes")
 _SELECT = Port(name="select", type=_TEXT, about="Selector, as XML")
+_UNKNOWN = Port(name=IF_UNKNOWN, type="bool", default="false", about="What to answer where there is nothing to test")
 _TYPES = {"integer": "int", "number": "double", "flag": "bool"}
 
 
@@ -147,8 +159,7 @@ def _condition_ports(cls: type) -> tuple[Port, ...]:
     if shape.head is not None:
         ports.insert(0, Port(name="quantity", type=_TEXT, about="What was measured"))
         ports.insert(0, Port(name="reading", type=_READING, about="The reading that is tested"))
-    about = "What to answer where there is nothing to test"
-    return (*ports, Port(name=IF_UNKNOWN, type="bool", default="false", about=about))
+    return (*ports, _UNKNOWN)
 
 
 def _action(name: str, capabilities: Capabilities) -> Leaf:

@@ -17,13 +17,18 @@ from fieldhand.errors import TaskError
 from fieldhand.exchange.btcpp.vocabulary import (
     ALLOWS,
     BEGIN,
+    BEGIN_SERIES,
     CONDITIONS,
     EXIT,
     FAULT,
     GO_TO,
     IF_UNKNOWN,
+    LIMIT,
     ORDER,
     RESOLVE,
+    TEST_SERIES,
+    WAIT,
+    WAIT_PORT,
     models,
     plain_attributes,
     port_name,
@@ -31,6 +36,7 @@ from fieldhand.exchange.btcpp.vocabulary import (
 from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import Here
 from fieldhand.task import plan as p
+from fieldhand.task.aggregates import Aggregate, CompareSeries, CountReadings, MeanKnown
 from fieldhand.task.capabilities import Capabilities
 from fieldhand.task.codec import encode_parts
 from fieldhand.task.codec_shapes import Attribute
@@ -89,6 +95,7 @@ class _TreeWriter:
             task=task.id,
             command=encode_parts([task.command]),
             constraints=encode_parts([task.constraints]),
+            watches=encode_parts(composition.watches),
             resources=encode_parts(task.resources),
         )
         stopped = _element(EXIT, then=composition.nominal)
@@ -125,7 +132,8 @@ class _TreeWriter:
             case p.ForEach():
                 return self._for_each(node, entry)
             case p.Repeat(until=None):
-                return _element("Repeat", self.node(node.body), num_cycles=str(node.times))
+                rounds = _element("Repeat", self.node(node.body), num_cycles=str(node.times))
+                return _element("Sequence", *_begin_series(node), rounds) if node.collects else rounds
             case p.Repeat():
                 return self._repeat_until(node, entry)
             case p.If(condition=condition, then=then, otherwise=otherwise):
@@ -142,6 +150,10 @@ class _TreeWriter:
                 return _element(GO_TO, **(_ports(node, node.id) | {"place": encode_parts([place])}))
             case p.Act():
                 return self._act(node)
+            case p.Wait(seconds=seconds):
+                return _element(WAIT, **{WAIT_PORT: number_text(seconds)})
+            case p.Pace(body=body):
+                return _element(LIMIT, self.node(body), **_ports(node, node.id))
             case p.StopMission(exit=taken):
                 # No script after the node: it would also run if a fallback skips the node.
                 return _element("Sequence", _script(f"{EXIT_ENTRY} := '{taken}'"), _element("AlwaysFailure"))
@@ -176,7 +188,8 @@ class _TreeWriter:
         before, test = self._until(node.until, entry, node.id)
         once = _element("Sequence", self.node(node.body), *test)
         once.set("_successIf", f"{entry}_done")
-        return _element("Sequence", *before, _element("Repeat", once, num_cycles=str(node.times)))
+        rounds = _element("Repeat", once, num_cycles=str(node.times))
+        return _element("Sequence", *_begin_series(node), *before, rounds)
 
     def _until(self, until: Condition | None, entry: str, where: str) -> tuple[list[_Element], list[_Element]]:
         """Return the nodes before a loop and at the end of each iteration by which a condition ends it."""
@@ -215,12 +228,20 @@ class _TreeWriter:
                 return _element("Fallback", *parts or (_element("AlwaysFailure"),))
             case Not(condition=one):
                 return _element("Inverter", self._condition(one, where, negated=not negated))
+            case Aggregate() | CountReadings() | MeanKnown() | CompareSeries():
+                unknown = {IF_UNKNOWN: "true"} if negated else {}
+                return _element(TEST_SERIES, condition=encode_parts([condition]), **unknown)
             case _:
                 ports = _ports(condition, where)
                 if not isinstance(condition, TreeHas):
                     ports |= {"reading": _reading(condition.reading, where), "quantity": condition.quantity}
                 unknown = {IF_UNKNOWN: "true"} if negated else {}
                 return _element(CONDITIONS[type(condition)], **ports, **unknown)
+
+
+def _begin_series(node: p.Repeat) -> tuple[_Element, ...]:
+    """Return the leaf that begins the series of a repeat anew, if it has one."""
+    return (_element(BEGIN_SERIES, reading=_plain(node.collects, node.id)),) if node.collects else ()
 
 
 def _loop(kind: str, body: _Element, entry: str, queue: str, value: str) -> _Element:

@@ -18,7 +18,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal, Protocol
+from typing import Literal, Protocol, runtime_checkable
 
 from fieldhand.site.model import Place
 
@@ -170,4 +170,13 @@ class Driver(Protocol):
 
     def stopped(self) -> str | None:
         """Return why the robot will not move again in this mission (an emergency stop), or None."""
+        ...
+
+
+@runtime_checkable
+class EventSource(Protocol):
+    """A driver that also reports the events of its robot's profile; without it, all of them are unknown."""
+
+    def events(self) -> Mapping[str, float | None]:
+        """Return the current value of each event: 1 or 0, or the value of a measured one; None if it is unknown."""
         ...

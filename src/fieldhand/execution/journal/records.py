@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Literal, Protocol
 
 from fieldhand import errors
@@ -73,6 +73,7 @@ class Observation:
         lost: Why the position is unknown; None if it is known.
         wall: Time of day in seconds since 1970; None if there is none.
         next_in: Seconds until the driver is due; None if no goal is running.
+        events: Value of each event that the mission watches; None for one that is unknown.
     """
 
     t: float
@@ -84,11 +85,12 @@ class Observation:
     next_in: float | None
     order: OperatorCommand | None
     wall: float | None = None
+    events: Mapping[str, float | None] = field(default_factory=dict)
 
     def record(self) -> Record:
         """Return the record of the observation."""
         p, g, o = self.position, self.progress, self.order
-        body = {
+        body: dict[str, Any] = {
             "t": self.t,
             "at": [p.x, p.y, p.lat, p.lon],
             "charge": self.charge_percent,
@@ -99,6 +101,8 @@ class Observation:
             "next_in": self.next_in,
             "order": None if o is None else [o.number, o.wanted, o.reason],
         }
+        if self.events:
+            body["events"] = dict(self.events)
         return Record(kind="sight", body=json.dumps(body))
 
 
@@ -123,6 +127,7 @@ def observation_of(record: Record) -> Observation:
             wall=body["wall"],
             next_in=body["next_in"],
             order=None if order is None else OperatorCommand(number=order[0], wanted=order[1], reason=order[2]),
+            events=body.get("events", {}),
         )
     except (ValueError, KeyError, TypeError) as error:
         raise invalid_record(error) from None

@@ -45,7 +45,7 @@ class RandomSample(Counted):
         free = outside_keep_outs(of, notes).once(self.count)
         self.need(free, resolution)
         notes.rule = message("drawn by seed {seed}", seed=self.seed)
-        return _drawn(free, self.count, self.seed)
+        return drawn(free, self.count, self.seed)
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:
         group, seed = wording.phrase(self.of).group(), self.seed
@@ -59,7 +59,7 @@ class RandomSample(Counted):
         return False
 
 
-def _drawn(spots: PlaceGroup, count: int, seed: int) -> PlaceGroup:
+def drawn(spots: PlaceGroup, count: int, seed: int) -> PlaceGroup:
     """Return a uniform random sample of ``count`` places, in the order of the file.
 
     Each place gets a number from the SHA-256 of the seed and its id, and the lowest are drawn (bottom-k sampling, Cohen

@@ -47,11 +47,13 @@ def free_points(site: Site, xy: Floats, ids: Sequence[str]) -> PlaceGroup:
 
 
 def area_called(site: Site, name: str) -> BaseGeometry:
-    """Return the union of the zones of that name, or else the area of the block of that name.
+    """Return the union of the zones of that name, else the area of the block of that name; for an empty name the site.
 
     Raises:
         PlaceError: There is neither, or robots are not allowed there.
     """
+    if not name:
+        return _whole_site(site)
     zones = [z for z in site.zones if phrase(z.name) == phrase(name)]
     zones = [z for z in zones if z.name == name] or zones
     if zones and all(z.kind == "keep_out" for z in zones):
@@ -66,6 +68,14 @@ def area_called(site: Site, name: str) -> BaseGeometry:
     if block is None:
         raise no_such_zone(site, name)
     return area_around(site.xy[np.concatenate([row.trees for row in block.rows])], site.spacing_m / 2)
+
+
+def _whole_site(site: Site) -> BaseGeometry:
+    """Return the area inside the boundary; without one that of the trees, or that of the zones."""
+    bounds = site.zones_of("boundary")
+    if not bounds and site.trees:
+        return area_around(site.xy, site.spacing_m / 2)
+    return unary_union([z.polygon for z in bounds or site.zones_of("zone")])
 
 
 def area_around(xy: Floats, around_m: float) -> BaseGeometry:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from hashlib import sha256
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -38,6 +39,9 @@ _RASTER = 40
 #: Number of Lloyd iterations.
 _ROUNDS = 8
 
+#: Points of the bounding box that are drawn at once, and how often.
+_BATCH, _MOST_BATCHES = 256, 400
+
 
 def over_zone(site: Site, selector: PointsIn, notes: ResolutionNotes) -> PlaceGroup:
     """Return points spread evenly over a zone, or its middle for one point; a metre from the trees if there is space.
@@ -53,40 +57,71 @@ def over_zone(site: Site, selector: PointsIn, notes: ResolutionNotes) -> PlaceGr
         )
     area = area_called(site, selector.zone)
     free = free_part(site, area)
+    zone = selector.zone or message("the site")
+    if selector.random:
+        xy = _drawn(site, free, selector)
+        notes.rule = message("drawn by seed {seed}", seed=selector.seed)
+        return free_points(site, xy, _numbered(zone, count))
     raster = _raster(site, free, count) if not free.is_empty else np.empty((0, 2))
     if len(raster) < count:
-        raise PlaceError(
-            language.counted(
-                "there is no room for {count} point in {zone}",
-                "there is no room for {count} points in {zone}",
-                count,
-                zone=short(selector.zone),
-            ),
-            where=site.name,
-            advice=message("ask for at most {count}", count=len(raster))
-            if len(raster)
-            else message("all of it is inside keep-outs or outside the boundary"),
-        )
+        raise _no_room(site, selector, len(raster))
     if count == 1:
         notes.rule = "the free place nearest to the middle of its area"
         middle = np.array(area.centroid.coords[0])
         if shapely.intersects_xy(free, *middle) and off_trees(site, middle[None, :])[0] >= OFF_TREES_M:
-            return free_points(
-                site, middle[None, :], [message("the middle of {zone}", context="name", zone=selector.zone)]
-            )
+            return free_points(site, middle[None, :], [message("the middle of {zone}", context="name", zone=zone)])
         return free_points(
             site,
             raster[_nearest(raster, middle)][None, :],
-            [message("the middle of {zone}", context="name", zone=selector.zone)],
+            [message("the middle of {zone}", context="name", zone=zone)],
         )
     notes.rule = "each covers an equal share of the area"
     xy = _spread(raster, count)
     xy = xy[np.lexsort((-xy[:, 1], np.round(xy[:, 0], 3)))]
-    names = [
-        message("point {number} of {count} in {zone}", number=k, count=count, zone=selector.zone)
-        for k in range(1, count + 1)
+    return free_points(site, xy, _numbered(zone, count))
+
+
+def _numbered(zone: str, count: int) -> list[str]:
+    return [
+        message("point {number} of {count} in {zone}", number=k, count=count, zone=zone) for k in range(1, count + 1)
     ]
-    return free_points(site, xy, names)
+
+
+def _no_room(site: Site, selector: PointsIn, most: int) -> PlaceError:
+    return PlaceError(
+        language.counted(
+            "there is no room for {count} point in {zone}",
+            "there is no room for {count} points in {zone}",
+            selector.count,
+            zone=short(selector.zone or message("the site")),
+        ),
+        where=site.name,
+        advice=message("ask for at most {count}", count=most)
+        if most
+        else message("all of it is inside keep-outs or outside the boundary"),
+    )
+
+
+def _drawn(site: Site, free: BaseGeometry, selector: PointsIn) -> Floats:
+    """Return points drawn uniformly from the free area, clear of trees, by the SHA-256 of the seed and a number.
+
+    They depend neither on a random generator nor on the order of the file.
+    """
+    if free.is_empty or free.area <= 0:
+        raise _no_room(site, selector, 0)
+    west, south, east, north = free.bounds
+    shapely.prepare(free)
+    found: list[Floats] = []
+    for batch in range(_MOST_BATCHES):
+        first = batch * _BATCH
+        digests = [sha256(f"{selector.seed}\n{k}".encode()).digest() for k in range(first, first + _BATCH)]
+        share = np.array([[int.from_bytes(d[:8], "big"), int.from_bytes(d[8:16], "big")] for d in digests]) / 2.0**64
+        xy = np.array([west, south]) + share * np.array([east - west, north - south])
+        xy = xy[shapely.contains_xy(free, *xy.T)]
+        found.extend(xy[off_trees(site, xy) >= OFF_TREES_M] if len(xy) else xy)
+        if len(found) >= selector.count:
+            return np.array(found[: selector.count])
+    raise _no_room(site, selector, len(found))
 
 
 def _raster(site: Site, free: BaseGeometry, count: int) -> Floats:

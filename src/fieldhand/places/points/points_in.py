@@ -1,11 +1,11 @@
-"""Free points spread over a zone."""
+"""Selector of free points spread over a zone, or drawn at random in it."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fieldhand.language import message
+from fieldhand.language import counted, message
 from fieldhand.language.words import say_zone
 from fieldhand.places.count_range import ANY, CountRange, exactly
 from fieldhand.places.noun_phrase import NounPhrase, many, one
@@ -21,10 +21,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class PointsIn(Selector):
-    """``count`` free points spread evenly over a zone; one point is its middle."""
+    """``count`` free points spread evenly over a zone, or over the whole site without one; one point is its middle.
+    With ``random``, drawn by ``seed``."""
 
-    zone: str
+    zone: str = ""
     count: int = 1
+    random: bool = False
+    seed: int = 0
 
     @classmethod
     def example(cls, site: Site) -> PointsIn:
@@ -36,7 +39,13 @@ class PointsIn(Selector):
         return over_zone(resolution.site, self, notes)
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:
-        zone = say_zone(self.zone)
+        zone = say_zone(self.zone) if self.zone else message("the site")
+        if self.random:
+            points = counted("{count} point", "{count} points", self.count)
+            text = message(
+                "{points} in {zone}, drawn at random (seed {seed})", points=points, zone=zone, seed=self.seed
+            )
+            return one(text) if self.count == 1 else many(text)
         if self.count == 1:
             return one(message("the middle of {zone}", zone=zone))
         return many(message("{count} points spread over {zone}", count=self.count, zone=zone))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from fieldhand.errors import PlaceError
@@ -41,7 +41,7 @@ class Bound(Selector):
                 message("no place is named '{label}' at this point", label=short(self.label)),
                 advice=message("named so far: {known}", known=known),
             )
-        return resolution.group(*places)
+        return resolution.group(*(replace(place, side="") for place in places))
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:
         return one(wording.names.get(self.label) or message("the place called “{label}”", label=self.label))

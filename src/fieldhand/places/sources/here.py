@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from fieldhand.language import message
@@ -26,7 +26,7 @@ class Here(Selector):
         return cls()
 
     def resolve(self, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
-        return resolution.group(resolution.context.here)
+        return resolution.group(replace(resolution.context.here, side=""))
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:
         return one(message("the place reached before"))

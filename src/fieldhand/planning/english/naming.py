@@ -92,6 +92,8 @@ def parameter_entries(robot: RobotProfile) -> Iterator[tuple[Phrase, NameEntry]]
     for phrase, found in names.items():
         if phrase:
             yield phrase, NameEntry(kind="PARAMETER", value=tuple(found))
+            if _plural(phrase) not in names:
+                yield _plural(phrase), NameEntry(kind="PARAMETER", value=tuple(found), plural=True)
 
 
 def site_entries(site: Site) -> Iterator[tuple[Phrase, NameEntry]]:

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from fieldhand.errors import RequestError
 from fieldhand.language import Number, message
 from fieldhand.planning.english.missing_blocks import missing_blocks
 from fieldhand.planning.english.tokens import Word, words_of
-from fieldhand.planning.english.wishes import early_wishes
+from fieldhand.planning.english.wishes import Wish, early_wishes
 from fieldhand.planning.grammar.planned import NAME
-from fieldhand.planning.planner import Answer, Outcome, Refused
+from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Refused
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.codec_text import hidden_character
@@ -52,7 +53,9 @@ class EnglishPlanner:
         """Plan a request without help if it is refused."""
         check_request(request)
         words = words_of(request)
-        if found := early_wishes(words):
+        if (timed := self._timed(request, words, site, robot, answers)) is not None:
+            return timed
+        if found := _unplanned(early_wishes(words), words, robot):
             from fieldhand.planning.refusals.helping import wish_reasons
 
             return Refused(reasons=tuple(wish_reasons(found, request, words, site, robot)), planner=NAME)
@@ -61,6 +64,50 @@ class EnglishPlanner:
         from fieldhand.planning.grammar.reader import composed
 
         return composed(request, site, robot, answers=answers)
+
+    def _timed(
+        self, request: str, words: Sequence[Word], site: Site, robot: RobotProfile, answers: tuple[Answer, ...]
+    ) -> Outcome | None:
+        """Plan a request that says when the mission runs; None if it says no such time."""
+        from fieldhand.planning.grammar.reader import composed
+        from fieldhand.planning.grammar.times import asked_time, with_answer, without_times
+
+        times = without_times(words)
+        if (
+            times is None
+            or _unplanned(early_wishes(times.words), times.words, robot)
+            or tuple(missing_blocks(times.words, site))
+        ):
+            return None
+        answered = with_answer(times.part, answers)
+        part = times.part if answered is None else answered[0]
+        timing = part.timing(times.said, zone="")
+        if timing is None:
+            return None
+        outcome = composed(request, site, robot, answers=answers, words=times.words, timing=timing)
+        if not isinstance(outcome, Planned):
+            return outcome
+        if times.beside_any(outcome.task.command.no_part):  # "the crew arrives at 7 am" is told of the crew
+            return None
+        asked = asked_time(part)
+        if asked is not None:
+            return Clarify(question=asked[0], choices=asked[1], planner=NAME, free=True)
+        if answered is None:
+            return outcome
+        command = outcome.task.command
+        told = replace(command, assumptions=(answered[1].sentence(), *command.assumptions))
+        return replace(outcome, task=replace(outcome.task, command=told))
+
+
+def _unplanned(wished: Sequence[Wish], words: Sequence[Word], robot: RobotProfile) -> list[Wish]:
+    """Return wishes without those that an event of the robot explains, and those to wait in sentences about one."""
+    if not wished or not robot.events:
+        return list(wished)
+    from fieldhand.planning.grammar.event_words import EventPatterns, in_event_sentences
+
+    about = in_event_sentences(words, robot)
+    named = {k for one in EventPatterns.of(robot).mentions(words) for k in range(one.start, one.end)}
+    return [wish for wish in wished if not {*range(wish.first, wish.last)} <= (about if wish.kind.waits else named)]
 
 
 def check_request(request: str) -> None:

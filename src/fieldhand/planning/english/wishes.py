@@ -21,7 +21,7 @@ from fieldhand.planning.english.tokens import Word, ranges_of
 from fieldhand.task.plan import Span
 
 #: What a robot or a site has instead of that which is wished for.
-Offers = Literal["", "actions", "places", "properties"]
+Offers = Literal["", "actions", "places", "properties", "events"]
 
 #: Words with which no wish begins.
 _BEFORE = frozenset({"of", "for", "with", "in", "at", "to", "from", "and", "any", "on", "by", "near", "but", "so"})
@@ -67,6 +67,11 @@ class WishKind:
     offers: Offers
     example: str
     said: tuple[str, ...]
+
+    @property
+    def waits(self) -> bool:
+        """True if it asks to wait, which a plan can do until an event is over."""
+        return "asks for waiting" in self.what
 
     @cached_property
     def pattern(self) -> re.Pattern[str]:

@@ -48,19 +48,37 @@ def question_between(plans: Sequence[Planned], request: str, site: Site, robot: 
     if first is None:
         return _question_of_branch(plans, written, request)
     last = 0
-    while all(len(text) > first + 1 + last for text in texts) and len({text[-1 - last] for text in texts}) == 1:
+    ends = [[(line.indent, line.text) for line in lines] for lines in written]
+    while all(len(end) > first + 1 + last for end in ends) and len({end[-1 - last] for end in ends}) == 1:
         last += 1
     while last and any(text[-1 - last].endswith(":") for text in texts):
         last -= 1  # what a condition decides is told with it
     answers: list[str] = [joined(" ", text[first : len(text) - last]) for text in texts]
     if len(set(answers)) > _MOST_ANSWERS:
         answers = [text[first] for text in texts]
+    answers = [_with_speed(answer, plan) for answer, plan in zip(answers, plans, strict=True)]
     left: dict[str, tuple[Planned, ...]] = {}
     for answer, plan in zip(answers, plans, strict=True):
         left[answer] = (*left.get(answer, ()), plan)
-    start, end = _said(plans, [lines[first] for lines in written], request)
+    start, end = _said_of_watches(plans, first) or _said(plans, [lines[first] for lines in written], request)
     asked = message("'{said}': which is meant?", context="question", said=request[start:end])
     return PlanQuestion(question=asked, said=(start, end), plans=left)
+
+
+def _with_speed(answer: str, plan: Planned) -> str:
+    """Return an answer with the driving speed of the whole mission, which the steps do not state."""
+    speed = plan.task.constraints.speed_m_s
+    if speed is None:
+        return answer
+    whole = message("Drive no faster than {speed} m/s on the whole mission.", speed=Number(f"{speed:g}"))
+    return joined(" ", (answer, whole))
+
+
+def _said_of_watches(plans: Sequence[Planned], line: int) -> Span | None:
+    """Return the range of the request that states the watches of a line; None if it is a line of the plan."""
+    watches = [plan.task.composition.watches[line : line + 1] for plan in plans]
+    spans = [span for found in watches for watch in found for span in watch.said]
+    return (min(start for start, _ in spans), max(end for _, end in spans)) if spans and all(watches) else None
 
 
 def _question_of_branch(

@@ -19,6 +19,7 @@ from fieldhand.planning.english.spelling import respelt
 from fieldhand.planning.english.tokens import Word, ranges_of, words_of
 from fieldhand.planning.english.vocabulary import vocabulary
 from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.event_words import NO_EVENTS, EventPatterns, response_words, says_any_time
 from fieldhand.planning.grammar.language import GrammarLanguage
 from fieldhand.planning.grammar.words import FeatureTable
 from fieldhand.robot.model import RobotProfile
@@ -46,7 +47,7 @@ _WITH_A_CAMERA = {"PICTURE": "NOUN", "THERMAL": "NOUN", "CAMERA": "ACTV", "THERM
 #: Those of a thermal camera only.
 _THERMAL = frozenset({"THERMAL", "THERMALLY"})
 #: Categories of phrases that are silent in the shared vocabulary only.
-_SAY_SOMETHING = frozenset({"AVERAGEWORD", "CORRECTION", "ONEBYONE"})
+_SAY_SOMETHING = frozenset({"AVERAGEWORD", "CORRECTION", "ONEBYONE", "STATISTIC"})
 
 
 @dataclass(frozen=True)
@@ -57,11 +58,13 @@ class EnglishPhrases:
         lexicon: Shared vocabulary, and the words of the robot and of the site.
         camera: Action that takes pictures, if the robot has just one.
         is_thermal: True if these are thermal pictures.
+        events: Patterns of the robot's events.
     """
 
     lexicon: Lexicon
     camera: Naming | None
     is_thermal: bool = False
+    events: EventPatterns = NO_EVENTS
 
     @property
     def longest(self) -> int:
@@ -71,6 +74,14 @@ class EnglishPhrases:
     def features(self, phrase: Phrase) -> frozenset[str]:
         """Return the features of a phrase."""
         return _features().of(phrase)
+
+    def spotted(self, words: Sequence[Word]) -> Iterator[tuple[str, int, int, Any]]:
+        """Yield the events that words mention, and with them the words of responses."""
+        found = list(self.events.mentions(words))
+        for one in found:
+            yield "EVENTNOUN" if one.is_noun else "EVENT", one.start, one.end, one.condition
+        if found or says_any_time(words):
+            yield from ((category, start, end, None) for category, start, end in response_words(words))
 
     def entries(self, phrase: Phrase) -> Iterator[NameEntry]:
         """Yield what a phrase can be: in the lexicon, spelt out, and in english.toml."""
@@ -149,8 +160,16 @@ def more_words() -> Mapping[Phrase, tuple[NameEntry, ...]]:
         found[split(phrase)].append(NameEntry(kind="SUPER", value=tuple(value)))
     for phrase, part in own["parts"].items():
         found[split(phrase)].append(NameEntry(kind="PART", value=part))
+    for kind, routes in own["routes"].items():
+        for phrase, route in routes.items():
+            found[split(phrase)].append(NameEntry(kind=kind, value=tuple(route)))
     for phrase, value in own["bounds"].items():
         found[split(phrase)].append(NameEntry(kind="BOUND", value=tuple(value)))
+    for of, phrases in own["statistics"].items():
+        for phrase in phrases:
+            found[split(phrase)].append(NameEntry(kind="STATISTIC", value=of))
+    for phrase, value in own["most_read"].items():
+        found[split(phrase)].append(NameEntry(kind="MOSTREAD", value=tuple(value)))
     for check, phrases in own["bare_comparisons"].items():
         for phrase in phrases:
             found[split(phrase)].append(NameEntry(kind="BARECMP", value=check))
@@ -166,7 +185,7 @@ def phrases_for(robot: RobotProfile, site: Site) -> EnglishPhrases:
     camera = camera_of(robot)
     taking = [one for one in robot.actions if camera is not None and one.name in camera.actions]
     is_thermal = any("thermal" in split(word) for one in taking for word in one.words)
-    return EnglishPhrases(lexicon_for(robot, site), camera, is_thermal)
+    return EnglishPhrases(lexicon_for(robot, site), camera, is_thermal, EventPatterns.of(robot))
 
 
 def camera_of(robot: RobotProfile) -> Naming | None:

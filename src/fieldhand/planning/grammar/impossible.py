@@ -9,10 +9,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from fieldhand.language import Number, message
+from fieldhand.language.words import listed, say_name
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.parameters import in_unit_of, with_parameter
-from fieldhand.planning.grammar.meaning import Amount, Nominal, ParameterValue, PlaceMeaning, Thing
+from fieldhand.planning.grammar.commands.waits import LONGEST_WAIT_S
+from fieldhand.planning.grammar.meaning import Amount, CaptureCommand, Nominal, ParameterValue, PlaceMeaning, Thing
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
     as_zone,
@@ -117,10 +119,10 @@ def points_outside_zones(where: s.Selector) -> Impossible | None:
 
 @construction("NUM RANDOM POINT")
 def points_at_random() -> Impossible:
-    """Compose "3 random points"."""
+    """Compose "3 random points" of no zone."""
     return Impossible(
-        message("points are spread evenly over a zone, not at random"),
-        message("say 'at 3 points', or '3 random trees'"),
+        message("random points are drawn in a zone"),
+        message("name the zone: '3 random points in the wet corner', or say '3 random trees'"),
     )
 
 
@@ -143,6 +145,15 @@ def distance_in_a_direction() -> Impossible:
 def up_to_so_many_captures() -> Impossible:
     """Compose "up to 8 pictures"."""
     return Impossible(message("captures need one number"), message("say 'of up to 6 trees'"))
+
+
+@construction("trigger")
+def reacting_otherwise() -> Impossible:
+    """Compose "if it rains", which decides about no step."""
+    return Impossible(
+        message("what the robot detects all the time decides about no single step"),
+        message("say what it does then: 'if it rains, come home', or wait, skip that tree, or end the mission"),
+    )
 
 
 @construction("AISLE")
@@ -188,10 +199,19 @@ def without_a_value() -> Impossible:
 
 @construction("GRID")
 def on_a_grid() -> Impossible:
-    """Compose "on a grid"."""
+    """Compose "on a grid", which does not say how wide it is."""
     return Impossible(
-        message("places on a grid are not possible yet"),
-        message("say 'ten trees spread over the orchard', or 'every fifth tree of every other row'"),
+        message("it does not say how wide the grid is"),
+        message("say 'on a 20 m grid'; its cells are squares"),
+    )
+
+
+@construction("path_over")
+def along_a_path() -> Impossible:
+    """Compose "in a W", which does not say at how many places."""
+    return Impossible(
+        message("it does not say at how many places along the path"),
+        message("say '20 trees in a W through the north block', or 'every 10 m along a zigzag'"),
     )
 
 
@@ -244,3 +264,29 @@ def parameter_out_of_bounds(how: ParameterValue, robot: RobotProfile) -> Impossi
         high=Number(f"{one.maximum or 0.0:g}"),
     )
     return Impossible(what, message("the robot's profile gives the bounds of the {name}", name=one.name))
+
+
+@construction("act=capture [COMMA] how=parameter", given=("robot",))
+def without_parameter(act: CaptureCommand, how: ParameterValue, robot: RobotProfile) -> Impossible | None:
+    """Compose "take a picture at a depth of 20 cm", of an action that has no depth."""
+    actions = [robot.action[one.action] for one in act.things if one.action in robot.action]
+    if not actions or any(with_parameter(Thing(one.name), how, robot) for one in actions):
+        return None
+    if any(in_unit_of(parameter, how) is not None for one in actions for parameter in one.parameters):
+        return None  # out of bounds
+    (first, *_) = actions
+    own = [say_name(one.name) for one in first.parameters]
+    name = say_name(first.name)
+    if own:
+        what = message("'{action}' has no such parameter; it has: {parameters}", action=name, parameters=listed(own))
+    else:
+        what = message("'{action}' has no parameters", action=name)
+    return Impossible(what, message("leave it out, or say it of an action that has it"))
+
+
+@construction("WAITV [FOR] time=amount", "STAYV [FOR] time=amount")
+def too_long(time: Amount) -> Impossible | None:
+    """Compose "wait for 30 hours"."""
+    if time.unit != "seconds" or 0.0 < time.number <= LONGEST_WAIT_S:
+        return None
+    return Impossible(message("a wait lasts at most 24 hours"), message("say a shorter time, or plan two missions"))

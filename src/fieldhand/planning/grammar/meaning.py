@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 from fieldhand.places import selectors as s
+from fieldhand.places.series_statistics import Statistic
 
 #: What a place phrase means: one place, several places, an area whose trees are meant, places just spoken of (``here``,
 #: ``those``), trees around of which another phrase says how many (``nearby``), a step along the row, rows of which
@@ -14,13 +15,23 @@ Shape = Literal["one", "several", "area", "here", "those", "nearby", "step", "un
 
 
 #: Tests of a reading or of an attribute.
-Check = Literal["lt", "le", "gt", "ge", "eq", "level", "between"]
+Check = Literal["lt", "le", "gt", "ge", "eq", "level", "between", "known"]
 
 #: How a drive goes along a row; empty if it goes to a place.
 Along = Literal["", "along", "down", "up"]
 
+
+@dataclass(frozen=True, slots=True)
+class HowMany:
+    """How many of several readings pass a test: a number of them, or a share in percent."""
+
+    check: Literal["lt", "le", "gt", "ge", "eq"]
+    number: float
+    percent: bool = False
+
+
 #: How many of several readings pass a test.
-OfLast = Literal["", "all", "any", "none"] | int
+OfLast = Literal["", "all", "any", "none"] | int | HowMany
 
 #: Threshold of a test that says no other than the last one ("below that", "lower").
 SAME_THRESHOLD = "="
@@ -82,15 +93,15 @@ class Likewise:
     Attributes:
         kind: Half, quarter or corner, ``extreme`` for the tree or the row that is farthest to the side, ``ranked``,
             ``rest`` for the others of those, ``nth`` for one of several that were named, ``those`` for others of that
-            description, or ``value`` for those with another value ("the green ones"); empty if it is of the kind of
-            the one before.
+            description, ``value`` for those with another value ("the green ones"), or ``read`` for those with the
+            highest readings ("the hottest one"), whose unit is ``side``; empty if it is of the kind of the one before.
         number: Which one of several, from 1 on; -1 for the last.
         side: Side of the compass; empty for the opposite side.
         holds: True if the places are inside it.
         of_number: Number of those of which it is one, if the phrase says it ("the last of the four").
     """
 
-    kind: Literal["", "half", "quarter", "corner", "extreme", "ranked", "rest", "nth", "those", "value"]
+    kind: Literal["", "half", "quarter", "corner", "extreme", "ranked", "rest", "nth", "those", "value", "read"]
     side: str = ""
     holds: bool = False
     number: int = 0
@@ -174,6 +185,46 @@ class Thing:
     more: bool = False
 
 
+#: Beginning of the action of a wait, which is read as a capture and becomes a wait when the plan is complete.
+_WAIT = "wait for "
+
+
+def wait_thing(seconds: float) -> Thing:
+    """Return a wait as what is done at a place."""
+    return Thing(f"{_WAIT}{seconds!r}", count=1)
+
+
+def wait_seconds(action: str) -> float | None:
+    """Return the seconds of the action of a wait; None for an action of the robot."""
+    return float(action.removeprefix(_WAIT)) if action.startswith(_WAIT) else None
+
+
+@dataclass(frozen=True, slots=True)
+class SettleClause:
+    """A wait before each capture of some actions; of all, if the phrase names none (``LAST_THING``)."""
+
+    seconds: float
+    actions: tuple[str, ...]
+    used: int
+
+
+@dataclass(frozen=True, slots=True)
+class PaceClause:
+    """A driving speed.
+
+    Attributes:
+        speed: Metres per second; 0 if the phrase does not say it ("slowly").
+        used: Tokens of the phrase.
+        at_most: True if the phrase only forbids to drive faster.
+        slowly: True for "slowly" without a number.
+    """
+
+    speed: float
+    used: int = 0
+    at_most: bool = False
+    slowly: bool = False
+
+
 @dataclass(frozen=True, slots=True)
 class CaptureCommand:
     """A command to capture something, at a place or where the robot is.
@@ -214,6 +265,7 @@ class DriveCommand:
         picks: True if the places are only chosen ("take three trees").
         ends: True if nothing is done behind it ("ending at the charger").
         instead: True if what another case has is done there ("go five trees south instead").
+        pace: Speed of the drive, if the phrase says it ("drive slowly to tree 4").
     """
 
     place: PlaceMeaning
@@ -224,6 +276,7 @@ class DriveCommand:
     along: Along = ""
     ends: bool = False
     instead: bool = False
+    pace: PaceClause | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -318,6 +371,8 @@ class Test:
         attribute: Attribute of the tree that is tested instead of a reading; empty for a reading.
         place: Place of the reading, if the phrase names it ("the one at the south end").
         setting: Parameters of the reading, if the phrase names them ("the 15 cm value").
+        of: Statistic of several readings that is tested ("the average"); empty for one reading.
+        than: What they are compared with, if with other readings; ``value`` is then the difference.
     """
 
     quantity: str
@@ -328,6 +383,8 @@ class Test:
     attribute: str = ""
     place: PlaceMeaning | None = None
     setting: tuple[tuple[str, str | float], ...] = ()
+    of: Statistic | Literal[""] = ""
+    than: Subject | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -338,11 +395,13 @@ class Subject:
         quantity: Quantity of the reading; empty if the phrase names none ("it").
         place: Place of the reading.
         setting: Parameters of the reading.
+        of: Statistic of several readings; empty for one reading.
     """
 
     quantity: str = ""
     place: PlaceMeaning | None = None
     setting: tuple[tuple[str, str | float], ...] = ()
+    of: Statistic | Literal[""] = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -359,6 +418,19 @@ class AllTests:
     tests: tuple[Test, ...]
     any_of: bool = False
     of_last: OfLast = ""
+
+    @property
+    def of_series(self) -> bool:
+        """True if what is tested is no reading by itself: a statistic, a share, or fewer than so many of several."""
+        return any(test.of for test in self.tests) or (isinstance(self.of_last, HowMany) and not self.at_least)
+
+    @property
+    def at_least(self) -> int:
+        """The number of readings of which at least so many have to pass; 0 for another test."""
+        if isinstance(self.of_last, HowMany):
+            more = {"gt": 1, "ge": 0}.get(self.of_last.check)
+            return 0 if more is None or self.of_last.percent else int(self.of_last.number) + more
+        return self.of_last if isinstance(self.of_last, int) else 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -632,6 +704,8 @@ Command = (
     | InTurn
     | Correction
     | Reordered
+    | PaceClause
+    | SettleClause
 )
 
 

@@ -14,6 +14,7 @@ from fieldhand.places.resolution import resolve
 from fieldhand.places.sources.gate_is import GateIs
 from fieldhand.places.wording import say_selector
 from fieldhand.planning.foreseen import foreseeable
+from fieldhand.planning.grammar.dialogue.watching import with_visits
 from fieldhand.planning.grammar.meaning import WayRule
 from fieldhand.planning.homeward import faulted_exits, usual_exit, with_assumed_exit
 from fieldhand.planning.planner import Outcome, Planned, Reason, Refused
@@ -24,6 +25,8 @@ from fieldhand.site.model import Site
 from fieldhand.task import plan as p
 from fieldhand.task.build import make_task
 from fieldhand.task.frames import Budget, BudgetKind, Constraints, Resource, Then
+from fieldhand.task.timing import Timing
+from fieldhand.task.watches import Watch
 from fieldhand.task.ways import Avoid, OnlyGate
 
 NAME = "english"
@@ -54,6 +57,8 @@ class Meant:
     Attributes:
         plan: Plan.
         limits: Budgets and reserves.
+        speed_m_s: Highest driving speed of the mission; None for the robot's.
+        speed_said: Spans of the request that say it.
         ways: Rules of where the robot drives, each with the spans of the request that say it.
         nominal: How the mission ends; None if the request does not say so.
         nominal_said: Spans of the request that say it.
@@ -61,10 +66,13 @@ class Meant:
         assumptions: What was assumed, as sentences.
         warnings: What has to be confirmed before the Task is approved, as sentences.
         read_as: The request with its corrections made; empty if it has none.
+        timing: When the mission runs; None if it begins when it is started.
     """
 
     plan: p.Node
     limits: tuple[LimitPhrase, ...] = ()
+    speed_m_s: float | None = None
+    speed_said: tuple[p.Span, ...] = ()
     ways: tuple[tuple[WayRule, tuple[p.Span, ...]], ...] = ()
     nominal: Then | None = None
     nominal_said: tuple[p.Span, ...] = ()
@@ -72,6 +80,8 @@ class Meant:
     assumptions: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
     read_as: str = ""
+    timing: Timing | None = None
+    watches: tuple[Watch, ...] = ()
 
 
 def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> Outcome:
@@ -83,19 +93,21 @@ def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> O
     task = make_task(
         request=request,
         read_as=meant.read_as,
-        plan=meant.plan,
+        plan=with_visits(meant.plan) if any(_skips(watch) for watch in meant.watches) else meant.plan,
         measures=measures_of(robot),
         resources=(
             Resource(kind="robot", name=robot.name, sha256=robot.sha256),
             Resource(kind="site", name=site.name, sha256=site.sha256),
         ),
-        constraints=_constraints(meant),
+        constraints=_with_speed(_constraints(meant), meant),
         nominal=nominal,
         nominal_said=meant.nominal_said,
         no_part=tuple((start, end) for start, end in meant.no_part if re.search(r"\w", request[start:end])),
         faulted=faulted_exits(nominal),
         assumptions=tuple(dict.fromkeys(meant.assumptions)),
         warnings=meant.warnings,
+        timing=meant.timing,
+        watches=meant.watches,
     )
     problems = (*_impossible(task.composition.plan, site), *_impossible_ways(meant, site))
     if problems:
@@ -103,6 +115,11 @@ def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> O
     if meant.nominal is None:
         task = with_assumed_exit(task, site, robot)
     return Planned(task=task, planner=NAME)
+
+
+def _skips(watch: Watch) -> bool:
+    """Return True if a watch may leave out a visit."""
+    return watch.response in ("skip", "skip_row") or (watch.response == "wait" and watch.fallback == "skip")
 
 
 def _constraints(meant: Meant) -> Constraints:
@@ -128,6 +145,13 @@ def _constraints(meant: Meant) -> Constraints:
         ),
         only_gates=tuple(OnlyGate(gate=gate, said=said) for rule, said in meant.ways for gate in rule.gates),
     )
+
+
+def _with_speed(constraints: Constraints, meant: Meant) -> Constraints:
+    if meant.speed_m_s is None:
+        return constraints
+    said = (*constraints.reserve_said, *meant.speed_said)
+    return replace(constraints, speed_m_s=meant.speed_m_s, reserve_said=said)
 
 
 def _impossible_limits(limits: Iterable[LimitPhrase]) -> Iterable[Reason]:

@@ -37,6 +37,7 @@ from fieldhand.site.model import Site
 from fieldhand.task import plan as p
 from fieldhand.task.plan import Span
 from fieldhand.task.request_coverage import request_pieces
+from fieldhand.task.timing import Timing
 
 #: Two readings whose costs differ by less are equally likely.
 _MARGIN = 0.5
@@ -57,6 +58,7 @@ class RequestReading:
         assumed: What was assumed, as sentences.
         mended: What was read as another word, as sentences.
         corrected: Ranges of numbers that others behind them correct.
+        timing: When the mission runs; None if it begins when it is started.
     """
 
     state: DialogueState
@@ -67,6 +69,7 @@ class RequestReading:
     assumed: tuple[str, ...] = ()
     mended: tuple[str, ...] = ()
     corrected: tuple[Span, ...] = ()
+    timing: Timing | None = None
 
     @property
     def edits(self) -> Edits:
@@ -89,12 +92,25 @@ class ReadRequest:
     unread: tuple[Reason, ...] = ()
 
 
-def read(request: str, site: Site, robot: RobotProfile, language: GrammarLanguage = ENGLISH) -> ReadRequest:
+def read(
+    request: str,
+    site: Site,
+    robot: RobotProfile,
+    language: GrammarLanguage = ENGLISH,
+    words: Sequence[Word] | None = None,
+) -> ReadRequest:
     """Return the ways to read a request as a whole.
 
     If it is not read as it is, misspelt words are mended; then what tells something is left out.
+
+    Args:
+        request: Request as typed.
+        site, robot: Site and robot of the mission.
+        language: Language of the request.
+        words: Words of the request that are to be read; None for all.
     """
-    words, phrases = language.words_of(request), language.phrases(robot, site)
+    words = language.words_of(request) if words is None else words
+    phrases = language.phrases(robot, site)
 
     def read_besides(remarks: Remarks) -> ReadRequest:
         return _read_words(request, remarks, phrases, site, robot, language)
@@ -237,6 +253,9 @@ def composed(
     robot: RobotProfile,
     language: GrammarLanguage = ENGLISH,
     answers: tuple[Answer, ...] = (),
+    *,
+    words: Sequence[Word] | None = None,
+    timing: Timing | None = None,
 ) -> Outcome:
     """Return the plan of a request that the grammar covers as a whole, or a question if there are several.
 
@@ -247,8 +266,11 @@ def composed(
         site, robot: Site and robot of the mission.
         language: Language of the request.
         answers: Answers to questions about it.
+        words: Words of the request that are to be read; None for all.
+        timing: When the mission runs, as the other words say.
     """
-    found = read(request, site, robot, language)
+    found = read(request, site, robot, language, words)
+    found = replace(found, readings=[replace(reading, timing=timing) for reading in found.readings])
     if not found.readings:
         asked = next((fault.what for fault in found.faults if isinstance(fault, OpenQuestion)), None)
         if asked is not None:
@@ -482,6 +504,8 @@ def _meant(reading: RequestReading, request: str) -> Meant:
     return Meant(
         plan=plan,
         limits=limits,
+        speed_m_s=None if state.speed is None else state.speed.pace.speed,
+        speed_said=() if state.speed is None else state.speed.said,
         ways=state.ways,
         nominal=state.nominal,
         nominal_said=state.nominal_said,
@@ -489,6 +513,8 @@ def _meant(reading: RequestReading, request: str) -> Meant:
         assumptions=(*state.assumed, *reading.assumed, *remarked),
         warnings=(*reading.mended, *to_confirm),
         read_as=_edited(request, reading.edits) if reading.edits else "",
+        timing=reading.timing,
+        watches=state.watches,
     )
 
 
@@ -505,10 +531,11 @@ def _same(one: Meant, other: Meant) -> bool:
     """Return True if two meanings differ only by the words that say them."""
     return (
         _unsaid(one.plan) == _unsaid(other.plan)
-        and one.nominal == other.nominal
+        and (one.nominal, one.speed_m_s) == (other.nominal, other.speed_m_s)
         and [(limit.amount, limit.unit, limit.keep) for limit in one.limits]
         == [(limit.amount, limit.unit, limit.keep) for limit in other.limits]
         and [(rule.avoid, rule.gates) for rule, _ in one.ways] == [(rule.avoid, rule.gates) for rule, _ in other.ways]
+        and [replace(watch, said=()) for watch in one.watches] == [replace(watch, said=()) for watch in other.watches]
     )
 
 

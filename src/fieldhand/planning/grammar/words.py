@@ -87,6 +87,9 @@ class Phrases(Protocol):
     def features(self, phrase: Phrase) -> frozenset[str]:
         """Return the features of a phrase."""
 
+    def spotted(self, words: Sequence[Word]) -> Iterable[tuple[str, int, int, Any]]:
+        """Return phrases that no lexicon lists: category, range of the words, and value."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class FeatureTable:
@@ -151,6 +154,9 @@ def edges_of(words: Sequence[Word], phrases: Phrases, *, tells: bool = False) ->
             yield from _possessive(phrase, start, end, phrases)
             yield from _phrase(words, start, end, tuple(phrase), phrases, tells=tells)
         yield from _interrupted(words, start, phrases, tells=tells)
+    for category, first, end, value in phrases.spotted(words):
+        text = " ".join(word.norm for word in words[first:end])
+        yield _edge(category, first, end, Lex(value, False, text))
 
 
 def _phrase(

@@ -21,13 +21,15 @@ from fieldhand.task.codec_shapes import FAMILIES, Attribute, Child, Shape, all_s
 from fieldhand.task.conditions import Condition
 from fieldhand.task.frames import Budget, Constraints, FaultedExit
 from fieldhand.task.plan import Node
+from fieldhand.task.timing import DayTime, Timing
+from fieldhand.task.watches import Watch, WatchCondition
 from fieldhand.task.ways import Avoid, OnlyGate
 
 #: Letters that stand for any element of a family in the forms.
-LETTERS = {"node": "N", "condition": "C", "selector": "S"}
+LETTERS = {"node": "N", "condition": "C", "selector": "S", "watched": "W"}
 
 #: Attributes that only the program writes.
-DERIVED = frozenset({"id", "said", "at-said", "reserve-said", "nominal-said", "no-part", "seed"})
+DERIVED = frozenset({"id", "said", "at-said", "reserve-said", "nominal-said", "no-part", "seed", "time-zone"})
 
 _KINDS = {"text": "name", "integer": "int", "number": "number", "flag": "true", "value": "value"}
 
@@ -37,7 +39,7 @@ ABBREVIATED = {"SIDE": "north|east|south|west", "TEST": "lt|le|gt|ge|eq|ne"}
 
 @cache
 def describe_language() -> str:
-    """Return the nodes, conditions, selectors and constraints, one element per paragraph.
+    """Return the nodes, conditions, selectors, constraints and times, one element per paragraph.
 
     Raises:
         ModelError: Python runs with ``-OO``, which removes the docstrings that the description is made from.
@@ -53,12 +55,19 @@ def describe_language() -> str:
         ("Conditions (C), what an if or an until tests", get_args(Condition)),
         ("Selectors (S), how places are named", SELECTORS),
         ("Constraints", (Constraints, Budget, Avoid, OnlyGate, FaultedExit)),
+        ("Times, when the whole mission runs", (*get_args(Timing), DayTime)),
     )
     rendered = [
         f"## {title}\n" + "\n".join(_paragraph(shape_of(cls)) for cls in classes) for title, classes in sections
     ]
     short = "; ".join(f"{word} is {choices}" for word, choices in ABBREVIATED.items())
     return "\n\n".join([f"In these forms {short}.", *rendered])
+
+
+@cache
+def describe_watches() -> str:
+    """Return the elements of watches, for a robot that detects events: one element per paragraph."""
+    return "\n".join(_paragraph(shape_of(cls)) for cls in (Watch, *get_args(WatchCondition)))
 
 
 def _paragraph(shape: Shape) -> str:
@@ -73,7 +82,7 @@ def _form(shape: Shape) -> str:
     if shape.head and shape.head.of == "action":
         inside.append("<ACTION/>")
     elif shape.head:
-        inside.append(f"<{' '.join(['QUANTITY', *map(_attribute, shape.head.attributes)])}/>")
+        inside.append(f"<{' '.join([shape.head.of.upper(), *map(_attribute, shape.head.attributes)])}/>")
     inside += [_child(child) for child in shape.children]
     opening = " ".join([shape.element, *attributes])
     return f"<{opening}>{' '.join(inside)}" if inside else f"<{opening}/>"
@@ -98,7 +107,8 @@ def _attribute(attribute: Attribute) -> str:
 def _child(child: Child) -> str:
     letter = LETTERS.get(FAMILIES.get(child.options, ""), "")
     letter = f"{letter}{_unless_given(child)}"
-    part = letter or "".join(f"<{element_name(option)}/>" for option in child.options)
+    between = "|" if child.kind == "one" else ""
+    part = letter or between.join(f"<{element_name(option)}/>" for option in child.options)
     many = f"{part}..." if child.kind == "many" else part
     whole = many if child.direct else f"<{child.name}>{many}</{child.name}>"
     if child.name == "of" and not child.direct:

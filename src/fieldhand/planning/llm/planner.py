@@ -218,5 +218,7 @@ def _planned(
         no_part=draft.no_part,
         read_as="\n".join([f"{request}.", *(f"{answer.answer}." for answer in answers)]) if answers else "",
         warnings=tuple(visible_line(text, LONGEST_ASSUMPTION) for text in draft.warnings),
+        timing=draft.timing,
+        watches=draft.watches,
     )
     return Planned(task=task if asked else with_assumed_exit(task, site, robot), planner=name)

@@ -19,10 +19,11 @@ from fieldhand.planning.llm.chat import ChatMessage
 from fieldhand.planning.llm.display_text import visible_line
 from fieldhand.planning.llm.examples import EXAMPLES
 from fieldhand.planning.llm.examples import ROBOT as EXAMPLE_ROBOT
-from fieldhand.planning.llm.language import describe_language
+from fieldhand.planning.llm.language import describe_language, describe_watches
 from fieldhand.planning.llm.review import AnswerProblem
 from fieldhand.planning.llm.tokens import tokens
 from fieldhand.planning.planner import Answer
+from fieldhand.robot.events import MonitoredEvent
 from fieldhand.robot.model import Action, Parameter, Quantity, RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.codec_shapes import NAMESPACE, element_name
@@ -33,7 +34,7 @@ from fieldhand.task.plan import Node
 MOST_DATA = 4_000
 LONGEST_LINE = 400
 #: Maximum number of tokens of the first two messages without the request; the site gets the remainder, within bounds.
-MOST_TOKENS = 5_970
+MOST_TOKENS = 6_530
 SITE_TOKENS = (250, 800)
 #: Maximum number of synonyms shown for an action or quantity.
 MOST_SYNONYMS = 5
@@ -62,7 +63,8 @@ def opening(request: str, site: Site, robot: RobotProfile) -> tuple[ChatMessage,
     least, most = SITE_TOKENS
     room = min(most, max(least, MOST_TOKENS - tokens(instructions()) - tokens(machine)))
     orchard = fenced("site", summary_lines(site, lambda lines: tokens(fenced("site", lines)) <= room))
-    asked = "\n\n".join([machine, orchard, f"The operator's request, word for word:\n{request}"])
+    rules = [watch_rules(robot)] if robot.events else []
+    asked = "\n\n".join([machine, *rules, orchard, f"The operator's request, word for word:\n{request}"])
     return ChatMessage(role="system", text=instructions()), ChatMessage(role="user", text=asked)
 
 
@@ -133,7 +135,30 @@ def robot_lines(robot: RobotProfile) -> list[str]:
         *(_action(action) for action in robot.actions),
         "quantities:",
         *(_quantity(quantity) for quantity in robot.quantities),
+        *(["events, detected all the time:"] if robot.events else ()),
+        *(_event(event) for event in robot.events),
     ]
+
+
+def watch_rules(robot: RobotProfile) -> str:
+    """Return the form and meaning of watches, for a robot that detects events."""
+    names = ", ".join(event.name for event in robot.events)
+    return (
+        f'This robot detects events all the time ({names}). React to them, and to readings "at any time", only with'
+        " <watches><watch .../>...</watches> at the end of <task-composition>, never with an if; quote their words."
+        ' W is one of the elements after <watch>; EVENT is an element named after an event. "Stop" and "pause" are'
+        ' response="wait", and waiting is possible only so. Refuse an event that is not listed.\n'
+        f"{describe_watches()}"
+    )
+
+
+def _event(event: MonitoredEvent) -> str:
+    own = f"{'above' if event.above is not None else 'below'} {event.above if event.above is not None else event.below}"
+    parts = [f"- {event.name}{f' in {event.unit}' if event.unit else ''}: {event.description}"]
+    if event.unit:
+        parts.append(f"holds {own}" if event.can_hold else "has no threshold of its own")
+    words = _plainest([*event.words, *event.verbs, *event.states])
+    return "; ".join([*parts, f"people say: {', '.join(words)}"])
 
 
 def _action(action: Action) -> str:

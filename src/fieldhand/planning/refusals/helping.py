@@ -10,7 +10,9 @@ from fieldhand.language import message
 from fieldhand.planning.english.lexicon import lexicon_for
 from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.english.wishes import Wish, wishes
+from fieldhand.planning.grammar.event_words import EventPatterns, in_event_sentences
 from fieldhand.planning.grammar.refusals import PLAINLY
+from fieldhand.planning.grammar.times import without_times
 from fieldhand.planning.planner import Reason, Refused
 from fieldhand.planning.refusals.examples import PlanRequest, examples, first_planned, tidy
 from fieldhand.planning.refusals.offers import say_offers
@@ -42,7 +44,7 @@ def helpful(refused: Refused, parsed: ParsedRequest, plan: PlanRequest) -> Refus
     """
     words, lexicon = parsed.words, lexicon_for(parsed.robot, parsed.site)
     commands = parsed.begins(_COMMANDS)
-    known = wishes(words, lexicon)
+    known = _without_times(_besides_events(wishes(words, lexicon), parsed), words)
     early = [wish for wish in known if wish.kind.early]
     reasons = (*refused.reasons, *(_reasons_besides(early, parsed, plan) if early else ()))
     unsettled = {k for reason in reasons if not reason.final for k in _words_in(reason, words)}
@@ -69,6 +71,31 @@ def helpful(refused: Refused, parsed: ParsedRequest, plan: PlanRequest) -> Refus
         understood=say_understood(parts, parsed),
         example=_with_reserve(example, wished, plan),
     )
+
+
+def _without_times(known: Sequence[Wish], words: Sequence[Word]) -> list[Wish]:
+    """Return the wishes without those that a plan can express as times of the mission."""
+    times = without_times(words)
+    if times is None:
+        return list(known)
+
+    def is_time(wish: Wish) -> bool:
+        start, end = wish.span(words)
+        return any(first <= start and end <= last for first, last in times.said)
+
+    return [wish for wish in known if not is_time(wish)]
+
+
+def _besides_events(wished: Sequence[Wish], parsed: ParsedRequest) -> list[Wish]:
+    """Return wishes without those for an event that the robot detects."""
+    mentions = list(EventPatterns.of(parsed.robot).mentions(parsed.words))
+    about = in_event_sentences(parsed.words, parsed.robot) if mentions else frozenset[int]()
+    return [
+        wish
+        for wish in wished
+        if not any(wish.first < one.end and one.start < wish.last for one in mentions)
+        and not (wish.kind.waits and about.issuperset(range(wish.first, wish.last)))
+    ]
 
 
 def _whole(reasons: Sequence[Reason], wished: Sequence[Wish], unknown: UnknownWords, parsed: ParsedRequest) -> str:

@@ -10,6 +10,7 @@ from fieldhand.planning.english.wishes import Offers
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.terms import Value
+from fieldhand.wording.watches import say_event
 
 #: Longest lists of places and of values that are shown.
 _MOST_PLACES, _MOST_VALUES = 8, 4
@@ -24,6 +25,8 @@ def say_offers(kind: Offers, site: Site, robot: RobotProfile) -> str:
             return listed([say_action(action.name) for action in robot.actions], "or")
         case "places":
             return some_names(list(say_places(site)), _MOST_PLACES)
+        case "events":
+            return listed([say_event(event.name, robot) for event in robot.events]) or message("nothing")
         case "properties":
             return some_names(list(_properties(site)), _MOST_PLACES)
         case "":

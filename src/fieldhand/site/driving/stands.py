@@ -14,6 +14,7 @@ from shapely.ops import nearest_points
 from fieldhand.site.driving.aisles import Aisle
 from fieldhand.site.driving.graph import Indices, Points
 from fieldhand.site.driving.layout import XY, Layout
+from fieldhand.site.gaps import empty_positions
 from fieldhand.site.model import Gate, Place, Site
 from fieldhand.site.point_index import PointIndex
 
@@ -29,6 +30,11 @@ _NEARER = 6
 
 #: A gate belongs to open ground within half its width plus this many clearances.
 _FROM_GATE = 2.0
+
+#: Direction of each side of a tree, east and north.
+_COMPASS: dict[str, tuple[float, float]] = {
+    "north": (0.0, 1.0), "east": (1.0, 0.0), "south": (0.0, -1.0), "west": (-1.0, 0.0),
+}  # fmt: skip
 
 #: Number of directions tried for approaching a tree in no row.
 _DIRECTIONS = 16
@@ -52,7 +58,7 @@ class Candidate:
 
 
 class StandCandidates:
-    """Candidates for the stands of a site's trees.
+    """Candidates for the stands of a site's trees and gaps.
 
     Args:
         site: The site.
@@ -70,6 +76,8 @@ class StandCandidates:
     def of(self, place: Place) -> tuple[Candidate, ...]:
         """Return a candidate on either side of a tree in a row, or the position of any other place.
 
+        A place with a side has a single candidate, on that side.
+
         The stand of a gate, which lies on a fence, is the nearest open ground. On a site without rows the stand of a
         tree is its own position. On a site with rows, a tree in no row is approached from its most open side.
         """
@@ -79,14 +87,41 @@ class StandCandidates:
         """Return the candidates of each of the places, cached."""
         trees = [self._open_tree(p) for p in places]
         new = np.array([k for k in dict.fromkeys(trees) if k is not None and k not in self._candidates], dtype=np.intp)
-        rows = self._site.planting.row_of[new]
+        rows = self._row_of[new]
         self._candidates.update(zip(new[rows < 0].tolist(), self._open_sides(new[rows < 0]), strict=True))
         for row in np.unique(rows[rows >= 0]).tolist():
             self._find(new[rows == row], *self._line_of[row])
         return [
-            (self._candidate(p),) if tree is None else self._candidates[tree]
+            (self._beside_open(p),)
+            if self._is_open(p)
+            else (self._candidate(p),)
+            if tree is None
+            else self._on_side(p, tree, self._candidates[tree])
             for p, tree in zip(places, trees, strict=True)
         ]
+
+    def _is_open(self, place: Place) -> bool:
+        """Return True for a side of a tree that stands in no row, whose stand is to be chosen."""
+        tree = self._site.by_id.get(place.id) if place.side and place.stand is None else None
+        return tree is not None and (not self._layout.aisles.groups or self._site.planting.row_of[tree.index] < 0)
+
+    def _on_side(self, place: Place, tree: int, candidates: tuple[Candidate, ...]) -> tuple[Candidate, ...]:
+        """Return the candidates of a tree in a row that lie on the side of the place."""
+        if not place.side:
+            return candidates
+        group, _ = self._line_of[int(self._site.planting.row_of[tree])]
+        east, north = self._layout.aisles.groups[group].frame.across
+        to_east, to_north = _COMPASS[place.side]
+        return candidates[1:] if east * to_east + north * to_north > 0.0 else candidates[:1]
+
+    def _beside_open(self, place: Place) -> Candidate:
+        """Return the stand beside a tree in no row, in the direction of the place's side."""
+        to_east, to_north = _COMPASS[place.side]
+        off = self._standoff_m * np.linspace(1.0, 0.0, _NEARER, endpoint=False)[:, None]
+        tried = np.array(place.xy) + off * np.array([to_east, to_north])
+        apart = self._trees.nearest_few(tried, 2)[0].min(axis=1)
+        clear = self._layout.is_clear(tried) & (apart >= min(self._clearance_m, float(off[-1, 0])) * 0.999)
+        return Candidate(_xy(tried[int(np.argmax(clear))]), None, "" if clear.any() else self._in_the_way(tried[0]))
 
     def _candidate(self, place: Place) -> Candidate:
         """Return the only stand of a place other than a tree: its own, its position, or the ground near a gate."""
@@ -104,11 +139,35 @@ class StandCandidates:
         return {gate.place.xy: gate for gate in self._site.gates}
 
     def _open_tree(self, place: Place) -> int | None:
-        """Return the index of a tree whose stand is to be chosen; None for any other place."""
-        if place.stand is not None or place.kind != "tree" or not self._layout.aisles.groups:
+        """Return the index of a tree whose stand is to be chosen, for a gap that after the trees; None for any other
+        place."""
+        if place.stand is not None or not place.planted or not self._layout.aisles.groups:
             return None
+        if place.kind == "gap":
+            return self._gap_index.get(place.xy)
         tree = self._site.by_id.get(place.id)
         return None if tree is None else tree.index
+
+    @cached_property
+    def _gap_index(self) -> dict[XY, int]:
+        """Return the index of each gap by its position, counted on from the trees."""
+        return {gap.xy: len(self._site.trees) + k for k, gap in enumerate(empty_positions(self._site).places)}
+
+    @cached_property
+    def _xy(self) -> Points:
+        """Return the positions of trees and gaps."""
+        return np.vstack([self._site.xy, empty_positions(self._site).xy])
+
+    @cached_property
+    def _row_of(self) -> Indices:
+        """Return the row of each tree and gap."""
+        return np.concatenate([self._site.planting.row_of, empty_positions(self._site).row])
+
+    @cached_property
+    def _rank(self) -> Indices:
+        """Return which tree of its row each is; of a gap, its neighbour."""
+        rank = self._site.planting.rank
+        return np.concatenate([rank, rank[empty_positions(self._site).before]])
 
     def _find(self, trees: Indices, group: int, line: int) -> None:
         """Compute the candidates of trees of one row, below and above it."""
@@ -136,7 +195,7 @@ class StandCandidates:
         lane = (group, min(line, other), max(line, other))
         if 0 <= other < len(within.lines):
             return self._in_aisle(trees, self._layout.aisles.of(group, min(line, other)), side, lane)
-        at = self._site.xy[trees]
+        at = self._xy[trees]
         away = side * self._across(trees, group, bent=True)
         room = self._free_way(at, away, {*within.lines[line].rows})
         off = np.minimum(self._standoff_m, room)
@@ -157,7 +216,7 @@ class StandCandidates:
         return Candidate(_xy(beside[0]), lane, self._in_the_way(beside[0]))
 
     def _in_aisle(self, trees: Indices, aisle: Aisle, side: int, lane: LaneKey) -> list[Candidate]:
-        frame, at = aisle.frame, self._site.xy[trees]
+        frame, at = aisle.frame, self._xy[trees]
         u, v = frame.local(at).T
         across = self._across(trees, lane[0], bent=not aisle.is_straight)
         lean = np.maximum(across[:, 0] * frame.across[0] + across[:, 1] * frame.across[1], 0.2)
@@ -197,8 +256,8 @@ class StandCandidates:
         if not bent:
             return across
         planting = self._site.planting
-        row = planting.rows[int(planting.row_of[trees[0]])].trees
-        rank = planting.rank[trees]
+        row = planting.rows[int(self._row_of[trees[0]])].trees
+        rank = self._rank[trees]
         near = [self._site.xy[row[np.clip(rank + step, 0, len(row) - 1)]] for step in (-_ALONG, _ALONG)]
         along = near[1] - near[0]
         length = np.hypot(*along.T)

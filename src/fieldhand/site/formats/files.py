@@ -128,7 +128,7 @@ def read_bytes(path: Path, at: str) -> bytes:
             "no file": (message("this is not a file"), message("give the file of the site itself")),
             "missing": (
                 message("there is no such file"),
-                message("check the path, or use 'demo' for the built-in orchard"),
+                message("check the path, or use 'demo' or 'vineyard', the built-in sites"),
             ),
         }.get(
             fault.kind,

@@ -13,6 +13,7 @@ A ``StopMission`` raises :class:`Stopped`, which nothing catches: the plan is ov
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass
@@ -240,6 +241,20 @@ class PlanNode(ABC):
         return None
 
     @property
+    def dwell_s(self) -> float:
+        """Seconds for which it stands still; 0 for a node that does not wait."""
+        return 0.0
+
+    @property
+    def pace_m_s(self) -> float:
+        """The highest driving speed inside it in m/s; infinite for a node that does not limit it."""
+        return math.inf
+
+    def around(self, rest: Sequence[Node]) -> tuple[Node, ...]:
+        """Return the remaining nodes of the node, once it is under way, so that its own conditions still apply."""
+        return tuple(rest)
+
+    @property
     def label(self) -> str:
         """The label that it binds; empty for none."""
         return ""
@@ -247,6 +262,11 @@ class PlanNode(ABC):
     @property
     def reading(self) -> str:
         """The reading that it binds; empty for none."""
+        return ""
+
+    @property
+    def collects(self) -> str:
+        """The reading whose series begins anew when the node is reached; empty for none."""
         return ""
 
     @property

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
-from fieldhand.task.instructions import BeginVisits, BindLabel, Decide, DriveTo, NextVisit
+from fieldhand.task.instructions import BeginSeries, BeginVisits, BindLabel, Decide, DriveTo, NextVisit
 from fieldhand.task.nodes.base import ChildNode, GivenUp, K, PlanNode, Program, Role, SayPlace, Span
 
 if TYPE_CHECKING:
@@ -32,6 +32,7 @@ class ForEach(PlanNode):
         at_most: Maximum number of visits ("up to 6").
         reward: Attribute that a visit is worth, else 1.
         until: Stop once this holds after a visit.
+        collects: Reading of which all readings so far are forgotten when the loop begins.
     """
 
     id: str = ""
@@ -43,10 +44,13 @@ class ForEach(PlanNode):
     at_most: int | None = None
     reward: str = ""
     until: Condition | None = None
+    collects: str = ""
     said: tuple[Span, ...] = ()
 
     def execute(self, run: PlanRun) -> Program:
         frame = run.frame
+        if self.collects:
+            yield BeginSeries(node=self, reading=self.collects)
         frame.tour = tour = yield BeginVisits(node=self)
         visited: list[OpaquePlace] = []
         while self.at_most is None or len(visited) < self.at_most:

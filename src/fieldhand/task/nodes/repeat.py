@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from fieldhand.language.words import say_times
-from fieldhand.task.instructions import BeginRound, Decide
+from fieldhand.task.instructions import BeginRound, BeginSeries, Decide
 from fieldhand.task.nodes.base import ChildNode, K, PlanNode, Program, Role, SayPlace, Span
 
 if TYPE_CHECKING:
@@ -20,16 +20,20 @@ if TYPE_CHECKING:
 class Repeat(PlanNode):
     """``body`` a number of times, or until a condition is true after a round, whichever comes first.
 
-    ``times`` is the maximum number of rounds, at least 1; ``until`` is None for exactly that number.
+    ``times`` is the maximum number of rounds, at least 1; ``until`` is None for exactly that number. Of
+    the reading ``collects``, all readings so far are forgotten when it begins.
     """
 
     id: str = ""
     times: int
     body: Node
     until: Condition | None = None
+    collects: str = ""
     said: tuple[Span, ...] = ()
 
     def execute(self, run: PlanRun) -> Program:
+        if self.collects:
+            yield BeginSeries(node=self, reading=self.collects)
         for left in reversed(range(self.times)):
             run.frame.left = (replace(self, times=left),) if left else ()
             yield BeginRound(node=self, left=left)

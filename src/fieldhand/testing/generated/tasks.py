@@ -23,13 +23,16 @@ from fieldhand.task.capabilities import (
     ActionCapability,
     Capabilities,
     ChoiceParameter,
+    EventCapability,
     NumberParameter,
     QuantityCapability,
 )
 from fieldhand.task.codec_shapes import hints_of
-from fieldhand.task.conditions import Between, Compare, Condition, Level
+from fieldhand.task.conditions import Condition, Level
 from fieldhand.task.frames import Budget, Constraints, FaultedExit, Resource, Task
 from fieldhand.task.plan import Act, Node, Span
+from fieldhand.task.timing import Timing
+from fieldhand.task.watches import EventBeyond, EventHolds, Watch
 from fieldhand.task.ways import Avoid, OnlyGate
 from fieldhand.terms import Value
 
@@ -48,6 +51,11 @@ ROVER = Capabilities(
         "soil_ph": QuantityCapability(unit="pH"),
         "co2": QuantityCapability(unit="ppm", levels=("low",)),
     },
+    events={
+        "person_near": EventCapability(),
+        "wind": EventCapability(unit="m/s", holds=False),
+        "frost": EventCapability(unit="degC"),
+    },
 )
 
 _seen = st.one_of(st.sampled_from(" <>&\"'é樹🌳\u00a0"), st.characters(exclude_categories=("C", "Zl", "Zp")))
@@ -64,13 +72,21 @@ _BY_FIELD: dict[str, st.SearchStrategy[Any]] = {
     "reading": names,
     "count": st.integers(1, 50),
     "times": st.integers(1, 50),
+    "at_least": st.integers(2, 50),
     "at_most": st.integers(1, 50),
     "expected": st.integers(0, 500),
     "distance_m": st.floats(0, 1e6),
     "limit": st.floats(0, 1e6, exclude_min=True),
     "failure_probability": st.floats(0, 1, exclude_min=True, exclude_max=True),
     "reserve_percent": st.floats(0, 100, exclude_max=True),
+    "seconds": st.floats(0, 86400, exclude_min=True),
     "speed_m_s": st.floats(0.01, 20),
+    "every_min": st.integers(0, 1440),
+    "every_days": st.integers(1, 366),
+    "late_min": st.integers(0, 10080),
+    "done_by_min": st.integers(0, 10080),
+    "offset_min": st.floats(-1440, 1440),
+    "at_most_s": st.floats(1, 86_400),
 }
 _spans = st.lists(st.tuples(st.integers(0, 999), st.integers(0, 999)), max_size=2).map(tuple)
 
@@ -117,7 +133,9 @@ class Parts:
                 strategy = self.of_hint(one.name, hints[one.name], depth)
                 given = one.default is MISSING or one.name == "id"
                 drawn[one.name] = strategy if given else st.one_of(st.just(one.default), strategy)
-            made = st.builds(cls, **(drawn | {k: st.just("") for k in drawn if k in ("quantity", "unit", "level")}))
+            made = st.builds(
+                cls, **(drawn | {k: st.just("") for k in drawn if k in ("quantity", "event", "unit", "level")})
+            )
             self._made[cls, depth] = self.fitted(cls, made)
         return self._made[cls, depth]
 
@@ -155,7 +173,11 @@ class Parts:
         """Return a strategy for instances with an action or quantity of the robot and matching parameters and units."""
         if cls is Act:
             return st.builds(_with_action, made, self.actions())
-        if cls in (Compare, Between, Level):
+        if cls in (EventHolds, EventBeyond):
+            events = self.capabilities.events
+            known = sorted(n for n, e in events.items() if (e.holds if cls is EventHolds else e.unit))
+            return st.builds(_with_event, made, st.sampled_from(known), st.just(events))
+        if "quantity" in {one.name for one in fields(cls)}:
             able = {n: q for n, q in self.capabilities.quantities.items() if q.levels or cls is not Level}
             return st.builds(_with_quantity, made, st.sampled_from(sorted(able)), st.just(able), st.integers(0, 9))
         return made
@@ -184,6 +206,7 @@ class Parts:
             plan=self.plans,
             measures=st.just(measures),
             resources=st.lists(self.instance(Resource), max_size=2).map(tuple),
+            timing=st.one_of(st.none(), self.one_of(get_args(Timing), 1)),
             constraints=st.builds(
                 Constraints,
                 budgets=st.lists(self.instance(Budget), max_size=2).map(tuple),
@@ -200,6 +223,7 @@ class Parts:
             warnings=st.lists(texts, max_size=2).map(tuple),
             nominal_said=_spans,
             no_part=_spans,
+            watches=st.lists(self.instance(Watch), max_size=2).map(tuple),
         )
 
 
@@ -211,7 +235,12 @@ def _with_quantity(part: Any, name: str, able: Mapping[str, QuantityCapability],
     quantity = able[name]
     if isinstance(part, Level):
         return replace(part, quantity=name, level=quantity.levels[pick % len(quantity.levels)])
-    return replace(part, quantity=name, unit=quantity.unit)
+    units = {"unit": quantity.unit} if hasattr(part, "unit") else {}
+    return replace(part, quantity=name, **units)
+
+
+def _with_event(part: Any, name: str, events: Mapping[str, EventCapability]) -> Any:
+    return replace(part, event=name, **({"unit": events[name].unit} if isinstance(part, EventBeyond) else {}))
 
 
 def _parameter(spec: NumberParameter | ChoiceParameter) -> st.SearchStrategy[str | float]:

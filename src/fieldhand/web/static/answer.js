@@ -128,7 +128,7 @@ const badge = (stop) => el("span", { class: stop.branch ? "badge other" : "badge
 function rest({ read_back: back, headings }) {
   const part = (name, lines) =>
     lines.length ? [el("h3", {}, name), el("ul", { class: "plain" }, lines.map((line) => el("li", {}, sentence(line))))] : [];
-  return ["assumptions", "notes", "limits", "faults"].flatMap((kind) => part(headings[kind], back[kind]));
+  return ["times", "assumptions", "notes", "limits", "faults"].flatMap((kind) => part(headings[kind], back[kind]));
 }
 
 function totals({ read_back: back, headings }) {

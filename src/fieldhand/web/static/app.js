@@ -29,7 +29,7 @@ let answers = []; // to the questions that were asked about this request
 let flight = null;
 let calling = null;
 
-const chosenSite = () => ($("site").value === "demo" ? "demo" : uploaded);
+const chosenSite = () => ($("site").value === "file" ? uploaded : $("site").value);
 
 async function begin() {
   $("examples").append(...EXAMPLES.map((text) => el("button", { type: "button", class: "example", onclick: () => take(text) }, text)));
@@ -87,14 +87,14 @@ async function readFile() {
 }
 
 async function showSite() {
-  $("file-field").hidden = $("site").value === "demo";
+  $("file-field").hidden = $("site").value !== "file";
   $("site-hint").textContent = "";
   map.clear();
   const site = chosenSite();
   if (!site) return;
   await during($("plan-button"), $("plan-notice"), async (signal) => {
     const known = await post("/api/site", { site }, signal).catch((problem) => {
-      if (site !== "demo") uploaded = null;
+      if (typeof site !== "string") uploaded = null;
       throw problem;
     });
     map.showSite(known.map.features);

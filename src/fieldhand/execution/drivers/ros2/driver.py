@@ -14,7 +14,7 @@ import dataclasses
 import math
 import time
 import uuid
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping
 from typing import Self
 
 from fieldhand.clock import Clock
@@ -22,6 +22,7 @@ from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Position, Progress
 from fieldhand.execution.drivers.ros2.action_outcome import GoalEnd
 from fieldhand.execution.drivers.ros2.capture import CaptureClient, RunningCapture
+from fieldhand.execution.drivers.ros2.event_topics import EventTopics
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.navigation import NavigationClient, RunningDrive
 from fieldhand.execution.drivers.ros2.startup import Startup
@@ -55,6 +56,7 @@ class Ros2Driver:
         steady: Monotonic clock in seconds.
         look_every_s: Seconds of the mission clock between two polls of a running goal.
         actions: Names of the actions the mission needs; None for all that the profile binds.
+        events: Names of the events that the mission watches; None for all that the profile binds.
         new_id: Returns the 16 bytes of a goal id.
 
     Raises:
@@ -71,14 +73,16 @@ class Ros2Driver:
         steady: Callable[[], float] = time.monotonic,
         look_every_s: float = LOOK_EVERY_S,
         actions: Collection[str] | None = None,
+        events: Collection[str] | None = None,
         new_id: Callable[[], bytes] = lambda: uuid.uuid4().bytes,
     ) -> None:
-        bindings = _bindings_of(robot, actions)
+        bindings = _bindings_of(robot, actions, events)
         self._site = site
         self._clock, self._steady, self._look_every_s = clock, steady, look_every_s
         self._telemetry = Telemetry(
             transport, bindings, site.projection, speed_m_s=robot.speed_m_s, clock=clock.now, steady=steady
         )
+        self._events = EventTopics(transport, bindings, steady=steady, only=events)
         self._navigation = NavigationClient(
             transport,
             bindings,
@@ -112,12 +116,13 @@ class Ros2Driver:
         look_every_s: float = LOOK_EVERY_S,
         within_s: float = READY_WITHIN_S,
         actions: Collection[str] | None = None,
+        events: Collection[str] | None = None,
         new_id: Callable[[], bytes] = lambda: uuid.uuid4().bytes,
     ) -> Self:
         """Wait until the robot is available, idle and localized, and return its driver.
 
         Args:
-            transport, site, robot, clock, steady, look_every_s, actions, new_id: As for the constructor.
+            transport, site, robot, clock, steady, look_every_s, actions, events, new_id: As for the constructor.
             interfaces: Types that the transport can use.
             sleep: Sleeps for the given seconds of the steady clock.
             within_s: Seconds to wait for the robot.
@@ -133,6 +138,7 @@ class Ros2Driver:
             steady=steady,
             look_every_s=look_every_s,
             actions=actions,
+            events=events,
             new_id=new_id,
         )
         startup = Startup(
@@ -141,6 +147,7 @@ class Ros2Driver:
             navigation=driver._navigation,
             captures=driver._captures,
             telemetry=driver._telemetry,
+            events=driver._events,
             far=lambda: driver._far_from(site),
             rest=lambda: sleep(LOOK_EVERY_S),
             steady=steady,
@@ -199,6 +206,10 @@ class Ros2Driver:
         self._telemetry.listen()
         return self._is_lost()
 
+    def events(self) -> Mapping[str, float | None]:
+        self._events.listen()
+        return self._events.values()
+
     def stopped(self) -> str | None:
         self._receive()
         return self._telemetry.stopped()
@@ -221,6 +232,7 @@ class Ros2Driver:
     def close(self) -> None:
         """Close all endpoints without sending anything; call :meth:`leave` first to cancel a running goal."""
         self._telemetry.close()
+        self._events.close()
         self._navigation.close()
         self._captures.close()
 
@@ -309,11 +321,11 @@ class Ros2Driver:
         return f"the robot stands {away / 1000.0:.0f} km from the start of {site.name}: it is on another site"
 
 
-def _bindings_of(robot: RobotProfile, actions: Collection[str] | None) -> Ros2Bindings:
+def _bindings_of(robot: RobotProfile, actions: Collection[str] | None, events: Collection[str] | None) -> Ros2Bindings:
     """Return the ROS 2 bindings of a profile.
 
     Raises:
-        Ros2Error: The profile has none, or does not bind an action that is needed.
+        Ros2Error: The profile has none, or does not bind an action or event that is needed.
     """
     if robot.ros2 is None:
         raise Ros2Error(
@@ -327,5 +339,12 @@ def _bindings_of(robot: RobotProfile, actions: Collection[str] | None) -> Ros2Bi
             f"the profile of {robot.name} does not define how the robot does {', '.join(unbound)} over ROS 2",
             where=robot.source,
             advice="name them under ros2: actions",
+        )
+    unheard = [name for name in events or () if name not in robot.ros2.events]
+    if unheard:
+        raise Ros2Error(
+            f"the profile of {robot.name} does not define which topics report {', '.join(unheard)} over ROS 2",
+            where=robot.source,
+            advice="name them under ros2: events",
         )
     return robot.ros2

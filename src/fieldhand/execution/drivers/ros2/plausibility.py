@@ -8,10 +8,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
+from fieldhand.execution.drivers.ros2.event_topics import event_value
 from fieldhand.execution.drivers.ros2.message_fields import number_at, value_at
 from fieldhand.execution.drivers.ros2.telemetry import MOST_PERCENT, fix_problem
 from fieldhand.execution.drivers.ros2.transport import RosMessage
-from fieldhand.robot.bindings import BatteryBinding, FieldBinding, PositionBinding, StopBinding
+from fieldhand.robot.bindings import BatteryBinding, EventBinding, FieldBinding, PositionBinding, StopBinding
+from fieldhand.robot.events import MonitoredEvent
 from fieldhand.robot.model import Quantity
 
 MessageCheck = Callable[[RosMessage], str]
@@ -97,6 +99,23 @@ def reading(binding: FieldBinding, quantity: Quantity) -> MessageCheck:
                 "correct the unit, scale or path of this reading, or the range of the quantity",
             )
         return f"{value:g} {quantity.unit}"
+
+    return check_message
+
+
+def event(binding: EventBinding, known: MonitoredEvent) -> MessageCheck:
+    """Return a check of the messages of an event."""
+
+    def check_message(message: RosMessage) -> str:
+        value = event_value(message, binding)
+        if value is None:
+            raise ImplausibleMessage(
+                f"{binding.value.path} is {value_at(message, binding.value.path)!r}, neither true, false nor a number",
+                "correct the path of the event",
+            )
+        if known.unit:
+            return f"{value:g} {known.unit}"
+        return known.description if value else f"not: {known.description}"
 
     return check_message
 

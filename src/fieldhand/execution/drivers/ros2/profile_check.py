@@ -28,7 +28,7 @@ from fieldhand.execution.drivers.ros2.navigation import FROM_LL, SPEED_LIMIT
 from fieldhand.execution.drivers.ros2.plausibility import MessageCheck
 from fieldhand.execution.drivers.ros2.telemetry import fix_problem
 from fieldhand.execution.drivers.ros2.transport import QosProfile, Rmw, RosMessage, Transport
-from fieldhand.robot.bindings import CallBinding, RequestValue, Ros2Bindings, TopicBinding
+from fieldhand.robot.bindings import CallBinding, EventBinding, RequestValue, Ros2Bindings, TopicBinding
 from fieldhand.robot.model import Action, RobotProfile
 
 _NUMBERS = (*INTEGERS, *FLOATS, "bool")
@@ -162,6 +162,8 @@ class _Bindings:
             yield self._topic("odometry", ros2.odometry, plausibility.odometry)
         if ros2.stop is not None:
             yield self._topic("stop", ros2.stop.topic, plausibility.stop(ros2.stop), [(ros2.stop.path, ("bool",))])
+        for name, event in ros2.events.items():
+            yield self._event(name, event)
         if ros2.use_sim_time:
             time = TopicBinding(topic=ros_clock.TOPIC, type=ros_clock.TYPE, stale_s=0.0)
             yield self._topic("use_sim_time", time, plausibility.clock)
@@ -194,6 +196,18 @@ class _Bindings:
             return check
 
         return _Bound(binding=bound.binding, wrong=bound.wrong, make=make)
+
+    def _event(self, name: str, bound: EventBinding) -> _Bound:
+        lists = self._is_list(bound.topic.type, bound.value.path)
+        check = plausibility.event(bound, self._profile.event[name])
+        return self._topic(f"events: {name}", bound.topic, check, () if lists else [(bound.value.path, _NUMBERS)])
+
+    def _is_list(self, type_name: str, path: str) -> bool:
+        """Return True if a path leads to a list, whose length counts."""
+        try:
+            return self._interfaces.field_at(type_name, path).many != "one"
+        except Ros2Error:
+            return False
 
     def _here(self) -> RosMessage | None:
         """Return a request with the robot's position for the map service; None without a valid fix."""

@@ -22,6 +22,7 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import acts
+from fieldhand.task.watches import watched_events
 
 
 def effective_bindings(robot: RobotProfile, by: Connection) -> Ros2Bindings:
@@ -83,6 +84,7 @@ def connected_robot(
             clock=clock,
             within_s=within_s,
             actions={act.action for act in acts(task.composition.plan)},
+            events=watched_events(task.composition.watches),
         )
         yield Vehicle(
             driver=driver,

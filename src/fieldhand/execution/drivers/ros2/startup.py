@@ -13,6 +13,7 @@ from fieldhand.execution.drivers.ros2.endpoint_problems import (
     service_problem,
     topic_problem,
 )
+from fieldhand.execution.drivers.ros2.event_topics import EventTopics
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.navigation import FROM_LL, NavigationClient
 from fieldhand.execution.drivers.ros2.telemetry import Telemetry, TelemetryTopic
@@ -35,7 +36,7 @@ class Startup:
 
     Args:
         transport, interfaces: Used to diagnose missing parts.
-        navigation, captures, telemetry: Required parts.
+        navigation, captures, telemetry, events: Required parts.
         far: Returns why the robot cannot be on the mission's site; None if it can.
         rest: Sleeps until the next poll.
         steady: Monotonic clock in seconds.
@@ -49,12 +50,14 @@ class Startup:
         navigation: NavigationClient,
         captures: CaptureClient,
         telemetry: Telemetry,
+        events: EventTopics,
         far: Callable[[], str | None],
         rest: Callable[[], None],
         steady: Callable[[], float],
     ) -> None:
         self._transport, self._interfaces = transport, interfaces
         self._navigation, self._captures, self._telemetry = navigation, captures, telemetry
+        self._events = events
         self._far, self._rest, self._steady = far, rest, steady
 
     def wait(self, within_s: float) -> None:
@@ -69,6 +72,7 @@ class Startup:
                 raise Ros2Error(f"the robot is not ready after {within_s:g} s: {_summary(missing)}")
             self._rest()
             self._telemetry.listen()
+            self._events.listen()
 
     def clear(self) -> None:
         """Cancel all goals of the robot: an interrupted mission may have left one running unsupervised.
@@ -88,7 +92,7 @@ class Startup:
 
     def _missing(self) -> Iterator[_Missing]:
         yield from self._missing_navigation()
-        for topic in self._telemetry.all:
+        for topic in (*self._telemetry.all, *self._events.all):
             yield from self._silent(topic)
         if (why := self._far()) is not None:
             yield why, ""

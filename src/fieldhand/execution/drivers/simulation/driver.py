@@ -156,7 +156,11 @@ class SimulatedDriver:
         readings, _ = self._truth.capture(action, place, counted=place.kind == "tree")
         return readings
 
+    def events(self) -> Mapping[str, float | None]:
+        return self._truth.events.values(self._clock.now() - self._begun_s)
+
     def poll(self) -> Progress:
+        self._truth.events.note(self._clock.now() - self._begun_s, self._at)
         course = self._course
         if course is None:
             return self._result
@@ -186,10 +190,14 @@ class SimulatedDriver:
             over_s = min(over_s, self._begun_s + stop.at_s)
         return max(0.0, over_s - self._clock.now())
 
+    def _at(self) -> Point:
+        """Return where it is, in local metres."""
+        if self._course is None or not self._course.path:
+            return self._xy
+        return _along(self._course.path, self._course.reach * self._course.done_at(self._clock.now()))
+
     def position(self) -> Position:
-        x, y = self._xy
-        if self._course is not None and self._course.path:
-            x, y = _along(self._course.path, self._course.reach * self._course.done_at(self._clock.now()))
+        x, y = self._at()
         ((lat, lon),) = self._site.projection.lat_lon([(x, y)])
         return Position(x=x, y=y, lat=lat, lon=lon)
 
@@ -233,6 +241,7 @@ class SimulatedDriver:
             captures=captures,
             struck=struck,
             lost=tuple(self._lost),
+            met=self._truth.events.met,
         )
 
     def restore(self, state: SimulationState) -> None:
@@ -250,6 +259,7 @@ class SimulatedDriver:
         self._xy, self._course, self._result = (state.x, state.y), None, Progress(state="idle")
         self._lost = list(state.lost)
         self._truth.restore(state.values_seed, state.captures, state.struck)
+        self._truth.events.restore(state.met)
 
     def _begin(self) -> None:
         if not self.poll().over:

@@ -31,6 +31,7 @@ from fieldhand.execution.drivers.simulation.world import (
     Truth,
     World,
 )
+from fieldhand.execution.drivers.simulation.world_events import EventScript
 from fieldhand.language import message
 from fieldhand.robot.model import Quantity, RobotProfile
 from fieldhand.site.model import Place, Site
@@ -86,6 +87,7 @@ class GroundTruth:
         self._middles: dict[int, Point] = {}
         for number in range(len(world.faults)):
             self._bind_fault(number, site)
+        self.events = self._script(world, site)
         self._drains = sorted((f.from_s, f.factor) for f in world.faults if isinstance(f, BatteryDrains))
         self.stop = min((f for f in world.faults if isinstance(f, RobotStops)), key=lambda f: f.at_s, default=None)
 
@@ -249,6 +251,15 @@ class GroundTruth:
             self._between[number] = (one, two)
             self._middles[number] = ((one.x + two.x) / 2.0, (one.y + two.y) / 2.0)
 
+    def _script(self, world: World, site: Site) -> EventScript:
+        middles: dict[int, Point] = {}
+        for number, one in enumerate(world.events):
+            where = f"events[{number}]"
+            self._known([one.event], self._robot.event, where, "event")
+            if one.at is not None:
+                middles[number] = self._tree(one.at, site, where).xy
+        return EventScript(world.events, self._robot.events, middles, lambda: self.seed)
+
     def _bound(self, truth: Truth, site: Site, name: str) -> dict[str, float]:
         """Return the values by tree id."""
         return {
@@ -261,11 +272,11 @@ class GroundTruth:
             if name not in known:
                 near = difflib.get_close_matches(name.lower(), known, n=1)
                 hint = f"did you mean '{near[0]}'? " if near else ""
-                many = "quantities" if noun == "quantity" else "actions"
+                many = "quantities" if noun == "quantity" else f"{noun}s"
                 raise WorldError(
                     f"the robot {self._robot.name} has no {noun} '{name}'",
                     where=f"{self._source}: {where}",
-                    advice=f"{hint}its {many} are {', '.join(known)}",
+                    advice=f"{hint}its {many} are {', '.join(known)}" if known else f"its profile lists no {many}",
                 )
 
     def _tree(self, reference: TreeRef, site: Site, where: str) -> Place:

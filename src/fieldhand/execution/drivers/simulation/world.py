@@ -147,11 +147,39 @@ WorldFault = (
 
 
 @dataclass(frozen=True, kw_only=True)
+class ScriptedEvent:
+    """An event of the robot's profile that occurs in the simulation, or whose sensor is silent.
+
+    Attributes:
+        event: Name of the event.
+        value: Value of a measured event; 1 for one that is true or false.
+        silent: The sensor reports nothing.
+        from_s, until_s: Interval in seconds of the mission in which it can occur (None: to the end).
+        at: Tree within ``within_m`` metres of which the robot must be.
+        for_s: Duration in seconds from the first time that the robot is there, or from the beginning of a period; None
+            for as long as it is there, or for the whole period.
+        chance: Probability that it occurs in each period of ``every_s`` seconds; None for always.
+    """
+
+    event: str
+    value: float = 1.0
+    silent: bool = False
+    from_s: float = 0.0
+    until_s: float | None = None
+    at: TreeRef | None = None
+    within_m: float = 5.0
+    for_s: float | None = None
+    chance: float | None = None
+    every_s: float = 60.0
+
+
+@dataclass(frozen=True, kw_only=True)
 class World:
     """World of a simulation; what it leaves open is drawn from the profile and the seed.
 
     Attributes:
         readings: Readings by quantity.
+        events: Events that occur; of several for one event that occur at a time, the last counts.
         seed: Random seed, unless the run gives one.
         charge_percent: Battery charge at the start.
         meter_step_percent: Resolution of the battery meter in percent; 0 for the exact charge.
@@ -162,6 +190,7 @@ class World:
 
     readings: Mapping[str, Truth] = field(default_factory=dict)
     faults: tuple[WorldFault, ...] = ()
+    events: tuple[ScriptedEvent, ...] = ()
     seed: int = 0
     charge_percent: float = 100.0
     meter_step_percent: float = 0.0

@@ -23,6 +23,7 @@ from pydantic_core import ErrorDetails
 
 from fieldhand.errors import WorldError
 from fieldhand.execution.drivers.simulation.world import Truth, World
+from fieldhand.execution.drivers.simulation.world_events import ScriptedEventModel
 from fieldhand.execution.drivers.simulation.world_faults import AnyFault, FaultModel, Strict, TreeRefModel
 from fieldhand.files import FileFault, read_file
 from fieldhand.hidden_characters import find_hidden_within
@@ -79,6 +80,7 @@ class WorldModel(Strict):
 
     readings: Mapping[str, SensorValue | TruthModel] = Field(default_factory=dict)
     faults: tuple[FaultModel, ...] = ()
+    events: tuple[ScriptedEventModel, ...] = ()
     seed: Annotated[StrictInt, Field(ge=0)] = 0
     charge_percent: Annotated[float, Field(gt=0, le=100, allow_inf_nan=False)] = 100.0
     meter_step_percent: Annotated[float, Field(ge=0, le=10, allow_inf_nan=False)] = 0.0
@@ -142,6 +144,7 @@ def parse_world(content: Mapping[str, Any], *, source: str = "world") -> World:
             for name, value in model.readings.items()
         },
         faults=tuple(f.to_fault() for f in model.faults),
+        events=tuple(e.scripted() for e in model.events),
         seed=model.seed,
         charge_percent=model.charge_percent,
         meter_step_percent=model.meter_step_percent,
@@ -268,6 +271,8 @@ def _keys_at(problem: ErrorDetails, path: list[str]) -> list[str]:
     inner: type[BaseModel] = WorldModel
     if path[0] == "readings":
         inner = TruthModel if len(path) == 3 else TreeValueModel
+    elif path[0] == "events" and len(path) > 2:
+        inner = TreeRefModel if "at" in path[2:-1] else ScriptedEventModel
     elif path[0] == "faults":
         inner = TreeRefModel if {"at", "between"} & set(path[2:-1]) else _KINDS_OF_FAULT[str(problem["loc"][2])]
     return list(inner.model_fields)

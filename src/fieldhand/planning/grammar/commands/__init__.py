@@ -5,23 +5,30 @@ from __future__ import annotations
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands import (
     adjuncts,
+    aggregates,
     captures,
     clauses,
     conditions,
     driving,
+    events,
     exclusions,
     limits,
+    pace,
     parameters,
     requests,
+    sampling,
+    sides,
     spacing,
     things,
+    waits,
     ways,
 )
 
 #: The constructions of all themes. Of readings that cost the same, the one composed first is kept, so the order counts.
 GRAMMAR = Grammar()
 _THEMES = (
-    things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, requests, exclusions, ways,
+    things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, events, requests, exclusions,
+    ways, sampling, waits, pace, sides, aggregates,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)

@@ -10,8 +10,9 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.clauses import Adjunct, Clause, once
 from fieldhand.planning.grammar.meaning import LAST_THING, UNSAID_THING, CaptureCommand, PlaceMeaning, Thing
 from fieldhand.planning.grammar.places.groups import of_each_kind
+from fieldhand.planning.grammar.places.sampling import bare_zone
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import are_rows, as_some, as_zone, chooses_from_trees, is_one_row, over
+from fieldhand.planning.selections import are_rows, as_quota, as_some, as_zone, chooses_from_trees, is_one_row, over
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -135,13 +136,27 @@ def _free_choice(command: CaptureCommand, count: int | None) -> CaptureCommand |
     return command if some or (place.shape == "area" and not _is_uncounted(command)) else None
 
 
-def _at_random(command: CaptureCommand, _: None) -> CaptureCommand | None:
+@dataclass(frozen=True, slots=True)
+class _Drawing:
+    """The site on which places are drawn."""
+
+    site: Site = field(compare=False)
+
+
+def _at_random(command: CaptureCommand, drawing: _Drawing) -> CaptureCommand | None:
     place, count = command.place, _only_count(command)
     if place is not None and place.shape == "area" and place.per is None and count is not None:
-        drawn_there = PlaceMeaning(s.RandomSample(count=count, of=place.selector), "several", count=count)
+        zone = bare_zone(place.selector, drawing.site)
+        free = s.PointsIn(zone=zone, count=count, random=True)
+        drawn_there = PlaceMeaning(
+            free if zone else s.RandomSample(count=count, of=place.selector), "several", count=count
+        )
         return replace(command, things=once(command.things), place=drawn_there)
     if place is None or place.shape not in ("one", "several") or place.per is not None:
         return None
+    quota = as_quota(place.selector)
+    if quota is not None and quota.how == "spread":
+        return replace(command, place=replace(place, selector=replace(quota, how="random")))
     some = [as_some(part) for part in place.selector.members]
     drawn = tuple(s.RandomSample(count=one.count, of=one.of) for one in some if one is not None)
     if not drawn or len(drawn) < len(some):
@@ -192,10 +207,10 @@ def whichever_it_is(n: int | None = None) -> Adjunct:
     return Adjunct(_free_choice, n, is_sentence=True)
 
 
-@construction("adjunct: RANDOM", "adjunct: AT RANDOM POINT", cost=0.2)
-def chosen_at_random() -> Adjunct:
+@construction("adjunct: RANDOM", "adjunct: AT RANDOM POINT", cost=0.2, given=("site",))
+def chosen_at_random(site: Site) -> Adjunct:
     """Compose "chosen at random"."""
-    return Adjunct(_at_random)
+    return Adjunct(_at_random, _Drawing(site))
 
 
 @construction("adjunct: ASMANY as_can", cost=0.2)

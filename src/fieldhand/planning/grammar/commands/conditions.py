@@ -22,6 +22,7 @@ from fieldhand.planning.grammar.meaning import (
     CaptureWhere,
     Check,
     Failing,
+    HowMany,
     Likewise,
     Nominal,
     OfLast,
@@ -317,6 +318,7 @@ def reading_is(
         negated=negated,
         place=subject.place or place,
         setting=subject.setting,
+        of=subject.of or test.of,
     )
 
 
@@ -809,8 +811,9 @@ def pass_on(used: int, on: Lex | None = None) -> PassOn:
 def group(every: Lex | None = None, none: Lex | None = None, n: int = 0, bound: Lex | None = None) -> OfLast | None:
     """Compose "both", "any of them", "at least two of them" and "more than one"."""
     if bound is not None:
-        more = {("ge", ""): 0, ("gt", ""): 1}.get(bound.value)
-        return None if more is None or n > _MOST_OF_SEVERAL else n + more
+        if bound.value == ("gt", ""):
+            return HowMany("gt", float(n))
+        return n if bound.value == ("ge", "") and n <= _MOST_OF_SEVERAL else None
     return n or ("all" if every is not None else "none" if none is not None else "any")
 
 

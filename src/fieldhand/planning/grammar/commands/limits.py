@@ -284,13 +284,22 @@ def at_word() -> str:
     "visit_limit: n=count [OFTHEM] TOPS",
     "visit_limit: n=count TREE TOPS",
     "visit_limit: check=CMP n=count",
+    "visit_limit: check=CMP n=count READING",
+    "visit_limit: check=CMP n=count TREE",
+    "visit_limit: check=UPTO n=count TREE",
+    "visit_limit: check=CMP n=count TIMES",
+    "visit_limit: check=UPTO n=count",
+    "visit_limit: check=UPTO n=count READING",
+    "visit_limit: check=UPTO n=count TIMES",
     "visit_limit: check=CMP n=count OFTHEM",
     "visit_limit: STOP word=THEN n=count TREE",
     cost=0.5,
 )
 def visits_at_most(n: int, used: int, word: Lex | None = None, check: Lex | None = None) -> VisitLimit | None:
     """Compose "five at most", "at most five of them" and "give up after 8 trees"."""
-    if (word is not None and "after_doing" not in word.features) or (check is not None and check.value != ("le", "")):
+    if (word is not None and "after_doing" not in word.features) or (
+        check is not None and check.value not in (("le", ""), None, "UPTO")
+    ):
         return None
     return VisitLimit(n, used)
 

@@ -27,12 +27,14 @@ from fieldhand.planning.grammar.meaning import (
     LimitClause,
     LinkedCommand,
     Otherwise,
+    PaceClause,
     PassOn,
     PlaceMeaning,
     RankCommand,
     ReadingQuestion,
     Reordered,
     Said,
+    SettleClause,
     StopCommand,
     Test,
     Thing,
@@ -49,7 +51,9 @@ GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
 #: Clauses that a command may follow without a connective.
-_LEADS_ON = When | Otherwise | Lead | LimitClause | WayRule | Allowed | InAnOrder | Failing | After
+_LEADS_ON = (
+    When | Otherwise | Lead | LimitClause | WayRule | Allowed | InAnOrder | Failing | After | PaceClause | SettleClause
+)
 
 
 @construction(
@@ -74,6 +78,8 @@ _LEADS_ON = When | Otherwise | Lead | LimitClause | WayRule | Allowed | InAnOrde
     "command: one=question",
     "command: one=failing",
     "command: one=reordered",
+    "command: one=pace",
+    "command: one=settle",
     cost=0.0,
 )
 def command(one: Command) -> Command:

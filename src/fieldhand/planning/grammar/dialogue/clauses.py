@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from fieldhand.language import message
 from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.commands.events import WatchCommand
 from fieldhand.planning.grammar.dialogue.allowances import allowed, failing
 from fieldhand.planning.grammar.dialogue.capturing import capture, capture_again, capture_elided, meant_things
 from fieldhand.planning.grammar.dialogue.conditions import (
@@ -33,6 +34,7 @@ from fieldhand.planning.grammar.dialogue.faults import Fork
 from fieldhand.planning.grammar.dialogue.fitting import in_area, is_spoken_of
 from fieldhand.planning.grammar.dialogue.fragments import assembled
 from fieldhand.planning.grammar.dialogue.likewise import anchors, with_known_place
+from fieldhand.planning.grammar.dialogue.paces import paced, paced_drive, with_paces
 from fieldhand.planning.grammar.dialogue.plans import (
     EMPTY,
     as_for_each,
@@ -41,6 +43,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
     walk,
     without_idle_cases,
 )
+from fieldhand.planning.grammar.dialogue.series import is_by_reading, with_read_place
 from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
     NotComposed,
@@ -51,6 +54,8 @@ from fieldhand.planning.grammar.dialogue.state import (
 )
 from fieldhand.planning.grammar.dialogue.totals import with_total
 from fieldhand.planning.grammar.dialogue.turns import as_meant
+from fieldhand.planning.grammar.dialogue.waits import waited, with_settling
+from fieldhand.planning.grammar.dialogue.watching import watched
 from fieldhand.planning.grammar.meaning import (
     LAST_THING,
     After,
@@ -70,18 +75,21 @@ from fieldhand.planning.grammar.meaning import (
     LimitClause,
     LinkedCommand,
     Otherwise,
+    PaceClause,
     PassOn,
     PlaceMeaning,
     RankCommand,
     ReadingQuestion,
     Reordered,
     Said,
+    SettleClause,
     StopCommand,
     Total,
     UntilCondition,
     VisitLimit,
     WayRule,
     When,
+    wait_seconds,
 )
 from fieldhand.planning.selections import (
     AREAS,
@@ -144,7 +152,7 @@ def read_clauses(setting: Setting, said: Said, *, in_fragments: bool = False) ->
             state = _read(setting, state, clause, clauses[k + 1 :])
         except NotComposed as fault:
             raise fault.about(clause.command.used) from None
-    return _ended(with_order_kept(setting, capture_elided(setting, state)))
+    return with_paces(setting, with_settling(setting, _ended(with_order_kept(setting, capture_elided(setting, state)))))
 
 
 def _ended(state: DialogueState) -> DialogueState:
@@ -211,7 +219,16 @@ def _read(
     setting: Setting, state: DialogueState, clause: LinkedCommand, following: Sequence[LinkedCommand]
 ) -> DialogueState:
     """Return the state after a clause."""
-    joint, command = clause.before, with_known_place(setting, state, clause.command)
+    if isinstance(clause.command, WatchCommand):
+        joined = () if clause.before is None else setting.spans_of(clause.before.used)
+        return watched(setting, with_joints(state, joined), clause.command)
+    if state.after_watch:
+        _require_apart(clause)
+        state = replace(state, after_watch=False)
+    if is_by_reading(clause.command):
+        state = capture_elided(setting, state)  # "at tree 4 and at tree 9, then ... at the hotter one"
+    state, command = with_read_place(setting, state, clause.command)
+    joint, command = clause.before, with_known_place(setting, state, command)
     if joint is not None and joint.first:
         return _do_before_last(setting, state, command, joint, following)
     if state.plan.steps and isinstance(command, CaptureCommand | DriveCommand | Lead | When | Again):
@@ -236,6 +253,8 @@ def _read(
         state = with_joints(state, setting.spans_of(joint.used))
     match command:
         case CaptureCommand():
+            if all(wait_seconds(thing.action) is not None for thing in command.things):
+                return waited(setting, state, command, joint)
             if command.instead and not _is_another_case(state):
                 raise NotComposed(message("it is not clear what is not done then", context="fault"))
             if state.lead is not None and not state.lead.relation and (joint is None or joint.both):
@@ -266,6 +285,8 @@ def _read(
             if command.ends and any(not isinstance(one.command, LimitClause | WayRule) for one in following):
                 raise NotComposed(message("something follows the end of the mission", context="fault"))
             driven = drive(setting, state, command)
+            if command.pace is not None:
+                driven = paced_drive(setting, state, driven, command.pace)
             return _same_there(setting, state, driven, command, following) if command.instead else driven
         case Lead():
             if joint is not None and not (joint.full or joint.then or joint.both):
@@ -290,6 +311,10 @@ def _read(
             return replace(otherwise(setting, state, said, in_all=command.in_all), runs_on=runs_on)
         case LimitClause():
             return _limit(setting, state, command)
+        case PaceClause():
+            return paced(setting, state, command, following)
+        case SettleClause():
+            return replace(state, settles=(*state.settles, command))
         case WayRule():
             return replace(state, ways=(*state.ways, (command, setting.spans_of(command.used))))
         case Allowed():
@@ -316,6 +341,14 @@ def _read(
             return failing(setting, state, command)
         case InTurn() | Correction() | Reordered():
             raise AssertionError("these are resolved before the clauses are read")
+
+
+def _require_apart(clause: LinkedCommand) -> None:
+    """Raise an error for a way home that follows a wait ("wait 5 minutes and then come home"): it is a part of it."""
+    joint = clause.before
+    apart = joint is not None and joint.full and joint.used and not joint.then
+    if isinstance(clause.command, Home | StopCommand) and not apart:
+        raise NotComposed(message("it is not clear whether this follows the wait, or the plan", context="fault"))
 
 
 def _stop(setting: Setting, state: DialogueState, command: StopCommand) -> DialogueState:

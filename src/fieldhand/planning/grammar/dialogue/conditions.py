@@ -20,10 +20,12 @@ from fieldhand.planning.grammar.dialogue.plans import (
     is_conditional,
     is_inside,
     last_capture,
+    measured,
     node_at,
     walk,
     with_node,
 )
+from fieldhand.planning.grammar.dialogue.series import is_of_series, until_condition, until_series, when_series
 from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
     NotComposed,
@@ -95,6 +97,9 @@ def when(setting: Setting, state: DialogueState, command: When, following: Seque
     latest = any(test.quantity == LATEST_READING for test in command.tests.tests)
     plain = (replace(test, quantity=test.quantity.replace(LATEST_READING, "")) for test in command.tests.tests)
     command = replace(command, tests=replace(command.tests, tests=tuple(plain)))
+    tests = _for_each_place(state, command.tests, following)
+    if is_of_series(state, tests):
+        return when_series(setting, state, replace(command, tests=tests), following, decides_last=decides_last)
     if len(command.tests.tests) > 1:
         state = _measured_at_several(setting, state, command)
     if command.measured_at is not None:
@@ -186,7 +191,7 @@ def _is_other_end(last: AllTests, tests: AllTests) -> bool:
 def _may_be_of(state: DialogueState, path: Path, tests: AllTests, robot: RobotProfile) -> bool:
     """Return True if the thresholds of tests are of the size of what a capture measures."""
     act = node_at(state.plan, path).act
-    measures = () if act is None else robot.action[act.action].measures
+    measures = () if act is None else measured(robot, act.action)
     return bool(measures) and all(_is_plausible(test, measures[0], robot) for test in tests.tests)
 
 
@@ -263,8 +268,8 @@ def _named_quantity(setting: Setting, command: CaptureWhere) -> AllTests:
         return command.tests
     if tests[0].check == "level":
         return command.tests  # "hot" of the air, or of the canopy?
-    measured = dict.fromkeys(name for action in setting.robot.actions for name in action.measures)
-    names = [name for name in measured if setting.robot.quantity[name].unit == tests[0].unit]
+    known = dict.fromkeys(name for action in setting.robot.actions for name in action.measures)
+    names = [name for name in known if setting.robot.quantity[name].unit == tests[0].unit]
     if not names:
         return command.tests
     name = setting.either("what is measured?", command.used, names)
@@ -380,10 +385,10 @@ def _decide_last_at_each(setting: Setting, state: DialogueState, command: When, 
 
 def _with_tested_thing(setting: Setting, state: DialogueState, command: When) -> DialogueState:
     """Return the state in which "it" is the chosen one of several readings that were taken at once."""
-    measured = [thing for thing in state.things if setting.robot.action[thing.action].measures]
-    if len(measured) < 2:
+    measuring = [thing for thing in state.things if measured(setting.robot, thing.action)]
+    if len(measuring) < 2:
         return state
-    thing = setting.either("which reading is tested?", command.used, measured)
+    thing = setting.either("which reading is tested?", command.used, measuring)
     taken = [
         path
         for path, node in walk(state.plan)
@@ -703,16 +708,25 @@ def _loop_around(state: DialogueState) -> Path | None:
 
 
 def until(setting: Setting, state: DialogueState, command: UntilCondition) -> DialogueState:
-    """Return the state in which a reading taken in the last for-each ends it."""
+    """Return the state in which readings taken in the last for-each, or the readings at one place, end it."""
+    tests = _of_quantity(setting, command.tests)
+    of_several = tests.of_series or tests.at_least > 0
+    if of_several and state.within is None:
+        said = setting.spans_of(command.used)
+        if (repeated := until_series(setting, state, tests, said)) is not None:
+            return repeated
     if state.loop is None and state.within is not None and state.block.steps:
         state = _each_of_area(state)
     if state.loop is None or state.captured is None or not is_inside(state.captured, state.loop):
         raise NotComposed(message("it is not clear what ends then", context="fault"))
     path = state.loop[:-1]
-    tests = _of_quantity(setting, replace(command.tests, of_last=""))
-    if command.tests.of_last not in ("", "any"):
-        raise NotComposed(message("it is not clear what ends then", context="fault"))
-    condition, state = condition_of(setting, state, tests)
+    if of_several:
+        condition, state = until_condition(setting, state, tests, state.captured)
+    else:
+        tests = replace(tests, of_last="")
+        if command.tests.of_last not in ("", "any"):
+            raise NotComposed(message("it is not clear what ends then", context="fault"))
+        condition, state = condition_of(setting, state, tests)
     loop = for_each_at(state.plan, path)
     said = (*loop.said, *setting.spans_of(command.used))
     plan = with_node(state.plan, path, replace(loop, until=condition, said=said))

@@ -17,6 +17,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
     is_inside,
     with_node,
 )
+from fieldhand.planning.grammar.dialogue.series import limited_rounds
 from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
     NotComposed,
@@ -406,7 +407,11 @@ def limit_visits(setting: Setting, state: DialogueState, command: VisitLimit) ->
         NotComposed: It has one, or visits a number of places that was named.
     """
     if state.loop is None:
-        raise NotComposed(message("it is not clear of what so many are meant", context="fault"))
+        said = setting.spans_of(command.used)
+        rounds = None if command.count is None else limited_rounds(state, command.count, said)
+        if rounds is None:
+            raise NotComposed(message("it is not clear of what so many are meant", context="fault"))
+        return rounds
     path = state.loop[:-1]
     loop = for_each_at(state.plan, path)
     counted = state.where is not None and state.where.count is not None

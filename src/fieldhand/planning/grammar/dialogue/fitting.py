@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any, cast
 
@@ -10,7 +9,9 @@ from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, OpenQuestion, Setting
 from fieldhand.planning.grammar.meaning import DriveCommand, Lead, PlaceMeaning, Thing
+from fieldhand.planning.grammar.places.areas import of_each_block
 from fieldhand.planning.grammar.places.numbered import ids_of
+from fieldhand.planning.grammar.places.sampling import bare_zone
 from fieldhand.planning.grammar.row_by_row import MOST_ONE_BY_ONE, one_by_one
 from fieldhand.planning.selections import (
     AREAS,
@@ -23,6 +24,7 @@ from fieldhand.planning.selections import (
     counts_in_row,
     is_in_block,
     is_one_row,
+    of_each,
     over,
     rows_kept,
     swapped,
@@ -57,7 +59,7 @@ def in_area(setting: Setting, before: Lead | DriveCommand, place: PlaceMeaning |
         return PlaceMeaning(area, "several", each=True)
     if place is None and isinstance(before, DriveCommand) and are_several_rows(area):
         each = PlaceMeaning(area, "several", each=True)
-        ways = (each, _one_of_each(one_by_one(area, setting.site)))
+        ways = (each, PlaceMeaning(s.Quota(per="row", count=1, of=area), "several"))
         return setting.either("at every tree, or at how many?", before.used, ways)
     if place is None or place.shape in ("here", "those"):
         if place is None or not place.each:
@@ -147,6 +149,12 @@ def spaced(
             raise OpenQuestion(asked)
         return PlaceMeaning(s.Spaced(apart_m=spacing, count=count), "several"), once
     area = place.selector if place.per is None else place.per
+    if zone := bare_zone(area, setting.site):
+        line = s.Spaced(apart_m=spacing, count=count, zone=zone)
+        if count > 1:
+            return PlaceMeaning(line, "several"), once
+        ways = (s.Grid(every_m=spacing, zone=zone), line)
+        return PlaceMeaning(setting.either("on a grid, or along a line?", used, ways), "several"), once
     rows = one_by_one(area, setting.site) if are_rows(area) else ()
     if not rows:
         raise NotComposed(message("it is not clear along which row", context="fault"))
@@ -251,15 +259,10 @@ def _one_in_each_or_in_all(setting: Setting, rows: s.Selector, used: int) -> Pla
         raise NotComposed(
             message("it is not clear whether one in each of them is meant, or one in all", context="fault")
         )
-    each = _one_of_each(ones)
+    each = PlaceMeaning(s.Quota(per="row", count=1, of=rows), "several", count=len(ones))
     return setting.either(
         "one in each of them, or one in all?", used, (each, PlaceMeaning(s.Take(count=1, of=rows), "one"))
     )
-
-
-def _one_of_each(rows: Sequence[s.Selector]) -> PlaceMeaning:
-    """Return one tree of each row."""
-    return PlaceMeaning(s.UnionOf(parts=tuple(s.Take(count=1, of=row) for row in rows)), "several", count=len(rows))
 
 
 def _nearby(
@@ -296,18 +299,34 @@ def of_each_row(setting: Setting, place: PlaceMeaning, count: int = 1) -> PlaceM
     """
     rows = place.per or s.Rows()
     counted = are_rows(rows) or rows_kept(rows) is not None
+    selector = s.Take(count=count, of=s.Trees()) if place.shape == "area" else place.selector
+    quota = _quota(setting, selector, rows, by_row=counted)
+    if quota is not None:
+        return PlaceMeaning(quota, "several")
     single = one_by_one(rows, setting.site) if counted else rows.members
     if not single or len(single) > MOST_ONE_BY_ONE:
         raise NotComposed(message("rows are visited one after the other here only if they are named", context="fault"))
-    selector = s.Take(count=count, of=s.Trees()) if place.shape == "area" else place.selector
     parts = tuple(over(selector, row) for row in single)
     return PlaceMeaning(parts[0] if len(parts) == 1 else s.UnionOf(parts=parts), "several")
+
+
+def _quota(setting: Setting, selector: s.Selector, rows: s.Selector, *, by_row: bool) -> s.Quota | None:
+    """Return so many trees of each row or block, spread over them; None for trees that are chosen otherwise."""
+    if by_row:
+        return of_each(selector, "row", rows)
+    return of_each_block(selector, rows.members, setting.site)
 
 
 def _of_area(
     setting: Setting, place: PlaceMeaning, things: tuple[Thing, ...], count: int | None, relation: str, used: int
 ) -> PlaceMeaning:
-    """Return the trees of an area: all of them, or as many as there are captures."""
+    """Return the trees of an area: all of them, or as many as there are captures; of bare ground so many points."""
+    if zone := bare_zone(place.selector, setting.site):
+        if count is None and _are_plural(things):
+            raise OpenQuestion(message("'{said}': at how many places?", context="question", said=setting.quoted(used)))
+        return PlaceMeaning(
+            s.PointsIn(zone=zone, count=count or 1), "several" if (count or 1) > 1 else "one", count=count
+        )
     if count is None and _are_plural(things):
         return replace(place, shape="several")
     if relation in _OPEN and count in (None, 1) and setting.either("every tree, or how many?", used, (True, False)):

@@ -10,7 +10,9 @@ from typing import Any, cast
 from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.faults import NotComposed
+from fieldhand.planning.grammar.meaning import wait_seconds
 from fieldhand.planning.selections import as_random, swapped
+from fieldhand.robot.model import RobotProfile
 from fieldhand.task import plan as p
 
 #: Steps from the plan's root to a node: indices of steps, and the names of the fields that hold the inner nodes.
@@ -94,7 +96,7 @@ def walk(node: p.Node, path: Path = ()) -> Iterator[tuple[Path, p.Node]]:
 
 def last_capture(plan: p.InOrder) -> Path | None:
     """Return the path of the last capture of a plan; None if it has none."""
-    found = [path for path, node in walk(plan) if node.act is not None]
+    found = [path for path, node in walk(plan) if node.act is not None and wait_seconds(node.act.action) is None]
     return found[-1] if found else None
 
 
@@ -112,6 +114,8 @@ def captures_at_last_place(steps: Sequence[p.Node]) -> list[p.Act]:
     """Return the captures since the last place, if there was nothing but captures."""
     found: list[p.Act] = []
     for step in reversed(steps):
+        if step.act is not None and step.act.at is None and wait_seconds(step.act.action) is not None:
+            continue
         if step.act is None:
             if step.only_drives:
                 return found
@@ -134,7 +138,34 @@ def whole_plan(plan: p.InOrder) -> p.Node:
     steps = plan.steps
     while len(steps) > 1 and steps[-1].ends_plan:
         steps = steps[:-1]
-    return with_seeds(finished(replace(plan, steps=steps)), count())
+    return with_seeds(finished(cast(p.InOrder, with_waits(replace(plan, steps=steps)))), count())
+
+
+def measured(robot: RobotProfile, action: str) -> tuple[str, ...]:
+    """Return what an action measures; nothing for a wait."""
+    known = robot.action.get(action)
+    return () if known is None else known.measures
+
+
+def with_waits(node: p.Node) -> p.Node:
+    """Return a plan with waits in place of the captures as which they were read."""
+    seconds = None if node.act is None else wait_seconds(node.act.action)
+    if node.act is not None and seconds is not None:
+        return _wait(node.act, seconds)
+    if isinstance(node, p.InOrder):
+        steps: list[p.Node] = []
+        for step in node.steps:
+            made = with_waits(step)
+            steps.extend(made.children if step.act is not None and made.is_series else (made,))
+        return replace(node, steps=tuple(steps))
+    return node.with_children([with_waits(child) for child in node.children])
+
+
+def _wait(act: p.Act, seconds: float) -> p.Node:
+    wait = p.Wait(id="", seconds=seconds * act.count, said=act.said)
+    if act.at is None:
+        return wait
+    return p.InOrder(id="", steps=(p.GoTo(id="", place=act.at, label=act.label, said=act.at_said), wait))
 
 
 def with_selector(node: p.Node, selector: s.Selector) -> p.Node:

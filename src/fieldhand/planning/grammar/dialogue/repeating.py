@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any, cast
 
 from fieldhand.language import message
 from fieldhand.places import selectors as s
@@ -31,6 +32,7 @@ from fieldhand.planning.selections import (
 )
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
+from fieldhand.task.aggregates import Aggregate, CompareSeries, CountReadings, MeanKnown
 
 
 def process_again(setting: Setting, state: DialogueState, command: Again) -> DialogueState:
@@ -269,7 +271,12 @@ def _can_be_repeated(process: Sequence[p.Node]) -> bool:
     """Return True if a process only captures, drives, visits, and decides by readings of its own."""
     nodes = [node for step in process for node in p.walk(step)]
     return not any(
-        node.ends_plan or node.is_optional_step or node.caught or getattr(node, "until", None) for node in nodes
+        (node.selector is not None and node.selector.decided_by_readings)
+        or node.ends_plan
+        or node.is_optional_step
+        or node.caught
+        or getattr(node, "until", None)
+        for node in nodes
     )
 
 
@@ -314,6 +321,8 @@ def _renamed(step: p.Node, names: _Names, said: tuple[p.Span, ...]) -> p.Node:
         return replace(step.act, reading=reading, said=said, at_said=said if step.act.at is not None else ())
     if (choice := as_choice(step)) is not None:
         step = replace(choice, condition=_retested(choice.condition, names))
+    if step.collects:
+        step = replace(cast(Any, step), collects=names.of(step.collects))
     return replace(step, said=said).with_children([_renamed(child, names, said) for child in step.children])
 
 
@@ -326,5 +335,11 @@ def _retested(condition: c.Condition, names: _Names) -> c.Condition:
             return replace(condition, conditions=tuple(_retested(one, names) for one in condition.conditions))
         case c.Not():
             return replace(condition, condition=_retested(condition.condition, names))
+        case Aggregate() | CountReadings():
+            return replace(condition, condition=cast(Any, _retested(condition.condition, names)))
+        case MeanKnown():
+            return replace(condition, reading=names.new.get(condition.reading, condition.reading))
+        case CompareSeries(reading=one, than=other):
+            return replace(condition, reading=names.new.get(one, one), than=names.new.get(other, other))
         case _:
             return condition

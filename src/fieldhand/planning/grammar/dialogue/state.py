@@ -16,8 +16,10 @@ from fieldhand.planning.grammar.meaning import (
     InAnOrder,
     Lead,
     LimitClause,
+    PaceClause,
     PlaceMeaning,
     RankCommand,
+    SettleClause,
     Thing,
     WayRule,
 )
@@ -26,6 +28,7 @@ from fieldhand.site.model import Site
 from fieldhand.task import plan as p
 from fieldhand.task.conditions import Condition
 from fieldhand.task.frames import Then
+from fieldhand.task.watches import Watch
 
 Spans = tuple[p.Span, ...]
 #: Ranges of the request that corrections change, each with what stands there then.
@@ -80,6 +83,25 @@ class Setting:
 
 
 @dataclass(frozen=True)
+class SaidPace:
+    """A driving speed that was said.
+
+    Attributes:
+        pace: The speed.
+        said: Spans that say it.
+        step: Index of the step of the plan that it stands with.
+        of_drive: True if it is the speed of one drive.
+        of_all: True if it is said of the whole mission.
+    """
+
+    pace: PaceClause
+    said: Spans
+    step: int
+    of_drive: bool = False
+    of_all: bool = False
+
+
+@dataclass(frozen=True)
 class DialogueState:
     """The plan of the clauses read so far, and what later ones can refer to.
 
@@ -115,7 +137,12 @@ class DialogueState:
         joints: Spans of the connectives.
         ranking: Trees that were ranked.
         edits: What corrections change in the request.
+        paces: Driving speeds, with the parts of the plan that they may be of.
+        settles: Waits before captures.
+        speed: Driving speed of the whole mission, when all clauses are read.
         runs_on: True if the last "otherwise" stands in a text without a mark that shows where its case ends.
+        watches: Conditions that are checked throughout the mission.
+        after_watch: True if the last clause said how long the robot waits in one of them.
     """
 
     plan: p.InOrder = EMPTY
@@ -151,6 +178,11 @@ class DialogueState:
     assumed: tuple[str, ...] = ()
     runs_on: bool = False
     edits: Edits = ()
+    paces: tuple[SaidPace, ...] = ()
+    settles: tuple[SettleClause, ...] = ()
+    speed: SaidPace | None = None
+    watches: tuple[Watch, ...] = ()
+    after_watch: bool = False
 
     @property
     def block(self) -> p.InOrder:

@@ -18,6 +18,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
     captures_at_last_place,
     is_conditional,
     is_inside,
+    measured,
     node_at,
     walk,
     with_node,
@@ -81,14 +82,14 @@ def of_several(setting: Setting, state: DialogueState, tests: AllTests) -> tuple
         NotComposed: Which readings are meant is unclear.
     """
     state, paths = _last_readings(setting, state, tests.tests[0])
-    if len(paths) < 2 or (tests.of_last == 1 or tests.of_last in range(len(paths) + 1, 100)):
+    if len(paths) < 2 or (tests.at_least == 1 or tests.at_least > len(paths)):
         raise NotComposed(message("it is not clear which readings are tested", context="fault"))
     made: list[c.Condition] = []
     for path in paths:
         one, state = _of_reading(setting, replace(state, captured=path), tests.tests[0])
         made.append(c.Not(condition=one) if tests.of_last == "none" else one)
-    if isinstance(tests.of_last, int):
-        groups = [c.AllOf(conditions=group) for group in combinations(made, tests.of_last)]
+    if tests.at_least:
+        groups = [c.AllOf(conditions=group) for group in combinations(made, tests.at_least)]
         return (groups[0] if len(groups) == 1 else c.AnyOf(conditions=tuple(groups))), state
     return (c.AnyOf if tests.of_last == "any" else c.AllOf)(conditions=tuple(made)), state
 
@@ -102,7 +103,7 @@ def _last_readings(setting: Setting, state: DialogueState, test: Test) -> tuple[
     for number, step in enumerate(state.block.steps):
         if step.act is None:
             found = []
-        elif _fits(step, test, setting.robot):
+        elif fits(step, test, setting.robot):
             found.append((*state.scope, number))
     return state, found
 
@@ -149,7 +150,7 @@ def _of_reading(setting: Setting, state: DialogueState, test: Test) -> tuple[c.C
     act = None if path is None else node_at(state.plan, path).act
     if path is None or act is None:
         raise NotComposed(message("nothing before it measures that", context="fault"))
-    measures = robot.action[act.action].measures
+    measures = measured(robot, act.action)
     quantity = "" if test.quantity.startswith(NTH_READING) else test.quantity
     quantity = quantity or (measures[0] if measures else "")
     if quantity not in measures:
@@ -160,11 +161,11 @@ def _of_reading(setting: Setting, state: DialogueState, test: Test) -> tuple[c.C
     if not act.reading:
         act = replace(act, reading=f"r{state.readings + 1}")
         state = replace(state, readings=state.readings + 1, plan=with_node(state.plan, path, act))
-    condition = _checked(test, act.reading, quantity, robot)
+    condition = checked(test, act.reading, quantity, robot)
     return (c.Not(condition=condition) if test.negated else condition), replace(state, captured=path)
 
 
-def _checked(test: Test, reading: str, quantity: str, robot: RobotProfile) -> c.Condition:
+def checked(test: Test, reading: str, quantity: str, robot: RobotProfile) -> c.Condition:
     """Return the condition of a test that is not negated.
 
     Raises:
@@ -203,7 +204,7 @@ def _nth_reading(setting: Setting, state: DialogueState, test: Test, number: int
     if state.block.steps and as_for_each(state.block.steps[-1]) is not None:
         state, measuring = _last_readings(setting, state, test)
     else:
-        measuring = [path for path, node in walk(state.plan) if _fits(node, test, setting.robot)]
+        measuring = [path for path, node in walk(state.plan) if fits(node, test, setting.robot)]
     if number == 1 and measuring:
         found = measuring[0]
     elif 1 < number <= len(measuring) or (number < 0 and len(measuring) > 1):
@@ -215,17 +216,17 @@ def _nth_reading(setting: Setting, state: DialogueState, test: Test, number: int
 
 def _last_reading(state: DialogueState, test: Test, robot: RobotProfile) -> Path | None:
     """Return the path of the last capture whose quantity and unit fit a test."""
-    if state.captured is not None and _fits(node_at(state.plan, state.captured), test, robot):
+    if state.captured is not None and fits(node_at(state.plan, state.captured), test, robot):
         return state.captured
-    fitting = [path for path, node in walk(state.plan) if _fits(node, test, robot)]
+    fitting = [path for path, node in walk(state.plan) if fits(node, test, robot)]
     return fitting[-1] if fitting else None
 
 
-def _fits(node: p.Node, test: Test, robot: RobotProfile) -> bool:
+def fits(node: p.Node, test: Test, robot: RobotProfile) -> bool:
     """Return True if a capture measures what is tested."""
     if node.act is None:
         return False
-    measures = robot.action[node.act.action].measures
+    measures = measured(robot, node.act.action)
     if not set(test.setting) <= set(node.act.parameters):
         return False
     if test.quantity:
@@ -253,7 +254,7 @@ def readings_at(setting: Setting, state: DialogueState, test: Test) -> tuple[Dia
     where: s.Selector | None = None
     for number, step in enumerate(state.plan.steps):
         where = step.selector if step.selector is not None else where
-        if step.act is not None and where is not None and _fits(step, test, setting.robot):
+        if step.act is not None and where is not None and fits(step, test, setting.robot):
             taken.append(((number,), where, step.act))
     places = tuple(dict.fromkeys(place for _, place, _ in taken))
     meant = _place_meant(setting, places, test.place)
@@ -311,6 +312,6 @@ def reading_before(plan: p.InOrder, before: Path, robot: RobotProfile) -> Path |
     for path, node in walk(plan):
         if is_inside(path, before):
             break
-        if node.act is not None and robot.action[node.act.action].measures and not is_conditional(path):
+        if node.act is not None and measured(robot, node.act.action) and not is_conditional(path):
             found = path
     return found

@@ -5,6 +5,7 @@ from __future__ import annotations
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.places import (
     areas,
+    by_reading,
     choices,
     chosen,
     clauses,
@@ -17,6 +18,7 @@ from fieldhand.planning.grammar.places import (
     quantities,
     rounds,
     rows,
+    sampling,
     sets,
     spots,
     steps,
@@ -40,5 +42,7 @@ for _part in (
     choices,
     exceptions,
     sets,
+    sampling,
+    by_reading,
 ):
     GRAMMAR.include(_part.GRAMMAR)

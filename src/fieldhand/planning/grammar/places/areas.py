@@ -18,12 +18,15 @@ from fieldhand.planning.selections import (
     are_rows,
     as_edge,
     as_half,
+    as_quota,
     chooses_from_trees,
     counts_in_row,
+    is_block,
     is_in_block,
     is_row_of_place,
     is_whole_rows,
     measures_from_here,
+    of_each,
     over,
     specifies_part,
 )
@@ -158,14 +161,23 @@ def at_each_block(blocks: tuple[s.Selector, ...]) -> PlaceMeaning:
     return PlaceMeaning(s.Trees(), "area", each=True, per=s.UnionOf(parts=blocks))
 
 
+def of_each_block(selector: s.Selector, blocks: tuple[s.Selector, ...], site: Site) -> s.Quota | None:
+    """Return a number of any trees as so many of each of some blocks; None for other selectors or areas."""
+    if not all(is_block(block) for block in blocks):
+        return None
+    every = set(blocks) == {s.InBlock(block=block.name) for block in site.planting.blocks}
+    return of_each(selector, "block", s.Trees() if every else s.UnionOf(parts=blocks))
+
+
 @construction(
     "place: one=place in_ blocks=each_block",
     "place: one=place FOR blocks=each_block",
     "place: one=place in_ blocks=blocks",
     "place: one=place blocks=per_block",
     cost=0.2,
+    given=("site",),
 )
-def in_each_block(one: PlaceMeaning, blocks: tuple[s.Selector, ...]) -> PlaceMeaning | None:
+def in_each_block(one: PlaceMeaning, blocks: tuple[s.Selector, ...], site: Site) -> PlaceMeaning | None:
     """Compose "two trees in each block" and "the corners of both blocks"."""
     if one.per is not None or one.shape not in ("one", "several") or one.optional or one.at_most:
         return None
@@ -173,8 +185,11 @@ def in_each_block(one: PlaceMeaning, blocks: tuple[s.Selector, ...]) -> PlaceMea
         return None
     if all(counts_in_row(part) for part in one.selector.members):
         return None  # "the ends of row 2 in both blocks": of their rows
-    if one.shape == "several" and one.count is None and not are_meant_each(one.selector):
+    chosen_of_each = as_quota(one.selector) is not None
+    if one.shape == "several" and one.count is None and not chosen_of_each and not are_meant_each(one.selector):
         return replace(one, selector=over(one.selector, s.UnionOf(parts=blocks)))
+    if (quota := of_each_block(one.selector, blocks, site)) is not None:
+        return PlaceMeaning(quota, "several", each=True)
     parts = tuple(over(one.selector, block) for block in blocks)
     number = 1 if one.shape == "one" else one.count
     count = None if number is None else number * len(blocks)

@@ -40,7 +40,7 @@ construction = GRAMMAR.construction
 #: Ways to choose among trees.
 By = Literal[
     "extreme", "best", "nearest", "beside", "around", "farthest", "nearby", "random", "spread", "evenly", "in a run",
-    "adjacent", "apart", "of every", "nth", "at", "numbered",
+    "adjacent", "apart", "of every", "nth", "at", "numbered", "path",
 ]  # fmt: skip
 #: Choices of which the k-th is one: "the second oldest".
 _RANKED = ("extreme", "best", "nearest", "farthest")
@@ -773,6 +773,8 @@ def _selector(choice: Choice, n: int, of: s.Selector) -> s.Selector | None:
         case "nth":
             every = s.EveryNth(nth=value.n, start=value.start, counted_from=value.counted_from, of=of)
             return every if value.visited_from is None else s.Ordered(by=AWAY_FROM[value.visited_from], of=every)
+        case "path":
+            return value[0].among(of if value[1] is None else over(of, value[1]), n) if chooses_from_trees(of) else None
         case "at" | "numbered":
             return None
         case _ if n < 2:

@@ -12,6 +12,7 @@ from fieldhand.planning.grammar.places.quantities import article, quantified, un
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
     as_in_row,
+    as_quota,
     as_random,
     as_some,
     as_top,
@@ -22,6 +23,7 @@ from fieldhand.planning.selections import (
     landmark_of,
     leaves_out,
     measures_distance,
+    of_each,
     over,
     replaceable_area,
     specifies_part,
@@ -354,7 +356,7 @@ def of_each_kind(chosen: s.Selector, kinds: tuple[Lex, int] | None, site: Site) 
         kinds: Attribute that tells the kinds apart, and their number if the phrase gives one (otherwise 0).
         site: The site.
     """
-    some = as_some(chosen) or as_random(chosen) or as_top(chosen)
+    some = as_some(chosen) or as_random(chosen) or as_top(chosen) or as_quota(chosen)
     if kinds is None or some is None:
         return None
     kind, several = kinds
@@ -366,6 +368,7 @@ def of_each_kind(chosen: s.Selector, kinds: tuple[Lex, int] | None, site: Site) 
         if 1 < len(values) <= _MOST_KINDS and several in (0, len(values)):
             described = [s.Where(attribute=attribute, test="eq", value=value, of=some.of) for value in values]
             parts = tuple(replace(some, of=part) for part in described if ids_of(part, site))
+            quota = of_each(some, attribute, s.Trees())
             if parts:
-                made.append(PlaceMeaning(s.UnionOf(parts=parts), "several", each=True))
+                made.append(PlaceMeaning(quota or s.UnionOf(parts=parts), "several", each=True))
     return made or None

@@ -15,12 +15,14 @@ from fieldhand.planning.grammar.places.numbers import name_of, whole
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
     are_rows,
+    as_quota,
     as_rows,
     chooses_from_trees,
     counts_in_row,
     is_extreme,
     is_in_block,
     is_one_row,
+    of_each,
     over,
 )
 from fieldhand.site.counting import find_row, rows_from
@@ -466,6 +468,8 @@ def in_each_row(one: PlaceMeaning, rows: s.Selector) -> PlaceMeaning | None:
     if is_one_row(rows):
         return None
     in_rows = over(one.selector, rows)
+    if (quota := as_quota(one.selector)) is not None and (each := of_each(quota, "row", rows)) is not None:
+        return replace(one, selector=each)
     if all(counts_in_row(part) for part in in_rows.members):
         return replace(one, selector=in_rows, shape="several", count=None)  # "the first and last tree of each row"
     if one.shape == "several" and one.count is None:

@@ -11,6 +11,7 @@ from typing import Any
 
 from fieldhand.planning.english.lexicon import Lexicon, lexicon_for
 from fieldhand.planning.english.naming import NameEntry, Naming, Phrase
+from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.grammar.spanish.inflection import adjective_forms, plural_of, verb_forms
 from fieldhand.planning.grammar.spanish.lexicon import tables
 from fieldhand.planning.grammar.spanish.tokens import folded, words_of
@@ -44,6 +45,10 @@ class SpanishPhrases:
     def features(self, phrase: Phrase) -> frozenset[str]:
         """Return the features of a phrase."""
         return _features().of(phrase)
+
+    def spotted(self, words: Sequence[Word]) -> Iterator[tuple[str, int, int, Any]]:  # noqa: ARG002
+        """Yield nothing: events are understood in English only."""
+        yield from ()
 
     def entries(self, phrase: Phrase) -> Iterator[NameEntry]:
         """Yield everything that a phrase can be."""

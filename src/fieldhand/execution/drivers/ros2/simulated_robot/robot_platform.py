@@ -114,6 +114,10 @@ class SimulatedPlatform:
         """Return the readings of an action's sensors without a capture; a failure gives none."""
         return self._driver.read_sensors(action, place)
 
+    def events(self) -> Mapping[str, float | None]:
+        """Return the value of each event of the robot; None if its sensor is silent."""
+        return self._driver.events()
+
     def stop_now(self) -> Progress:
         """End the activity at once, without calling its callback."""
         self._watch(self._driver.poll())

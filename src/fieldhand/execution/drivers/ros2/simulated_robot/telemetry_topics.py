@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.map_frame import orientation
@@ -12,10 +13,10 @@ from fieldhand.execution.drivers.ros2.message_fields import message_of
 from fieldhand.execution.drivers.ros2.simulated_robot.field_values import field_value, with_header
 from fieldhand.execution.drivers.ros2.simulated_robot.robot_platform import SimulatedPlatform
 from fieldhand.execution.drivers.ros2.transport import Publisher, QosProfile, RosMessage, Transport
-from fieldhand.robot.bindings import Ros2Bindings, TopicBinding
+from fieldhand.robot.bindings import EventBinding, Ros2Bindings, TopicBinding
 
 #: Seconds between two messages of each topic.
-_FIX_S, _ODOMETRY_S, _BATTERY_S, _STOP_S = 0.1, 0.05, 1.0, 0.5
+_FIX_S, _ODOMETRY_S, _BATTERY_S, _STOP_S, _EVENT_S = 0.1, 0.05, 1.0, 0.5, 0.2
 #: Status of a receiver with corrections and of one without a fix (``sensor_msgs/msg/NavSatStatus``); standard deviation
 #: of the former in metres east, north and up.
 _CORRECTED, _NO_FIX = 2, -1
@@ -35,7 +36,7 @@ class _Sent:
     publisher: Publisher
     transient: bool
     every_s: float
-    message: Callable[[], RosMessage]
+    message: Callable[[], RosMessage | None]
     sent_s: float = -math.inf
 
 
@@ -63,7 +64,7 @@ class TelemetryTopics:
     ) -> None:
         self._interfaces, self._bindings, self._platform, self._stamped = interfaces, bindings, platform, stamped
 
-        def sent(topic: TopicBinding, every_s: float, message: Callable[[], RosMessage]) -> _Sent:
+        def sent(topic: TopicBinding, every_s: float, message: Callable[[], RosMessage | None]) -> _Sent:
             qos = QosProfile(reliable=True, transient=topic.transient)
             publisher = transport.publish(bindings.whole_name(topic.topic), topic.type, qos)
             return _Sent(publisher, topic.transient, every_s, message)
@@ -78,12 +79,16 @@ class TelemetryTopics:
         if bindings.stop is not None:
             interfaces.field_at(bindings.stop.topic.type, bindings.stop.path)
             self._topics.append(sent(bindings.stop.topic, _STOP_S, self._stop))
+        for name, event in bindings.events.items():
+            interfaces.field_at(event.topic.type, event.value.path)
+            self._topics.append(sent(event.topic, _EVENT_S, partial(self._event, name, event)))
 
     @staticmethod
     def topics(bindings: Ros2Bindings) -> frozenset[str]:
         """Return the full names of the telemetry topics."""
         stop = None if bindings.stop is None else bindings.stop.topic
-        bound = (bindings.position.fix, bindings.battery.topic, bindings.odometry, stop)
+        events = (event.topic for event in bindings.events.values())
+        bound = (bindings.position.fix, bindings.battery.topic, bindings.odometry, stop, *events)
         return frozenset(bindings.whole_name(topic.topic) for topic in bound if topic is not None)
 
     def step(self, now: float) -> None:
@@ -92,7 +97,9 @@ class TelemetryTopics:
             if now - topic.sent_s >= topic.every_s:
                 topic.sent_s = now
                 if topic.transient or topic.publisher.subscribers():
-                    topic.publisher.send(topic.message())
+                    message = topic.message()
+                    if message is not None:
+                        topic.publisher.send(message)
 
     def _fix(self) -> RosMessage:
         at, lost = self._platform.position, self._platform.lost
@@ -140,3 +147,26 @@ class TelemetryTopics:
         pressed = self._platform.stopped is not None
         message = message_of({binding.path: binding.stopped if pressed else not binding.stopped})
         return with_header(self._interfaces, binding.topic.type, message, self._stamped("base_link"))
+
+    def _event(self, name: str, binding: EventBinding) -> RosMessage | None:
+        """Return the message of an event; None if its sensor is silent."""
+        value = self._platform.events().get(name)
+        if value is None:
+            return None
+        type_name, path = binding.topic.type, binding.value.path
+        if self._interfaces.field_at(type_name, path).many != "one":
+            content: object = ({},) if value else ()
+        else:
+            content = field_value(self._interfaces, type_name, binding.value, _reported(binding, value))
+        return with_header(self._interfaces, type_name, message_of({path: content}), self._stamped("base_link"))
+
+
+def _reported(binding: EventBinding, value: float) -> float:
+    """Return a value that a binding reads as an event that holds (1) or not (0), or as the value of a measured one."""
+    if binding.equals is not None:
+        return binding.equals if value else float(not binding.equals)
+    if binding.above is not None:
+        return binding.above + (1.0 if value else -1.0)
+    if binding.below is not None:
+        return binding.below + (-1.0 if value else 1.0)
+    return value

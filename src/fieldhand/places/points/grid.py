@@ -1,0 +1,64 @@
+"""Selector of plants, or free points, on a square grid over an area."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldhand.language import message
+from fieldhand.language.words import say_number, say_zone
+from fieldhand.places.noun_phrase import NounPhrase, many
+from fieldhand.places.selector import FromGroup, Selector
+from fieldhand.places.sources.trees import Trees
+
+if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
+    from fieldhand.places.resolution import Resolution
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
+    from fieldhand.site.model import Site
+
+
+@dataclass(frozen=True, kw_only=True)
+class Grid(FromGroup):
+    """The tree of ``of`` nearest to the middle of each cell of a square grid with ``every_m`` metre sides. With
+    ``zone``, free points there; without trees, on the whole site."""
+
+    every_m: float
+    zone: str = ""
+    of: Selector = Trees()
+
+    reference_rule = "of"
+
+    @classmethod
+    def example(cls, site: Site) -> Grid:
+        return cls(every_m=20.0)
+
+    def resolve(self, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
+        from fieldhand.places.points.on_grid import points_on_grid
+
+        if self.zone or not resolution.site.trees:
+            return points_on_grid(resolution.site, self, notes)
+        return super().resolve(resolution, notes)
+
+    def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
+        """Return one tree of each cell that has one.
+
+        Raises:
+            PlaceError: The spacing is not possible.
+        """
+        from fieldhand.places.filters.zones import outside_keep_outs
+        from fieldhand.places.points.on_grid import trees_on_grid
+
+        return trees_on_grid(outside_keep_outs(of, notes).once(1), self, notes)
+
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
+        every = say_number(self.every_m)
+        if self.zone:
+            return many(message("points on a {metres} m grid over {zone}", metres=every, zone=say_zone(self.zone)))
+        group = wording.phrase(self.of)
+        return many(message("one of {trees} per cell of a {metres} m grid", metres=every, trees=group.group()))
+
+    @property
+    def keeps_order(self) -> bool:
+        return False

@@ -1,0 +1,138 @@
+"""Place points at equal steps along a path across an area, and find the trees nearest to them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+from shapely.geometry import LineString
+
+from fieldhand import language
+from fieldhand.errors import PlaceError
+from fieldhand.language import message
+from fieldhand.language.words import say_rounded
+from fieldhand.places.place_errors import too_few
+from fieldhand.places.place_group import PlaceGroup
+from fieldhand.places.points.free_ground import MOST_POINTS, area_called, free_part, free_points, segments
+from fieldhand.places.resolution_notes import ResolutionNotes
+from fieldhand.site.model import Site
+from fieldhand.site.rectangle import named_corners, smallest_rectangle
+
+if TYPE_CHECKING:
+    from fieldhand.places.points.transect import Transect
+
+Floats = NDArray[np.float64]
+
+#: Maximum number of legs of a zigzag.
+MOST_LEGS = 200
+
+
+def trees_on_path(of: PlaceGroup, selector: Transect, notes: ResolutionNotes) -> PlaceGroup:
+    """Return the tree nearest to each point of the path across a group of trees, each tree once, in the path's order.
+
+    The path runs inside the smallest-area rectangle around the trees.
+
+    Raises:
+        PlaceError: There are too few trees, or the number of points or legs is not possible.
+    """
+    path = _path(of.xy, selector) if len(of) else []
+    points = _along(path, selector)
+    if len(points) > len(of) and not selector.apart_m:
+        raise too_few(of.site, selector, selector.count, len(of))
+    taken = np.zeros(len(of), dtype=bool)
+    order: list[int] = []
+    farthest = 0.0
+    for point in points:
+        away = np.hypot(*(of.xy - point).T)
+        if selector.apart_m and taken[int(away.argmin())]:
+            continue  # two points of a dense path may have one nearest tree
+        away[taken] = np.inf
+        k = int(away.argmin())
+        taken[k] = True
+        order.append(k)
+        farthest = max(farthest, float(away[k]))
+    notes.rule = message(
+        "the path is {metres} m long, the trees are at most {most} m from its points",
+        metres=say_rounded(sum(piece.length for piece in path)),
+        most=say_rounded(farthest, 1),
+    )
+    return of.keep(order)
+
+
+def points_on_path(site: Site, selector: Transect, notes: ResolutionNotes) -> PlaceGroup:
+    """Return free points along the parts of the path that lie inside a zone, or inside the whole site.
+
+    Raises:
+        PlaceError: There is no such zone, no space in it, or the number of points or legs is not possible.
+    """
+    area = area_called(site, selector.zone)
+    free = free_part(site, area)
+    path = [
+        piece for line in _path(shapely.get_coordinates(area), selector) for piece in segments(line.intersection(free))
+    ]
+    if not path:
+        raise PlaceError(
+            message("there is no free ground along that path"),
+            where=site.name,
+            advice=message("all of it is inside keep-outs or outside the boundary"),
+        )
+    xy = _along(path, selector)
+    notes.rule = message("the path is {metres} m long", metres=say_rounded(sum(piece.length for piece in path)))
+    count = len(xy)
+    if selector.zone:
+        names = [
+            message("point {number} of {count} in {zone}", number=k, count=count, zone=selector.zone)
+            for k in range(1, count + 1)
+        ]
+    else:
+        names = [message("point {number} of {count}", number=k, count=count) for k in range(1, count + 1)]
+    return free_points(site, xy, names)
+
+
+def _path(xy: Floats, selector: Transect) -> list[LineString]:
+    """Return the pieces of the path across the smallest-area rectangle around points, beginning in the north-west."""
+    if not 1 <= selector.legs <= MOST_LEGS:
+        raise PlaceError(
+            language.counted(
+                "a zigzag of {count} leg is not possible", "a zigzag of {count} legs is not possible", selector.legs
+            ),
+            advice=message("ask for 1 to {count}", count=MOST_LEGS),
+        )
+    corner = named_corners(smallest_rectangle(xy))
+    nw, ne, sw, se = (corner[name] for name in ("nw", "ne", "sw", "se"))
+    if np.hypot(*(ne - nw)) < np.hypot(*(sw - nw)):
+        ne, sw = sw, ne  # the path leads along the longer sides
+    match selector.shape:
+        case "z":
+            return [LineString([nw, ne, sw, se])]
+        case "x":
+            return [LineString([nw, se]), LineString([ne, sw])]
+        case _:
+            at = np.linspace(0.0, 1.0, selector.legs + 1)[:, None]
+            one, other = nw + at * (ne - nw), sw + at * (se - sw)
+            return [LineString(np.where(np.arange(selector.legs + 1)[:, None] % 2 == 0, one, other))]
+
+
+def _along(path: Sequence[LineString], selector: Transect) -> Floats:
+    """Return points in the middles of equal parts of the pieces taken together, or at a spacing, shape (n, 2)."""
+    length = sum(piece.length for piece in path)
+    count = selector.count
+    if selector.apart_m and np.isfinite(selector.apart_m) and selector.apart_m > 0:
+        count = max(1, round(length / selector.apart_m)) if length / selector.apart_m <= MOST_POINTS else 0
+    if not 1 <= count <= MOST_POINTS or selector.apart_m < 0 or (selector.apart_m and selector.count):
+        raise PlaceError(
+            message("{count} points along a path is not possible", count=count),
+            advice=message("ask for 1 to {count}, or for a spacing", count=MOST_POINTS),
+        )
+    ends = np.cumsum([piece.length for piece in path])
+    at = (np.arange(count) + 0.5) * length / count
+    which = np.minimum(np.searchsorted(ends, at), len(path) - 1)
+    return np.array(
+        [
+            path[k].interpolate(d - (ends[k] - path[k].length)).coords[0]
+            for d, k in zip(at.tolist(), which.tolist(), strict=True)
+        ]
+    ).reshape(-1, 2)

@@ -1,0 +1,100 @@
+"""Selector of plants, or free points, along a sampling path across an area: a W, a zigzag, a Z, an X."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+from fieldhand.language import counted, message
+from fieldhand.language.words import say_number, say_zone
+from fieldhand.places.count_range import ANY, CountRange, exactly
+from fieldhand.places.filters.in_block import InBlock
+from fieldhand.places.noun_phrase import NounPhrase, many, one
+from fieldhand.places.selector import FromGroup, Selector
+from fieldhand.places.sources.trees import Trees
+
+if TYPE_CHECKING:
+    from fieldhand.places.place_group import PlaceGroup
+    from fieldhand.places.resolution import Resolution
+    from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.places.wording import SelectorWording
+    from fieldhand.site.model import Site
+
+#: Form of the path: alternating from one long side of the area to the other, or the letter Z or X in its corners.
+PathShape = Literal["zigzag", "z", "x"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Transect(FromGroup):
+    """``count`` trees of ``of`` nearest to equally spaced points, or to points ``apart_m`` metres apart, of a path
+    across it: a ``zigzag`` of ``legs`` (4 are a W, 1 is a diagonal), a ``z`` or an ``x``. With ``zone``, free points in
+    that zone; without trees, on the whole site."""
+
+    count: int = 0
+    apart_m: float = 0.0
+    shape: PathShape = "zigzag"
+    legs: int = 4
+    zone: str = ""
+    of: Selector = Trees()
+
+    reference_rule = "of"
+
+    @classmethod
+    def example(cls, site: Site) -> Transect:
+        block = site.planting.blocks[0].name if len(site.planting.blocks) > 1 else ""
+        return cls(count=20, of=InBlock(block=block)) if block else cls(count=20)
+
+    def resolve(self, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
+        from fieldhand.places.points.on_path import points_on_path
+
+        if self.zone or not resolution.site.trees:
+            return points_on_path(resolution.site, self, notes)
+        return super().resolve(resolution, notes)
+
+    def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
+        """Return the trees in the order of the path.
+
+        Raises:
+            PlaceError: There are too few trees, or the number of points or legs is not possible.
+        """
+        from fieldhand.places.filters.zones import outside_keep_outs
+        from fieldhand.places.points.on_path import trees_on_path
+
+        return trees_on_path(outside_keep_outs(of, notes).once(self.count), self, notes)
+
+    def phrase(self, wording: SelectorWording) -> NounPhrase:
+        path, group = self._path, wording.phrase(self.of)
+        over = say_zone(self.zone) if self.zone else group.group()
+        if self.apart_m:
+            text = message(
+                "every {metres} m along {path} across {area}", metres=say_number(self.apart_m), path=path, area=over
+            )
+            return many(text)
+        if self.zone:
+            points = counted("{count} point", "{count} points", self.count)
+            text = message("{points} along {path} across {area}", points=points, path=path, area=over)
+        else:
+            text = message("{count} of {trees}, along {path} across them", count=self.count, trees=over, path=path)
+        return one(text) if self.count == 1 else many(text)
+
+    @property
+    def single(self) -> bool:
+        return self.count == 1 and not self.apart_m
+
+    @property
+    def size(self) -> CountRange:
+        return exactly(self.count) if self.count and not self.apart_m else ANY
+
+    @property
+    def keeps_order(self) -> bool:
+        return True
+
+    @property
+    def _path(self) -> str:
+        if self.shape != "zigzag":
+            return message("a Z") if self.shape == "z" else message("an X")
+        if self.legs == 4:
+            return message("a W")
+        if self.legs == 1:
+            return message("a diagonal")
+        return message("a zigzag of {count} legs", count=self.legs)

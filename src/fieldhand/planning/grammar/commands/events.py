@@ -1,0 +1,288 @@
+"""Constructions of conditions that hold all the time: "if it rains, come home", "stop if someone is in the row"."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.commands.conditions import reading_is
+from fieldhand.planning.grammar.meaning import Amount, Home, PassOn, Subject, Test
+from fieldhand.planning.grammar.words import Lex
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
+from fieldhand.task.watches import Fallback, ReadingBeyond, Response, WatchCondition
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+Conditions = tuple[WatchCondition, ...]
+#: The reading taken last.
+_IT = Subject()
+
+
+@dataclass(frozen=True, slots=True)
+class WatchResponse:
+    """What the robot does when a condition begins to hold.
+
+    Attributes:
+        response: Response.
+        at_most_s: Maximum of a wait in seconds; None if it is not said.
+        fallback: What follows the maximum; empty if it is not said.
+        over: True if the phrase says that the robot goes on when it is over.
+        stands: True for "stop", after which the robot stays where it is if it does not end.
+    """
+
+    response: Response
+    at_most_s: float | None = None
+    fallback: Fallback | None = None
+    over: bool = False
+    stands: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class WatchCommand:
+    """Conditions that are checked throughout the mission, and the response to each.
+
+    Attributes:
+        conditions: Conditions; none for a sentence about the response to those before.
+        reaction: Response.
+        used: Tokens of the phrase.
+    """
+
+    conditions: Conditions
+    reaction: WatchResponse
+    used: int
+
+
+@construction("happens: one=EVENT", cost=0.0)
+@construction("such: one=EVENTNOUN", cost=0.0)
+def event(one: Lex) -> Conditions:
+    """Compose "someone is in the row" and "rain"."""
+    return (one.value,)
+
+
+@construction("happens: first=happens OR [if_] second=happens", "such: first=such OR second=such", cost=0.1)
+@construction("happens: first=happens COMMA second=happens", cost=0.4)
+def either(first: Conditions, second: Conditions) -> Conditions | None:
+    """Compose "it rains or the wind is over 5 m/s"."""
+    return (*first, *second) if not {*first} & {*second} else None
+
+
+@construction("any_time: ANYTIME", cost=0.0)
+def any_time() -> str:
+    """Compose "at any time"."""
+    return "any"
+
+
+@construction(
+    "trigger: [any_time] [COMMA] HAPPENS on=happens [COMMA] [any_time]",
+    "trigger: [any_time] [COMMA] DURING on=happens",
+    "trigger: [any_time] [COMMA] INSUCH on=such",
+    "trigger: HAPPENS any_time [COMMA] on=happens",
+    cost=0.1,
+)
+def trigger(on: Conditions) -> Conditions:
+    """Compose "if someone is in the row at any time"."""
+    return on
+
+
+@construction(
+    "trigger: any_time [COMMA] HAPPENS test=test",
+    "trigger: HAPPENS test=test any_time",
+    "trigger: HAPPENS any_time [COMMA] test=test",
+    "trigger: HAPPENS test=ever",
+    cost=0.2,
+    given=("robot",),
+)
+def reading(test: Test, robot: RobotProfile) -> Conditions | None:
+    """Compose "if the air gets hotter than 40 degrees at any time"."""
+    known = robot.quantity.get(test.quantity)
+    if known is None or test.attribute or test.place is not None or test.setting or test.negated:
+        return None
+    if test.check not in ("lt", "le", "gt", "ge") or test.unit not in ("", known.unit):
+        return None
+    if not isinstance(test.value, float | int):
+        return None
+    return (ReadingBeyond(quantity=known.name, test=test.check, value=float(test.value), unit=known.unit),)
+
+
+@construction(
+    "ever: [subject=measured] IS ANYTIME test=predicate", "ever: subject=measured ANYTIME test=predicate", cost=0.2
+)
+def ever(test: Test, subject: Subject = _IT) -> Test | None:
+    """Compose "CO2 is ever above 600 ppm"."""
+    return None if subject.place is not None else reading_is(test, subject)
+
+
+@construction(
+    "reacts: way=home", "reacts: HOLD [AND] way=home", "reacts: STANDSTILL [AND] way=home", cost=0.0, given=("site",)
+)
+@construction("reacts: STANDSTILL COMMA way=home", "reacts: STOPWORK [COMMA] [AND] way=home", cost=0.1, given=("site",))
+@construction("reacts: ENDALL [COMMA] [AND] way=home", cost=0.1, given=("site",))
+def goes_home(way: Home, site: Site) -> WatchResponse | None:
+    """Compose "come home" and "stop and come home"."""
+    if way.to_it or not {"start", "end"} & set(site.markers):
+        return None
+    return WatchResponse(way.then or _home(site))
+
+
+def _home(site: Site) -> Literal["return_to_start", "return_to_end"]:
+    return "return_to_start" if "start" in site.markers else "return_to_end"
+
+
+@construction("reacts: STANDSTILL", cost=0.6)
+def stands_still() -> WatchResponse:
+    """Compose "stop"."""
+    return WatchResponse("wait", stands=True)
+
+
+@construction("reacts: HOLD", cost=0.0)
+def holds() -> WatchResponse:
+    """Compose "wait"."""
+    return WatchResponse("wait")
+
+
+@construction("reacts: STOPWORK", "reacts: NOWORK", cost=0.1, given=("site",))
+def no_work(site: Site) -> list[WatchResponse]:
+    """Compose "don't work", which leaves open where the robot is meanwhile."""
+    return [WatchResponse("wait"), WatchResponse(_home(site))]
+
+
+@construction("reacts: first=reacts [COMMA] [AND] second=reacts", cost=0.2)
+def skips_on(first: WatchResponse, second: WatchResponse) -> WatchResponse | None:
+    """Compose "skip that tree and go on with the next"."""
+    return first if first.response == second.response == "skip" else None
+
+
+@construction("reacts: ENDALL", cost=0.0)
+def ends() -> WatchResponse:
+    """Compose "end the mission"."""
+    return WatchResponse("end")
+
+
+@construction("reacts: SKIPVISIT", cost=0.0)
+@construction("reacts: one=pass_on", cost=0.3)
+def skips(one: PassOn | None = None) -> WatchResponse | None:
+    """Compose "skip that tree"."""
+    return WatchResponse("skip") if one is None or one.to_next else None
+
+
+@construction("reacts: SKIPROW", cost=0.0)
+def skips_row() -> WatchResponse:
+    """Compose "skip the row"."""
+    return WatchResponse("skip_row")
+
+
+@construction("lasting: most=at_most", "lasting: FOR most=at_most", "lasting: INSIDE most=amount", cost=0.0)
+@construction("lasting: FOR most=amount", "lasting: most=amount", cost=0.1)
+def lasting(most: Amount) -> Amount | None:
+    """Compose "for at most 10 minutes"."""
+    return most if most.unit == "seconds" else None
+
+
+@construction(
+    "reacts: first=reacts [COMMA] [AND] STANDSTILL", "reacts: STANDSTILL [COMMA] [AND] first=reacts", cost=0.3
+)
+@construction("reacts: STANDSTILL then [COMMA] first=reacts", cost=0.3)
+def stops_first(first: WatchResponse) -> WatchResponse | None:
+    """Compose "stop and wait for 5 minutes"."""
+    return first if first.response == "wait" and not first.stands else None
+
+
+@construction("reacts: first=reacts UNTILOVER", "reacts: first=reacts [COMMA] UNTILOVER COMMA", cost=0.0)
+def until_over(first: WatchResponse) -> WatchResponse | None:
+    """Compose "wait until it is over"."""
+    return replace(first, over=True) if first.response == "wait" and not first.over else None
+
+
+@construction(
+    "reacts: first=reacts [COMMA] most=lasting",
+    "reacts: first=reacts [COMMA] CONTRAST most=lasting",
+    "reacts: first=reacts [COMMA] BUT most=lasting",
+    "reacts: first=reacts [COMMA] AND HOLD most=lasting",
+    cost=0.1,
+)
+def for_so_long(first: WatchResponse, most: Amount) -> WatchResponse | None:
+    """Compose "wait for at most 10 minutes"."""
+    if first.response != "wait" or first.at_most_s is not None or most.number < 1.0:
+        return None
+    return replace(first, at_most_s=most.number)
+
+
+@construction(
+    "reacts: first=reacts [COMMA] [AND] then [COMMA] GOON",
+    "reacts: first=reacts [COMMA] AND GOON",
+    "reacts: first=reacts COMMA GOON",
+    cost=0.1,
+)
+def goes_on(first: WatchResponse) -> WatchResponse | None:
+    """Compose "wait until they are gone, then go on", or "skip it and go on"."""
+    if first.response == "wait" and (first.fallback is not None or (first.over and first.at_most_s is not None)):
+        return None
+    if first.response == "wait" and first.at_most_s is not None:
+        return replace(first, fallback="go_on")
+    return replace(first, over=True) if first.response in ("wait", "skip", "skip_row") else None
+
+
+@construction(
+    "reacts: first=reacts [COMMA] [AND] then [COMMA] second=reacts",
+    "reacts: first=reacts [COMMA] AND second=reacts",
+    "reacts: first=reacts COMMA second=reacts",
+    "reacts: first=reacts [COMMA] [AND] [then] IFSTILL [COMMA] second=reacts",
+    "reacts: first=reacts [COMMA] [AND] [then] second=reacts IFSTILL",
+    "reacts: first=reacts FULLSTOP [AND] IFSTILL [COMMA] second=reacts",
+    "reacts: first=reacts FULLSTOP then [COMMA] second=reacts",
+    cost=0.2,
+)
+def then_reacts(first: WatchResponse, second: WatchResponse) -> WatchResponse | None:
+    """Compose "wait for 5 minutes and then come home"."""
+    if first.response != "wait" or first.fallback is not None or first.at_most_s is None:
+        return None
+    if second.response in ("wait", "skip_row"):
+        return None
+    return replace(first, fallback=second.response)
+
+
+@construction(
+    "command: on=trigger [COMMA] [then] reaction=reacts",
+    "command: reaction=reacts [COMMA] on=trigger",
+    "command: any_time COMMA reaction=reacts on=trigger",
+    cost=0.0,
+)
+def watch(on: Conditions, reaction: WatchResponse, used: int) -> WatchCommand:
+    """Compose "if it rains, come home"."""
+    return WatchCommand(on, reaction, used)
+
+
+@construction(
+    "command: on=trigger [COMMA] [then] reaction=reacts FULLSTOP limit=more",
+    "command: reaction=reacts [COMMA] on=trigger FULLSTOP limit=more",
+    "command: reaction=reacts [COMMA] on=trigger [COMMA] [CONTRAST] limit=more",
+    "command: reaction=reacts [COMMA] on=trigger [COMMA] [BUT] limit=more",
+    cost=0.2,
+)
+def watch_for(on: Conditions, reaction: WatchResponse, limit: WatchResponse, used: int) -> WatchCommand | None:
+    """Compose "stop if someone is in the row. Wait at most 10 minutes, then come home."."""
+    if reaction.response != "wait" or reaction.at_most_s is not None or limit.at_most_s is None:
+        return None
+    return WatchCommand(on, replace(limit, stands=reaction.stands and limit.stands), used)
+
+
+@construction("more: HOLD most=lasting", "more: most=lasting", cost=0.1)
+def wait_so_long(most: Amount) -> WatchResponse | None:
+    """Compose "wait at most 10 minutes"."""
+    return WatchResponse("wait", at_most_s=most.number) if most.number >= 1.0 else None
+
+
+@construction(
+    "more: first=more [COMMA] [AND] [then] [COMMA] second=reacts",
+    "more: first=more [COMMA] [AND] [then] IFSTILL [COMMA] second=reacts",
+    "more: first=more FULLSTOP IFSTILL [COMMA] second=reacts",
+    "more: first=more FULLSTOP then [COMMA] second=reacts",
+    "more: first=more [COMMA] [AND] [then] GOON",
+    cost=0.1,
+)
+def wait_then(first: WatchResponse, second: WatchResponse | None = None) -> WatchResponse | None:
+    """Compose "wait at most 10 minutes, then come home"."""
+    return replace(first, fallback="go_on") if second is None else then_reacts(first, second)

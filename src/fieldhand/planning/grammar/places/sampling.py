@@ -1,0 +1,317 @@
+"""Constructions of sampling: shares of a group, paths and grids over an area, random points, gaps in rows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import cast
+
+from fieldhand.places import selectors as s
+from fieldhand.places.points.transect import PathShape
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.meaning import Amount, Nominal, PlaceMeaning
+from fieldhand.planning.grammar.places.chosen import Choice
+from fieldhand.planning.grammar.places.numbered import ids_of
+from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.selections import as_some, as_zone, chooses_from_trees, over, rows_of
+from fieldhand.site.model import Site
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+#: Largest share of a group that is a sample of it, in percent; 100 % are all of them.
+_MOST_PERCENT = 100.0
+
+
+@dataclass(frozen=True, slots=True)
+class SamplingPath:
+    """A path across an area along which samples are taken: its form, and the number of legs of a zigzag."""
+
+    shape: PathShape
+    legs: int
+
+    def over(self, area: s.Selector | None, site: Site, *, count: int = 0, apart_m: float = 0.0) -> s.Selector:
+        """Return so many places, or places so far apart, along the path across an area, or across the site."""
+        zone = "" if area is None else bare_zone(area, site)
+        made = self.among(s.Trees() if area is None or zone else area, count)
+        return replace(made, apart_m=apart_m, zone=zone)
+
+    def among(self, of: s.Selector, count: int) -> s.Transect:
+        """Return so many trees of a group along the path across it."""
+        return s.Transect(count=count, shape=self.shape, legs=self.legs, of=of)
+
+
+def bare_zone(area: s.Selector, site: Site) -> str:
+    """Return the name of the zone that an area is, if no trees grow in it; else empty."""
+    zone = as_zone(area)
+    if zone is None or zone.outside or zone.margin_m or zone.of != s.Trees():
+        return ""
+    return "" if site.trees and ids_of(zone, site) else zone.zone
+
+
+# Shares.
+
+
+@construction("tree_share: part=amount", "tree_share: DET part=amount", cost=0.0)
+def percentage(part: Amount) -> float | None:
+    """Compose "10 %"."""
+    return part.number if part.unit == "percent" and 0 < part.number < _MOST_PERCENT else None
+
+
+@construction("tree_share: part=PART [OF]", cost=0.1)
+def fraction(part: Lex) -> float:
+    """Compose "a tenth of"."""
+    return round(100.0 * part.value, 2)
+
+
+@construction(
+    "place: share=tree_share OF [DET] inner=nominal",
+    "place: share=tree_share OF [EACH] [DET] inner=nominal",
+    "place: share=tree_share inner=nominal",
+    "place: random=RANDOM share=tree_share OF [DET] inner=nominal",
+    "place: DET random=RANDOM share=tree_share OF [DET] inner=nominal",
+    "place: share=tree_share OF [DET] inner=nominal [COMMA] random=RANDOM",
+    "place: [DET] share=tree_share random=SAMPLE OF [DET] inner=nominal",
+    cost=0.3,
+)
+def share_of(share: float, inner: Nominal, random: Lex | None = None) -> PlaceMeaning | None:
+    """Compose "10 % of the Merlot vines"."""
+    if inner.single or inner.complete or not inner.plural or not chooses_from_trees(inner.selector):
+        return None
+    drawn = random is not None and "random" in random.text
+    per = "row" if any(rows == replace(s.Rows(), of=rows.of) for rows in rows_of(inner.selector)) else ""  # "each row"
+    chosen = s.Quota(per=per, percent=share, how="random" if drawn else "spread", of=inner.selector)
+    return PlaceMeaning(chosen, "several", each=True)
+
+
+@construction("place: share=tree_share OF where=region", cost=0.6)
+def share_of_area(share: float, where: s.Selector) -> PlaceMeaning | None:
+    """Compose "10 % of the north block"; half of a row may be one end of it."""
+    return None if share == 50.0 else PlaceMeaning(s.Quota(percent=share, of=where), "several", each=True)
+
+
+# Paths.
+
+
+@construction(
+    "path: [DET] route=ROUTE [PATTERN]",
+    "path: DET route=ROUTELETTER [PATTERN]",
+    "path: [DET] route=ROUTELETTER [DASH] PATTERN",
+    "path: [DET] route=ROUTELETTER [DASH] SHAPED PATTERN",
+    "path: [DET] PATTERN OF DET route=ROUTELETTER",
+    "path: [DET] route=ROUTE SHAPED PATTERN",
+    cost=0.1,
+)
+def path(route: Lex) -> SamplingPath:
+    """Compose "a W", "a zigzag" and "a Z-shaped path"."""
+    shape, legs = route.value
+    return SamplingPath(cast(PathShape, shape), legs)
+
+
+@construction(
+    "path: inner=path OF n=count LEG",
+    "path: inner=path WITH n=count LEG",
+    "path: inner=path COMMA n=count LEG",
+    "path: [DET] n=count [DASH] LEG inner=path",
+    cost=0.1,
+)
+def with_legs(inner: SamplingPath, n: int) -> SamplingPath | None:
+    """Compose "a zigzag of five legs"; a letter has its own."""
+    if inner.shape != "zigzag":
+        return None
+    return SamplingPath("zigzag", n)
+
+
+@construction(
+    "in_path: AT path=path",
+    "in_path: ALONG path=path",
+    "in_path: OVER path=path",
+    "in_path: WITH path=path",
+    "in_path: USE path=path",
+    "in_path: INPATH path=path",
+    "in_path: NEXTONE path=path",
+    "in_path: GO path=path",
+    "in_path: GO AT path=path",
+    "in_path: GO ALONG path=path",
+    "in_path: BY GO path=path",
+    "in_path: BY GO AT path=path",
+    cost=0.1,
+)
+def in_path(path: SamplingPath) -> SamplingPath:
+    """Compose "in a W", "along a zigzag" and "walking a W"."""
+    return path
+
+
+@construction(
+    "path_over: path=in_path OVER where=region",
+    "path_over: path=in_path OPPOSITE where=region",
+    "path_over: path=in_path in_ where=region",
+    "path_over: GO OVER where=region path=in_path",
+    "path_over: GO in_ where=region path=in_path",
+    "path_over: GO where=region path=in_path",
+    cost=0.1,
+)
+def path_over(path: SamplingPath, where: s.Selector) -> tuple[SamplingPath, s.Selector | None]:
+    """Compose "in a W through the north block"."""
+    return path, where
+
+
+@construction(
+    "path_over: path=in_path",
+    "path_over: path=in_path OVER site",
+    "path_over: path=in_path OPPOSITE site",
+    "path_over: path=in_path in_ site",
+    "path_over: GO OVER site path=in_path",
+    cost=0.2,
+)
+def path_over_site(path: SamplingPath) -> tuple[SamplingPath, s.Selector | None]:
+    """Compose "in a W across the vineyard"."""
+    return path, None
+
+
+@construction("chosen_as: [which_is] along=path_over", cost=0.1)
+def chosen_along_path(along: tuple[SamplingPath, s.Selector | None]) -> Choice:
+    """Compose "in a W" behind "20 vines"."""
+    return Choice("path", along)
+
+
+@construction(
+    "place: n=count POINT along=path_over",
+    "place: n=count [EVENLYSPACED] POINT along=path_over",
+    cost=0.2,
+    given=("site",),
+)
+def points_on_path(n: int, along: tuple[SamplingPath, s.Selector | None], site: Site) -> PlaceMeaning:
+    """Compose "20 points in a W through the meadow"."""
+    route, where = along
+    return PlaceMeaning(route.over(where, site, count=n), "several", count=n)
+
+
+# Grids.
+
+
+@construction(
+    "cells: [DET] far=amount GRID",
+    "cells: [DET] far=amount [DASH] GRID",
+    "cells: [DET] GRID OF far=amount",
+    "cells: [DET] GRID WITH far=amount [INTERVAL]",
+    "cells: [DET] GRID WITH DET INTERVAL OF far=amount",
+    "cells: [DET] number=NUM BYSIZE far=amount GRID",
+    "cells: [DET] far2=amount BYSIZE far=amount GRID",
+    "cells: [DET] GRID OF number=NUM BYSIZE far=amount",
+    "cells: [DET] GRID OF far2=amount BYSIZE far=amount",
+    "cells: [DET] GRID [COMMA] EACH far=amount",
+    cost=0.1,
+)
+def grid(far: Amount, far2: Amount | None = None, number: Lex | None = None) -> float | None:
+    """Compose "a 20 m grid" and "a 20 by 20 m grid"; one whose cells are no squares is not."""
+    if far.unit != "metres" or far.number <= 0:
+        return None
+    across = far2.number if far2 is not None else far.number if number is None else number.value
+    return far.number if abs(across - far.number) < 1e-6 else None
+
+
+@construction(
+    "on_grid: AT every=cells",
+    "on_grid: USE every=cells",
+    "on_grid: WITH every=cells",
+    "on_grid: INPATH every=cells",
+    "on_grid: NEXTONE every=cells",
+    "on_grid: ALONG every=cells",
+    cost=0.0,
+)
+def on_grid(every: float) -> float:
+    """Compose "on a 20 m grid"."""
+    return every
+
+
+@construction(
+    "grid_over: every=on_grid OVER where=region",
+    "grid_over: every=on_grid OPPOSITE where=region",
+    "grid_over: every=on_grid in_ where=region",
+    "grid_over: every=on_grid",
+    "grid_over: every=on_grid OVER site",
+    "grid_over: every=on_grid in_ site",
+    cost=0.1,
+)
+def grid_over(every: float, where: s.Selector | None = None) -> tuple[float, s.Selector | None]:
+    """Compose "on a 20 m grid over the meadow"."""
+    return every, where
+
+
+def grid_selector(every: float, area: s.Selector | None, site: Site) -> s.Selector:
+    """Return the places of a grid over an area, or over the site."""
+    zone = "" if area is None else bare_zone(area, site)
+    return s.Grid(every_m=every, zone=zone, of=s.Trees() if area is None or zone else area)
+
+
+@construction("place: [DET] inner=nominal on=grid_over", "place: [DET] POINT on=grid_over", cost=0.2, given=("site",))
+def places_on_grid(
+    on: tuple[float, s.Selector | None], site: Site, inner: Nominal | None = None
+) -> PlaceMeaning | None:
+    """Compose "the vines on a 20 m grid" and "points on a 20 m grid over the meadow"."""
+    every, where = on
+    if inner is None:
+        return PlaceMeaning(grid_selector(every, where, site), "several", each=True)
+    if inner.single or inner.complete or not inner.plural or not chooses_from_trees(inner.selector):
+        return None
+    of = inner.selector if where is None else over(inner.selector, where)
+    return PlaceMeaning(grid_selector(every, of, site), "several", each=True)
+
+
+# Points at random.
+
+
+@construction(
+    "place: n=count RANDOM POINT in_ [DET] zone=ZONE",
+    "place: n=count RANDOM POINT OVER [DET] zone=ZONE",
+    "place: n=count POINT RANDOM in_ [DET] zone=ZONE",
+    "place: n=count POINT in_ [DET] zone=ZONE [COMMA] RANDOM",
+    "place: n=count POINT OVER [DET] zone=ZONE [COMMA] RANDOM",
+    cost=0.1,
+)
+def random_points(n: int, zone: Lex) -> PlaceMeaning:
+    """Compose "12 random places in the meadow"."""
+    return PlaceMeaning(s.PointsIn(zone=zone.value, count=n, random=True), "one" if n == 1 else "several", count=n)
+
+
+# Gaps.
+
+
+@construction("nominal: GAP", cost=0.1)
+def gaps() -> Nominal:
+    """Compose "gaps" and "missing vines"."""
+    return Nominal(s.Missing(), plural=True)
+
+
+@construction("nominal: MISSINGWORD inner=nominal", "nominal: MISSINGWORD POINT", cost=0.1)
+def missing_ones(inner: Nominal | None = None) -> Nominal | None:
+    """Compose "missing Merlot vines" and "empty positions"."""
+    of = s.Trees() if inner is None else inner.selector
+    if inner is not None and (inner.single or inner.complete or inner.pronoun or not chooses_from_trees(of)):
+        return None
+    if as_some(of) is not None:
+        return None
+    return Nominal(s.Missing(of=of), plural=True if inner is None else inner.plural)
+
+
+@construction("nominal: inner=nominal ISMISSING", "nominal: inner=nominal WHICH ISMISSING", cost=0.2)
+def that_are_missing(inner: Nominal) -> Nominal | None:
+    """Compose "vines that are missing"."""
+    return missing_ones(inner)
+
+
+@construction(
+    "place_where: WHERE [DET] inner=nominal ISMISSING",
+    "place_where: WHERE [DET] inner=nominal ISMISSING in_ where=region",
+    "place_where: WHERE in_ where=region [DET] inner=nominal ISMISSING",
+    "place_where: POINT WHERE [DET] inner=nominal ISMISSING",
+    "place_where: WHERE THEREIS GAP",
+    "place_where: WHERE THEREIS GAP in_ where=region",
+    cost=0.2,
+)
+def where_missing(inner: Nominal | None = None, where: s.Selector | None = None) -> PlaceMeaning | None:
+    """Compose "where vines are missing in the south block"."""
+    gap = gaps() if inner is None else missing_ones(replace(inner, plural=True))
+    if gap is None:
+        return None
+    return PlaceMeaning(gap.selector if where is None else over(gap.selector, where), "several")

@@ -1,0 +1,140 @@
+"""Meaning of the phrases that say when a mission runs, and the timing that several of them add up to."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, replace
+
+from fieldhand.task.plan import Span
+from fieldhand.task.timing import DayTime, Schedule, StartTime, Timing, Weekday
+
+#: Minutes within which a mission begins that is to begin at a time, and one that is to begin at about a time.
+PUNCTUAL_MIN, ROUGHLY_MIN = 15, 30
+_DAY_MIN = 24 * 60
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class TimePart:
+    """A part of a timing, such as "at 6 am", "every Monday" or "until 31 December".
+
+    Attributes:
+        repeats: True if the mission runs again and again.
+        day: Day of a mission that runs once.
+        weekdays: Days of the week.
+        every_days: Number of days from one run to the next; 0 if not said.
+        every_min: Number of minutes from one run to the next; 0 if not said.
+        at: Times at which it begins.
+        late_min: Minutes after these within which it may begin; 0 if not said.
+        choices: Times to choose from, where only a part of the day is named.
+        not_before, done_by: Bounds of the time of day.
+        first_day, last_day: Bounds of the days.
+    """
+
+    repeats: bool = False
+    day: str = ""
+    weekdays: tuple[Weekday, ...] = ()
+    every_days: int = 0
+    every_min: int = 0
+    at: tuple[DayTime, ...] = ()
+    late_min: int = 0
+    choices: tuple[DayTime, ...] = ()
+    not_before: DayTime | None = None
+    done_by: DayTime | None = None
+    first_day: str = ""
+    last_day: str = ""
+
+    def __and__(self, other: TimePart) -> TimePart | None:
+        """Return both parts together; None if they contradict each other."""
+        merged: dict[str, object] = {}
+        for field in fields(self):
+            mine, theirs = getattr(self, field.name), getattr(other, field.name)
+            if mine and theirs and mine != theirs:
+                return None
+            merged[field.name] = mine or theirs
+        return TimePart(**merged)  # type: ignore[arg-type]  # each value is that of its field
+
+    @property
+    def asks(self) -> tuple[DayTime, ...]:
+        """The times of day to choose from, if it says no time."""
+        if self.at or self.not_before or self.done_by or self.every_min:
+            return ()
+        if self.choices:
+            return self.choices
+        return _USUAL if self.repeats or self.weekdays or self.day not in ("", "today") else ()
+
+    def timing(self, said: tuple[Span, ...], zone: str) -> Timing | None:
+        """Return the timing; None if it is none that a Task can hold.
+
+        Args:
+            said: Ranges of the request that say it.
+            zone: Time zone of the site; empty if it states none.
+        """
+        whole = self._resolved()
+        if whole is None:
+            return None
+        if not whole.repeats:
+            return whole._once(said, zone)
+        return whole._standing(said, zone)
+
+    def _resolved(self) -> TimePart | None:
+        """Return the part with a day of the week as a single day, or as days of a standing mission."""
+        if not self.repeats and self.weekdays:
+            if len(self.weekdays) > 1:
+                return replace(self, repeats=True)
+            return None if self.day else replace(self, day=self.weekdays[0], weekdays=())
+        return self
+
+    def _once(self, said: tuple[Span, ...], zone: str) -> StartTime | None:
+        if len(self.at) > 1 or self.first_day or self.last_day or self.every_days or self.every_min:
+            return None
+        begin = self.at[0] if self.at else self.not_before
+        latest = _later(self.at[0], self.late_min or PUNCTUAL_MIN) if self.at else None
+        return StartTime(
+            day=self.day, not_before=begin, not_after=latest, done_by=self.done_by, time_zone=zone, said=said
+        )
+
+    def _standing(self, said: tuple[Span, ...], zone: str) -> Schedule | None:
+        at = self.at or (() if self.not_before is None else (self.not_before,))
+        within = 0
+        if self.done_by is not None and not self.every_min:
+            length = None if len(at) != 1 else _minutes_between(at[0], self.done_by)
+            if length is None:
+                return None
+            within = length
+        if self.day:
+            return None
+        return Schedule(
+            at=at,
+            every_min=self.every_min,
+            until=self.done_by if self.every_min else None,
+            weekdays=self.weekdays,
+            every_days=self.every_days or 1,
+            first_day=self.first_day,
+            last_day=self.last_day,
+            late_min=self.late_min or (min(60, self.every_min) if self.every_min else 60),
+            done_by_min=within,
+            time_zone=zone,
+            said=said,
+        )
+
+
+#: Times to choose from where a day or a repetition names none.
+_USUAL = (DayTime(clock="06:00"), DayTime(clock="08:00"), DayTime(clock="12:00"), DayTime(sun="sunrise"))
+
+
+def _later(at: DayTime, minutes: int) -> DayTime:
+    """Return a time some minutes later."""
+    if at.sun is not None:
+        return replace(at, offset_min=at.offset_min + minutes)
+    hour, minute = (int(part) for part in at.clock.split(":"))
+    hour, minute = divmod((hour * 60 + minute + minutes) % _DAY_MIN, 60)
+    return DayTime(clock=f"{hour:02d}:{minute:02d}")
+
+
+def _minutes_between(begin: DayTime, end: DayTime) -> int | None:
+    """Return the minutes between two times; None if they depend on the day."""
+    if begin.sun is not None and begin.sun == end.sun:
+        return max(0, round(end.offset_min - begin.offset_min)) or None
+    if begin.sun is not None or end.sun is not None:
+        return None
+    first, last = (int(at.clock[:2]) * 60 + int(at.clock[3:]) for at in (begin, end))
+    return (last - first) % _DAY_MIN or None
