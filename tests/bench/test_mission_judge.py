@@ -211,3 +211,12 @@ def test_places_hold_for_the_trees_that_a_person_would_point_at(place: dict[str,
     form = ExpectForm.model_validate({"steps": [{"do": "photo", "at": place}]}).expected()
     assert form.steps is not None
     assert {t for t in range(ROWS * COLUMNS) if form.steps[0].at.holds(GROUND, t, {})} == trees
+
+
+@pytest.mark.parametrize(("metres", "fault"), [(4.9, ""), (5.1, "it drove 5.0 m from the trees {ids: [6]}")])
+def test_drives_keep_away_from_trees(metres: float, fault: str) -> None:
+    drive = {"event": "drive", "path": [degrees(0), degrees(1), degrees(2)]}  # past tree 6, a row farther north
+    lines = [json.dumps(drive), *log(("photo", 2))]
+    expect = {"steps": [{"do": "photo"}], "keeps_from": [{"trees": {"ids": [6]}, "m": metres}]}
+    assert found(expect, lines).startswith(fault)
+    assert bool(found(expect, lines)) == bool(fault)

@@ -19,7 +19,7 @@ from pydantic import (
 
 from fieldhand_bench.missions import places
 from fieldhand_bench.missions.case_site import CornerName
-from fieldhand_bench.missions.cases import Expected, ExpectedStep, MarkerName
+from fieldhand_bench.missions.cases import Expected, ExpectedStep, KeptFrom, MarkerName
 from fieldhand_bench.missions.places import ANYWHERE, CasePlace, Demand, Side
 
 
@@ -184,6 +184,28 @@ class StepForm(Form):
         return ExpectedStep(action=self.do, captures=self.n, at=at, label=self.as_ or "")
 
 
+class KeptFromForm(Form):
+    """A zone or trees from which every drive keeps a distance: ``{zone: pond, m: 5}``."""
+
+    zone: Text | None = None
+    trees: PlaceForm | None = None
+    m: Above0
+
+    @model_validator(mode="after")
+    def _one(self) -> KeptFromForm:
+        if (self.zone is None) == (self.trees is None):
+            raise ValueError("give either a zone or trees")
+        if self.trees is not None:
+            _require(self.trees.place().labels, set(), "keeps_from")
+        return self
+
+    def kept(self) -> KeptFrom:
+        """Return the distance as used by the judge."""
+        return KeptFrom(
+            zone=self.zone or "", trees=ANYWHERE if self.trees is None else self.trees.place(), metres=self.m
+        )
+
+
 class ExpectForm(Form):
     """The outcome expected in a world."""
 
@@ -202,6 +224,7 @@ class ExpectForm(Form):
     min_steps: Least1 | None = None
     status: Literal["completed", "returned", "faulted", "aborted"] = "completed"
     end: EndForm | None = None
+    keeps_from: tuple[KeptFromForm, ...] = ()
 
     @model_validator(mode="after")
     def _require_content(self) -> ExpectForm:
@@ -250,6 +273,7 @@ class ExpectForm(Form):
             least_stops=self.min_steps or 0,
             status=self.status,
             end=None if self.end is None else self.end.marker or self.end.place(),
+            keeps_from=tuple(one.kept() for one in self.keeps_from),
         )
 
 

@@ -7,6 +7,7 @@ import math
 from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, Literal
 
 import numpy as np
@@ -39,6 +40,7 @@ class CaseSite:
         trees: (n, 2), latitude and longitude in degrees, in the order of the file; two or more.
         properties: Properties of each tree.
         markers: Latitude and longitude of ``start`` and ``end``, degrees; markers may be missing.
+        zones: Corners of each named polygon, latitude and longitude in degrees.
     """
 
     def __init__(
@@ -46,6 +48,7 @@ class CaseSite:
         trees: Points,
         properties: tuple[Mapping[str, Any], ...],
         markers: Mapping[str, tuple[float, float]],
+        zones: Mapping[str, Points] = MappingProxyType({}),
     ) -> None:
         self._origin = trees[0]
         lat = math.radians(float(trees[0, 0]))
@@ -56,6 +59,7 @@ class CaseSite:
         self.properties = properties
         self.xy: Points = self.metres(trees)
         self.markers: Mapping[str, Points] = {name: self.metres(np.array(at)) for name, at in markers.items()}
+        self.zones = {name: shapely.Polygon(self.metres(corners)) for name, corners in zones.items()}
         self._near = KDTree(self.xy)
 
     def metres(self, degrees: Points) -> Points:
@@ -139,7 +143,18 @@ def load_case_site(path: Path) -> CaseSite:
         raise CaseError(
             f"the judge finds {len(trees)} trees in it", where=str(path), advice="give a site with two trees or more"
         )
-    return CaseSite(np.array(trees), tuple(properties), markers)
+    return CaseSite(np.array(trees), tuple(properties), markers, _zones(path))
+
+
+def _zones(path: Path) -> Mapping[str, Points]:
+    """Return the outline of each polygon that has a name, latitudes and longitudes of its corners."""
+    zones: dict[str, Points] = {}
+    for feature in json.loads(path.read_text(encoding="utf-8-sig"))["features"]:
+        name = str((feature["properties"] or {}).get("name") or "")
+        if feature["geometry"]["type"] == "Polygon" and name:
+            ring = feature["geometry"]["coordinates"][0]
+            zones[name] = np.array([_degrees(position) for position in ring])
+    return zones
 
 
 def _points(path: Path) -> list[tuple[Mapping[str, Any], tuple[float, float]]]:

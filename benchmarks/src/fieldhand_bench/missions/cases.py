@@ -34,6 +34,21 @@ class ExpectedStep:
 
 
 @dataclass(frozen=True, kw_only=True)
+class KeptFrom:
+    """What every drive must keep away from: a zone of the file, or each tree of a place.
+
+    Attributes:
+        zone: Name of the zone; empty for trees.
+        trees: Place of the trees.
+        metres: Least distance of the robot's path, metres.
+    """
+
+    metres: float
+    zone: str = ""
+    trees: CasePlace = ANYWHERE
+
+
+@dataclass(frozen=True, kw_only=True)
 class Expected:
     """The outcome that a mission must have.
 
@@ -52,6 +67,7 @@ class Expected:
         stands: Number of positions from which each tree was worked on.
         least_stops: Minimum number of actions done.
         status: Final status of the mission.
+        keeps_from: What every drive keeps away from.
         end: Final position: a marker, or a place that the nearest tree must match. None for anywhere.
     """
 
@@ -70,6 +86,7 @@ class Expected:
     least_stops: int = 0
     status: str = "completed"
     end: CasePlace | MarkerName | None = None
+    keeps_from: tuple[KeptFrom, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)

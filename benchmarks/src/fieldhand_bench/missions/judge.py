@@ -6,6 +6,8 @@ import itertools
 import math
 from collections.abc import Iterator, Mapping
 
+import shapely
+
 from fieldhand_bench.missions.case_site import CaseSite
 from fieldhand_bench.missions.cases import Bounds, Expected
 from fieldhand_bench.missions.log import Done, Log
@@ -15,6 +17,8 @@ from fieldhand_bench.missions.matching import describe, mismatch
 _AT_TREE, _AT_TREE_M = 0.75, 3.0
 #: Maximum distance at which a position counts as at a marker, metres.
 _AT_MARKER_M = 3.0
+#: Allowance for the projections of the log and of the case, metres.
+_TOLERANCE_M = 0.05
 
 
 def judge(site: CaseSite, expected: Expected, log: Log) -> tuple[str, ...]:
@@ -25,6 +29,7 @@ def judge(site: CaseSite, expected: Expected, log: Log) -> tuple[str, ...]:
         *_counts(expected, log),
         *_elsewhere(site, expected, log),
         *_distances(expected, log),
+        *_too_near(site, expected, log),
         *_end(site, expected, log),
     )
 
@@ -88,6 +93,18 @@ def _distances(expected: Expected, log: Log) -> Iterator[str]:
         for tree in sorted({one.tree for one in log.done}):
             if log.stands.get(tree, 0) != expected.stands:
                 yield f"tree {tree} was worked on from {log.stands.get(tree, 0)} positions, wanted {expected.stands}"
+
+
+def _too_near(site: CaseSite, expected: Expected, log: Log) -> Iterator[str]:
+    for kept in expected.keeps_from:
+        if kept.zone:
+            shape, name = site.zones[kept.zone], f"the zone '{kept.zone}'"
+        else:
+            trees = [tree for tree in range(len(site.xy)) if kept.trees.holds(site, tree, {})]
+            shape, name = shapely.MultiPoint(site.xy[trees]), f"the trees {kept.trees.words}"
+        away = min((float(shape.distance(shapely.LineString(path))) for path in log.paths), default=math.inf)
+        if away < kept.metres - _TOLERANCE_M:
+            yield f"it drove {away:.1f} m from {name}, {kept.metres:g} m at least wanted"
 
 
 def _end(site: CaseSite, expected: Expected, log: Log) -> Iterator[str]:

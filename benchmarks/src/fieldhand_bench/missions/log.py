@@ -41,6 +41,7 @@ class Log:
     Attributes:
         done: Actions that succeeded, in their order.
         stops: (k, 2), stops at which an action was done, metres east and north.
+        paths: (n, 2) each, corners of the drives, metres east and north.
         travelled_m: Distance driven in total, metres.
         status: Final status of the mission; None if the log does not record it.
         end: (2,), final position, metres east and north; None if the log does not record it.
@@ -57,6 +58,7 @@ class Log:
     lasts_s: float = 0.0
     fastest_m_s: float = 0.0
     stands: Mapping[int, int] = field(default_factory=dict)
+    paths: tuple[Points, ...] = ()
 
 
 def read_log(lines: Iterable[str], site: CaseSite) -> Log:
@@ -67,6 +69,7 @@ def read_log(lines: Iterable[str], site: CaseSite) -> Log:
     """
     done: list[Done] = []
     stops: list[Points] = []
+    paths: list[Points] = []
     travelled, status, end = 0.0, None, None
     lasts_s = fastest = left_s = 0.0
     stood: Points | None = None
@@ -94,6 +97,8 @@ def read_log(lines: Iterable[str], site: CaseSite) -> Log:
                     _add(done, str(event["action"]), int(event.get("count", 1)), *site.nearest(at))
                     if not stops or math.dist(at, stops[-1]) > _ONE_STOP_M:
                         stops.append(at)
+                case "drive", _ if event.get("path"):
+                    paths.append(site.metres(np.array(event["path"], dtype=np.float64).reshape(-1, 2)))
                 case "mission", ended:
                     status, end = str(ended), _at(event, site)
         except (ValueError, KeyError, TypeError, AttributeError) as error:
@@ -111,6 +116,7 @@ def read_log(lines: Iterable[str], site: CaseSite) -> Log:
         lasts_s=lasts_s,
         fastest_m_s=fastest,
         stands={tree: len(known) for tree, known in stands.items()},
+        paths=tuple(paths),
     )
 
 
