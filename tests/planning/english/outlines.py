@@ -8,6 +8,7 @@ from fieldhand.places import selectors as s
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
 from fieldhand.task.frames import Task
+from fieldhand.task.watches import EventBeyond, EventHolds, ReadingBeyond, Watch
 
 SHORT = {"take_thermal_picture": "picture", "take_picture": "picture", "read_co2": "co2"}
 SHORT |= {"read_ambient_temperature": "air", "read_soil_moisture": "moisture", "read_soil_nitrate": "nitrate"}
@@ -20,7 +21,23 @@ def outline(task: Task) -> str:
     if task.constraints.reserve_percent is not None:
         limits += f" | reserve {task.constraints.reserve_percent:g}"
     exit_ = "" if task.composition.nominal == "return_to_end" else f" | {task.composition.nominal}"
-    return node(task.composition.plan) + limits + exit_
+    watches = "".join(f" | at any time {watch(one)}" for one in task.composition.watches)
+    return node(task.composition.plan) + limits + exit_ + watches
+
+
+def watch(one: Watch) -> str:
+    """What is watched, the response, and after a wait its minutes and what follows."""
+    match one.condition:
+        case EventHolds(event=name):
+            what = name
+        case EventBeyond(event=name, test=test, value=value, unit=unit):
+            what = f"{name} {SIGNS[test]} {value:g} {unit}"
+        case ReadingBeyond(quantity=name, test=test, value=value, unit=unit):
+            what = f"{name} {SIGNS[test]} {value:g} {unit}"
+    if one.response != "wait":
+        return f"{what}: {one.response}"
+    most = "" if one.at_most_s is None else f" {one.at_most_s / 60:g} min"
+    return f"{what}: wait{most}, then {one.fallback}"
 
 
 def node(n: p.Node) -> str:
