@@ -98,6 +98,12 @@ def _lines(profile: RobotProfile) -> list[str]:
     for quantity in profile.quantities:
         levels = ", ".join(f"{w} is {lv.direction} {lv.value:g} {quantity.unit}" for w, lv in quantity.levels.items())
         lines.append(f"  {quantity.name}: {levels or 'none'}")
+    if profile.events:
+        lines.append("Events, detected all the time")
+    for event in profile.events:
+        unit = f" in {event.unit}" if event.unit else ""
+        silent = "holds" if event.unless_heard == "holds" else "is ignored"
+        lines.append(f"  {event.name}{unit}: {event.description}; over after {event.clear_s:g} s; {silent} if unheard")
     lines.extend(binding_lines(profile))
     return lines
 

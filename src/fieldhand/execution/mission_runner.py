@@ -303,7 +303,7 @@ class MissionRunner:
 
     def _due(self, tree: MissionTree | None) -> WatchState | None:
         """Return the watch whose response is due; without a tree, on the way home."""
-        visit = None if tree is None else tree.visit
+        visit = None if tree is None else tree.current_visit
         at = None if visit is None else visit.place
         return self.events.due(visiting=at is not None, arrived=at is not None and self.mission.is_at(at))
 
@@ -315,7 +315,7 @@ class MissionRunner:
                 return self._alarmed(tree, due.why, response, "event")
             case "end":
                 return self._alarmed(tree, due.why, "stay", "event")
-            case "skip" | "skip_row" if tree.visit is not None:
+            case "skip" | "skip_row" if tree.current_visit is not None:
                 stuck = self._settled(Ending(status="faulted", exit="faulted", then="stay", reason=due.why))
                 if mission.busy:
                     return stuck

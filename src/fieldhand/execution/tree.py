@@ -89,13 +89,13 @@ class MissionTree(NodeBehavior):
         return self._executor.between
 
     @property
-    def visit(self) -> ForEachVisits | None:
+    def current_visit(self) -> ForEachVisits | None:
         """The current visit of a for-each, which can be left out."""
         return self._executor.visit
 
     def skip(self, why: str, *, row: bool) -> None:
         """Leave out the current visit of a for-each; the robot must not have a goal."""
-        visit = self.visit
+        visit = self.current_visit
         assert visit is not None  # noqa: S101  callers have checked it
         visit.skip(why, row=row)
         with suppress(StopIteration):

@@ -10,6 +10,7 @@ from fieldhand.task import plan as p
 from fieldhand.task.aggregates import Aggregate, CompareSeries, CountReadings, MeanKnown
 from fieldhand.task.frames import Task
 from fieldhand.task.timing import DayTime, Schedule, StartTime
+from fieldhand.task.watches import EventBeyond, EventHolds, ReadingBeyond, Watch
 
 SHORT = {"take_thermal_picture": "picture", "take_picture": "picture", "read_co2": "co2"}
 SHORT |= {"read_ambient_temperature": "air", "read_soil_moisture": "moisture", "read_soil_nitrate": "nitrate"}
@@ -28,7 +29,8 @@ def outline(task: Task) -> str:
     limits += "".join(f" | only {only.gate}" for only in task.constraints.only_gates)
     exit_ = "" if task.composition.nominal == "return_to_end" else f" | {task.composition.nominal}"
     times = "" if task.timing is None else " | " + " ".join(timing(task.timing))
-    return node(task.composition.plan) + limits + times + exit_
+    watches = "".join(f" | at any time {watch(one)}" for one in task.composition.watches)
+    return node(task.composition.plan) + limits + times + exit_ + watches
 
 
 def timing(when: StartTime | Schedule) -> list[str]:
@@ -48,6 +50,21 @@ def day_time(at: DayTime) -> str:
     if at.sun is None:
         return at.clock
     return f"{at.sun}{at.offset_min:+g}" if at.offset_min else at.sun
+
+
+def watch(one: Watch) -> str:
+    """What is watched, the response, and after a wait its minutes and what follows."""
+    match one.condition:
+        case EventHolds(event=name):
+            what = name
+        case EventBeyond(event=name, test=test, value=value, unit=unit):
+            what = f"{name} {SIGNS[test]} {value:g} {unit}"
+        case ReadingBeyond(quantity=name, test=test, value=value, unit=unit):
+            what = f"{name} {SIGNS[test]} {value:g} {unit}"
+    if one.response != "wait":
+        return f"{what}: {one.response}"
+    most = "" if one.at_most_s is None else f" {one.at_most_s / 60:g} min"
+    return f"{what}: wait{most}, then {one.fallback}"
 
 
 def node(n: p.Node) -> str:

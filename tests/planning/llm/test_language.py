@@ -14,7 +14,7 @@ from fieldhand.errors import ModelError
 from fieldhand.places.selectors import SELECTORS
 from fieldhand.planning.llm import language
 from fieldhand.planning.llm.language import DERIVED, describe_language
-from fieldhand.planning.llm.prompt import instructions
+from fieldhand.planning.llm.prompt import instructions, watch_rules
 from fieldhand.planning.llm.review import read_draft
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import load_robot
@@ -130,7 +130,7 @@ def test_every_element_and_attribute_of_the_schema_is_in_the_prompt() -> None:
     own = {*AMIGA.actions, *AMIGA.quantities}
     heads = [e for e in schema.iter(f"{xs}element") if e.get("name") in own]
     parameters = {a.get("name") for head in heads for a in head.iter(f"{xs}attribute")}
-    text = instructions()
+    text = f"{instructions()}\n{watch_rules(load_robot('amiga'))}"
     for element in schema.iter(f"{xs}element"):
         name = element.get("name")
         assert name is None or name in own | UNSHOWN or re.search(rf"<{name}[\s>/]", text), name

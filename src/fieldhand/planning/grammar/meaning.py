@@ -7,6 +7,7 @@ from typing import Any, Literal
 
 from fieldhand.places import selectors as s
 from fieldhand.places.series_statistics import Statistic
+from fieldhand.task.watches import Fallback, Response, WatchCondition
 
 #: What a place phrase means: one place, several places, an area whose trees are meant, places just spoken of (``here``,
 #: ``those``), trees around of which another phrase says how many (``nearby``), a step along the row, rows of which
@@ -679,6 +680,44 @@ class Connective:
     precedes: bool = False
 
 
+#: Conditions that are checked throughout the mission.
+Conditions = tuple[WatchCondition, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class WatchResponse:
+    """What the robot does when a condition begins to hold.
+
+    Attributes:
+        response: Response.
+        at_most_s: Maximum of a wait in seconds; None if it is not said.
+        fallback: What follows the maximum; empty if it is not said.
+        over: True if the phrase says that the robot goes on when it is over.
+        stands: True for "stop", after which the robot stays where it is if it does not end.
+    """
+
+    response: Response
+    at_most_s: float | None = None
+    fallback: Fallback | None = None
+    over: bool = False
+    stands: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class WatchCommand:
+    """Conditions that are checked throughout the mission, and the response to each.
+
+    Attributes:
+        conditions: Conditions; none for a sentence about the response to those before.
+        reaction: Response.
+        used: Tokens of the phrase.
+    """
+
+    conditions: Conditions
+    reaction: WatchResponse
+    used: int
+
+
 Command = (
     CaptureCommand
     | DriveCommand
@@ -706,6 +745,7 @@ Command = (
     | Reordered
     | PaceClause
     | SettleClause
+    | WatchCommand
 )
 
 

@@ -2,57 +2,31 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Literal
 
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.conditions import reading_is
-from fieldhand.planning.grammar.meaning import Amount, Home, PassOn, Subject, Test
+from fieldhand.planning.grammar.meaning import (
+    Amount,
+    Conditions,
+    Home,
+    PassOn,
+    Subject,
+    Test,
+    WatchCommand,
+    WatchResponse,
+)
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
-from fieldhand.task.watches import Fallback, ReadingBeyond, Response, WatchCondition
+from fieldhand.task.watches import ReadingBeyond
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
-Conditions = tuple[WatchCondition, ...]
 #: The reading taken last.
 _IT = Subject()
-
-
-@dataclass(frozen=True, slots=True)
-class WatchResponse:
-    """What the robot does when a condition begins to hold.
-
-    Attributes:
-        response: Response.
-        at_most_s: Maximum of a wait in seconds; None if it is not said.
-        fallback: What follows the maximum; empty if it is not said.
-        over: True if the phrase says that the robot goes on when it is over.
-        stands: True for "stop", after which the robot stays where it is if it does not end.
-    """
-
-    response: Response
-    at_most_s: float | None = None
-    fallback: Fallback | None = None
-    over: bool = False
-    stands: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class WatchCommand:
-    """Conditions that are checked throughout the mission, and the response to each.
-
-    Attributes:
-        conditions: Conditions; none for a sentence about the response to those before.
-        reaction: Response.
-        used: Tokens of the phrase.
-    """
-
-    conditions: Conditions
-    reaction: WatchResponse
-    used: int
 
 
 @construction("happens: one=EVENT", cost=0.0)
@@ -239,9 +213,8 @@ def then_reacts(first: WatchResponse, second: WatchResponse) -> WatchResponse | 
     """Compose "wait for 5 minutes and then come home"."""
     if first.response != "wait" or first.fallback is not None or first.at_most_s is None:
         return None
-    if second.response in ("wait", "skip_row"):
-        return None
-    return replace(first, fallback=second.response)
+    fallback = second.response
+    return None if fallback == "wait" or fallback == "skip_row" else replace(first, fallback=fallback)
 
 
 @construction(

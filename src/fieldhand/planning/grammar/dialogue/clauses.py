@@ -7,7 +7,6 @@ from dataclasses import replace
 
 from fieldhand.language import message
 from fieldhand.places import selectors as s
-from fieldhand.planning.grammar.commands.events import WatchCommand
 from fieldhand.planning.grammar.dialogue.allowances import allowed, failing
 from fieldhand.planning.grammar.dialogue.capturing import capture, capture_again, capture_elided, meant_things
 from fieldhand.planning.grammar.dialogue.conditions import (
@@ -88,6 +87,7 @@ from fieldhand.planning.grammar.meaning import (
     UntilCondition,
     VisitLimit,
     WayRule,
+    WatchCommand,
     When,
     wait_seconds,
 )
@@ -339,7 +339,7 @@ def _read(
             return question(setting, state, command)
         case Failing():
             return failing(setting, state, command)
-        case InTurn() | Correction() | Reordered():
+        case InTurn() | Correction() | Reordered() | WatchCommand():
             raise AssertionError("these are resolved before the clauses are read")
 
 

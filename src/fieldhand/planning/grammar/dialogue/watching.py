@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from fieldhand.language import message
-from fieldhand.planning.grammar.commands.events import WatchCommand
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, with_assumption
+from fieldhand.planning.grammar.meaning import WatchCommand
 from fieldhand.task import plan as p
 from fieldhand.task.watches import Fallback, Watch
 
