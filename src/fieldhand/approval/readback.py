@@ -11,9 +11,10 @@ from dataclasses import dataclass, replace
 
 from fieldhand.forecast.estimate import BranchEstimate, Estimate, Figure
 from fieldhand.forecast.resource_limits import ResourceKind, reserve_percent
+from fieldhand.forecast.sampling_rounds import SamplingForecast
 from fieldhand.forecast.walk_steps import Walk
 from fieldhand.language import counted, joined, message, recalled
-from fieldhand.language.words import capitalised, listed, say_duration, say_number, say_rounded
+from fieldhand.language.words import capitalised, listed, say_duration, say_name, say_number, say_rounded
 from fieldhand.places.explanation import notes
 from fieldhand.robot.model import RobotProfile
 from fieldhand.short_repr import short_repr
@@ -104,7 +105,7 @@ def read_back(task: Task, site: Site, robot: RobotProfile, estimate: Estimate) -
         limits=limits,
         faults=faults,
         assumptions=tuple(recalled(text, "assumption") for text in task.command.assumptions),
-        notes=_notes(walks, site),
+        notes=(*_notes(walks, site), *map(_say_sampling, estimate.sampling)),
         totals=_totals(estimate, task, robot),
         usual=_usual(task, limits, faults),
     )
@@ -211,6 +212,19 @@ def _notes(walks: Sequence[Walk], site: Site) -> tuple[str, ...]:
         seen.add(step.node.id)
         found.update((message("{note}.", note=capitalised(note)), None) for note in notes(selector, site, step.context))
     return tuple(found)
+
+
+def _say_sampling(sampling: SamplingForecast) -> str:
+    """Return how many readings a mean will probably take as a sentence."""
+    return message(
+        "With the usual spread of {quantity}, the mean takes about {median} readings, nine times out of ten no more"
+        " than {high}, and {most} at most; it is known by then with a probability of {chance} %.",
+        quantity=say_name(sampling.quantity),
+        median=sampling.p50,
+        high=sampling.p90,
+        most=sampling.at_most,
+        chance=say_rounded(100 * sampling.known),
+    )
 
 
 def _worst(estimate: Estimate, task: Task, robot: RobotProfile) -> tuple[str, ...]:
