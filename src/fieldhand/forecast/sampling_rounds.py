@@ -113,7 +113,7 @@ def _sampled(
     squares = np.cumsum((values - quantity.typical) ** 2, axis=1) - numbers * (means - quantity.typical) ** 2
     with np.errstate(divide="ignore", invalid="ignore"):
         deviations = np.sqrt(np.maximum(squares, 0.0) / (numbers - 1))
-        factors = np.array([np.inf if n < 2 else t_quantile(n - 1) / np.sqrt(n) for n in numbers])
+        factors = np.array([np.inf if n < 2 else t_quantile(n - 1) / np.sqrt(n) for n in range(1, at_most + 1)])
         widths = factors * deviations
     limits = np.vectorize(lambda mean: wanted_width(known, mean))(means)
     tested = (numbers >= max(2, known.at_least)) & ((numbers % each == 0) | (numbers == at_most))
