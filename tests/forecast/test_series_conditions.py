@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from fieldhand.forecast.branches import branches
 from fieldhand.forecast.conditions import ConditionInputs, evaluate
+from fieldhand.forecast.estimate import estimate
 from fieldhand.places.reading_series import ReadingSeries, TakenReading
 from fieldhand.places.selectors import TreeIs, Trees, UnionOf
 from fieldhand.places.series_statistics import Statistic, half_width
@@ -194,3 +195,30 @@ def test_a_series_that_begins_anew_is_empty() -> None:
     walks = branches(task_for(InOrder(id="", steps=(read(), fresh, test))), SITE, ROBOT).walks
     assert [[d.answer for d in walk.decisions] for walk in walks] == [[False]]
     assert walks[0].unread == ((walks[0].decisions[0].node, "r"),)
+
+
+# --- how many readings a mean takes -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("percent", [1.0, 3.0, 8.0])
+def test_the_number_of_readings_is_that_of_simulated_missions(percent: float) -> None:
+    """The mean is known from n on, as the loop of a mission with the profile's readings finds it."""
+    until = MeanKnown(reading="r", quantity="co2", percent=percent, at_least=4)
+    task = task_for(Repeat(id="", times=40, body=read(), until=until))
+    (forecast,) = estimate(task, SITE, ROBOT).sampling
+    quantity, rng = ROBOT.quantity["co2"], np.random.default_rng(11)
+    counts = []
+    for _ in range(300):
+        values: list[float] = []
+        while len(values) < 40 and (not values or truth(until, r=series(*values)) is not True):
+            values.append(float(rng.normal(quantity.typical, quantity.spread)))
+        counts.append(len(values))
+    assert forecast.at_most == 40
+    assert forecast.mean == pytest.approx(np.mean(counts), rel=0.08)
+    assert 4 <= forecast.p50 <= forecast.p90 <= 40
+    assert forecast.p50 == pytest.approx(np.median(counts), abs=1.5)
+
+
+def test_a_loop_without_a_mean_to_know_has_no_forecast_of_readings() -> None:
+    until = CountReadings(test="ge", number=3.0, condition=co2("gt", 450))
+    assert estimate(task_for(Repeat(id="", times=9, body=read(), until=until)), SITE, ROBOT).sampling == ()

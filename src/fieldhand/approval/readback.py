@@ -11,9 +11,10 @@ from dataclasses import dataclass, replace
 
 from fieldhand.forecast.estimate import BranchEstimate, Estimate, Figure
 from fieldhand.forecast.resource_limits import ResourceKind, reserve_percent
+from fieldhand.forecast.sampling_rounds import SamplingForecast
 from fieldhand.forecast.walk_steps import Walk
 from fieldhand.language import counted, joined, message, recalled
-from fieldhand.language.words import capitalised, listed, say_duration, say_number, say_rounded
+from fieldhand.language.words import capitalised, listed, say_duration, say_name, say_number, say_rounded
 from fieldhand.places.explanation import notes
 from fieldhand.robot.model import RobotProfile
 from fieldhand.short_repr import short_repr
@@ -110,7 +111,12 @@ def read_back(task: Task, site: Site, robot: RobotProfile, estimate: Estimate) -
         limits=limits,
         faults=faults,
         assumptions=tuple(recalled(text, "assumption") for text in task.command.assumptions),
-        notes=(*_notes(walks, site), *_waits(task, robot), *way_notes(task.constraints, robot)),
+        notes=(
+            *_notes(walks, site),
+            *map(_say_sampling, estimate.sampling),
+            *_waits(task, robot),
+            *way_notes(task.constraints, robot),
+        ),
         totals=_totals(estimate, task, robot),
         usual=_usual(task, limits, faults),
         times=() if task.timing is None else say_timing(task.timing),
@@ -227,6 +233,19 @@ def _waits(task: Task, robot: RobotProfile) -> tuple[str, ...]:
         return ()
     time = say_duration(max(longest))
     return (message("The figures are without events: each wait adds up to {time} and what idling uses.", time=time),)
+
+
+def _say_sampling(sampling: SamplingForecast) -> str:
+    """Return how many readings a mean will probably take as a sentence."""
+    return message(
+        "With the usual spread of {quantity}, the mean takes about {median} readings, nine times out of ten no more"
+        " than {high}, and {most} at most; it is known by then with a probability of {chance} %.",
+        quantity=say_name(sampling.quantity),
+        median=sampling.p50,
+        high=sampling.p90,
+        most=sampling.at_most,
+        chance=say_rounded(100 * sampling.known),
+    )
 
 
 def _worst(estimate: Estimate, task: Task, robot: RobotProfile) -> tuple[str, ...]:

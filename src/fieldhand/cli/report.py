@@ -30,6 +30,7 @@ def report(
     from fieldhand.cli import show
     from fieldhand.cli.recorded import recorded_mission
     from fieldhand.evaluation.report.log_facts import end_of
+    from fieldhand.evaluation.report.reading_statistics import statistics_record
     from fieldhand.language import message
     from fieldhand.task.exceeded import say_status
     from fieldhand.wording.events import goal_names
@@ -52,7 +53,8 @@ def report(
     if display.json:
         record = show.mission_record(plan.task, "", ended, assessment, list(files.paths))
         approved = None if plan.authorization is None else asdict(plan.authorization)
-        show.print_json(record | {"authorization": approved, "signed": plan.signed})
+        read = statistics_record(plan.site_and_robot.site, log.events)
+        show.print_json(record | {"readings": read, "authorization": approved, "signed": plan.signed})
         raise SystemExit(status)
     show.show_outcomes(assessment, goal_names(plan.task, plan.site_and_robot.robot), language)
     how = None if assessment.status is None else say_status(assessment.status)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from typing import TYPE_CHECKING
 
 from fieldhand.forecast import visit_order
@@ -13,6 +13,7 @@ from fieldhand.forecast.fault_exits import FaultExits, fault_exits
 from fieldhand.forecast.resource_limits import ResourceKind, ResourceLimit, resource_limits
 from fieldhand.forecast.route_cost import cost_model
 from fieldhand.forecast.sampled_costs import DRAWS, LegCostSamples
+from fieldhand.forecast.sampling_rounds import SamplingForecast, sampling_forecasts
 from fieldhand.language import message
 from fieldhand.language.words import say_rounded
 from fieldhand.robot.model import RobotProfile
@@ -41,6 +42,7 @@ class Estimate:
         problems: Problems that prevent the Task from being carried out within its limits, one sentence each.
         charge_percent: Battery charge at the start of the mission, 0 to 100.
         closed: Ground that the mission keeps out of.
+        sampling: Number of readings of each loop that ends once a mean is known.
     """
 
     branches: tuple[BranchEstimate, ...]
@@ -51,6 +53,7 @@ class Estimate:
     problems: tuple[str, ...]
     charge_percent: float = 100.0
     closed: tuple[ClosedGround, ...] = ()
+    sampling: tuple[SamplingForecast, ...] = ()
 
     __repr__ = short_repr
 
@@ -83,6 +86,8 @@ class Estimate:
             "faulted": [branch.as_record() for branch in self.faulted],
             "problems": list(self.problems),
         }
+        if self.sampling:
+            record["sampling"] = [asdict(one) for one in self.sampling]
         return record | {"every_branch": [branch.as_record() for branch in self.branches]} if every else record
 
 
@@ -175,6 +180,7 @@ def _estimated(kept: _CachedBranches, task: Task, site: Site, robot: RobotProfil
         problems=problems,
         charge_percent=charge_percent,
         closed=drives.closed,
+        sampling=sampling_forecasts(task, robot, found.walks, kept.leg_costs.seed),
     )
 
 

@@ -9,6 +9,7 @@ from fieldhand.evaluation.outcome import judge, judge_end
 from fieldhand.evaluation.report.incidents import FoldedLines, LeftOut, conditions, faults, left_out
 from fieldhand.evaluation.report.log_facts import branch_taken, captures, start_of, used
 from fieldhand.evaluation.report.place_names import PlaceNames
+from fieldhand.evaluation.report.reading_statistics import reading_statistics
 from fieldhand.evaluation.report.readings import MOST_ROWS, ReadingRow, ReadingSummary, reading_rows, summaries
 from fieldhand.forecast.estimate import Estimate, Figure
 from fieldhand.language.words import capitalised, listed, say_action, say_count, say_duration, say_number
@@ -126,7 +127,7 @@ def compose(
         hashes: Name and SHA-256 of each further input.
     """
     names = PlaceNames(site)
-    read = summaries(task, robot, events)
+    read = summaries(task, robot, events, reading_statistics(site, events))
     rows = reading_rows({s.quantity: s for s in read}, events, names)
     status, verdict = _verdict(task, robot, events, outcomes)
     return ReportContent(

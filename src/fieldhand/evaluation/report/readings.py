@@ -9,8 +9,11 @@ from dataclasses import dataclass
 from fieldhand.clock import clock_time
 from fieldhand.evaluation.report.log_facts import captures
 from fieldhand.evaluation.report.place_names import PlaceNames
+from fieldhand.evaluation.report.reading_statistics import QuantityStatistics, ReadingStatistics
 from fieldhand.language.words import capitalised, say_action, say_name, say_number, say_unit
+from fieldhand.places.series_statistics import statistic
 from fieldhand.robot.model import RobotProfile
+from fieldhand.site.names import say_block
 from fieldhand.task.conditions import Between, Compare, Level, walk
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import Node
@@ -60,8 +63,17 @@ class ReadingSummary:
         return say_fixed(value, self.decimals)
 
 
-def summaries(task: Task, robot: RobotProfile, events: Sequence[Event]) -> tuple[ReadingSummary, ...]:
-    """Return a summary per quantity read, in the order of first readings."""
+def summaries(
+    task: Task, robot: RobotProfile, events: Sequence[Event], statistics: Sequence[QuantityStatistics] = ()
+) -> tuple[ReadingSummary, ...]:
+    """Return a summary per quantity read, in the order of first readings.
+
+    Args:
+        task, robot: Task and robot of the mission.
+        events: Its event log.
+        statistics: Statistics of the readings, which give the means of several blocks.
+    """
+    by_block = {one.quantity: one.blocks for one in statistics}
     made = [e for e in captures(events) if e.status == "success"]
     limits = thresholds(task, robot)
     found = []
@@ -78,7 +90,11 @@ def summaries(task: Task, robot: RobotProfile, events: Sequence[Event]) -> tuple
                 values=values,
                 decimals=digits,
                 thresholds=held,
-                words=(*_in_short(values, digits, unit), *_above(quantity, made, held, unit)),
+                words=(
+                    *_in_short(values, digits, unit),
+                    *_of_blocks(by_block.get(quantity, {}), digits, unit),
+                    *_above(quantity, made, held, unit),
+                ),
             )
         )
     return tuple(found)
@@ -170,7 +186,14 @@ def _in_short(values: Sequence[float], digits: int, unit: str) -> Iterator[tuple
     if len(values) > 1:
         yield "lowest", f"{say_fixed(min(values), digits)}{unit}"
         yield "mean", f"{say_fixed(math.fsum(values) / len(values), digits)}{unit}"
+        yield "median", f"{say_fixed(statistic('median', values), digits)}{unit}"
         yield "highest", f"{say_fixed(max(values), digits)}{unit}"
+
+
+def _of_blocks(blocks: Mapping[str, ReadingStatistics], digits: int, unit: str) -> Iterator[tuple[str, str]]:
+    """Yield the mean of each of several blocks, with the number of its readings."""
+    for name, one in blocks.items():
+        yield f"mean of {say_block(name)}", f"{say_fixed(one.mean, digits)}{unit} of {one.count}"
 
 
 def _above(

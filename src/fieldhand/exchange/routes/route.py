@@ -206,7 +206,7 @@ class _Certain:
         self.acts = frozenset.intersection(*(acts for _, acts in each))
 
     def _straight(self, walked: Walk, complete: bool) -> tuple[list[tuple[LatLon, ...]], frozenset[tuple[int, str]]]:
-        """Return the drives and acts of a branch up to the first optional step.
+        """Return the drives and acts of a branch up to the first optional step or place that readings decide.
 
         If not all branches were explored, the result also ends at the first condition.
         """
@@ -214,6 +214,8 @@ class _Certain:
         acts: set[tuple[int, str]] = set()
         for step in walked.steps:
             if (step.kind == "visit-list" and step.node.is_optional) or (step.kind == "decide" and not complete):
+                break
+            if step.node.selector is not None and step.node.selector.decided_by_readings:
                 break
             if step.drive is not None:
                 drives.append(step.drive.points)

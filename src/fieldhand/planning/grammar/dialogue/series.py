@@ -233,7 +233,7 @@ def _is_at(setting: Setting, selector: s.Selector, place: PlaceMeaning) -> bool:
         rows = {over(place.selector, block) for block in blocks_of(selector)}
         return bool(rows & set(selector.walk()))
     meant, some = ids_of(place.selector, setting.site), ids_of(selector, setting.site)
-    return bool(meant) and bool(some) and set(some) <= set(meant)
+    return meant is not None and some is not None and bool(some) and some <= meant
 
 
 def _paths(setting: Setting, state: DialogueState, test: Test) -> list[Path]:
@@ -423,7 +423,7 @@ def with_read_place(setting: Setting, state: DialogueState, command: Command) ->
         raise _unmeasured(setting, quantity, place.like.side) from fault
     name, quantity, state = _named(setting, state, test, paths)
     known = replace(chosen, reading=name, quantity=quantity)
-    made: Any = replace(command, place=replace(place, selector=known, like=None, per=None))  # type: ignore[type-var]
+    made: Command = replace(cast(Any, command), place=replace(place, selector=known, like=None, per=None))
     return replace(state, loop=None), made
 
 

@@ -185,6 +185,8 @@ def checked(test: Test, reading: str, quantity: str, robot: RobotProfile) -> c.C
     if test.check == "between":
         low, high = test.value
         return c.Between(reading=reading, quantity=quantity, low=low, high=high, unit=unit)
+    if test.check == "known":
+        raise NotComposed(message("it is not clear what ends then", context="fault"))
     return c.Compare(reading=reading, quantity=quantity, test=test.check, value=test.value, unit=unit)
 
 
