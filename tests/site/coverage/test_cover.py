@@ -10,29 +10,19 @@ import pytest
 import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from shapely.affinity import rotate
 from shapely.geometry import LineString, MultiPolygon, Point, Polygon, box
 
 from fieldhand.errors import PlaceError
 from fieldhand.site.coverage.cover import cover
 from fieldhand.site.coverage.plan import CoverageParams, CoveragePlan
 from support.examples import examples
+from support.sites.coverage import is_connected, uncovered_m2
 from support.sites.fields import fields
 
 RECTANGLE = box(0.0, 0.0, 100.0, 60.0)
 L_SHAPE = Polygon([(0, 0), (90, 0), (90, 20), (20, 20), (20, 90), (0, 90)])
 POND = Polygon([(0, 0), (100, 0), (110, 60), (5, 70)]).difference(Point(50, 30).buffer(12))
-
-
-def uncovered_m2(plan: CoveragePlan, width_m: float) -> float:
-    """Return the ground outside the headlands that no pass covers, computed from the legs alone."""
-    worked = [leg.line.buffer(width_m / 2.0, cap_style="flat", join_style="mitre") for leg in plan.legs if leg.works]
-    # A micrometre: the ends of neighbouring flat ends are computed separately.
-    return float(plan.inside.difference(shapely.union_all(worked).buffer(1e-6)).area)
-
-
-def is_connected(plan: CoveragePlan) -> bool:
-    ends = [(one.points[-1], two.points[0]) for one, two in itertools.pairwise(plan.legs)]
-    return all(np.hypot(a[0] - b[0], a[1] - b[1]) < 1e-6 for a, b in ends)
 
 
 def stays_inside(plan: CoveragePlan, area: Polygon) -> bool:
@@ -68,6 +58,16 @@ def test_turns_keep_the_turning_radius_and_stay_inside(area: Polygon, width: flo
         turned = np.abs((np.diff(angles) + np.pi) % (2.0 * np.pi) - np.pi)
         # Chords of up to 10 degrees: the direction changes by no more than a chord's angle at any of its ends.
         assert turned.max(initial=0.0) < np.radians(10.5)
+
+
+@settings(max_examples=examples(5, thorough=40), deadline=None)
+@given(fields(), st.floats(0.0, 360.0), st.floats(2.0, 6.0))
+def test_the_plan_of_a_turned_field_is_as_good(area: Polygon, turn: float, width: float) -> None:
+    params = CoverageParams(working_width_m=width)
+    one, two = (cover(field, params) for field in (area, rotate(area, turn, origin=(0.0, 0.0))))
+    assert two.working_m == pytest.approx(one.working_m, rel=0.1, abs=2.0 * width)
+    assert two.length_m == pytest.approx(one.length_m, rel=0.06, abs=5.0 * width)
+    assert two.covered_m2 == pytest.approx(one.covered_m2, rel=0.02)
 
 
 @settings(max_examples=examples(4, thorough=30), deadline=None)

@@ -1,6 +1,7 @@
 """Drives that work on a whole area: swaths, headland passes, perimeters and patrols. Pure geometry in local metres.
 
 cover        the drive over an open area, swath by swath
+row_passes   the drive along all aisles of a planted area
 circuits     drives around an area, and patrols along rings and lines
 plan         parameters, and the plan: swaths, legs in driving order, and what they cover
 headland     the ground around an area and its holes, and the passes on it

@@ -72,7 +72,7 @@ def cover(
     Raises:
         PlaceError: The area is empty or in parts that no way connects, or a parameter is out of range.
     """
-    _validate(area, params)
+    validate(area, params)
     width, apart = params.working_width_m, params.working_width_m - params.overlap_m
     rings = headland_rings(area, params)
     wide = headland_width(params)
@@ -102,7 +102,8 @@ def _cost(plan: CoveragePlan, turn_m: float) -> float:
     return plan.length_m * (1.0 + missed) + turn_m * (len(plan.swaths) + 10.0 * plan.tight_turns)
 
 
-def _validate(area: BaseGeometry, params: CoverageParams) -> None:
+def validate(area: BaseGeometry, params: CoverageParams) -> None:
+    """Raise an error if there is no area to cover, or a parameter is out of range."""
     problems = [
         (not params.working_width_m > 0.0, message("the working width must be greater than 0")),
         (not 0.0 <= params.overlap_m < params.working_width_m,
