@@ -26,8 +26,8 @@ from fieldhand.site.driving.rowlines import Frame, RowLine
 #: Aisles and sides of which less than this, in square metres, lies in the area are left out.
 _LITTLE_M2 = 0.01
 
-#: Tolerance in metres to which the line of a pass is simplified at least.
-_FINE_M = 0.01
+#: Points of a pass that are closer than this, in metres, to the line through their neighbours are left out.
+_FINE_M = 1e-6
 
 
 def cover_rows(
@@ -173,8 +173,18 @@ class _Between:
             # In a narrower part of the aisle the passes overlap more, and their outer edges stay at the rows.
             first, last = np.minimum(low + half, (low + high) / 2.0), np.maximum(high - half, (low + high) / 2.0)
             v = np.clip(first + share * (last - first), least, most)
-            line = LineString(self.frame.world(np.column_stack([self.along, v])))
-            yield shapely.simplify(line, max(_FINE_M, spare))
+            line = shapely.simplify(LineString(np.column_stack([self.along, v])), max(_FINE_M, spare))
+            yield LineString(self.frame.world(_lengthened(shapely.get_coordinates(line), half)))
+
+
+def _lengthened(uv: Points, half_m: float) -> Points:
+    """Return a line, longer at each end by as much as its flat end, which is square to it, would leave out of a strip
+    that ends square to u."""
+    found = uv.copy()
+    for end, inner in ((0, 1), (-1, -2)):
+        along, across = (uv[end] - uv[inner]).tolist()
+        found[end] += (uv[end] - uv[inner]) / abs(along) * half_m * abs(across / along) if along else 0.0
+    return found
 
 
 def _aisles(layout: Layout, group: RowGroup) -> Iterator[_Between]:
