@@ -36,7 +36,7 @@ def crossed_rows(plan: CoveragePlan, site: Site) -> list[str]:
     return [row.name for row in rows if len(legs.query(LineString(site.xy[row.trees]), predicate="intersects"))]
 
 
-@settings(max_examples=examples(12, thorough=120), deadline=None)
+@settings(max_examples=examples(8, thorough=120), deadline=None)
 @given(st.integers(0, 10_000), st.floats(0.8, 6.0), st.sampled_from([0.0, 2.5]))
 def test_no_leg_crosses_a_row(seed: int, width: float, radius: float) -> None:
     site = generated(seed)

@@ -113,7 +113,8 @@ def _divisions_of_part(part: Polygon, search: CellSearch, count: int) -> list[tu
 
 def candidate_bearings(polygon: BaseGeometry, width_m: float) -> Points:
     """Return the bearings to try, in degrees from 0 up to 180: those of the edges, and a grid."""
-    edges = _edges(shapely.simplify(polygon, 0.1 * width_m))
+    # A narrow polygon keeps its shape.
+    edges = _edges(shapely.simplify(polygon, min(0.1 * width_m, 0.1 * polygon.area / polygon.length)))
     lengths = np.hypot(*edges.T)
     bearings = np.mod(np.degrees(np.arctan2(edges[:, 0], edges[:, 1])), 180.0)
     chosen: list[float] = []
