@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import typer
 
+from fieldhand_bench.commands.coverage import bench_coverage
 from fieldhand_bench.commands.forecast import bench_forecast
 from fieldhand_bench.commands.guard import bench_guard
 from fieldhand_bench.commands.missions import bench_missions
@@ -20,3 +21,4 @@ bench.command("guard")(bench_guard)
 bench.command("forecast")(bench_forecast)
 bench.command("missions")(bench_missions)
 bench.command("planning")(bench_planning)
+bench.command("coverage")(bench_coverage)
