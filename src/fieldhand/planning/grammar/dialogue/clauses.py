@@ -86,8 +86,8 @@ from fieldhand.planning.grammar.meaning import (
     Total,
     UntilCondition,
     VisitLimit,
-    WayRule,
     WatchCommand,
+    WayRule,
     When,
     wait_seconds,
 )
