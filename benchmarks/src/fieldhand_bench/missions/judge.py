@@ -7,6 +7,7 @@ import math
 from collections.abc import Iterator, Mapping
 
 import shapely
+from shapely.geometry.base import BaseGeometry
 
 from fieldhand_bench.missions.case_site import CaseSite
 from fieldhand_bench.missions.cases import Bounds, Expected
@@ -97,6 +98,7 @@ def _distances(expected: Expected, log: Log) -> Iterator[str]:
 
 def _too_near(site: CaseSite, expected: Expected, log: Log) -> Iterator[str]:
     for kept in expected.keeps_from:
+        shape: BaseGeometry
         if kept.zone:
             shape, name = site.zones[kept.zone], f"the zone '{kept.zone}'"
         else:
