@@ -17,9 +17,11 @@ from shapely.geometry import LineString, Point
 from fieldhand.errors import DriveFault
 from fieldhand.execution.active_mission import ActiveMission
 from fieldhand.execution.limit_levels import Consequence, LimitLevel, fastest_drain, levels_of
-from fieldhand.execution.open_goals import OpenCapture, OpenDrive
+from fieldhand.execution.open_goals import OpenCapture, OpenDrive, OpenStretch
 from fieldhand.forecast.failsafe_state import FailsafeForecast, FailsafeState
 from fieldhand.forecast.mission_state import Spent, Work
+from fieldhand.forecast.resource_limits import speed_of
+from fieldhand.forecast.working import use_of
 from fieldhand.site.model import Place, Site
 from fieldhand.site.stopping import safe_stop
 from fieldhand.task.frames import Then as Exit
@@ -275,6 +277,14 @@ class LimitMonitor:
             return 0.0
 
     def _work_left(self, doing: OpenDrive | OpenCapture) -> Work:
+        if isinstance(doing, OpenStretch):
+            mission = self._mission
+            left = doing.stretch.part(mission.controller.reached_m, doing.stretch.length_m)
+            constraints, robot = mission.task.constraints, mission.robot
+            if left is None:
+                return Work()
+            # The metres themselves are those of the current drive.
+            return replace(use_of(left, doing.work, constraints, robot).work(speed_of(constraints, robot)), metres=0.0)
         if not isinstance(doing, OpenCapture):
             return Work()
         action = self._mission.robot.action[doing.action]

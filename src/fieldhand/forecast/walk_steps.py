@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
+from fieldhand.forecast.mission_state import Work
 from fieldhand.forecast.sampled_costs import SampledUse
 from fieldhand.places.context import Context
 from fieldhand.short_repr import short_repr
@@ -14,8 +15,9 @@ from fieldhand.task.plan import Node
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drive
+    from fieldhand.site.working.stretch import Stretch
 
-StepKind = Literal["drive", "act", "visit-list", "decide", "exit"]
+StepKind = Literal["drive", "act", "work", "visit-list", "decide", "exit"]
 DecisionKind = Literal["holds", "fails", "blocked", "taken"]
 
 #: Answers a question about a node, given its id: whether its condition holds, or its action fails.
@@ -62,7 +64,7 @@ class VisitForecast:
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class WalkStep:
-    """A step of a walk: a drive, an action, a decision, a list of visits, or the exit.
+    """A step of a walk: a drive, an action, work along a stretch, a decision, a list of visits, or the exit.
 
     Attributes:
         node: Plan node that the step belongs to; for the exit, the ``Stop`` that takes it or the root of the plan.
@@ -77,6 +79,8 @@ class WalkStep:
         seconds, joules: Mean time in seconds and energy in joules of the step; energy without idle power.
         answer: Answer of a decision.
         reached: False for a drive that is blocked just before its end.
+        stretch: Stretch of work along a path.
+        work: Use of a stretch in the form of work, whose metres are driven at the mission's speed.
     """
 
     node: Node
@@ -91,6 +95,8 @@ class WalkStep:
     joules: float = 0.0
     answer: bool | None = None
     reached: bool = True
+    stretch: Stretch | None = None
+    work: Work = field(default_factory=Work)
 
     __repr__ = short_repr
 
@@ -124,6 +130,12 @@ class Walk:
 
     @property
     def work(self) -> tuple[float, float]:
-        """Return seconds and joules of all actions."""
+        """Return seconds and joules of all actions at places."""
         acts = [s for s in self.steps if s.kind == "act"]
         return (sum(s.seconds for s in acts), sum(s.joules for s in acts))
+
+    @property
+    def whole_work(self) -> Work:
+        """Return the work of all actions, at places and along stretches."""
+        seconds, joules = self.work
+        return sum((s.work for s in self.steps if s.kind == "work"), Work(seconds=seconds, joules=joules))

@@ -24,7 +24,7 @@ from fieldhand.places.selectors import SELECTORS
 from fieldhand.places.sources.union_of import UnionOf
 from fieldhand.task.conditions import Condition
 from fieldhand.task.frames import Command, Composition, FaultedExit, Task, Then
-from fieldhand.task.plan import Act, InOrder, Node, OptionalStep, Span, StopMission
+from fieldhand.task.plan import Act, InOrder, Node, OptionalStep, Span, StopMission, WorkAlong
 from fieldhand.terms import Value
 
 NAMESPACE = "urn:fieldhand:task:1"
@@ -119,11 +119,13 @@ class NamedElement:
     Attributes:
         attributes: Attributes that depend on the quantity. An action's parameters are not listed: only a profile
             defines them.
+        optional: The element may be omitted.
     """
 
     field: str
-    of: Literal["action", "quantity"]
+    of: Literal["action", "quantity", "implement"]
     attributes: tuple[Attribute, ...] = ()
+    optional: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -176,7 +178,7 @@ def shape_of(cls: type) -> Shape:
     hints = hints_of(cls)
     names = [f.name for f in fields(cls)]
     of_head = _OF_QUANTITY if "quantity" in names else ()
-    in_head = ("action", "parameters") if cls is Act else ("quantity",)
+    in_head = ("action", "parameters") if cls in (Act, WorkAlong) else ("quantity",)
     attributes: list[Attribute] = []
     of_quantity: list[Attribute] = []
     children: list[Child] = []
@@ -203,6 +205,8 @@ def shape_of(cls: type) -> Shape:
 def _head(cls: type, names: list[str], of_quantity: tuple[Attribute, ...]) -> NamedElement | None:
     if cls is Act:
         return NamedElement(field="action", of="action")
+    if cls is WorkAlong:
+        return NamedElement(field="action", of="implement", optional=True)
     return NamedElement(field="quantity", of="quantity", attributes=of_quantity) if "quantity" in names else None
 
 

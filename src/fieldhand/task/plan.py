@@ -26,6 +26,7 @@ from fieldhand.task.nodes.optional_step import OptionalStep
 from fieldhand.task.nodes.repeat import Repeat
 from fieldhand.task.nodes.stop_mission import StopMission
 from fieldhand.task.nodes.try_otherwise import Try
+from fieldhand.task.nodes.work_along import WorkAlong
 
 __all__ = [
     "Act",
@@ -40,11 +41,13 @@ __all__ = [
     "Span",
     "StopMission",
     "Try",
+    "WorkAlong",
     "acts",
     "walk",
+    "works",
 ]
 
-Node = InOrder | AnyOrder | ForEach | Repeat | If | Try | OptionalStep | GoTo | Act | StopMission
+Node = InOrder | AnyOrder | ForEach | Repeat | If | Try | OptionalStep | GoTo | Act | WorkAlong | StopMission
 
 
 def walk(node: Node) -> Iterator[Node]:
@@ -57,3 +60,8 @@ def walk(node: Node) -> Iterator[Node]:
 def acts(node: Node) -> Iterator[Act]:
     """Yield the actions in this node and all nodes inside it, in document order."""
     return (inner.act for inner in walk(node) if inner.act is not None)
+
+
+def works(node: Node) -> Iterator[WorkAlong]:
+    """Yield the work along paths in this node and all nodes inside it, in document order."""
+    return (inner.work for inner in walk(node) if inner.work is not None)

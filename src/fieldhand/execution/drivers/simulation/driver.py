@@ -10,7 +10,15 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from fieldhand.clock import Clock
-from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, GoalFault, GoalState, Position, Progress
+from fieldhand.execution.drivers.protocol import (
+    ActionGoal,
+    DriveGoal,
+    GoalFault,
+    GoalState,
+    Position,
+    Progress,
+    StretchWork,
+)
 from fieldhand.execution.drivers.simulation.ground_truth import GroundTruth, Hindrance, Point
 from fieldhand.execution.drivers.simulation.state import SimulationState
 from fieldhand.execution.drivers.simulation.world import World
@@ -18,6 +26,7 @@ from fieldhand.forecast.visit_order import drives_for, start_place
 from fieldhand.language import message
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
+from fieldhand.site.working.stretch import total_m
 
 #: Seconds within which two times are equal: clocks add floating-point numbers.
 EPSILON_S = 1e-6
@@ -110,15 +119,20 @@ class SimulatedDriver:
 
     def start_drive(self, goal: DriveGoal) -> None:
         self._begin()
-        alpha = self._robot.leg_cost.alpha
+        alpha = self._robot.leg_cost.alpha if goal.work is None else 1.0  # a given path is followed exactly
         cost = goal.length_m * (alpha + self._rng.exponential(1.0 - alpha) if alpha < 1.0 else 1.0)
         pace = cost / goal.speed_m_s / goal.length_m if goal.length_m > 0 else 0.0  # seconds per metre of the path
         now_s = self._clock.now() - self._begun_s
         course = whole = _Course(
             start_s=self._clock.now(), lasts_s=cost / goal.speed_m_s, outcome="succeeded", metres=cost, path=goal.path_m
         )
+        if goal.work is not None and goal.work.action:
+            course = whole = self._with_implement(course, goal, goal.work)
         if not self.lost() and (what := self._truth.drive_fails(goal.place)):
             course = replace(course.cut(0.5), what=what, fault="failed")
+        if goal.work is not None and (failing := self._truth.implement_fails(goal.work, goal.path_m)) is not None:
+            part, what = failing
+            course = replace(whole.cut(part), what=what, fault="implement") if part <= course.reach else course
         met: list[tuple[Hindrance, GoalFault]] = []
         if (hindrance := self._truth.obstacle(goal.path_m, lambda metres: now_s + pace * metres)) is not None:
             met.append((hindrance, "blocked"))
@@ -130,6 +144,15 @@ class SimulatedDriver:
             if part <= course.reach:
                 course = replace(whole.cut(part), what=hindrance.what, fault=fault, meets=hindrance)
         self._set_out(course)
+
+    def _with_implement(self, course: _Course, goal: DriveGoal, work: StretchWork) -> _Course:
+        """Return a course with the time and energy of an implement."""
+        implement = self._robot.action[work.action].implement
+        on_m = total_m(work.on)
+        if implement is None or not on_m:
+            return course
+        seconds = on_m / goal.speed_m_s + implement.on_delay_s
+        return replace(course, lasts_s=course.lasts_s + implement.on_delay_s, action_j=implement.power_w * seconds)
 
     def start_action(self, goal: ActionGoal) -> None:
         self._begin()
