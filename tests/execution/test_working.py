@@ -207,15 +207,18 @@ def test_an_emergency_stop_ends_the_work_where_it_is(at_s: float) -> None:
     assert sum(w.worked_m for w in of_type(events, Worked)) < 40.0
 
 
-def test_an_operator_can_stop_it_in_the_middle() -> None:
-    def orders() -> str | None:
-        return "enough" if clock.now() > 12.0 else None
-
-    setup = rig()
-    clock = setup.clock
-    events = setup.fly(InOrder(steps=(along("r0"),)), interrupted=orders).events
-    assert end(events).status == "aborted"
-    assert all(w.status == "cancelled" for w in of_type(events, Worked)[-1:])
+def test_an_operator_can_stop_it_at_any_look() -> None:
+    cancelled = 0
+    for n in range(1, 30):
+        asked = itertools.count()
+        events = (
+            rig().fly(along("r0"), interrupted=lambda n=n, asked=asked: "enough" if next(asked) >= n else None).events
+        )
+        worked = of_type(events, Worked)
+        assert len(worked) <= 1
+        assert all(w.worked_m < 20.1 and (w.status == "success") == (w.worked_m > 19.9) for w in worked)
+        cancelled += any(w.status == "cancelled" for w in worked)
+    assert cancelled
 
 
 # --- budget -----------------------------------------------------------------------------------------------------------
