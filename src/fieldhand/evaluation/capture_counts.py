@@ -27,6 +27,8 @@ class CaptureCount:
         spared: Times that an optional step which holds it was shed.
         skipped: Why a branch that leads here was not taken, each time.
         stopped: A stop of the plan came before it.
+        stretches: True for work along a path, whose stretches are counted.
+        worked_m: Metres worked along them.
     """
 
     wanted: int = 0
@@ -42,6 +44,8 @@ class CaptureCount:
     spared: int = 0
     skipped: list[str] = field(default_factory=list)
     stopped: bool = False
+    stretches: bool = False
+    worked_m: float = 0.0
     reasons: list[str] = field(default_factory=list)
 
 
@@ -54,7 +58,7 @@ class CaptureCounts:
     """
 
     def __init__(self, plan: p.Node) -> None:
-        self.of = {node.id: CaptureCount() for node in p.walk(plan) if _counts(node)}
+        self.of = {node.id: CaptureCount(stretches=node.work is not None) for node in p.walk(plan) if _counts(node)}
         self.inside = {node.id: frozenset(n.id for n in p.walk(node)) for node in p.walk(plan)}
 
     def count(self, events: Iterable[Event]) -> None:
@@ -64,6 +68,7 @@ class CaptureCounts:
             count = self.of.get(event.node)
             if count is not None and isinstance(event, Worked):
                 count.reached = True
+                count.worked_m += event.worked_m
                 whole = event.status == "success"
                 count.done += whole
                 worked[event.node, event.stretch] = whole

@@ -6,15 +6,19 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from shapely import unary_union
+
 from fieldhand.errors import PlaceError
 from fieldhand.forecast import visit_order
 from fieldhand.forecast.mission_state import Visit, Work
 from fieldhand.forecast.resource_limits import speed_of
 from fieldhand.language import message
 from fieldhand.places.context import Context
+from fieldhand.places.resolution import Resolution
 from fieldhand.robot.implement import Implement, rate_unit
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
+from fieldhand.site.working.areas import AreaWork, area_work, headland_units, perimeter_units
 from fieldhand.site.working.order import in_order
 from fieldhand.site.working.stretch import Stretch
 from fieldhand.site.working.units import AisleWork, RowWork, WorkUnit, aisle_units, row_units
@@ -23,6 +27,8 @@ from fieldhand.task.nodes.work_along import WorkAlong
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
+
+XY = tuple[float, float]
 
 #: Maximum number of cached orders of stretches per site.
 _KEPT = 64
@@ -147,7 +153,8 @@ def stretches_of(
     home = visit_order.home_if_last(task, site, node.id, context.here)
     here = context.here.stand or context.here.xy
     end = None if home is None else visit_order.with_stands(drives, context.here, (home,))[0].stand
-    places = visit_order.places_of(node, node.along, site, context) if node.mode in ("rows", "aisles") else ()
+    by_rows = node.mode in ("rows", "aisles", "headlands")
+    places = visit_order.places_of(node, node.along, site, context) if by_rows else ()
     ids = tuple(place.id for place in places)
     kept = drives.site.cache.setdefault("stretches", {})
     assert isinstance(kept, dict)  # noqa: S101  nobody else keeps anything there
@@ -156,19 +163,63 @@ def stretches_of(
         while len(kept) >= _KEPT:
             del kept[next(iter(kept))]
         try:
-            units = _units(node, places, site, robot, drives)
+            if node.mode == "area":
+                units = _area(node, site, robot, drives, context, end).units
+            else:
+                units = _units(node, places, site, robot, drives, context)
         except PlaceError as error:
             raise visit_order.at_node(error, node) from error
-        once = in_order(drives, units, here, end, given=node.order == "given")
+        once = in_order(drives, units, here, end, given=node.order == "given" or node.mode == "area")
         kept[key] = (drives, _laps(once, node.laps))
     found: tuple[Stretch, ...] = kept[key][1]
     return found
 
 
+def _area(
+    node: WorkAlong, site: Site, robot: RobotProfile, drives: Drives, context: Context, home: XY | None
+) -> AreaWork:
+    """Return the work of a node over its area.
+
+    Raises:
+        PlaceError: The action covers no ground, or there is none to work on.
+    """
+    implement = implement_of(node, robot)
+    width_m = robot.width_m if implement is None else implement.width_m
+    if width_m is None:
+        raise PlaceError(
+            message("{action} covers no ground, so no lanes can be laid out", action=node.action),
+            advice=message("give its working width in the profile, or work along rows or the edge"),
+        )
+    here = context.here.stand or context.here.xy
+    return area_work(drives, node.along.ground(Resolution(site, context)), width_m, here, home)
+
+
+def _perimeter(
+    node: WorkAlong, site: Site, robot: RobotProfile, drives: Drives, context: Context
+) -> tuple[WorkUnit, ...]:
+    """Return the work of a node along the edge of its area: outside around keep-outs and trees, else inside."""
+    implement = implement_of(node, robot)
+    width = None if implement is None else implement.width_m
+    ground = node.along.ground(Resolution(site, context))
+    inner = [zone.polygon for zone in site.zones if zone.kind != "keep_out"]
+    outside = not any(ground.equals(polygon) for polygon in inner) and not ground.equals(
+        unary_union([zone.polygon for zone in site.zones_of("boundary")])
+    )
+    return perimeter_units(
+        drives,
+        ground,
+        0.0 if width is None else width / 2.0,
+        outside=outside,
+        mounted="both" if implement is None else implement.side,
+    )
+
+
 def _units(
-    node: WorkAlong, places: Sequence[Place], site: Site, robot: RobotProfile, drives: Drives
+    node: WorkAlong, places: Sequence[Place], site: Site, robot: RobotProfile, drives: Drives, context: Context
 ) -> tuple[WorkUnit, ...]:
     implement = implement_of(node, robot)
+    if node.mode == "perimeter":
+        return _perimeter(node, site, robot, drives, context)
     trees = [site.by_id[place.id].index for place in places if place.kind == "tree"]
     if node.mode == "rows":
         mounted = "both" if implement is None else implement.side
@@ -176,7 +227,7 @@ def _units(
     if node.mode == "aisles":
         width = implement.width_m if implement is not None and implement.covers else None
         return aisle_units(drives, trees, AisleWork(width_m=width, every=node.every))
-    raise PlaceError(message("areas cannot be worked yet"), where=site.name)
+    return headland_units(drives, trees)
 
 
 def _laps(stretches: tuple[Stretch, ...], laps: int) -> tuple[Stretch, ...]:

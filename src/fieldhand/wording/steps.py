@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from fieldhand.language import counted, message, shaped
-from fieldhand.language.words import say_marker, say_name, say_number, say_times, say_tree
+from fieldhand.language.words import capitalised, say_marker, say_name, say_number, say_times, say_tree
 from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import Trees
 from fieldhand.places.wording import SelectorWording, say_places, say_selector
@@ -14,10 +14,24 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.conditions import Condition
 from fieldhand.task.frames import Task, Then
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, InOrder, Node, OptionalStep, Repeat, StopMission, Try
+from fieldhand.task.plan import (
+    Act,
+    AnyOrder,
+    ForEach,
+    GoTo,
+    If,
+    InOrder,
+    Node,
+    OptionalStep,
+    Repeat,
+    StopMission,
+    Try,
+    WorkAlong,
+)
 from fieldhand.wording.conditions import say_act, say_condition
 from fieldhand.wording.resolved_places import ResolvedPlaces
 from fieldhand.wording.step_places import in_order, say_expected, say_expected_visits, say_ids
+from fieldhand.wording.working import say_extent, say_work
 
 Names = dict[str, str]
 
@@ -147,6 +161,8 @@ class _LineWriter:
                 self._arrived(node.label, node.id, number)
             case Act():
                 self._act(node, indent)
+            case WorkAlong():
+                self._work(node, indent)
             case StopMission(exit=taken):
                 failed = message("End the mission here, which counts as failed.")
                 self.step(node.id, indent, message("End the mission here.") if taken == "nominal" else failed)
@@ -165,6 +181,12 @@ class _LineWriter:
             number = self.step(node.id, indent, there[0] if self._moved else there[1])
             self._name(node.label, node.id, number)
         self._took(node, number)
+
+    def _work(self, node: WorkAlong, indent: int) -> None:
+        text = shaped(say_work(node, self._robot, self._names), capitalised)
+        extent = say_extent(node, self._robot, self._resolved.get(node.id))
+        number = self.step(node.id, indent, message("{work} {extent}.", work=text, extent=extent))
+        self._arrived("", node.id, number)
 
     def _at(self, node: Node, selector: Selector) -> str:
         """Return a resolved place with its wording in the Task, or the reverse if it is decided during the mission."""

@@ -18,8 +18,8 @@ from fieldhand.task.plan import Act, ForEach, OptionalStep
 if TYPE_CHECKING:
     from lxml.etree import _Element
 
-BEGIN, GO_TO, RESOLVE, ORDER, ALLOWS, EXIT, FAULT = (
-    "BeginMission", "GoToPlace", "ResolvePlaces", "OrderSteps", "BudgetAllows", "TakeExit", "HandleFault",
+BEGIN, GO_TO, RESOLVE, ORDER, ALLOWS, EXIT, FAULT, WORK = (
+    "BeginMission", "GoToPlace", "ResolvePlaces", "OrderSteps", "BudgetAllows", "TakeExit", "HandleFault", "WorkAlong",
 )  # fmt: skip
 #: Leaf of each kind of condition.
 CONDITIONS: dict[type, str] = {
@@ -84,6 +84,7 @@ def leaves(capabilities: Capabilities) -> tuple[Leaf, ...]:
     order = Port(name="order", type=_STEPS, direction="output", about="Numbers of the steps from 1, best order first")
     node = Port(name="node", type=_TEXT, about="Name of the loop or step that the budget may leave out")
     then = Port(name="then", type=_TEXT, about="return_to_end, return_to_start or stay")
+    work = Port(name="work", type=_TEXT, about="Work along rows, aisles or an area: <work-along> of the Task, as XML")
     exits = Port(name="exits", type=_TEXT, default="", about="What to do about each fault, as fault:exit")
     ours = (
         Leaf(id=BEGIN, kind="Action", ports=(task, *frames, resources)),
@@ -92,12 +93,17 @@ def leaves(capabilities: Capabilities) -> tuple[Leaf, ...]:
         Leaf(id=ORDER, kind="Action", ports=(first, order)),
         Leaf(id=EXIT, kind="Action", ports=(then,)),
         Leaf(id=FAULT, kind="Action", ports=(exits,)),
+        Leaf(id=WORK, kind="Action", ports=(work,)),
         Leaf(
             id=ALLOWS, kind="Condition", ports=(node, Port(name="place", type=_TEXT, default=""), *_ports(OptionalStep))
         ),
     )
     conditions = (Leaf(id=name, kind="Condition", ports=_condition_ports(cls)) for cls, name in CONDITIONS.items())
-    return (*ours, *conditions, *(_action(name, capabilities) for name in capabilities.actions))
+    return (
+        *ours,
+        *conditions,
+        *(_action(name, capabilities) for name, a in capabilities.actions.items() if not a.is_implement),
+    )
 
 
 def models(capabilities: Capabilities) -> _Element:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from fieldhand.task.run import PlanRun
 
 #: Path along which an implement works.
-WorkMode = Literal["rows", "aisles", "area", "perimeter"]
+WorkMode = Literal["rows", "aisles", "headlands", "area", "perimeter"]
 
 #: Sides of rows that are worked.
 RowSides = Literal["one", "both", "north", "east", "south", "west"]
@@ -36,7 +36,8 @@ class WorkAlong(PlanNode):
         along: Trees whose rows are meant, or with ``area`` and ``perimeter`` the zone, block or trees.
         along_said: Character ranges of the request that name them.
         mode: ``rows``: beside each row, from its first to its last tree of the selector. ``aisles``: between
-            neighbouring rows. ``area``: all ground, lane by lane. ``perimeter``: along the edge.
+            neighbouring rows. ``headlands``: along both ends of the rows. ``area``: all ground, lane by lane.
+            ``perimeter``: along the edge.
         sides: Sides of each row that are worked: any one of them, both, or that towards a side of the compass.
         every: With ``aisles``, 2 for every second aisle.
         laps: Number of times that the whole is done, one after another.
@@ -76,7 +77,13 @@ class WorkAlong(PlanNode):
             frame.made += 1
 
     def say(self, place: SayPlace) -> str:
-        where = {"rows": "along", "aisles": "between", "area": "over", "perimeter": "around"}[self.mode]
+        where = {
+            "rows": "along",
+            "aisles": "between",
+            "headlands": "along the ends of",
+            "area": "over",
+            "perimeter": "around",
+        }[self.mode]
         return f"{say_action(self.action) if self.action else 'drive'} {where} {place(self.along)}"
 
     @property
