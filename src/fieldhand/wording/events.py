@@ -140,13 +140,11 @@ class EventText:
             done = message("{metres} m worked", metres=f"{event.worked_m:.0f}")
         if event.unit:
             done = joined(", ", (done, joined(" ", (say_number(event.amount, 1), say_unit(event.unit)))))
+        stretch = kept_in_log(event.stretch)
         if event.status == "success":
-            return message("{stretch}: {done}", stretch=kept_in_log(event.stretch), done=done)
+            return joined(": ", (stretch, done))
         return message(
-            "{stretch} stopped: {done}: {what}",
-            stretch=kept_in_log(event.stretch),
-            done=done,
-            what=kept_in_log(event.what),
+            "{stretch}: {done}, then stopped ({what})", stretch=stretch, done=done, what=kept_in_log(event.what)
         )
 
     def _acted(self, event: Acted) -> str:

@@ -23,7 +23,7 @@ _HECTARE_FROM_M2 = 2_000.0
 
 def say_work(node: WorkAlong, robot: RobotProfile, names: Mapping[str, str]) -> str:
     """Return work along a path: "spray along rows 3 to 8 at 300 l/ha, on both sides"."""
-    doing, where = _doing(node, robot), say_along(node.along, names, rows=node.mode != "area")
+    doing, where = _doing(node, robot), say_along(node.along, names, rows=node.mode not in ("area", "perimeter"))
     match node.mode:
         case "rows":
             text = message("{action} along {rows}", action=doing, rows=where)
