@@ -21,7 +21,7 @@ from fieldhand.robot.bindings import Ros2Bindings
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import acts
+from fieldhand.task.plan import acts, works
 
 
 def effective_bindings(robot: RobotProfile, by: Connection) -> Ros2Bindings:
@@ -82,7 +82,10 @@ def connected_robot(
             replace(robot, ros2=bindings),
             clock=clock,
             within_s=within_s,
-            actions={act.action for act in acts(task.composition.plan)},
+            actions={
+                *(act.action for act in acts(task.composition.plan)),
+                *(work.action for work in works(task.composition.plan) if work.action),
+            },
         )
         yield Vehicle(
             driver=driver,

@@ -112,6 +112,9 @@ class SimulatedDriver:
         self._course: _Course | None = None
         self._result = Progress(state="idle")
         self._lost: list[tuple[float, str]] = []
+        #: Power in watts of implements that are on without being part of a goal, by action, and since when.
+        self._loads: dict[str, float] = {}
+        self._loaded_s, self._load_j = self._begun_s, 0.0
 
     @property
     def seed(self) -> int | None:
@@ -171,6 +174,23 @@ class SimulatedDriver:
             )
         )
 
+    def switch(self, action: str, *, on: bool) -> str:
+        """Switch an implement outside of a goal, as an external client does; return why that failed, or an empty text.
+
+        Its power drains the battery until it is switched off.
+        """
+        why = self._truth.switch_fails(action, Place.of_robot(self._xy, lat=0.0, lon=0.0)) if on else ""
+        self._load_j, self._loaded_s = self._loaded_j(), self._clock.now()
+        self._loads.pop(action, None)
+        implement = self._robot.action[action].implement
+        if on and not why and implement is not None:
+            self._loads[action] = implement.power_w
+        return why
+
+    def _loaded_j(self) -> float:
+        """Return the energy in joules that implements outside of goals have used since the last goal began."""
+        return self._load_j + sum(self._loads.values()) * (self._clock.now() - self._loaded_s)
+
     def read_sensors(self, action: str, place: Place) -> Mapping[str, float]:
         """Return the readings of an action's sensors at a place without a capture; empty if they fail.
 
@@ -228,7 +248,7 @@ class SimulatedDriver:
         else:
             idle = self._robot.percent(0.0, self._clock.now() - self._charged_s)
             left -= self._drained(idle, self._charged_s, self._clock.now())
-        return max(0.0, left)
+        return max(0.0, left - self._robot.percent(0.0, 0.0, self._loaded_j()))
 
     def lost(self) -> str | None:
         now_s = self._clock.now() - self._begun_s
@@ -278,6 +298,7 @@ class SimulatedDriver:
         if not self.poll().over:
             raise RuntimeError("a goal is running: a driver has one at a time")
         self._charge, self._charged_s = self._left(), self._clock.now()
+        self._load_j, self._loaded_s = 0.0, self._clock.now()
 
     def _set_out(self, course: _Course) -> None:
         """Start a course, shortened if the robot gets lost or its battery runs empty."""

@@ -130,6 +130,13 @@ class GroundTruth:
             return part, message("{action} gave an error", context="log", action=work.action)
         return None
 
+    def switch_fails(self, action: str, place: Place) -> str:
+        """Return why an implement does not switch on at a place, and count it; empty if it does."""
+        for number, fault in enumerate(self._faults):
+            if isinstance(fault, ActionFails) and fault.action == action and self._strikes(number, place):
+                return message("{action} gave an error", context="log", action=action)
+        return ""
+
     def drive_fails(self, place: Place) -> str:
         """Return why a drive to a place fails half-way, and count it; empty if it does not."""
         fails = (n for n, fault in enumerate(self._faults) if isinstance(fault, DriveFails) and self._strikes(n, place))
