@@ -1,10 +1,9 @@
 """Sites, plans and driven paths as GeoJSON, in degrees WGS 84, each feature with a ``role``.
 
 ``zone``, ``block``, ``row``, ``tree``, ``gate``, ``marker``: the site. ``path``, ``stop``: a plan, its legs with the
-node that drives them, and its stops with their number and the nodes that drive or act there. ``avoided``: ground that a
-plan keeps out of. ``choice``: a place that
-an answer to a question would select. ``leg``, ``capture``, ``end``: a mission that was driven, with times in seconds
-since its start.
+node that drives them, and its stops with their number and the nodes that drive or act there; ``work``: a stretch of
+work along a path, with the intervals in which it is ``on``. ``avoided``: ground that a plan keeps out of. ``choice``:
+a place that an answer to a question would select. ``leg``, ``worked``, ``capture``, ``end``: a mission that was driven, with times in seconds since its start.
 """
 
 from __future__ import annotations
@@ -19,11 +18,13 @@ from fieldhand.site.choices import choice_marks
 from fieldhand.site.drawing.blocks import block_words, outline_of
 from fieldhand.site.model import Place, Site
 from fieldhand.site.projection import Projection
-from fieldhand.task.results import Acted, Arrived, Driving, Ended, Event
+from fieldhand.task.results import Acted, Arrived, Driving, Ended, Event, Worked
 
 if TYPE_CHECKING:
     from fieldhand.forecast.estimate import Estimate
     from fieldhand.forecast.walk_steps import Walk
+    from fieldhand.site.working.stretch import Stretch
+    from fieldhand.task.plan import Node
 
 Feature = dict[str, Any]
 #: Decimals of a degree, for a resolution of a centimetre.
@@ -102,6 +103,19 @@ def driven_map(events: Iterable[Event]) -> Feature:
             case Arrived() if driving is not None:
                 features.append(_leg(driving, event.t, to=event.place))
                 driving = None
+            case Worked():
+                features += [
+                    _feature(
+                        "LineString",
+                        [_position(lat, lon) for lat, lon in part],
+                        role="worked",
+                        t=event.t,
+                        node=event.node,
+                        action=event.action,
+                        name=event.stretch,
+                    )
+                    for part in event.paths
+                ]
             case Acted():
                 features.append(
                     _feature(
@@ -130,6 +144,10 @@ def driven_map(events: Iterable[Event]) -> Feature:
 
 def _add_legs(legs: dict[tuple[Any, ...], Feature], walk: Walk, projection: Projection, *, other: bool) -> None:
     for step in walk.steps:
+        if step.stretch is not None:
+            legs.setdefault(
+                (step.node.id, step.stretch.points), _stretch(step.node, step.stretch, projection, other=other)
+            )
         if step.drive is None:
             continue
         legs.setdefault(
@@ -146,10 +164,24 @@ def _add_legs(legs: dict[tuple[Any, ...], Feature], walk: Walk, projection: Proj
         )
 
 
+def _stretch(node: Node, stretch: Stretch, projection: Projection, *, other: bool) -> Feature:
+    """Return a stretch of work along a path."""
+    return _feature(
+        "LineString",
+        projection.positions(stretch.points, _DECIMALS),
+        role="work",
+        node=node.id,
+        name=str(stretch.name),
+        length_m=round(stretch.length_m, 2),
+        on=[[round(a, 2), round(b, 2)] for a, b in stretch.on],
+        branch=other,
+    )
+
+
 def _add_stops(stops: dict[tuple[str, str], Feature], walk: Walk, *, other: bool) -> None:
     """Add a stop for each place at which a node drives or acts, except for the way home."""
     for step in walk.steps:
-        if step.kind not in ("drive", "act", "wait"):
+        if step.kind not in ("drive", "act", "wait") or step.node.work is not None:
             continue
         place = step.places[0]
         stop = stops.setdefault(

@@ -21,6 +21,7 @@ from fieldhand.approval.speed import speed_problems
 from fieldhand.approval.timing import timing_problems
 from fieldhand.approval.watch_checks import watch_problems
 from fieldhand.approval.ways import by_rules, rule_problems, way_problems
+from fieldhand.approval.working_checks import implement_problems, working_problems
 from fieldhand.errors import FieldhandError, PlaceError, TaskError
 from fieldhand.forecast.estimate import Estimate, estimate, explore
 from fieldhand.forecast.visit_order import drives_for, start_place
@@ -95,6 +96,7 @@ def examine(
         charge_percent: State of charge at the start, in percent.
     """
     problems = [*_document(task, robot, document), *_references(task, robot), *_resources(task, site, robot)]
+    problems.extend(implement_problems(task, robot))
     problems.extend(unaccounted(task))
     problems.extend(speed_problems(task, robot))
     if not _errors(problems):
@@ -118,6 +120,7 @@ def examine(
                 problems.extend(budget_problems(task, site, robot, forecast))
                 problems.extend(battery_problems(task, robot))
                 problems.extend(timing_problems(task, site, forecast))
+                problems.extend(working_problems(task, robot, forecast))
     once = dict.fromkeys(with_words(problem, task) for problem in problems)
     found = tuple(sorted(once, key=lambda p: p.severity != "error"))
     return Examination(task=task, site=site, robot=robot, problems=found, estimate=forecast)
@@ -183,11 +186,15 @@ def _places(task: Task, site: Site, robot: RobotProfile) -> Iterator[PlanProblem
         selector = node.selector
         if selector is None or selector.relative:
             continue
+        if node.work is not None and node.work.mode in ("area", "perimeter"):
+            continue  # an area may have no trees; it is resolved on every branch
         try:
             places = _resolved(node, selector, site)
         except PlaceError as error:
             yield _of_error(error, node.id)
             continue
+        if node.work is not None:
+            continue  # its stretches are checked on every branch
         closed = [(p, reason) for p, reason in zip(places, drives.problems(places), strict=True) if reason]
         if node.visits_each and node.is_optional and len(closed) < len(places):
             yield from _left_out(node, closed, site)

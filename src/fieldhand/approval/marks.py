@@ -36,11 +36,18 @@ def colours_of(stops: Sequence[MapStop]) -> dict[str, str]:
     return {name: PALETTE[k % len(PALETTE)] for k, name in enumerate(names)}
 
 
+#: Colour and width in points of the parts of the route on which an implement is on.
+WORKED, _WORKED_PT = "#e08a1e", 4.0
+
+
 def draw_leg(ax: Axes, leg: Leg) -> None:
     """Draw a leg with a line style that shows its certainty."""
     style, width, alpha = LINES[leg.certainty]
     x, y = zip(*leg.points, strict=True)
     ax.plot(x, y, color=PATH, linestyle=style, linewidth=width, alpha=alpha, zorder=10, gid="leg")
+    for part in leg.worked:
+        x, y = zip(*part, strict=True)
+        ax.plot(x, y, color=WORKED, linewidth=_WORKED_PT, alpha=0.55, solid_capstyle="butt", zorder=9, gid="worked")
 
 
 def draw_arrows(ax: Axes, legs: Sequence[Leg]) -> None:

@@ -8,6 +8,7 @@ from typing import Literal
 
 from fieldhand.forecast.walk_steps import Walk, WalkStep
 from fieldhand.site.model import Place
+from fieldhand.site.working.stretch import pieces
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import Node, walk
 from fieldhand.wording.steps import ReadBackLine
@@ -33,10 +34,11 @@ class MapStop:
 
 @dataclass(frozen=True, kw_only=True)
 class Leg:
-    """A driven leg of the route."""
+    """A driven leg of the route; ``worked`` are the parts of it on which an implement is on."""
 
     points: tuple[XY, ...]
     certainty: Certainty
+    worked: tuple[tuple[XY, ...], ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -92,7 +94,11 @@ class _Gatherer:
                 way: Certainty = "budget" if from_optional else "conditional" if from_reading else certainty
                 self.legs.setdefault(step.drive.points, Leg(points=step.drive.points, certainty=way))
                 from_optional, from_reading = step.node.id in self._optional, step.node.id in self._by_readings
-            if step.kind in ("drive", "act", "wait"):
+            if step.stretch is not None:
+                points = step.stretch.points
+                worked = pieces(points, step.stretch.on) if step.node.work is not None and step.node.work.action else ()
+                self.legs.setdefault(points, Leg(points=points, certainty=certainty, worked=worked))
+            if step.kind in ("drive", "act", "wait") and step.node.work is None:
                 self._stop(step, certainty, visits)
 
     def _certainty(self, step: WalkStep, after_optional: bool) -> Certainty:

@@ -6,12 +6,12 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 
 from fieldhand.task import plan as p
-from fieldhand.task.results import Acted, Event, InDoubt, Shed
+from fieldhand.task.results import Acted, Event, InDoubt, Shed, Worked
 
 
 @dataclass(kw_only=True)
 class CaptureCount:
-    """Counts of one action of the plan in an event log.
+    """Counts of one action of the plan in an event log; of work along a path, its stretches count as captures.
 
     Attributes:
         wanted: Captures to be made on the branch that was taken, as far as that is known.
@@ -27,6 +27,8 @@ class CaptureCount:
         spared: Times that an optional step which holds it was shed.
         skipped: Why a branch that leads here was not taken, each time.
         stopped: A stop of the plan came before it.
+        stretches: True for work along a path, whose stretches are counted.
+        worked_m: Metres worked along them.
     """
 
     wanted: int = 0
@@ -42,6 +44,8 @@ class CaptureCount:
     spared: int = 0
     skipped: list[str] = field(default_factory=list)
     stopped: bool = False
+    stretches: bool = False
+    worked_m: float = 0.0
     reasons: list[str] = field(default_factory=list)
 
 
@@ -54,13 +58,23 @@ class CaptureCounts:
     """
 
     def __init__(self, plan: p.Node) -> None:
-        self.of = {act.id: CaptureCount() for act in p.acts(plan)}
+        self.of = {node.id: CaptureCount(stretches=node.work is not None) for node in p.walk(plan) if _counts(node)}
         self.inside = {node.id: frozenset(n.id for n in p.walk(node)) for node in p.walk(plan)}
 
     def count(self, events: Iterable[Event]) -> None:
         """Add what was done, wherever the plan was then."""
+        worked: dict[tuple[str, str], bool] = {}
         for event in events:
             count = self.of.get(event.node)
+            if count is not None and isinstance(event, Worked):
+                count.reached = True
+                count.worked_m += event.worked_m
+                whole = event.status == "success"
+                count.done += whole
+                worked[event.node, event.stretch] = whole
+            if count is not None and isinstance(event, Shed):
+                # An obstacle covers a part of the stretch, whose rest was worked.
+                count.done -= sum(worked.pop((event.node, place), False) for place in event.places)
             if count is not None and isinstance(event, Acted | InDoubt):
                 count.reached = True
                 count.done += event.count if isinstance(event, Acted) and event.status == "success" else 0
@@ -68,7 +82,7 @@ class CaptureCounts:
 
     def under(self, *nodes: p.Node) -> list[CaptureCount]:
         """Return the counts of the actions in some nodes, in plan order."""
-        return [self.of[act.id] for node in nodes for act in p.acts(node)]
+        return [self.of[inner.id] for node in nodes for inner in p.walk(node) if _counts(inner)]
 
     def copies(self, node: p.Node) -> Mapping[str, CaptureCount]:
         """Return copies of the counts of a node's actions, for :meth:`forgive`."""
@@ -78,6 +92,8 @@ class CaptureCounts:
         """Add what a node wants as far as the plan fixes it; the rest is open."""
         if node.act is not None:
             self.of[node.id].wanted += node.act.count * times
+        elif _counts(node):
+            self.of[node.id].open = True  # the site determines the number of stretches
         for part in node.parts:
             if part.certain and part.times is not None and node.tested is None and not node.is_optional:
                 self.miss(part.node, times * part.times)
@@ -122,3 +138,8 @@ class CaptureCounts:
                 count.given_up += max(1, len(event.places))
             if event.reason not in count.reasons:
                 count.reasons.append(event.reason)
+
+
+def _counts(node: p.Node) -> bool:
+    """Return True if a node is an action at a place or along a path."""
+    return node.act is not None or (node.work is not None and bool(node.work.action))

@@ -19,7 +19,7 @@ from fieldhand.evaluation.capture_counts import CaptureCount, CaptureCounts
 from fieldhand.language import message
 from fieldhand.task import instructions as ask
 from fieldhand.task.nodes.base import Cut, Failed, GivenUp, Stopped
-from fieldhand.task.plan import Act, Node, acts
+from fieldhand.task.plan import Act, Node, WorkAlong, acts
 from fieldhand.task.results import (
     Acted,
     Arrived,
@@ -39,6 +39,8 @@ from fieldhand.task.results import (
     Shed,
     Visiting,
     Waited,
+    Worked,
+    Working,
 )
 from fieldhand.task.run import PlanRun, RunOutcome, StackFrame, carry_out
 
@@ -59,6 +61,7 @@ class _ReplayedVisits:
         shed: Number of places given up.
         skipped: Number of places left out because of an event.
         before: The counts when the current visit began.
+        missed: True if a mandatory stretch of work was not done whole.
     """
 
     listed: tuple[str, ...] = ()
@@ -67,6 +70,7 @@ class _ReplayedVisits:
     shed: int = 0
     skipped: int = 0
     before: Mapping[str, CaptureCount] = field(default_factory=dict)
+    missed: bool = False
 
     @property
     def unmade(self) -> int:
@@ -128,6 +132,7 @@ class _Replay:
             visits.shed += shed
             if event.cause == "event" and event.optional:
                 visits.skipped += shed
+            visits.missed = visits.missed or not event.optional
         self._counts.shed(node, event)
         return True
 
@@ -170,6 +175,10 @@ class _Replay:
                 return self._decide(node)
             case ask.BeginVisits(node=loop):
                 return self._begin(loop)
+            case ask.BeginStretches(node=work):
+                return self._begin(work)
+            case ask.WorkStretch(node=work, tour=tour):
+                self._work(work, tour)
             case ask.NextVisit(node=loop, tour=tour):
                 return self._visit(loop, tour)
             case ask.BeginRound(node=repeat, left=left):
@@ -235,6 +244,33 @@ class _Replay:
         if not over:
             raise self._lost()
 
+    def _work(self, node: WorkAlong, visits: _ReplayedVisits) -> None:
+        """Consume the work along one stretch: attempts, drives around obstacles, and what was given up of it."""
+        count, name, good, failed = self._counts.of.get(node.id, CaptureCount()), "", False, False
+        while (event := self._peek_own(node)) is not None:
+            if isinstance(event, Working | Worked):
+                if name and event.stretch != name:
+                    break
+                name = event.stretch
+                good = isinstance(event, Worked) and event.status == "success"
+                failed = failed or (isinstance(event, Worked) and event.status == "failed")
+            elif isinstance(event, Shed):
+                if not name or name not in event.places:
+                    break
+                self._counts.shed(node, event)
+                self._next += 1
+                visits.missed = visits.missed or not event.optional
+                count.wanted += 1
+                return
+            elif not isinstance(event, Driving | Arrived | Faulted):
+                break
+            self._next += 1
+        count.wanted += 1
+        count.seen += good
+        if not good:
+            count.failed += failed
+            raise self._lost()
+
     def _drive(self, node: Node) -> None:
         """Consume the drive of the node; a drive to the current place has no event."""
         step, failed, set_out = self._run.optional, False, False
@@ -278,8 +314,10 @@ class _Replay:
         if visits.to_come <= 0:
             if not node.is_optional:
                 self._miss_visits(node, visits)
+                if node.work is not None and visits.missed:
+                    raise self._lost()
             return None
-        seen = self._comes(node.children) or isinstance(self._peek_own(node), Decided)
+        seen = self._comes(node.children) or isinstance(self._peek_own(node), Decided | Working | Worked)
         if not seen and not (self._is_whole() and _is_silent(node)):
             raise self._lost()
         visits.begun += 1
@@ -374,11 +412,15 @@ class _Replay:
         if node.is_optional or node.tested is not None:
             self._counts.open(node)
         else:
-            self._counts.miss(node.children[0], visits.unmade)
+            self._counts.miss(*((node, visits.unmade) if node.work is not None else (node.children[0], visits.unmade)))
 
 
 def _is_silent(node: Node) -> bool:
     """Return True if a node that does not fail may leave no trace in the log."""
-    if node.dwell_s:
-        return False
-    return node.act is None and not node.is_choice and all(map(_is_silent, node.caught or node.children))
+    return (
+        node.act is None
+        and not node.dwell_s
+        and node.work is None
+        and not node.is_choice
+        and all(map(_is_silent, node.caught or node.children))
+    )

@@ -136,6 +136,8 @@ def _why(
 
 
 def _counted(goal: Goal, tally: CaptureCount) -> str:
+    if tally.stretches:
+        return _stretches(goal, tally)
     if goal.optional or tally.open:
         return say_captures(goal.action, tally.done)
     if tally.done > tally.wanted:
@@ -143,6 +145,15 @@ def _counted(goal: Goal, tally: CaptureCount) -> str:
             "{captures}, {count} requested", captures=say_captures(goal.action, tally.done), count=tally.wanted
         )
     return message("{count} of {captures}", count=tally.done, captures=say_captures(goal.action, tally.wanted))
+
+
+def _stretches(goal: Goal, tally: CaptureCount) -> str:
+    """Return how many stretches were worked whole, and how many metres in all."""
+    metres = message("{metres} m worked", metres=f"{tally.worked_m:.0f}")
+    if goal.optional or tally.open:
+        return joined(", ", (counted("{count} stretch", "{count} stretches", tally.done), metres))
+    of = counted("{done} of {count} stretch", "{done} of {count} stretches", tally.wanted, done=tally.done)
+    return joined(", ", (of, metres))
 
 
 def _not_called_for(tally: CaptureCount, because: str) -> str:

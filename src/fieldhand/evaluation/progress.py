@@ -26,10 +26,11 @@ from fieldhand.task.results import (
     Paused,
     Resumed,
     Started,
+    Worked,
 )
 from fieldhand.wording.events import EventText, noun
 
-_CHARGED = Started | Arrived | Acted | InDoubt | Resumed | LimitCrossed | Ended
+_CHARGED = Started | Arrived | Acted | Worked | InDoubt | Resumed | LimitCrossed | Ended
 
 ProgressState = Literal["running", "paused", "interrupted", "ended"]
 
@@ -84,7 +85,7 @@ def mission_progress(task: Task, robot: RobotProfile, events: Sequence[Event], *
     at = next((e for e in reversed(events) if isinstance(e, Started | Arrived | Resumed | LimitCrossed | Ended)), None)
     to = next((e for e in reversed(events) if isinstance(e, Arrived | Driving)), None)
     charged = [e.charge_percent for e in events if isinstance(e, _CHARGED)]
-    driven = [e.travelled_m for e in events if isinstance(e, Arrived | LimitCrossed | Ended)]
+    driven = [e.travelled_m for e in events if isinstance(e, Arrived | Worked | LimitCrossed | Ended)]
     status, reason, found = judge_end(task, events, robot.energy.reserve_percent)
     return MissionProgress(
         state=state,

@@ -21,6 +21,7 @@ from fieldhand.task.results import (
     Resumed,
     Started,
     Waited,
+    Worked,
 )
 
 LatLon = tuple[float, float]
@@ -76,7 +77,7 @@ def incidents(events: Sequence[Event], tell: Callable[[Event], str | None]) -> t
 
 def position_of(event: Event) -> LatLon | None:
     """Return the robot position recorded in an event."""
-    if isinstance(event, Started | Arrived | Resumed | Obstructed | LimitCrossed | Ended):
+    if isinstance(event, Started | Arrived | Worked | Resumed | Obstructed | LimitCrossed | Ended):
         return (event.lat, event.lon) if known((event.lat, event.lon)) else None
     return None
 

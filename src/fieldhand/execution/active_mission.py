@@ -15,11 +15,11 @@ from fieldhand.clock import Clock
 from fieldhand.errors import ActionFault, BlockedFault, DriveFault, FieldhandError, LostFault, PlaceError
 from fieldhand.execution.battery_meter import BatteryMeter
 from fieldhand.execution.drive_controller import DriveController, drive_goal
-from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Progress
+from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Progress, StretchWork
 from fieldhand.execution.guard import Guard
 from fieldhand.execution.journal.records import Observation
 from fieldhand.execution.limit_levels import charge_levels, fastest_drain
-from fieldhand.execution.open_goals import OpenCapture, OpenDrive, joules_done, unusable
+from fieldhand.execution.open_goals import OpenCapture, OpenDrive, OpenStretch, joules_done, unusable
 from fieldhand.execution.recorded_inputs import RecordedInputs
 from fieldhand.execution.time_of_day import TimeOfDay
 from fieldhand.forecast.conditions import ConditionInputs
@@ -27,6 +27,7 @@ from fieldhand.forecast.mission_state import MissionState, Spent
 from fieldhand.forecast.optional_visits import OptionalVisits
 from fieldhand.forecast.resource_limits import speed_of
 from fieldhand.forecast.visit_order import start_place
+from fieldhand.forecast.working import amount_of, end_of, use_of, working_speed
 from fieldhand.places.context import Context
 from fieldhand.places.reading_series import ReadingSeries, TakenReading
 from fieldhand.places.resolution import resolve, resolve_one
@@ -35,10 +36,24 @@ from fieldhand.robot.model import InDoubtPolicy, RobotProfile
 from fieldhand.site.blockages import Blockages
 from fieldhand.site.drives import Drive, Drives
 from fieldhand.site.model import Place, Site
+from fieldhand.site.working.stretch import Stretch, pieces
 from fieldhand.task.build import exit_of
 from fieldhand.task.collected import collected
 from fieldhand.task.frames import Fault, Task, Then
-from fieldhand.task.results import Acted, Arrived, ClockSet, Driving, Event, Faulted, InDoubt, MissionStatus, Resumed
+from fieldhand.task.nodes.work_along import WorkAlong
+from fieldhand.task.results import (
+    Acted,
+    Arrived,
+    ClockSet,
+    Driving,
+    Event,
+    Faulted,
+    InDoubt,
+    MissionStatus,
+    Resumed,
+    Worked,
+    Working,
+)
 from fieldhand.task.run import PlanRun
 
 #: Seconds of the mission between two polls while the robot waits.
@@ -160,6 +175,7 @@ class ActiveMission:
             progress = self.controller.poll()
             if isinstance(goal, OpenDrive):
                 metres += progress.metres
+                joules += self._implement_j(goal)
             else:
                 joules += joules_done(self.robot.action[goal.action], progress)
         percent = self._full - self.charge_percent()
@@ -309,6 +325,86 @@ class ActiveMission:
         """Return the speed limit of a drive that begins now."""
         return speed_of(self.task.constraints, self.robot, self.run.pace_m_s)
 
+    def start_stretch(self, node: WorkAlong, stretch: Stretch, number: int) -> None:
+        """Start the ``number``-th attempt at a stretch."""
+        goal = DriveGoal(
+            place=end_of(stretch, self.site),
+            path_m=stretch.points,
+            path_degrees=self.site.projection.lat_lon(stretch.points),
+            length_m=stretch.length_m,
+            speed_m_s=working_speed(node, self.task.constraints, self.robot),
+            work=StretchWork(
+                action=node.action, parameters=self._parameters(node), on=stretch.on if node.action else ()
+            ),
+        )
+        self._open = OpenStretch(node=node.id, goal=goal, work=node, stretch=stretch, number=number)
+        self._emit_working(self._open, goal)
+        self.controller.start(goal)
+
+    def _parameters(self, node: WorkAlong) -> Mapping[str, str | float]:
+        action = self.robot.action.get(node.action)
+        defaults = {} if action is None else {p.name: p.default for p in action.parameters}
+        return {**defaults, **dict(node.parameters)}
+
+    def _implement_j(self, open_: OpenDrive) -> float:
+        """Return the energy that the implement of a stretch has used so far in joules, by the profile."""
+        done = open_.done(self.controller.reached_m) if isinstance(open_, OpenStretch) else None
+        if done is None or not isinstance(open_, OpenStretch):
+            return 0.0
+        return use_of(done, open_.work, self.task.constraints, self.robot).implement_j
+
+    def _emit_working(self, open_: OpenStretch, goal: DriveGoal) -> None:
+        """Record the start of work along a stretch, or along the rest of it."""
+        self.driven = goal.path_m
+        self.emit(
+            Working(
+                t=self.t,
+                node=open_.node,
+                action=open_.work.action,
+                stretch=open_.stretch.name,
+                parameters={} if goal.work is None else goal.work.parameters,
+                planned_m=goal.length_m,
+                path=goal.path_degrees,
+                on=() if goal.work is None else goal.work.on,
+                speed_m_s=goal.speed_m_s,
+                attempt=open_.number,
+            )
+        )
+
+    def _end_stretch(self, open_: OpenStretch, progress: Progress) -> None:
+        """Record the end of work along a stretch: what was worked, and where the robot is."""
+        self.action_j += self._implement_j(open_)
+        succeeded = progress.state == "succeeded"
+        node, done = open_.work, open_.done(self.controller.reached_m)
+        if succeeded:
+            done = open_.stretch
+        use = None if done is None else use_of(done, node, self.task.constraints, self.robot)
+        on_m = 0.0 if use is None else use.on_m
+        amount = amount_of(node, self.robot, on_m) if node.action else None
+        worked = () if done is None or not node.action else pieces(done.points, done.on)
+        at = self.observation.position
+        self.emit(
+            Worked(
+                t=self.t,
+                node=open_.node,
+                action=node.action,
+                stretch=open_.stretch.name,
+                status="success" if succeeded else "cancelled" if progress.state == "cancelled" else "failed",
+                lat=at.lat,
+                lon=at.lon,
+                leg_m=progress.metres,
+                worked_m=on_m,
+                area_m2=0.0 if use is None else use.area_m2,
+                amount=0.0 if amount is None else amount.value,
+                unit="" if amount is None else amount.unit,
+                paths=tuple(self.site.projection.lat_lon(part) for part in worked),
+                attempt=open_.number,
+                what=progress.what,
+                travelled_m=self.travelled_m,
+                charge_percent=self.charge_percent(),
+            )
+        )
+
     def start_capture(self, node: str, action: str, parameters: Mapping[str, str | float], number: int) -> None:
         """Start the ``number``-th attempt at a capture."""
         self._open = OpenCapture(node=node, action=action, number=number)
@@ -407,6 +503,9 @@ class ActiveMission:
     def _restarted(self, goal: DriveGoal) -> None:
         """Record the start of a drive that continues an interrupted one."""
         self.note_power_cuts()
+        if isinstance(self._open, OpenStretch) and goal.work is not None:
+            self._emit_working(self._open, goal)
+            return
         self._emit_driving("" if self._open is None else self._open.node, goal)
 
     def _in_doubt(self, goal: ActionGoal, then: InDoubtPolicy, progress: Progress) -> None:
@@ -433,10 +532,14 @@ class ActiveMission:
     def _end_drive(self, open_: OpenDrive, progress: Progress) -> None:
         """Record the end of a drive, at its destination or on the way."""
         self.travelled_m += progress.metres
+        if isinstance(open_, OpenStretch):
+            self._end_stretch(open_, progress)
         if progress.state != "succeeded":
             self.arrived_at, self.standing = None, self._stands()
             return
         self.stop_at(open_.goal.place)
+        if isinstance(open_, OpenStretch):
+            return
         self.emit_arrived(open_.node, open_.goal.place, progress.metres)
 
     def _end_capture(self, open_: OpenCapture, progress: Progress) -> Progress:

@@ -16,6 +16,12 @@ from fieldhand.execution.recorded_inputs import RecordedInputs
 from fieldhand.robot.model import InDoubtPolicy, RobotProfile
 from fieldhand.site.drives import Drive, Drives
 from fieldhand.site.model import Place, Site
+from fieldhand.site.working.stretch import Stretch
+
+#: Metres from the path of a stretch beyond which the robot is not on it.
+_OFF_M = 1.5
+#: Odometry may fall short of the path by this factor.
+_ODOMETRY = 1.2
 
 
 class DriveController:
@@ -31,6 +37,7 @@ class DriveController:
 
     Attributes:
         paused: True while nothing new begins and the robot stands still.
+        reached_m: Distance along the path of the current or last stretch up to which it was driven.
     """
 
     def __init__(
@@ -55,11 +62,14 @@ class DriveController:
         self._cancelled = False
         self._before = Progress(state="idle")
         self._result: Progress | None = None
+        self.reached_m = 0.0
+        self._part_from_m = 0.0
 
     def start(self, goal: DriveGoal | ActionGoal) -> None:
         """Begin a goal, after the pause if the mission is paused."""
         self._goal, self._result, self._before = goal, None, Progress(state="running")
         self._under_way = self._cancelled = False
+        self.reached_m = 0.0
         if not self.paused:
             self._begin()
 
@@ -76,6 +86,7 @@ class DriveController:
                 continue
             progress = self._inputs.observation.progress
             if not progress.over:
+                self._track(progress)
                 return self._sum(progress)
             self._under_way = False
             self._conclude(self._goal, progress)
@@ -111,7 +122,9 @@ class DriveController:
         goal = self._goal
         self._broken_off = self._approaching = False
         try:
-            if isinstance(goal, DriveGoal):
+            if isinstance(goal, DriveGoal) and goal.work is not None:
+                self._begin_stretch(goal)
+            elif isinstance(goal, DriveGoal):
                 begins_here = math.dist(self._inputs.observation.position.xy, goal.path_m[0]) <= AT_M
                 self._drive(goal if begins_here else self._way_to(goal.place, goal.speed_m_s), goal)
             elif goal is not None:
@@ -137,6 +150,8 @@ class DriveController:
         """Conclude the mission's goal, or prepare its next part, after a driver goal has ended."""
         no_more = self._cancelled or self._inputs.observation.stopped is not None
         cut = progress.state == "cut_off"
+        if not cut or self._harmful(goal):
+            self._track(progress)
         if isinstance(goal, ActionGoal) and not self._approaching:
             if not cut:
                 self._end(progress)
@@ -156,6 +171,41 @@ class DriveController:
             self._strayed, self._before = False, self._sum(progress)
         else:
             self._end(progress)
+
+    # --- stretches -------------------------------------------------------------------------------------------------
+
+    def _begin_stretch(self, goal: DriveGoal) -> None:
+        """Start what is left of a stretch, after a drive to where it begins if the robot is elsewhere."""
+        rest = rest_of(self._site, goal, self.reached_m)
+        begins_here = math.dist(self._inputs.observation.position.xy, rest.path_m[0]) <= AT_M
+        self._approaching = not begins_here
+        if begins_here:
+            self._part_from_m = self.reached_m
+            self._drive(rest, rest if self.reached_m == 0.0 else goal)
+            return
+        (degrees,) = self._site.projection.lat_lon([rest.path_m[0]])
+        begin = Place.of_robot(rest.path_m[0], lat=degrees[0], lon=degrees[1], name=goal.place.id)
+        self._drive(self._way_to(begin, self._robot.speed_m_s), goal)
+
+    def _harmful(self, goal: DriveGoal | ActionGoal) -> bool:
+        """Return True if no part of a stretch may be worked twice, so that a power cut leaves none to be repeated."""
+        work = goal.work if isinstance(goal, DriveGoal) else None
+        return work is not None and bool(work.action) and self._robot.action[work.action].in_doubt == "skip"
+
+    def _track(self, progress: Progress) -> None:
+        """Record how far the robot has come along a stretch."""
+        goal = self._goal
+        if not isinstance(goal, DriveGoal) or goal.work is None or self._approaching:
+            return
+        if progress.state == "succeeded":
+            self.reached_m = goal.length_m
+            return
+        path, at = Stretch(name="", points=goal.path_m, on=()), self._inputs.observation.position.xy
+        if path.away_m(at) > _OFF_M:
+            return
+        # A path may come back to where it began: the robot is no farther along than it has driven.
+        farthest_m = self._part_from_m + _ODOMETRY * progress.metres + AT_M
+        self.reached_m = path.project(at, after_m=self.reached_m, before_m=farthest_m)
 
     def _end(self, progress: Progress) -> None:
         self._result = dataclasses.replace(self._sum(progress), state=progress.state)
@@ -177,6 +227,23 @@ class DriveController:
         """
         here = self._inputs.observation.position.as_place()
         return drive_goal(self._site, self._ways().between(here, place), speed_m_s)
+
+
+def rest_of(site: Site, goal: DriveGoal, from_m: float) -> DriveGoal:
+    """Return what is left of the goal of a stretch from a distance along it."""
+    work = goal.work
+    if work is None or from_m <= 0.0:
+        return goal
+    rest = Stretch(name=goal.place.id, points=goal.path_m, on=work.on).part(from_m, goal.length_m)
+    if rest is None:
+        rest = Stretch(name=goal.place.id, points=(goal.path_m[-1], goal.path_m[-1]), on=())
+    return dataclasses.replace(
+        goal,
+        path_m=rest.points,
+        path_degrees=site.projection.lat_lon(rest.points),
+        length_m=rest.length_m,
+        work=dataclasses.replace(work, on=rest.on),
+    )
 
 
 def drive_goal(site: Site, drive: Drive, speed_m_s: float) -> DriveGoal:

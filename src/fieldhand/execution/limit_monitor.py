@@ -17,10 +17,11 @@ from shapely.geometry import LineString, Point
 from fieldhand.errors import DriveFault
 from fieldhand.execution.active_mission import ActiveMission
 from fieldhand.execution.limit_levels import Consequence, LimitLevel, fastest_drain, levels_of
-from fieldhand.execution.open_goals import OpenCapture, OpenDrive
+from fieldhand.execution.open_goals import OpenCapture, OpenDrive, OpenStretch
 from fieldhand.forecast.failsafe_state import FailsafeForecast, FailsafeState
 from fieldhand.forecast.mission_state import Spent, Work
-from fieldhand.forecast.resource_limits import slower_s_per_m
+from fieldhand.forecast.resource_limits import slower_s_per_m, speed_of
+from fieldhand.forecast.working import use_of
 from fieldhand.site.model import Place, Site
 from fieldhand.site.stopping import safe_stop
 from fieldhand.task.frames import Then as Exit
@@ -279,12 +280,18 @@ class LimitMonitor:
             return 0.0
 
     def _work_left(self, doing: OpenDrive | OpenCapture | None, on_m: float) -> Work:
-        """Return the work left of a capture or a wait, or the time that a pace adds to the rest of a drive."""
+        """Return the work left of a capture, a stretch or a wait, or the time that a pace adds to a drive."""
         if doing is None:
             return Work(seconds=self._mission.dwell_left_s)
+        constraints, robot = self._mission.task.constraints, self._mission.robot
+        if isinstance(doing, OpenStretch):
+            rest = doing.stretch.part(self._mission.controller.reached_m, doing.stretch.length_m)
+            if rest is None:
+                return Work()
+            # The metres themselves are those of the current drive.
+            return replace(use_of(rest, doing.work, constraints, robot).work(speed_of(constraints, robot)), metres=0.0)
         if isinstance(doing, OpenDrive):
-            slower = slower_s_per_m(self._mission.task.constraints, self._mission.robot, doing.goal.speed_m_s)
-            return Work(seconds=on_m * slower)
+            return Work(seconds=on_m * slower_s_per_m(constraints, robot, doing.goal.speed_m_s))
         action = self._mission.robot.action[doing.action]
         left = max(0.0, 1.0 - self._mission.controller.poll().seconds / action.duration_s)
         return Work(seconds=left * action.duration_s, joules=left * action.energy_j)

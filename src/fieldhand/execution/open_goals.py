@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from fieldhand.execution.drivers.protocol import DriveGoal, Progress
 from fieldhand.language import message
 from fieldhand.robot.model import Action, RobotProfile
+from fieldhand.site.working.stretch import Stretch
+from fieldhand.task.nodes.work_along import WorkAlong
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -16,6 +18,19 @@ class OpenDrive:
 
     node: str
     goal: DriveGoal
+
+
+@dataclass(frozen=True, kw_only=True)
+class OpenStretch(OpenDrive):
+    """Work along a stretch that the driver has begun and whose end is not recorded yet; ``number`` counts attempts."""
+
+    work: WorkAlong
+    stretch: Stretch
+    number: int
+
+    def done(self, reached_m: float) -> Stretch | None:
+        """Return the part of the stretch up to a distance along it; None if it is nothing."""
+        return self.stretch.part(0.0, reached_m)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -19,7 +19,9 @@ from fieldhand.execution.shed_work import (
     report_shed,
     shed_unreachable,
 )
+from fieldhand.execution.stretch_visits import StretchVisits
 from fieldhand.execution.waiting import dwell
+from fieldhand.execution.working import work
 from fieldhand.forecast.conditions import evaluate
 from fieldhand.forecast.mission_state import VisitChoice
 from fieldhand.forecast.visit_order import home_if_last, steps_in_order
@@ -127,6 +129,10 @@ class PlanExecutor:
                 return self._arrange(any_order)
             case instructions.BeginVisits(node=for_each):
                 return ForEachVisits(self.mission, for_each)
+            case instructions.BeginStretches(node=along):
+                return StretchVisits(self.mission, along)
+            case instructions.WorkStretch(node=along, tour=stretches):
+                yield from work(self.mission, along, stretches)
             case instructions.NextVisit(tour=tour, made=made):
                 self.place = None
                 yield from self._look_around(first=tour.place is None and made == 0)
@@ -160,7 +166,7 @@ class PlanExecutor:
     def _drive(self, request: instructions.DriveTo) -> Generator[None, None, Place]:
         """Drive to a place; ask the guard again if an obstacle changes the way."""
         mission, node = self.mission, request.node
-        tour: ForEachVisits | None = request.tour
+        tour: ForEachVisits | StretchVisits | None = request.tour
         place: Place = request.place
         self.place = place
         if request.back and mission.standing == place:

@@ -101,7 +101,7 @@ def _stops(walks: Sequence[Walk]) -> dict[tuple[int, int], WalkStep]:
         (w, k): step
         for w, walked in enumerate(walks)
         for k, step in enumerate(walked.steps)
-        if step.kind in ("act", "drive", "wait") and step.places
+        if step.kind in ("act", "drive", "wait", "work") and step.places
     }
 
 
@@ -135,7 +135,9 @@ def _longest(
             break
         place = step.places[0]
         way = ways_home.get((place.stand or place.xy, home.xy))
-        if way is None or (fault == "action_failed" and step.kind != "act"):
+        if way is None or (
+            fault == "action_failed" and step.kind != "act" and not (step.kind == "work" and _has_action(step))
+        ):
             continue
         again = _again(step, robot).seconds if fault == "action_failed" else 0.0
         seconds = float(before[w][k]) + again + (0.0 if way.drive is None else way.drive.length_m / speed)
@@ -155,6 +157,8 @@ def _ended(
     for step in steps:
         if step.drive is not None:
             samples.drive(step.drive.length_m, step.slower_s_per_m)
+        elif step.kind == "work":
+            samples.work(step.work)
         elif step.kind in ("act", "wait"):
             samples.work(Work(seconds=step.seconds, joules=step.joules))
     if fault == "action_failed":
@@ -183,6 +187,10 @@ def _ended(
         decisions=tuple(decisions),
         used=samples.used,
     )
+
+
+def _has_action(step: WalkStep) -> bool:
+    return step.node.work is not None and bool(step.node.work.action)
 
 
 def _again(step: WalkStep, robot: RobotProfile) -> Work:

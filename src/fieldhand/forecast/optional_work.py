@@ -15,7 +15,7 @@ from fieldhand.forecast.optional_visits import OptionalVisits
 from fieldhand.forecast.request_handler import ForecastHandler
 from fieldhand.forecast.walk_steps import WalkStep
 from fieldhand.site.model import Place
-from fieldhand.task.plan import ForEach, OptionalStep
+from fieldhand.task.plan import ForEach, OptionalStep, WorkAlong
 
 #: Maximum number of optional visits on a walk that is to make them, if no simulation of them is available.
 MAX_SCRIPTED_VISITS = 200
@@ -32,9 +32,14 @@ class LikelyOptionalWork:
         self._kept = kept
 
     def visits(
-        self, walker: ForecastHandler, node: ForEach, places: tuple[Place, ...], closed: tuple[Place, ...]
+        self,
+        walker: ForecastHandler,
+        node: ForEach | WorkAlong,
+        places: tuple[Place, ...],
+        closed: tuple[Place, ...],
+        stretches: tuple[Visit, ...] = (),
     ) -> tuple[Place, ...]:
-        return self._some(walker, node, _visits(walker).of_places(node, places, walker.context), closed)
+        return self._some(walker, node, stretches or _visits(walker).of_places(node, places, walker.context), closed)
 
     def takes(self, walker: ForecastHandler, node: OptionalStep) -> bool:
         try:
@@ -47,7 +52,11 @@ class LikelyOptionalWork:
         return bool(self._some(walker, node, [visit], ()))
 
     def _some(
-        self, walker: ForecastHandler, node: ForEach | OptionalStep, visits: Sequence[Visit], closed: tuple[Place, ...]
+        self,
+        walker: ForecastHandler,
+        node: ForEach | OptionalStep | WorkAlong,
+        visits: Sequence[Visit],
+        closed: tuple[Place, ...],
     ) -> tuple[Place, ...]:
         """Return the visits most likely to fit the budgets."""
         if not visits:
@@ -86,7 +95,12 @@ class ScriptedOptionalWork:
         self._kept = kept
 
     def visits(
-        self, walker: ForecastHandler, node: ForEach, places: tuple[Place, ...], closed: tuple[Place, ...]
+        self,
+        walker: ForecastHandler,
+        node: ForEach | WorkAlong,
+        places: tuple[Place, ...],
+        closed: tuple[Place, ...],
+        stretches: tuple[Visit, ...] = (),  # noqa: ARG002
     ) -> tuple[Place, ...]:
         made = self._made(node, places, most=walker.decide(node, "taken"))
         walker.note(WalkStep(node=node, kind="visit-list", context=walker.context, places=made, shed=closed))
@@ -103,7 +117,7 @@ class ScriptedOptionalWork:
             walker.note(WalkStep(node=node, kind="visit-list", context=walker.context, places=(first,)))
         return takes
 
-    def _made(self, node: ForEach, places: tuple[Place, ...], *, most: bool) -> tuple[Place, ...]:
+    def _made(self, node: ForEach | WorkAlong, places: tuple[Place, ...], *, most: bool) -> tuple[Place, ...]:
         """Return the visits of the sampled mission with the most, or fewest; without samples all visits, or none."""
         known = self._kept.get(node.id)
         if known is None:

@@ -179,13 +179,21 @@ def _walk_rest(walker: ForecastHandler, nodes: Sequence[Node]) -> RemainingWork:
         )
         walked = walker.run(())
     # The walk's own legs cannot be used: if it begins at its current place, the robot will have to come back there.
-    stops = [stop for k, stop in enumerate(walker.stops) if k == 0 or not walker.stops[k - 1].covers(stop)]
-    seconds, joules = walked.work
+    stops: list[Place] = []
+    legs: list[float] = []
+    for k, stop in enumerate(walker.stops):
+        if k and k - 1 in walker.worked:
+            legs.append(0.0)  # the way along a stretch is part of its work
+        elif k and stops[-1].covers(stop):
+            continue
+        elif k:
+            legs.append(walker.drives.between(stops[-1], stop).length_m)
+        stops.append(stop)
     return RemainingWork(
         stops=tuple(stops),
-        legs_m=tuple(walker.drives.between(a, b).length_m for a, b in itertools.pairwise(stops)),
-        work=Work(seconds=seconds, joules=joules),
-        mandatory=any(s.kind in ("drive", "act", "wait") for s in walked.steps),
+        legs_m=tuple(legs),
+        work=walked.whole_work,
+        mandatory=any(s.kind in ("drive", "act", "wait", "work") for s in walked.steps),
     )
 
 

@@ -18,6 +18,7 @@ from fieldhand.forecast.sampled_costs import MissionSamples
 from fieldhand.forecast.service import retry_work, work_of
 from fieldhand.forecast.walk_state import Answers, WalkState
 from fieldhand.forecast.walk_steps import Walk, WalkStep
+from fieldhand.forecast.working import PlannedStretches, stretches_of, visit_of
 from fieldhand.places.context import Context
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
@@ -25,7 +26,7 @@ from fieldhand.task import instructions as ask
 from fieldhand.task.build import exit_of
 from fieldhand.task.frames import Task
 from fieldhand.task.nodes.base import Failed, Stopped
-from fieldhand.task.plan import Act, ForEach, Node, OptionalStep
+from fieldhand.task.plan import Act, ForEach, Node, OptionalStep, WorkAlong
 from fieldhand.task.run import carry_out
 
 if TYPE_CHECKING:
@@ -39,15 +40,21 @@ class OptionalWorkPolicy(Protocol):
     """Policy that decides which optional visits and steps a walk includes."""
 
     def visits(
-        self, walker: ForecastHandler, node: ForEach, places: tuple[Place, ...], closed: tuple[Place, ...]
+        self,
+        walker: ForecastHandler,
+        node: ForEach | WorkAlong,
+        places: tuple[Place, ...],
+        closed: tuple[Place, ...],
+        stretches: tuple[Visit, ...] = (),
     ) -> tuple[Place, ...]:
         """Return the optional visits to make, in visiting order, and record them as a step.
 
         Args:
-            walker: Handler of a walk that has reached the for-each.
-            node: The for-each.
+            walker: Handler of a walk that has reached the for-each, or work along a path.
+            node: The for-each or the work.
             places: Reachable places, with stands.
             closed: Places that can never be reached.
+            stretches: The visits themselves, if they are stretches of work.
         """
 
     def takes(self, walker: ForecastHandler, node: OptionalStep) -> bool:
@@ -60,9 +67,10 @@ class SkipOptionalWork:
     def visits(
         self,
         walker: ForecastHandler,
-        node: ForEach,
+        node: ForEach | WorkAlong,
         places: tuple[Place, ...],  # noqa: ARG002
         closed: tuple[Place, ...],
+        stretches: tuple[Visit, ...] = (),  # noqa: ARG002
     ) -> tuple[Place, ...]:
         walker.note(WalkStep(node=node, kind="visit-list", context=walker.context, shed=closed))
         return ()
@@ -206,6 +214,10 @@ class ForecastHandler(WalkState):
                 return tour.next()
             case ask.BeginVisits(node=for_each):
                 return self._begin_visits(for_each)
+            case ask.BeginStretches(node=work):
+                return self._begin_stretches(work)
+            case ask.WorkStretch(node=work, tour=tour):
+                self._work_along(work, tour.current)
             case ask.OfferStep(node=optional):
                 return self._optional.takes(self, optional)
             case ask.ArrangeSteps(node=any_order):
@@ -235,6 +247,18 @@ class ForecastHandler(WalkState):
         return PlannedVisits(
             self._optional.visits(self, node, visit_order.with_stands(self.drives, self.context.here, open_), closed)
         )
+
+    def _begin_stretches(self, node: WorkAlong) -> PlannedStretches:
+        """Return the stretches of work along a path in driving order."""
+        stretches = stretches_of(node, self.task, self.site, self.robot, self.drives, self.context)
+        visits = tuple(visit_of(s, node, self.task, self.site, self.robot) for s in stretches)
+        places = tuple(visit.place for visit in visits)
+        if node.optional:
+            made = self._optional.visits(self, node, places, (), visits)
+            order = [places.index(place) for place in made]
+            return PlannedStretches([stretches[k] for k in order], [visits[k] for k in order])
+        self.note(WalkStep(node=node, kind="visit-list", context=self.context, places=places))
+        return PlannedStretches(stretches, visits)
 
     def _capture(self, node: Act) -> Mapping[str, float]:
         """Record the captures of an action, which may fail inside a ``Try``.

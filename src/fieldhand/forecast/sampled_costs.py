@@ -135,8 +135,9 @@ class MissionSamples:
             self._pending.append(metres)
 
     def work(self, work: Work) -> None:
-        """Add work for all missions."""
-        self._work = self._work + work
+        """Add work for all missions; the metres driven in it are not random."""
+        self._work = self._work + Work(seconds=work.seconds, joules=work.joules)
+        self._metres = self._metres + work.metres
 
     def visit(self, preview: Preview, works: Sequence[Work], slower_s_per_m: float = 0.0) -> None:
         """Add each mission's optional visits with their work; the preview's vertices are numbered from 1."""

@@ -12,6 +12,7 @@ from fieldhand.forecast.possible_answers import BranchReadings
 from fieldhand.forecast.resource_limits import slower_s_per_m, speed_of
 from fieldhand.forecast.sampled_costs import MissionSamples
 from fieldhand.forecast.walk_steps import Decision, DecisionKind, NodeAnswer, StepKind, WalkStep, never
+from fieldhand.forecast.working import end_of, use_of
 from fieldhand.places.context import Context, VisitedIds
 from fieldhand.places.reading_series import ReadingSeries, TakenReading
 from fieldhand.robot.model import RobotProfile
@@ -19,11 +20,12 @@ from fieldhand.site.model import Place, Site
 from fieldhand.task.collected import collected
 from fieldhand.task.frames import Task
 from fieldhand.task.nodes.base import Failed
-from fieldhand.task.plan import Act, Node
+from fieldhand.task.plan import Act, Node, WorkAlong
 from fieldhand.task.run import PlanRun
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
+    from fieldhand.site.working.stretch import Stretch
 
 
 def _always(node_id: str) -> bool:  # noqa: ARG001
@@ -115,6 +117,8 @@ class WalkState:
         self.spent = Spent()
         #: Destinations in order, including those at which the walk already was.
         self.stops: list[Place] = []
+        #: Positions in ``stops`` from which a stretch leads to the next one.
+        self.worked: set[int] = set()
 
     def _drive_to(self, node: Node, place: Place) -> None:
         if not self.context.here.covers(place) or self._stuck:
@@ -132,6 +136,33 @@ class WalkState:
         if place.kind == "tree":
             self._visited = self._visited.plus(place.id)
         self._stand(replace(self.context, here=place, visited=self._visited))
+
+    def _work_along(self, node: WorkAlong, stretch: Stretch) -> None:
+        """Record the work along a stretch from its begin, where the walk is, to its end."""
+        end = end_of(stretch, self.site)
+        if self.plan.is_caught and self.decide(node, "fails"):
+            # Worst case: it fails just before the end, where the robot then stands.
+            self.note(self._stretch_step(node, stretch, end, reached=False))
+            self._standing = _on_the_way(end)
+            raise Failed(node.id)
+        self.note(self._stretch_step(node, stretch, end))
+        self.worked.add(len(self.stops) - 1)
+        self.stops.append(end)
+        self._stand(replace(self.context, here=end, visited=self._visited))
+
+    def _stretch_step(self, node: WorkAlong, stretch: Stretch, end: Place, *, reached: bool = True) -> WalkStep:
+        use = use_of(stretch, node, self.task.constraints, self.robot)
+        return WalkStep(
+            node=node,
+            kind="work",
+            context=self.context,
+            places=(end,),
+            seconds=use.seconds,
+            joules=use.metres * self.robot.energy.drive_j_per_m + use.implement_j,
+            stretch=stretch,
+            work=use.work(self._speed),
+            reached=reached,
+        )
 
     def _exit(self, node: Node, home: Place, *, goes: bool) -> None:
         if not goes or (home.xy == self.context.here.xy and not self._stuck):
@@ -216,10 +247,12 @@ class WalkState:
     def note(self, step: WalkStep) -> None:
         """Add a step and the resources it uses."""
         self.steps.append(step)
-        metres = 0.0 if step.drive is None else step.drive.length_m
+        metres = step.work.metres if step.drive is None else step.drive.length_m
         if self.samples is not None and self.plan.optional is None:
             if step.drive is not None:
                 self.samples.drive(metres, step.slower_s_per_m)
+            elif step.kind == "work":
+                self.samples.work(step.work)
             elif step.kind in ("act", "wait"):
                 self.samples.work(Work(seconds=step.seconds, joules=step.joules))
         self.spent += Spent(

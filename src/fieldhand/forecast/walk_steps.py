@@ -15,8 +15,9 @@ from fieldhand.task.plan import Node
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drive
+    from fieldhand.site.working.stretch import Stretch
 
-StepKind = Literal["drive", "act", "wait", "visit-list", "decide", "exit"]
+StepKind = Literal["drive", "act", "wait", "work", "visit-list", "decide", "exit"]
 DecisionKind = Literal["holds", "fails", "blocked", "taken"]
 
 #: Answers a question about a node, given its id: whether its condition holds, or its action fails.
@@ -63,7 +64,7 @@ class VisitForecast:
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class WalkStep:
-    """A step of a walk: a drive, an action, a wait, a decision, a list of visits, or the exit.
+    """A step of a walk: a drive, an action, a wait, work along a stretch, a decision, a list of visits, or the exit.
 
     Attributes:
         node: Plan node that the step belongs to; for the exit, the ``Stop`` that takes it or the root of the plan.
@@ -79,6 +80,8 @@ class WalkStep:
         answer: Answer of a decision.
         slower_s_per_m: Seconds per metre of a drive that the pace of its part of the plan adds to those of the mission.
         reached: False for a drive that is blocked just before its end.
+        stretch: Stretch of work along a path.
+        work: Use of a stretch in the form of work, whose metres are driven at the mission's speed.
     """
 
     node: Node
@@ -94,6 +97,8 @@ class WalkStep:
     answer: bool | None = None
     slower_s_per_m: float = 0.0
     reached: bool = True
+    stretch: Stretch | None = None
+    work: Work = field(default_factory=Work)
 
     __repr__ = short_repr
 
@@ -127,13 +132,19 @@ class Walk:
 
     @property
     def work(self) -> tuple[float, float]:
-        """Return seconds and joules of all actions and waits, and the seconds added by slower drives."""
+        """Return seconds and joules of actions at places and of waits, and the seconds added by slower drives."""
         work = [work_in(s) for s in self.steps]
         return (sum(w.seconds for w in work), sum(w.joules for w in work))
 
+    @property
+    def whole_work(self) -> Work:
+        """Return the work of all actions, at places and along stretches."""
+        seconds, joules = self.work
+        return sum((s.work for s in self.steps if s.kind == "work"), Work(seconds=seconds, joules=joules))
+
 
 def work_in(step: WalkStep) -> Work:
-    """Return the work of a step: of actions and waits, and the time that a slower drive adds."""
+    """Return the work of a step at one place: of an action or a wait, and the time that a slower drive adds."""
     if step.kind in ("act", "wait"):
         return Work(seconds=step.seconds, joules=step.joules)
     return Work(seconds=0.0 if step.drive is None else step.drive.length_m * step.slower_s_per_m)

@@ -24,6 +24,8 @@ from fieldhand.places.ordinals import say_ordinal, say_ranked_tree
 from fieldhand.places.place_errors import too_few
 
 if TYPE_CHECKING:
+    from shapely.geometry.base import BaseGeometry
+
     from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
     from fieldhand.places.resolution_notes import ResolutionNotes
@@ -186,6 +188,17 @@ class Selector(ABC):
         """
         del picks_too
         return self
+
+    def ground(self, resolution: Resolution) -> BaseGeometry:
+        """Return the ground that it names in local metres, for work over an area: by default the outline of its trees.
+
+        Raises:
+            PlaceError: It selects nothing.
+        """
+        from fieldhand.places.ground import ground_of_trees
+
+        found = resolution.spots(self)
+        return ground_of_trees(resolution.site, found.index[found.is_tree].tolist())
 
     def it(self, wording: SelectorWording) -> str:
         """Return the selector in words that can follow "next to"."""

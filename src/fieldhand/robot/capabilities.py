@@ -19,7 +19,11 @@ def capabilities_of(profile: RobotProfile) -> Capabilities:
     """Return the capabilities of a robot: the input of :func:`fieldhand.task.schema.schema_xsd`."""
     return Capabilities(
         actions={
-            a.name: ActionCapability(measures=a.measures, parameters={p.name: _parameter(p) for p in a.parameters})
+            a.name: ActionCapability(
+                measures=a.measures,
+                parameters={p.name: _parameter(p) for p in a.parameters},
+                is_implement=a.implement is not None,
+            )
             for a in profile.actions
         },
         quantities={q.name: QuantityCapability(unit=q.unit, levels=tuple(q.levels)) for q in profile.quantities},

@@ -150,6 +150,30 @@ class Drives:
             raise self._no_way(places[i], (places if to is None else to)[j])
         return lengths
 
+    def way_between(self, one: XY, two: XY) -> tuple[tuple[XY, ...], float] | None:
+        """Return the points and the length of the shortest path between two points; None if there is none."""
+        return self._way(one, two)
+
+    def point_lengths(self, points: Sequence[XY]) -> NDArray[np.float64]:
+        """Return the path lengths in metres between all pairs of points, shape (n, n); inf where there is no path."""
+        if not self.layout.open:
+            at = np.array(points).reshape(-1, 2)
+            return np.asarray(np.hypot(*(at[:, None, :] - at[None, :, :]).transpose(2, 0, 1)))
+        return self.layout.lengths(self.layout.spots(list(points)))
+
+    def sides(self, trees: Sequence[Place]) -> list[tuple[Candidate, ...]]:
+        """Return the stands of trees of rows on either side, first that of lesser v (:class:`Frame`), as far as known.
+
+        A tree in no row, and on a site without rows any tree, has one stand. ``why_not`` says why one is not usable.
+        """
+        bare = [replace(tree, stand=None) for tree in trees]
+        options = self._stands.of_all(bare)
+        free = iter(self.layout.are_free(np.array([c.xy for o in options for c in o]).reshape(-1, 2)).tolist())
+        blocked = message("a keep-out or the boundary is in the way")
+        return [
+            tuple(c if next(free) or c.why_not else replace(c, why_not=blocked) for c in option) for option in options
+        ]
+
     def are_straight(self, places: Sequence[Place]) -> bool:
         """Return True if every path between the stands of the places is a straight line."""
         return not self.layout.open or self.layout.is_one_view(self.layout.spots([p.stand or p.xy for p in places]))

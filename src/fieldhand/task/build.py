@@ -119,7 +119,7 @@ def _number(node: Node, first: int) -> tuple[Node, int]:
 
 
 def goals(plan: Node) -> tuple[Goal, ...]:
-    """Return one goal for every action of the plan, in document order."""
+    """Return one goal for every action of the plan, at a place or along a path, in document order."""
     found: list[Goal] = []
 
     def visit(node: Node, times: int | None, conditional: bool, optional: bool) -> None:
@@ -133,6 +133,17 @@ def goals(plan: Node) -> tuple[Goal, ...]:
                     expected=expected,
                     conditional=conditional,
                     optional=optional,
+                )
+            )
+        if node.work is not None and node.work.action:
+            action = node.work.action
+            found.append(
+                Goal(
+                    id=f"g{len(found) + 1}",
+                    node=node.id,
+                    action=action,
+                    conditional=conditional,
+                    optional=optional or node.is_optional,
                 )
             )
         for part in node.parts:

@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-#: Names that no action may have: ``<at>`` is a sibling of the action's element in ``<act>``.
-RESERVED_ACTIONS = ("at",)
+#: Names that no action may have: ``<at>`` and ``<along>`` are siblings of the action's element.
+RESERVED_ACTIONS = ("at", "along")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,10 +30,17 @@ class ChoiceParameter:
 
 @dataclass(frozen=True, kw_only=True)
 class ActionCapability:
-    """An action: names of the quantities that one capture measures, and its parameters by name."""
+    """An action.
+
+    Attributes:
+        measures: Names of the quantities that one capture measures.
+        parameters: Its parameters by name.
+        is_implement: True if it is on while the robot drives, instead of done at a place.
+    """
 
     measures: tuple[str, ...] = ()
     parameters: Mapping[str, NumberParameter | ChoiceParameter] = field(default_factory=dict)
+    is_implement: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)

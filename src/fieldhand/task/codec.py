@@ -166,12 +166,14 @@ def _fill(element: _Element, value: Any, *, depth: int) -> None:
 def _fill_head(element: _Element, head: NamedElement, value: Any) -> None:
     """Write what belongs to an action or a quantity into an element of its name."""
     name = getattr(value, head.field)
+    if head.optional and not name:
+        return
     if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_.-]*", name) or name in RESERVED_ACTIONS:
         raise TaskError(f"{name!r} cannot be the name of a robot's {head.of}", where=f"<{local_name(element)}>")
     inside = _sub(element, name)
     for attribute in head.attributes:
         _set(inside, attribute, getattr(value, attribute.field))
-    for key, content in value.parameters if head.of == "action" else ():
+    for key, content in value.parameters if head.of != "quantity" else ():
         where = f"<{name}>, parameter {key!r}"
         if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_.-]*", key) or key in inside.attrib:
             raise TaskError("is not a name, or is given twice", where=where)

@@ -124,6 +124,8 @@ class Reader:
 
     def head(self, element: _Element, heads: list[_Element], head: NamedElement) -> dict[str, Any]:
         """Return the fields in the child element named after an action or a quantity."""
+        if head.optional and not heads:
+            return {}
         if len(heads) != 1:
             what = f"has {len(heads)} elements that name the {head.of}, it needs one"
             raise self.error(element, what, f"write for instance <{head.of}_name .../> inside <{local_name(element)}>")

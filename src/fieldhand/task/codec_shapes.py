@@ -24,7 +24,7 @@ from fieldhand.places.selectors import SELECTORS
 from fieldhand.places.sources.union_of import UnionOf
 from fieldhand.task.conditions import Between, Compare, Condition, Level
 from fieldhand.task.frames import Budget, Command, Composition, Constraints, FaultedExit, Task, Then
-from fieldhand.task.plan import Act, InOrder, Node, OptionalStep, Span, StopMission
+from fieldhand.task.plan import Act, InOrder, Node, OptionalStep, Span, StopMission, WorkAlong
 from fieldhand.task.timing import Timing
 from fieldhand.task.watches import Watch, WatchCondition
 from fieldhand.task.ways import Avoid, OnlyGate
@@ -139,11 +139,13 @@ class NamedElement:
     Attributes:
         attributes: Attributes that depend on the quantity or event. An action's parameters are not listed: only a
             profile defines them.
+        optional: The element may be omitted.
     """
 
     field: str
-    of: Literal["action", "quantity", "event"]
+    of: Literal["action", "quantity", "event", "implement"]
     attributes: tuple[Attribute, ...] = ()
+    optional: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -222,7 +224,7 @@ def shape_of(cls: type) -> Shape:
     hints = hints_of(cls)
     names = [f.name for f in fields(cls)]
     of_head = _OF_QUANTITY if {"quantity", "event"} & set(names) else ()
-    in_head = ("action", "parameters") if cls is Act else ("quantity", "event")
+    in_head = ("action", "parameters") if cls in (Act, WorkAlong) else ("quantity", "event")
     attributes: list[Attribute] = []
     of_quantity: list[Attribute] = []
     children: list[Child] = []
@@ -251,6 +253,8 @@ def _head(cls: type, names: list[str], of_quantity: tuple[Attribute, ...]) -> Na
         return NamedElement(field="action", of="action")
     if "event" in names:
         return NamedElement(field="event", of="event", attributes=of_quantity)
+    if cls is WorkAlong:
+        return NamedElement(field="action", of="implement", optional=True)
     return NamedElement(field="quantity", of="quantity", attributes=of_quantity) if "quantity" in names else None
 
 

@@ -17,10 +17,11 @@ if TYPE_CHECKING:
     from fieldhand.task.nodes.for_each import ForEach
     from fieldhand.task.nodes.optional_step import OptionalStep
     from fieldhand.task.nodes.repeat import Repeat
+    from fieldhand.task.nodes.work_along import WorkAlong
     from fieldhand.task.plan import Node
 
 OpaquePlace: TypeAlias = Any
-#: The visits of a for-each under way, in a type of the executor.
+#: The visits of a for-each or the stretches of work along a path under way, in a type of the executor.
 OpaqueTour: TypeAlias = Any
 #: Measured values by quantity.
 Reading: TypeAlias = Mapping[str, float]
@@ -130,11 +131,26 @@ class BeginVisits:
 
 @dataclass(frozen=True, kw_only=True)
 class NextVisit:
-    """Choose the next visit of a tour. Result: its place; None where none is left."""
+    """Choose the next visit or stretch of a tour. Result: the place where it begins; None where none is left."""
 
-    node: ForEach
+    node: ForEach | WorkAlong
     tour: OpaqueTour
     made: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class BeginStretches:
+    """Resolve the selector of work along a path to stretches. Result: the tour."""
+
+    node: WorkAlong
+
+
+@dataclass(frozen=True, kw_only=True)
+class WorkStretch:
+    """Drive along the current stretch of a tour with the action on. Result: none; its end becomes the current place."""
+
+    node: WorkAlong
+    tour: OpaqueTour
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -166,6 +182,8 @@ Instruction = (
     | ArrangeSteps
     | BeginVisits
     | NextVisit
+    | BeginStretches
+    | WorkStretch
     | BeginRound
     | OfferStep
 )

@@ -28,6 +28,7 @@ from fieldhand.task.nodes.repeat import Repeat
 from fieldhand.task.nodes.stop_mission import StopMission
 from fieldhand.task.nodes.try_otherwise import Try
 from fieldhand.task.nodes.wait import Wait
+from fieldhand.task.nodes.work_along import WorkAlong
 
 __all__ = [
     "Act",
@@ -44,11 +45,15 @@ __all__ = [
     "StopMission",
     "Try",
     "Wait",
+    "WorkAlong",
     "acts",
     "walk",
+    "works",
 ]
 
-Node = InOrder | AnyOrder | ForEach | Repeat | If | Try | OptionalStep | GoTo | Act | StopMission | Wait | Pace
+Node = (
+    InOrder | AnyOrder | ForEach | Repeat | If | Try | OptionalStep | GoTo | Act | WorkAlong | StopMission | Wait | Pace
+)
 
 
 def walk(node: Node) -> Iterator[Node]:
@@ -61,3 +66,8 @@ def walk(node: Node) -> Iterator[Node]:
 def acts(node: Node) -> Iterator[Act]:
     """Yield the actions in this node and all nodes inside it, in document order."""
     return (inner.act for inner in walk(node) if inner.act is not None)
+
+
+def works(node: Node) -> Iterator[WorkAlong]:
+    """Yield the work along paths in this node and all nodes inside it, in document order."""
+    return (inner.work for inner in walk(node) if inner.work is not None)

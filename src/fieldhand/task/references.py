@@ -65,9 +65,10 @@ def _ids(task: Task) -> Iterator[ReferenceProblem]:
 
 def _frames(task: Task, nodes: Mapping[str, Node]) -> Iterator[ReferenceProblem]:
     for goal in task.command.goals:
-        act = nodes[goal.node].act if goal.node in nodes else None
+        named = nodes.get(goal.node)
+        act = None if named is None else named.act or named.work
         what = ""
-        if act is None:
+        if act is None or not act.action:
             what = f"goal {goal.id!r} names {goal.node!r}, which is not an action of the plan"
         elif act.action != goal.action:
             what = f"goal {goal.id!r} counts {goal.action!r}, but its node {goal.node!r} does {act.action!r}"

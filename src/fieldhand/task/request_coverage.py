@@ -17,7 +17,7 @@ from typing import Literal, get_args
 from fieldhand.language import language_of_request, message
 from fieldhand.task.filler_words import is_filler, is_function_word
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import Span, acts, walk
+from fieldhand.task.plan import Span, acts, walk, works
 
 #: Roles of words. Where two ranges coincide, the role listed first is shown.
 WordRole = Literal["condition", "limit", "time", "end", "action", "place", "order", "no_part", "nothing", "between"]
@@ -86,7 +86,11 @@ def _words(task: Task) -> Iterator[tuple[int, int, WordRole]]:
             found.append((text, start, end, next(holding, "nothing")))
     spoken = {_stem(text) for text, _, _, role in found if role not in ("no_part", "nothing") and text.isalpha()}
     spoken |= {_stem(r.name.lower()) for r in task.resources if r.kind == "robot"}
-    spoken |= {_stem(word) for act in acts(task.composition.plan) for word in act.action.split("_")}
+    spoken |= {
+        _stem(word)
+        for act in (*acts(task.composition.plan), *works(task.composition.plan))
+        for word in act.action.split("_")
+    }
     for text, start, end, role in found:
         dropped = role == "no_part" and not is_filler(text, language) and _stem(text) not in spoken
         yield start, end, "nothing" if dropped else role

@@ -115,6 +115,55 @@ class Acted:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Working:
+    """Work along a stretch begins, or continues after an interruption.
+
+    ``path`` lists the corners as (lat, lon); ``on`` the intervals along it in metres in which the action is on.
+    ``action`` is empty if the robot only drives.
+    """
+
+    event: ClassVar[str] = "working"
+    t: float
+    node: str
+    action: str
+    stretch: str
+    parameters: Mapping[str, str | float] = field(default_factory=dict)
+    planned_m: float
+    path: tuple[tuple[float, float], ...]
+    on: tuple[tuple[float, float], ...] = ()
+    speed_m_s: float
+    attempt: int = 1
+
+
+@dataclass(frozen=True, kw_only=True)
+class Worked:
+    """Work along a stretch ended, whole or (``failed``, ``cancelled``) in part; the action is off.
+
+    ``worked_m`` are the metres with the action on, ``paths`` their parts as (lat, lon), ``area_m2`` the area worked,
+    ``amount`` what was applied, in ``unit``. ``leg_m`` is the distance driven for it.
+    """
+
+    event: ClassVar[str] = "worked"
+    t: float
+    node: str
+    action: str
+    stretch: str
+    status: Literal["success", "failed", "cancelled"]
+    lat: float
+    lon: float
+    leg_m: float
+    worked_m: float
+    area_m2: float = 0.0
+    amount: float = 0.0
+    unit: str = ""
+    paths: tuple[tuple[tuple[float, float], ...], ...] = ()
+    attempt: int = 1
+    what: str = ""
+    travelled_m: float
+    charge_percent: float = 100.0
+
+
+@dataclass(frozen=True, kw_only=True)
 class InDoubt:
     """A capture was in progress when the power failed; it is unknown whether it was made.
 
@@ -390,6 +439,8 @@ Event = (
     | Driving
     | Arrived
     | Acted
+    | Working
+    | Worked
     | InDoubt
     | Resumed
     | Paused

@@ -136,7 +136,7 @@ def vocabulary(capabilities: Capabilities, *, draft: bool = False) -> Vocabulary
 
 def _head_attributes(shape: Shape, head: str, capabilities: Capabilities) -> list[str]:
     """Return the attributes of the element of an action or a quantity."""
-    if shape.head is None or shape.head.of == "action":
+    if shape.head is None or shape.head.of != "quantity":
         return list(capabilities.actions[head].parameters)
     return [a.name for a in shape.head.attributes]
 

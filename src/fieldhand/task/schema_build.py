@@ -37,6 +37,7 @@ _FACETS: dict[str, dict[str, str]] = {
     "at_least": {"minInclusive": "2", "maxInclusive": "1000"},
     "expected": {"minInclusive": "0"},
     "distance_m": {"minInclusive": "0"},
+    "laps": {"minInclusive": "1", "maxInclusive": "100"},
     "limit": {"minExclusive": "0"},
     "failure_probability": {"minExclusive": "0", "maxExclusive": "1"},
     "reserve_percent": {"minInclusive": "0", "maxExclusive": "100"},
@@ -68,7 +69,7 @@ class SchemaBuilder:
     @cached_property
     def shapes(self) -> tuple[Shape, ...]:
         """Return the shapes of every class that this robot can use: testing a level needs a quantity that has one."""
-        return tuple(s for s in all_shapes().values() if s.head is None or self.heads(s))
+        return tuple(s for s in all_shapes().values() if s.head is None or s.head.optional or self.heads(s))
 
     def usable(self, options: Iterable[type]) -> list[type]:
         """Return those classes that this robot can use."""
@@ -79,11 +80,12 @@ class SchemaBuilder:
         """Return the actions, quantities or events allowed in an element."""
         if shape.head is None:
             return []
-        if shape.head.of == "action":
-            return list(self.capabilities.actions)
         if shape.head.of == "event":
             measured = bool(shape.head.attributes)
             return [name for name, e in self.capabilities.events.items() if (e.unit if measured else e.holds)]
+        if shape.head.of != "quantity":
+            is_implement = shape.head.of == "implement"
+            return [name for name, a in self.capabilities.actions.items() if a.is_implement == is_implement]
         needs_level = any(a.field == "level" for a in shape.head.attributes)
         return [name for name, q in self.capabilities.quantities.items() if q.levels or not needs_level]
 
@@ -146,6 +148,11 @@ class SchemaBuilder:
         if not shape.children:
             self.head_choice(made, shape)
             return
+        if not self.heads(shape):
+            only = _xs(made, "sequence")
+            for child in shape.children:
+                self.child(only, shape, child)
+            return
         either = _xs(made, "choice")
         after = _xs(either, "sequence")
         self.head_choice(after, shape)
@@ -153,11 +160,11 @@ class SchemaBuilder:
         for child in shape.children:
             self.child(after, shape, child)
             self.child(before, shape, child, required=True)
-        self.head_choice(before, shape)
+        self.head_choice(before, shape, optional=shape.head is not None and shape.head.optional)
 
-    def head_choice(self, parent: _Element, shape: Shape) -> None:
+    def head_choice(self, parent: _Element, shape: Shape, *, optional: bool = False) -> None:
         """Add an element for each action or quantity, with the attributes that depend on it."""
-        choice = _xs(parent, "choice")
+        choice = _xs(parent, "choice", **({"minOccurs": "0"} if optional else {}))
         for name in self.heads(shape):
             made = _xs(_xs(choice, "element", name=name), "complexType")
             if shape.head and shape.head.of == "quantity":

@@ -34,6 +34,8 @@ from fieldhand.task.results import (
     Started,
     Visiting,
     Waited,
+    Worked,
+    Working,
 )
 from fieldhand.wording.limits import say_crossing
 from fieldhand.wording.watches import say_began
@@ -86,6 +88,10 @@ class EventText:
                 )
             case Acted():
                 return self._acted(event)
+            case Working():
+                return self._working(event)
+            case Worked():
+                return self._worked(event)
             case InDoubt():
                 fills = {"capture": noun(self._robot, event.action), "what": kept_in_log(event.what)}
                 if event.then == "repeat":
@@ -135,6 +141,26 @@ class EventText:
                 return say_end(event.status, event.reason if event.status == "exceeded" else "")
             case _:
                 return None
+
+    def _working(self, event: Working) -> str:
+        if not event.action:
+            return message("drives along {stretch}", stretch=kept_in_log(event.stretch))
+        return message(
+            "{action} along {stretch}", action=noun(self._robot, event.action), stretch=kept_in_log(event.stretch)
+        )
+
+    def _worked(self, event: Worked) -> str:
+        done = message("{metres} m driven", metres=f"{event.leg_m:.0f}")
+        if event.action:
+            done = message("{metres} m worked", metres=f"{event.worked_m:.0f}")
+        if event.unit:
+            done = joined(", ", (done, joined(" ", (say_number(event.amount, 1), say_unit(event.unit)))))
+        stretch = kept_in_log(event.stretch)
+        if event.status == "success":
+            return joined(": ", (stretch, done))
+        return message(
+            "{stretch}: {done}, then stopped ({what})", stretch=stretch, done=done, what=kept_in_log(event.what)
+        )
 
     def _acted(self, event: Acted) -> str:
         capture = noun(self._robot, event.action)

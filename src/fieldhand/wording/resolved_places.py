@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from fieldhand.forecast.walk_steps import VisitForecast, Walk
 from fieldhand.site.model import Place
+from fieldhand.site.working.stretch import Stretch
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import Node
 
@@ -22,6 +23,7 @@ class ResolvedPlaces:
         known: True if the places are the same on every branch and for any leg costs; otherwise decided on the way.
         visit_forecast: Forecast of the optional visits in the first execution.
         short: Probability that the mission runs short with them.
+        stretches: Stretches of work along a path in the first execution.
     """
 
     visits: tuple[tuple[Place, ...], ...]
@@ -29,6 +31,7 @@ class ResolvedPlaces:
     known: bool
     visit_forecast: VisitForecast | None = None
     short: float = 0.0
+    stretches: tuple[Stretch, ...] = ()
 
     @property
     def places(self) -> tuple[Place, ...]:
@@ -62,8 +65,25 @@ def gather(task: Task, walks: Sequence[Walk], short: float = 0.0) -> Mapping[str
             known=same and node_id not in doubtful,
             visit_forecast=first[0][2],
             short=short,
+            stretches=_stretches(walks, node_id),
         )
     return found
+
+
+def _stretches(walks: Sequence[Walk], node_id: str) -> tuple[Stretch, ...]:
+    """Return the stretches of the first execution of a node, on the first walk that has any."""
+    found: list[Stretch] = []
+    for walk in walks:
+        for step in walk.steps:
+            if step.node.id != node_id:
+                continue
+            if step.kind == "visit-list" and found:
+                return tuple(found)
+            if step.stretch is not None:
+                found.append(step.stretch)
+        if found:
+            break
+    return tuple(found)
 
 
 _Visit = tuple[tuple[Place, ...], tuple[Place, ...], VisitForecast | None]

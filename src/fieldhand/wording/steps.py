@@ -6,7 +6,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from fieldhand.language import counted, message, shaped
-from fieldhand.language.words import say_marker, say_name, say_number, say_side, say_times, say_tree, say_wait
+from fieldhand.language.words import (
+    capitalised,
+    say_marker,
+    say_name,
+    say_number,
+    say_side,
+    say_times,
+    say_tree,
+    say_wait,
+)
 from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import Trees
 from fieldhand.places.wording import SelectorWording, say_places, say_selector
@@ -28,11 +37,13 @@ from fieldhand.task.plan import (
     StopMission,
     Try,
     Wait,
+    WorkAlong,
 )
 from fieldhand.wording.conditions import say_act, say_condition
 from fieldhand.wording.resolved_places import ResolvedPlaces
 from fieldhand.wording.step_places import in_order, say_expected, say_expected_visits, say_ids
 from fieldhand.wording.watches import say_watch
+from fieldhand.wording.working import say_extent, say_work
 
 Names = dict[str, str]
 
@@ -177,6 +188,8 @@ class _LineWriter:
                     node.id, indent, message("Drive no faster than {speed} m/s for this:", speed=say_number(speed))
                 )
                 self.node(body, indent + 1)
+            case WorkAlong():
+                self._work(node, indent)
             case StopMission(exit=taken):
                 failed = message("End the mission here, which counts as failed.")
                 self.step(node.id, indent, message("End the mission here.") if taken == "nominal" else failed)
@@ -195,6 +208,12 @@ class _LineWriter:
             number = self.step(node.id, indent, there[0] if self._moved else there[1])
             self._name(node.label, node.id, number)
         self._took(node, number)
+
+    def _work(self, node: WorkAlong, indent: int) -> None:
+        text = shaped(say_work(node, self._robot, self._names), capitalised)
+        extent = say_extent(node, self._robot, self._resolved.get(node.id))
+        number = self.step(node.id, indent, message("{work} {extent}.", work=text, extent=extent))
+        self._arrived("", node.id, number)
 
     def _at(self, node: Node, selector: Selector) -> str:
         """Return a resolved place with its wording in the Task, or the reverse if it is decided during the mission."""

@@ -11,6 +11,7 @@ from fieldhand.evaluation.report.log_facts import branch_taken, captures, start_
 from fieldhand.evaluation.report.place_names import PlaceNames
 from fieldhand.evaluation.report.reading_statistics import reading_statistics
 from fieldhand.evaluation.report.readings import MOST_ROWS, ReadingRow, ReadingSummary, reading_rows, summaries
+from fieldhand.evaluation.report.worked import WorkedRow, worked_rows
 from fieldhand.forecast.estimate import Estimate, Figure
 from fieldhand.language.words import capitalised, listed, say_action, say_count, say_duration, say_number
 from fieldhand.robot.model import RobotProfile
@@ -33,6 +34,7 @@ HEADINGS = {
     "maps": "Map",
     "readings": "Readings",
     "goals": "What was done",
+    "worked": "Work along paths",
     "left_out": "What was not done, and why",
     "details": "Each decision",
     "lines": "All of them",
@@ -92,6 +94,7 @@ class ReportContent:
     request: str
     words: tuple[tuple[str, str], ...]
     goals: tuple[GoalRow, ...]
+    worked: tuple[WorkedRow, ...]
     left_out: tuple[LeftOut, ...]
     faults: FoldedLines
     conditions: FoldedLines
@@ -139,6 +142,7 @@ def compose(
         request=task.command.request or "(no request)",
         words=_words(task),
         goals=tuple(_goal_rows(task, events, outcomes)),
+        worked=worked_rows(site, robot, events),
         left_out=left_out(task, events, names),
         faults=faults(robot, events, names),
         conditions=conditions(events, names),

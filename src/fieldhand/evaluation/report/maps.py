@@ -22,6 +22,7 @@ from fieldhand.evaluation.report.marks import (
     draw_left_out,
     draw_plain,
     draw_readings,
+    draw_worked,
     driven_ways,
     last_stand,
     metres_of,
@@ -130,6 +131,7 @@ def draw_map(
     labels = labels_on(ax, site)
     disc = disc_diameter(ax, np.array(work).reshape(-1, 2), float(np.clip(1.5 * math.sqrt(size), 5.0, 9.5)))
     legend = draw_drives(ax, site, events)
+    legend += draw_worked(ax, site, events)
     legend += draw_left_out(ax, site, events, ahead, disc)
     legend += draw_incidents(ax, site, events, disc)
     if summary is None:
@@ -168,6 +170,7 @@ def _draw_whole(figure: Figure, site: Site, events: Sequence[Event], window: Win
     whole.set_axis_off()
     _draw_background(whole, site)
     draw_drives(whole, site, events)
+    draw_worked(whole, site, events)
     draw_scale_and_north(whole)
     show_window(whole, window)
     labels = labels_on(whole, site)

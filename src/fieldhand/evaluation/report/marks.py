@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 
 from fieldhand.evaluation.report.log_facts import captures, cut_off_places, end_of, failed_targets
 from fieldhand.evaluation.report.readings import ReadingSummary
-from fieldhand.language.words import capitalised, say_action
+from fieldhand.language.words import capitalised, say_action, say_name
 from fieldhand.site.drawing.colours import FAILED, INK, PATH
 from fieldhand.site.drawing.labels import Labels
 from fieldhand.site.model import Site
-from fieldhand.task.results import Acted, Arrived, Driving, Event, InDoubt, Obstructed, Resumed, Shed
+from fieldhand.task.results import Acted, Arrived, Driving, Event, InDoubt, Obstructed, Resumed, Shed, Worked, Working
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -39,14 +39,32 @@ def driven_ways(site: Site, events: Sequence[Event]) -> list[tuple[Floats, bool]
     found: list[tuple[Floats, bool]] = []
     arrived = False
     for event in reversed(events):
-        if isinstance(event, Arrived):
+        if isinstance(event, Arrived) or (isinstance(event, Worked) and event.status == "success"):
             arrived = True
-        elif isinstance(event, Driving):
+        elif isinstance(event, Driving | Working):
             degrees = np.asarray(event.path, dtype=np.float64).reshape(-1, 2)
             if len(degrees) > 1 and np.isfinite(degrees).all():
                 found.append((site.projection.metres(degrees[:, 0], degrees[:, 1]), arrived))
             arrived = False
     return found[::-1]
+
+
+def draw_worked(ax: Axes, site: Site, events: Sequence[Event]) -> list[LegendEntry]:
+    """Draw the parts of the way on which an implement was on, in a colour for each action."""
+    entries: dict[str, LegendEntry] = {}
+    for event in events:
+        if not isinstance(event, Worked) or not event.action:
+            continue
+        known = list(dict.fromkeys([*entries, event.action]))
+        colour = PLAIN[known.index(event.action) % len(PLAIN)]
+        for part in event.paths:
+            degrees = np.asarray(part, dtype=np.float64).reshape(-1, 2)
+            if len(degrees) < 2 or not np.isfinite(degrees).all():
+                continue
+            way = site.projection.metres(degrees[:, 0], degrees[:, 1])
+            ax.plot(way[:, 0], way[:, 1], color=colour, linewidth=3.2, alpha=0.6, zorder=9, gid="worked")
+            entries.setdefault(event.action, ("line", colour, f"worked: {say_name(event.action)}"))
+    return list(entries.values())
 
 
 def draw_drives(ax: Axes, site: Site, events: Sequence[Event]) -> list[LegendEntry]:

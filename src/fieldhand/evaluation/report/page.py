@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from fieldhand.evaluation.report.content import GOAL_HEAD, HEADINGS, TABLE_HEAD, ReportContent
 from fieldhand.evaluation.report.maps import ReportMap
+from fieldhand.evaluation.report.worked import WORKED_HEAD
 from fieldhand.hidden_characters import visible
 
 if TYPE_CHECKING:
@@ -22,6 +23,7 @@ def render_page(report: ReportContent, maps: Sequence[ReportMap]) -> str:
         r=report,
         h=HEADINGS,
         goal_head=GOAL_HEAD,
+        worked_head=WORKED_HEAD,
         table_head=TABLE_HEAD,
         maps=[_map_record(m) for m in maps],
     )

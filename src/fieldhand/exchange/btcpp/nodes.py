@@ -20,6 +20,7 @@ from fieldhand.exchange.btcpp.vocabulary import (
     TEST_SERIES,
     WAIT,
     WAIT_PORT,
+    WORK,
 )
 from fieldhand.exchange.btcpp.writing import EXIT_ENTRY
 from fieldhand.places.selectors import SELECTORS
@@ -89,6 +90,9 @@ class NodeReader:
             case str() if tag.kind == LIMIT:
                 (body,) = self.elements.children(tag, 1)
                 return p.Pace(**beside, body=self.node(body), **self.elements.fields(tag, p.Pace))
+            case str() if tag.kind == WORK:
+                work: p.WorkAlong = self.elements.parts(tag, "work", (p.WorkAlong,))
+                return replace(work, **beside, along_said=self.elements.spans(tag, "_at_said"))
             case str() if tag.kind in self.elements.capabilities.actions:
                 return self._act(tag, beside | {"at_said": self.elements.spans(tag, "_at_said")})
         raise self.elements.error(

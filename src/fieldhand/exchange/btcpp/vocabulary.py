@@ -18,8 +18,9 @@ from fieldhand.task.plan import Act, ForEach, OptionalStep, Pace
 if TYPE_CHECKING:
     from lxml.etree import _Element
 
-BEGIN, GO_TO, RESOLVE, ORDER, ALLOWS, EXIT, FAULT, LIMIT = (
+BEGIN, GO_TO, RESOLVE, ORDER, ALLOWS, EXIT, FAULT, LIMIT, WORK = (
     "BeginMission", "GoToPlace", "ResolvePlaces", "OrderSteps", "BudgetAllows", "TakeExit", "HandleFault", "LimitSpeed",
+    "WorkAlong",
 )  # fmt: skip
 #: The wait of Nav2, which waits for the seconds of its port.
 WAIT, WAIT_PORT = "Wait", "wait_duration"
@@ -89,6 +90,7 @@ def leaves(capabilities: Capabilities) -> tuple[Leaf, ...]:
     order = Port(name="order", type=_STEPS, direction="output", about="Numbers of the steps from 1, best order first")
     node = Port(name="node", type=_TEXT, about="Name of the loop or step that the budget may leave out")
     then = Port(name="then", type=_TEXT, about="return_to_end, return_to_start or stay")
+    work = Port(name="work", type=_TEXT, about="Work along rows, aisles or an area: <work-along> of the Task, as XML")
     exits = Port(name="exits", type=_TEXT, default="", about="What to do about each fault, as fault:exit")
     series = Port(name="reading", type=_TEXT, about="Name of the readings of which none is kept from before")
     tested = Port(name="condition", type=_TEXT, about="Condition on all readings of a name, as XML")
@@ -102,13 +104,19 @@ def leaves(capabilities: Capabilities) -> tuple[Leaf, ...]:
         Leaf(id=FAULT, kind="Action", ports=(exits,)),
         Leaf(id=WAIT, kind="Action", ports=(Port(name=WAIT_PORT, type="double", about="Seconds to stand still"),)),
         Leaf(id=LIMIT, kind="Decorator", ports=_ports(Pace)),
+        Leaf(id=WORK, kind="Action", ports=(work,)),
         Leaf(
             id=ALLOWS, kind="Condition", ports=(node, Port(name="place", type=_TEXT, default=""), *_ports(OptionalStep))
         ),
     )
     test = Leaf(id=TEST_SERIES, kind="Condition", ports=(tested, _UNKNOWN))
     conditions = (Leaf(id=name, kind="Condition", ports=_condition_ports(cls)) for cls, name in CONDITIONS.items())
-    return (*ours, *conditions, test, *(_action(name, capabilities) for name in capabilities.actions))
+    return (
+        *ours,
+        *conditions,
+        test,
+        *(_action(name, capabilities) for name, a in capabilities.actions.items() if not a.is_implement),
+    )
 
 
 def models(capabilities: Capabilities) -> _Element:

@@ -11,6 +11,7 @@ fails, so that nothing after it is done; no fallback catches that.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from fieldhand.errors import TaskError
@@ -29,6 +30,7 @@ from fieldhand.exchange.btcpp.vocabulary import (
     TEST_SERIES,
     WAIT,
     WAIT_PORT,
+    WORK,
     models,
     plain_attributes,
     port_name,
@@ -118,7 +120,7 @@ class _TreeWriter:
         if not node.id:
             raise TaskError("a node of the plan has no id", where=type(node).__name__, advice="give it one")
         _set(element, {"name": node.id, "_description": quoted} | _said(node.said), node.id)
-        if isinstance(node, p.Act):
+        if node.at_said:
             _set(element, {f"_at{key}": text for key, text in _said(node.at_said).items()}, node.id)
         return element
 
@@ -154,6 +156,8 @@ class _TreeWriter:
                 return _element(WAIT, **{WAIT_PORT: number_text(seconds)})
             case p.Pace(body=body):
                 return _element(LIMIT, self.node(body), **_ports(node, node.id))
+            case p.WorkAlong():
+                return _element(WORK, work=encode_parts([replace(node, said=(), along_said=())]))
             case p.StopMission(exit=taken):
                 # No script after the node: it would also run if a fallback skips the node.
                 return _element("Sequence", _script(f"{EXIT_ENTRY} := '{taken}'"), _element("AlwaysFailure"))

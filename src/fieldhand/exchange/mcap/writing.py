@@ -47,6 +47,8 @@ from fieldhand.task.results import (
     Shed,
     Started,
     Waited,
+    Worked,
+    Working,
 )
 
 if TYPE_CHECKING:
@@ -106,7 +108,7 @@ class McapLog:
         self._count = 0
         self._captures: list[Acted | InDoubt] = []
         self._next_shown = 1
-        self._drive: Driving | None = None
+        self._drive: Driving | Working | None = None
         self._state: dict[str, Any] = {"charge_percent": 100.0, "travelled_m": 0.0, "readings": {}}
         try:
             self._file: IO[bytes] = open_output(path, "wb")
@@ -152,7 +154,7 @@ class McapLog:
             self._began = _seconds_of(event.at)
         if isinstance(event, Started) and self._site is not None:
             yield self._geojson("/site", event.t, _site_features(self._site))
-        if isinstance(event, Arrived | Obstructed | Resumed | Ended):
+        if isinstance(event, Arrived | Worked | Obstructed | Resumed | Ended):
             yield from self._along(event, (event.lat, event.lon))
         self._count += 1
         topic, schema = EVENTS + event.event, schema_of(type(event))
@@ -161,11 +163,11 @@ class McapLog:
         if words is not None:
             yield self._log(event, words)
         match event:
-            case Driving():
+            case Driving() | Working():
                 self._drive = event
                 line = {"type": "LineString", "coordinates": [[lon, lat] for lat, lon in event.path]}
                 if len(event.path) > 1:
-                    yield self._geojson("/way", event.t, [_feature(line, {"node": event.node, "to": event.place})])
+                    yield self._geojson("/way", event.t, [_feature(line, {"node": event.node, "to": _goal(event)})])
             case Obstructed():
                 yield self._geojson("/blocked", event.t, _blocked_features(event))
             case Acted() | InDoubt():
@@ -187,13 +189,13 @@ class McapLog:
 
     def _note(self, event: Event) -> bool:
         """Store the robot state in an event; return True if it contains any."""
-        if isinstance(event, Started | Arrived | Acted | InDoubt | Resumed | Ended):
+        if isinstance(event, Started | Arrived | Acted | Worked | InDoubt | Resumed | Ended):
             self._state["charge_percent"] = event.charge_percent
-        if isinstance(event, Arrived | Obstructed | Ended):
+        if isinstance(event, Arrived | Worked | Obstructed | Ended):
             self._state["travelled_m"] = event.travelled_m
         if isinstance(event, Acted):
             self._state["readings"] |= {q: v for q, v in event.readings.items() if math.isfinite(v)}
-        return isinstance(event, Started | Arrived | Acted | InDoubt | Obstructed | Resumed | Ended)
+        return isinstance(event, Started | Arrived | Acted | Worked | InDoubt | Obstructed | Resumed | Ended)
 
     def _along(self, event: Event, at: tuple[float, float]) -> Iterator[_Message]:
         """Return positions along a drive to its end or interruption, at constant speed."""
@@ -206,7 +208,11 @@ class McapLog:
             or not all(map(known, (at, *drive.path)))
         ):
             return
-        path = drive.path if isinstance(event, Arrived) else driven_part(drive.path, at)
+        path = (
+            drive.path
+            if isinstance(event, Arrived) or getattr(event, "status", "") == "success"
+            else driven_part(drive.path, at)
+        )
         corners = np.asarray(path, dtype=np.float64)
         # A degree of longitude is shorter than one of latitude.
         alike = np.array([1.0, math.cos(math.radians(corners[0, 0]))])
@@ -307,6 +313,10 @@ def _blocked_features(event: Obstructed) -> list[dict[str, Any]]:
         fields = {"place": event.place, "what": event.what, "unreachable": list(event.unreachable), "free": event.free}
         features.append(_feature({"type": "Point", "coordinates": [event.lon, event.lat]}, fields))
     return features
+
+
+def _goal(event: Driving | Working) -> str:
+    return event.place if isinstance(event, Driving) else event.stretch
 
 
 def _capture(event: Acted | InDoubt) -> dict[str, Any]:

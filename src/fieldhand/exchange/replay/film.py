@@ -15,7 +15,19 @@ from fieldhand.exchange.broken_off import driven_part
 from fieldhand.exchange.incidents import LatLon, incidents, known, position_of
 from fieldhand.site.model import Site
 from fieldhand.task.exceeded import say_status
-from fieldhand.task.results import Acted, Arrived, Driving, Ended, Event, InDoubt, Paused, Resumed, Started
+from fieldhand.task.results import (
+    Acted,
+    Arrived,
+    Driving,
+    Ended,
+    Event,
+    InDoubt,
+    Paused,
+    Resumed,
+    Started,
+    Worked,
+    Working,
+)
 
 Floats = NDArray[np.float64]
 
@@ -130,7 +142,7 @@ def film_of(events: Sequence[Event], site: Site, *, tell: Callable[[Event], str 
         if words is not None:
             lines.append((event.t, " ".join(words.split())))
         match event:
-            case Driving():
+            case Driving() | Working():
                 track.begin(event)
             case Paused():
                 track.stop(event.t)
@@ -139,8 +151,8 @@ def film_of(events: Sequence[Event], site: Site, *, tell: Callable[[Event], str 
             case _:
                 at = position_of(event)
                 if at is not None:
-                    track.come(event.t, at, whole=isinstance(event, Arrived))
-        if isinstance(event, Started | Arrived | Acted | InDoubt | Resumed | Ended) and math.isfinite(
+                    track.come(event.t, at, whole=_is_whole(event))
+        if isinstance(event, Started | Arrived | Acted | Worked | InDoubt | Resumed | Ended) and math.isfinite(
             event.charge_percent
         ):
             charge.append((event.t, event.charge_percent))
@@ -164,16 +176,21 @@ def film_of(events: Sequence[Event], site: Site, *, tell: Callable[[Event], str 
     )
 
 
+def _is_whole(event: Event) -> bool:
+    """Return True if a drive ended at its destination."""
+    return isinstance(event, Arrived) or (isinstance(event, Worked) and event.status == "success")
+
+
 class _Track:
     """Corners with non-decreasing times; a clock that was set back is held."""
 
     def __init__(self, site: Site) -> None:
         self.corners: list[tuple[float, float, float]] = []
         self._site = site
-        self._drive: Driving | None = None
+        self._drive: Driving | Working | None = None
         self._until = math.inf
 
-    def begin(self, drive: Driving) -> None:
+    def begin(self, drive: Driving | Working) -> None:
         """Start a drive; an earlier drive that did not arrive ends at its start."""
         if len(drive.path) < 2 or not all(map(known, drive.path)):
             self._drive = None

@@ -32,8 +32,9 @@ GoalState = Literal["idle", "running", "succeeded", "failed", "cancelled", "cut_
 #: * ``lost``: the position is unknown (:meth:`Driver.lost`) and the robot stands still. A goal started while it is lost
 #:   fails at once, and a running one ends, so a lost robot makes no capture.
 #: * ``empty``: the battery is empty.
+#: * ``implement``: the implement of a stretch failed; it is off, and the robot stands.
 #: * ``failed``: anything else.
-GoalFault = Literal["none", "failed", "blocked", "lost", "empty"]
+GoalFault = Literal["none", "failed", "blocked", "lost", "empty", "implement"]
 
 
 #: Metres within which a robot counts as being at a point.
@@ -69,6 +70,23 @@ class Position:
 
 
 @dataclass(frozen=True, kw_only=True)
+class StretchWork:
+    """Work along the path of a drive, which is followed exactly: an implement that is on in parts of it.
+
+    The driver switches the implement off whenever the drive ends, whatever the reason.
+
+    Attributes:
+        action: Name of the action; empty to follow the path only.
+        parameters: A value for every parameter that the profile declares.
+        on: Intervals along the path in metres in which the implement is on, in order and disjoint.
+    """
+
+    action: str = ""
+    parameters: Mapping[str, str | float] = field(default_factory=dict)
+    on: tuple[tuple[float, float], ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
 class DriveGoal:
     """A drive along a path to a place.
 
@@ -78,6 +96,7 @@ class DriveGoal:
         path_degrees: The same corners as (lat, lon).
         length_m: Length of the path in metres.
         speed_m_s: Speed limit in m/s.
+        work: Work along the path; None for a drive whose path the robot may leave.
     """
 
     place: Place
@@ -85,6 +104,7 @@ class DriveGoal:
     path_degrees: tuple[tuple[float, float], ...]
     length_m: float
     speed_m_s: float
+    work: StretchWork | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

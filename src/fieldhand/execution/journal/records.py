@@ -138,6 +138,8 @@ def goal_record(goal: DriveGoal | ActionGoal) -> Record:
     place = [goal.place.kind, goal.place.id]
     if isinstance(goal, DriveGoal):
         body: dict[str, Any] = {"drive": place, "from": goal.path_m[0], "to": goal.path_m[-1], "m": goal.length_m}
+        if goal.work is not None:
+            body |= {"action": goal.work.action, "parameters": dict(goal.work.parameters), "on": goal.work.on}
     else:
         body = {"action": goal.action, "place": place, "parameters": dict(goal.parameters)}
     return Record(kind="begun", body=json.dumps(body))

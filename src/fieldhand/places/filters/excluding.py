@@ -13,6 +13,8 @@ from fieldhand.places.selector import FromGroup, Selector
 from fieldhand.places.sources.trees import Trees
 
 if TYPE_CHECKING:
+    from shapely.geometry.base import BaseGeometry
+
     from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
     from fieldhand.places.resolution_notes import ResolutionNotes
@@ -35,6 +37,9 @@ class Excluding(FromGroup):
 
     def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         return of.without(resolution.spots(self.places))
+
+    def ground(self, resolution: Resolution) -> BaseGeometry:
+        return self.of.ground(resolution).difference(self.places.ground(resolution))
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:
         return wording.phrase(self.of).keeping(after=message("other than {place}", place=self.places.it(wording)))

@@ -17,6 +17,8 @@ from fieldhand.places.sources.trees import Trees
 from fieldhand.site.names import short
 
 if TYPE_CHECKING:
+    from shapely.geometry.base import BaseGeometry
+
     from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
     from fieldhand.places.resolution_notes import ResolutionNotes
@@ -73,6 +75,15 @@ class InZone(FromGroup):
         if self.outside:
             return base.keeping(after=message("outside {zone}", zone=zone))
         return base.keeping(after=message("inside {zone}", zone=zone))
+
+    def ground(self, resolution: Resolution) -> BaseGeometry:
+        """Return the zone itself, whether or not there are trees in it."""
+        import shapely
+
+        from fieldhand.places.filters.zones import zones_called
+
+        zones = zones_called(resolution.site, self.whole_zone)
+        return shapely.union_all(zones) if zones else super().ground(resolution)
 
     @property
     def size(self) -> CountRange:

@@ -16,6 +16,8 @@ from fieldhand.places.place_errors import nothing
 from fieldhand.places.selector import Selector
 
 if TYPE_CHECKING:
+    from shapely.geometry.base import BaseGeometry
+
     from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
     from fieldhand.places.resolution_notes import ResolutionNotes
@@ -37,6 +39,11 @@ class UnionOf(Selector):
         if not self.parts:
             raise nothing(resolution.site, self, "it has no parts")
         return resolution.joined([resolution.spots(part) for part in self.parts])
+
+    def ground(self, resolution: Resolution) -> BaseGeometry:
+        import shapely
+
+        return shapely.union_all([part.ground(resolution) for part in self.parts])
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:
         trees = [part.named_tree for part in self.parts if part.named_tree]

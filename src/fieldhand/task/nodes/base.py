@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from fieldhand.task.instructions import Instruction
     from fieldhand.task.nodes.act import Act
     from fieldhand.task.nodes.stop_mission import StopMission
+    from fieldhand.task.nodes.work_along import WorkAlong
     from fieldhand.task.plan import Node
     from fieldhand.task.run import PlanRun
 
@@ -198,6 +199,11 @@ class PlanNode(ABC):
     @property
     def act(self) -> Act | None:
         """The node itself, if it is an action."""
+        return None
+
+    @property
+    def work(self) -> WorkAlong | None:
+        """The node itself, if it is work along a path."""
         return None
 
     @property

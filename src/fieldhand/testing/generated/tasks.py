@@ -30,13 +30,14 @@ from fieldhand.task.capabilities import (
 from fieldhand.task.codec_shapes import hints_of
 from fieldhand.task.conditions import Condition, Level
 from fieldhand.task.frames import Budget, Constraints, FaultedExit, Resource, Task
-from fieldhand.task.plan import Act, Node, Span
+from fieldhand.task.plan import Act, Node, Span, WorkAlong
 from fieldhand.task.timing import Timing
 from fieldhand.task.watches import EventBeyond, EventHolds, Watch
 from fieldhand.task.ways import Avoid, OnlyGate
 from fieldhand.terms import Value
 
-#: A robot with every kind of parameter, an action that measures two quantities and a quantity without level words.
+#: A robot with every kind of parameter, an action that measures two quantities, an implement, and a quantity without
+#: level words.
 ROVER = Capabilities(
     actions={
         "take_picture": ActionCapability(parameters={"view": ChoiceParameter(choices=("canopy", "trunk"))}),
@@ -45,6 +46,9 @@ ROVER = Capabilities(
             parameters={"depth_cm": NumberParameter(minimum=5, maximum=60, unit="cm"), "gain": NumberParameter()},
         ),
         "read_co2": ActionCapability(measures=("co2",)),
+        "spray": ActionCapability(
+            parameters={"rate_l_ha": NumberParameter(minimum=50, maximum=800, unit="l/ha")}, is_implement=True
+        ),
     },
     quantities={
         "soil_moisture": QuantityCapability(unit="percent", levels=("low", "very high")),
@@ -73,6 +77,7 @@ _BY_FIELD: dict[str, st.SearchStrategy[Any]] = {
     "count": st.integers(1, 50),
     "times": st.integers(1, 50),
     "at_least": st.integers(2, 50),
+    "laps": st.integers(1, 50),
     "at_most": st.integers(1, 50),
     "expected": st.integers(0, 500),
     "distance_m": st.floats(0, 1e6),
@@ -173,6 +178,8 @@ class Parts:
         """Return a strategy for instances with an action or quantity of the robot and matching parameters and units."""
         if cls is Act:
             return st.builds(_with_action, made, self.actions())
+        if cls is WorkAlong:
+            return st.builds(_with_action, made, st.one_of(st.just(("", ())), self.actions(implements=True)))
         if cls in (EventHolds, EventBeyond):
             events = self.capabilities.events
             known = sorted(n for n, e in events.items() if (e.holds if cls is EventHolds else e.unit))
@@ -182,7 +189,9 @@ class Parts:
             return st.builds(_with_quantity, made, st.sampled_from(sorted(able)), st.just(able), st.integers(0, 9))
         return made
 
-    def actions(self) -> st.SearchStrategy[tuple[str, tuple[tuple[str, str | float], ...]]]:
+    def actions(
+        self, *, implements: bool = False
+    ) -> st.SearchStrategy[tuple[str, tuple[tuple[str, str | float], ...]]]:
         """Return a strategy for an action with some of its parameters."""
 
         def parameters(name: str) -> st.SearchStrategy[Any]:
@@ -191,7 +200,8 @@ class Parts:
             drawn = st.fixed_dictionaries({}, optional=each)
             return st.tuples(st.just(name), drawn.map(lambda d: tuple(d.items())))
 
-        return st.sampled_from(sorted(self.capabilities.actions)).flatmap(parameters)
+        able = [name for name, a in self.capabilities.actions.items() if a.is_implement == implements]
+        return st.sampled_from(sorted(able)).flatmap(parameters)
 
     def tasks(self) -> st.SearchStrategy[Task]:
         """Return a strategy for complete Tasks from ``make_task``: with ids, goals and state variables."""
@@ -227,8 +237,8 @@ class Parts:
         )
 
 
-def _with_action(act: Act, chosen: tuple[str, tuple[tuple[str, str | float], ...]]) -> Act:
-    return replace(act, action=chosen[0], parameters=chosen[1])
+def _with_action(node: Act | WorkAlong, chosen: tuple[str, tuple[tuple[str, str | float], ...]]) -> Act | WorkAlong:
+    return replace(node, action=chosen[0], parameters=chosen[1])
 
 
 def _with_quantity(part: Any, name: str, able: Mapping[str, QuantityCapability], pick: int) -> Any:

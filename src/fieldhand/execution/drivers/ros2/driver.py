@@ -28,6 +28,7 @@ from fieldhand.execution.drivers.ros2.navigation import NavigationClient, Runnin
 from fieldhand.execution.drivers.ros2.startup import Startup
 from fieldhand.execution.drivers.ros2.telemetry import Telemetry
 from fieldhand.execution.drivers.ros2.transport import Transport
+from fieldhand.execution.drivers.ros2.working import ImplementClient, RunningStretch
 from fieldhand.robot.bindings import Ros2Bindings
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -94,7 +95,8 @@ class Ros2Driver:
             new_id=new_id,
         )
         self._captures = CaptureClient(transport, bindings, clock=clock.now, steady=steady, new_id=new_id, only=actions)
-        self._task: RunningDrive | RunningCapture | None = None
+        self._implements = ImplementClient(transport, robot, bindings, clock=clock.now, steady=steady, only=actions)
+        self._task: RunningDrive | RunningStretch | RunningCapture | None = None
         self._refused: GoalEnd | None = None
         self._lost: tuple[float, str] | None = None
         self._ended: GoalEnd | None = None
@@ -146,6 +148,7 @@ class Ros2Driver:
             interfaces,
             navigation=driver._navigation,
             captures=driver._captures,
+            implements=driver._implements,
             telemetry=driver._telemetry,
             events=driver._events,
             far=lambda: driver._far_from(site),
@@ -165,7 +168,11 @@ class Ros2Driver:
         return None
 
     def start_drive(self, goal: DriveGoal) -> None:
-        self._begin(lambda: RunningDrive(self._navigation, goal))
+        work = goal.work
+        if work is None:
+            self._begin(lambda: RunningDrive(self._navigation, goal))
+        else:
+            self._begin(lambda: RunningStretch(self._navigation, self._implements, goal, work))
 
     def start_action(self, goal: ActionGoal) -> None:
         self._begin(lambda: RunningCapture(self._captures, goal))
@@ -180,7 +187,7 @@ class Ros2Driver:
         ending = self._ended or self._task.step()
         if ending is None:
             return self._progress(GoalEnd(state="running"))
-        if isinstance(self._task, RunningDrive) and not self._is_counted():
+        if isinstance(self._task, RunningDrive | RunningStretch) and not self._is_counted():
             self._ended = ending
             return self._progress(GoalEnd(state="running"))
         return self._finish(ending)
@@ -220,8 +227,13 @@ class Ros2Driver:
         Args:
             sleep: Sleeps for the given seconds of the steady clock.
         """
-        clients = (self._navigation.client, *self._captures.actions)
+        clients = (*self._navigation.clients, *self._captures.actions)
         until = self._steady() + LEAVE_S
+        if self._implements.is_on:
+            for _ in self._implements.all_off():
+                if self._steady() >= until:
+                    break
+                sleep(LOOK_EVERY_S)
         for client in clients:
             client.cancel("the driver was closed")
         while any(client.busy for client in clients) and self._steady() < until:
@@ -235,10 +247,11 @@ class Ros2Driver:
         self._events.close()
         self._navigation.close()
         self._captures.close()
+        self._implements.close()
 
     # --- goals ---------------------------------------------------------------------------------------------------
 
-    def _begin(self, task: Callable[[], RunningDrive | RunningCapture]) -> None:
+    def _begin(self, task: Callable[[], RunningDrive | RunningStretch | RunningCapture]) -> None:
         if not self.poll().over:
             raise RuntimeError("a goal is running: a driver has one at a time")
         self._begun_s, self._begun_m = self._clock.now(), self._telemetry.metres
@@ -251,7 +264,7 @@ class Ros2Driver:
     def _receive(self) -> None:
         """Process received messages. An abandoned goal that turns out to be running is cancelled here."""
         self._telemetry.listen()
-        for client in (self._navigation.client, *self._captures.actions):
+        for client in (*self._navigation.clients, *self._captures.actions):
             client.step()
 
     def _refusal(self) -> GoalEnd | None:

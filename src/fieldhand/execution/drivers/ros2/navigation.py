@@ -42,6 +42,8 @@ SETTLE_S = 3.0
 ELSEWHERE_M = 5.0
 _FRAME, _STAMP = "current_pose.header.frame_id", "current_pose.header.stamp"
 _X, _Y = (FieldBinding(path=f"current_pose.pose.position.{axis}") for axis in "xy")
+#: Metres between the points of a path that is followed.
+_PATH_STEP_M = 0.25
 #: Length in metres below which a leg has no direction.
 _NO_LEG_M = 0.01
 
@@ -102,6 +104,17 @@ class NavigationClient:
             quiet_s=self.binding.quiet_s,
             new_id=new_id,
         )
+        self.working: ActionClient | None = None
+        if self.binding.working:
+            self.working = ActionClient(
+                transport,
+                bindings.whole_name(self.binding.working_action),
+                self.binding.working,
+                steady=steady,
+                accept_s=self.binding.accept_s,
+                quiet_s=self.binding.quiet_s,
+                new_id=new_id,
+            )
         self.from_ll_name = bindings.whole_name(self.binding.from_ll) if self.binding.from_ll else ""
         self.from_ll: Client | None = None
         self.speed_name = bindings.whole_name(self.binding.speed_limit) if self.binding.speed_limit else ""
@@ -114,6 +127,15 @@ class NavigationClient:
     @property
     def _by_degrees(self) -> bool:
         return self.binding.type == "nav2_msgs/action/FollowGPSWaypoints"
+
+    @property
+    def clients(self) -> tuple[ActionClient, ...]:
+        """Return the clients of all actions that drive."""
+        return (self.client,) if self.working is None else (self.client, self.working)
+
+    def client_for(self, goal: DriveGoal) -> ActionClient:
+        """Return the client of the action that carries out a drive."""
+        return self.client if goal.work is None or self.working is None else self.working
 
     def plan(self, goal: DriveGoal) -> Generator[None, None, NavigationGoals]:
         """Compute the goals of Nav2 for a drive, in steps that yield while waiting for the robot.
@@ -132,8 +154,11 @@ class NavigationClient:
         else:
             raise Ros2Error("neither datum nor from_ll defines where the map lies", advice="name one in the profile")
         placed = site_to_map(goal.path_m, points)
+        kind = self.client_for(goal).type
+        if kind == "nav2_msgs/action/FollowPath":
+            return NavigationGoals(goals=[(self._path(goal, points), goal.path_m[-1])], site_to_map=placed)
         poses = [pose(binding.frame, points[i], points[j]) for i, j in _legs(goal.path_m)]
-        if binding.type == "nav2_msgs/action/NavigateThroughPoses":
+        if kind == "nav2_msgs/action/NavigateThroughPoses":
             # Kilted uses nav_msgs/Goals: a header, then the poses.
             header: RosMessage = {"frame_id": binding.frame}
             listed = {"header": header, "goals": tuple(poses)} if self.distro == "kilted" else tuple(poses)
@@ -142,6 +167,16 @@ class NavigationClient:
         ends = [goal.path_m[j] for _, j in _legs(goal.path_m)]
         each: list[RosMessage] = [{"pose": p, "behavior_tree": binding.behavior_tree} for p in poses]
         return NavigationGoals(goals=list(zip(each, ends, strict=True)), site_to_map=placed)
+
+    def _path(self, goal: DriveGoal, points: Sequence[Point]) -> RosMessage:
+        """Return a goal that follows a path exactly, with points close to each other as controllers expect."""
+        frame = self.binding.frame
+        poses: list[RosMessage] = []
+        for i, j in _legs(goal.path_m):
+            steps = max(1, math.ceil(math.dist(points[i], points[j]) / _PATH_STEP_M))
+            poses += [_pose_on(frame, points[i], points[j], k / steps) for k in range(0 if not poses else 1, steps + 1)]
+        header: RosMessage = {"frame_id": frame}
+        return {"path": {"header": header, "poses": tuple(poses)}, "controller_id": self.binding.controller}
 
     def limit_speed(self, speed_m_s: float) -> None:
         """Limit the robot's speed.
@@ -163,7 +198,8 @@ class NavigationClient:
 
     def close(self) -> None:
         """Close all endpoints without sending anything."""
-        self.client.close()
+        for client in self.clients:
+            client.close()
         if self.speed is not None:
             self.speed.close()
         if self.from_ll is not None:
@@ -219,7 +255,7 @@ class RunningDrive:
 
     def _drive(self, message: RosMessage, there: Point, plan: NavigationGoals) -> GoalSteps:
         """Carry out one goal of Nav2."""
-        client = self._navigation.client
+        client = self._navigation.client_for(self._goal)
         client.start(message)
         while (outcome := client.step()) is None:
             if self._cancelled:
@@ -239,7 +275,7 @@ class RunningDrive:
         agree.
         """
         navigation = self._navigation
-        feedback, at = navigation.client.feedback, navigation.position()
+        feedback, at = navigation.client_for(self._goal).feedback, navigation.position()
         if feedback is self._judged:
             return None  # this feedback was already compared; the robot has moved since
         self._judged = feedback
@@ -281,6 +317,12 @@ class RunningDrive:
                 )
             yield
         return GoalEnd(state="succeeded")
+
+
+def _pose_on(frame: str, one: Point, two: Point, share: float) -> RosMessage:
+    """Return a pose on a leg, facing along it."""
+    x, y = one[0] + (two[0] - one[0]) * share, one[1] + (two[1] - one[1]) * share
+    return pose(frame, (x - (two[0] - one[0]), y - (two[1] - one[1])), (x, y))
 
 
 def end_of(outcome: ActionOutcome, binding: NavigationBinding, *, cancelled: bool) -> GoalEnd:

@@ -7,7 +7,7 @@ called, with one point.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from fieldhand.errors import ProfileError, Ros2Error
@@ -28,7 +28,14 @@ from fieldhand.execution.drivers.ros2.navigation import FROM_LL, SPEED_LIMIT
 from fieldhand.execution.drivers.ros2.plausibility import MessageCheck
 from fieldhand.execution.drivers.ros2.telemetry import fix_problem
 from fieldhand.execution.drivers.ros2.transport import QosProfile, Rmw, RosMessage, Transport
-from fieldhand.robot.bindings import CallBinding, EventBinding, RequestValue, Ros2Bindings, TopicBinding
+from fieldhand.robot.bindings import (
+    CallBinding,
+    EventBinding,
+    RequestValue,
+    Ros2Bindings,
+    SwitchBinding,
+    TopicBinding,
+)
 from fieldhand.robot.model import Action, RobotProfile
 
 _NUMBERS = (*INTEGERS, *FLOATS, "bool")
@@ -151,6 +158,8 @@ class _Bindings:
     def _each(self, ros2: Ros2Bindings) -> Iterator[_Bound]:
         bound = ros2.navigation
         yield self._call("navigation", "action", bound.action, bound.type)
+        if bound.working:
+            yield self._call("navigation: working", "action", bound.working_action, bound.working)
         if bound.from_ll and bound.type != "nav2_msgs/action/FollowGPSWaypoints":
             yield self._call("navigation: from_ll", "service", bound.from_ll, FROM_LL, question=self._here)
         if bound.speed_limit:
@@ -172,6 +181,8 @@ class _Bindings:
             if action.call is not None:
                 wrong = tuple(self._wrong_call(action.call, self._profile.action[name]))
                 yield self._call(part, action.call.kind, action.call.name, action.call.type, wrong)
+            if action.switch is not None:
+                yield self._switch(part, action.switch, self._profile.action[name])
             for quantity, bound_topic in action.topics.items():
                 yield self._topic(
                     f"{part}: {quantity}",
@@ -246,6 +257,23 @@ class _Bindings:
         binding = EndpointBinding(part=part, kind="topic", name=self._ros2.whole_name(topic), type=type_name)
         wrong = tuple(self._wrong(type_name, type_name, ()))
         return _Bound(binding=binding, wrong=wrong, make=lambda transport: SubscriberCheck(binding, transport))
+
+    def _switch(self, part: str, switch: SwitchBinding, action: Action) -> _Bound:
+        """Return the switch of an implement."""
+        asked = switch.type if switch.kind == "topic" else f"{switch.type}_Request"
+        wrong: list[str] = []
+        for values in (switch.on, switch.off):
+            try:
+                message = message_of({path: _example(value, action) for path, value in values.items()})
+                self._interfaces.complete(asked, message)
+            except Ros2Error as error:
+                wrong.append(str(error))
+        if switch.kind == "topic":
+            found = self._subscribed_topic(part, switch.name, switch.type)
+            return replace(found, wrong=(*found.wrong, *wrong))
+        flags = [(path, kinds) for path, kinds in ((switch.success, ("bool",)), (switch.message, ("string",))) if path]
+        wrong += self._wrong(switch.type, f"{switch.type}_Response", flags)
+        return self._call(part, "service", switch.name, switch.type, tuple(wrong))
 
     def _call(
         self,

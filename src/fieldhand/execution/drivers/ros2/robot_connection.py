@@ -21,7 +21,7 @@ from fieldhand.robot.bindings import Ros2Bindings
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import acts
+from fieldhand.task.plan import acts, works
 from fieldhand.task.watches import watched_events
 
 
@@ -83,7 +83,10 @@ def connected_robot(
             replace(robot, ros2=bindings),
             clock=clock,
             within_s=within_s,
-            actions={act.action for act in acts(task.composition.plan)},
+            actions={
+                *(act.action for act in acts(task.composition.plan)),
+                *(work.action for work in works(task.composition.plan) if work.action),
+            },
             events=watched_events(task.composition.watches),
         )
         yield Vehicle(

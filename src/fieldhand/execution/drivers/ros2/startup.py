@@ -18,6 +18,7 @@ from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.navigation import FROM_LL, NavigationClient
 from fieldhand.execution.drivers.ros2.telemetry import Telemetry, TelemetryTopic
 from fieldhand.execution.drivers.ros2.transport import Client, QosProfile, Transport
+from fieldhand.execution.drivers.ros2.working import ImplementClient
 
 #: Largest number of missing parts that are named.
 _MOST_NAMED = 8
@@ -36,7 +37,7 @@ class Startup:
 
     Args:
         transport, interfaces: Used to diagnose missing parts.
-        navigation, captures, telemetry, events: Required parts.
+        navigation, captures, implements, telemetry, events: Required parts.
         far: Returns why the robot cannot be on the mission's site; None if it can.
         rest: Sleeps until the next poll.
         steady: Monotonic clock in seconds.
@@ -49,6 +50,7 @@ class Startup:
         *,
         navigation: NavigationClient,
         captures: CaptureClient,
+        implements: ImplementClient,
         telemetry: Telemetry,
         events: EventTopics,
         far: Callable[[], str | None],
@@ -58,6 +60,7 @@ class Startup:
         self._transport, self._interfaces = transport, interfaces
         self._navigation, self._captures, self._telemetry = navigation, captures, telemetry
         self._events = events
+        self._implements = implements
         self._far, self._rest, self._steady = far, rest, steady
 
     def wait(self, within_s: float) -> None:
@@ -75,12 +78,12 @@ class Startup:
             self._events.listen()
 
     def clear(self) -> None:
-        """Cancel all goals of the robot: an interrupted mission may have left one running unsupervised.
+        """Cancel all goals of the robot and switch its implements off: an interrupted mission may have left them on.
 
         Raises:
-            Ros2Error: The goals do not end.
+            Ros2Error: The goals do not end, or an implement does not switch off.
         """
-        clients = (self._navigation.client, *self._captures.actions)
+        clients = (*self._navigation.clients, *self._captures.actions)
         until = self._steady() + CANCEL_S
         while busy := [client.name for client in clients if not client.cancel_everything()]:
             if self._steady() >= until:
@@ -89,6 +92,16 @@ class Startup:
                     advice="check which other program controls the robot",
                 )
             self._rest()
+        switching = self._implements.all_off()
+        while True:
+            try:
+                next(switching)
+            except StopIteration as done:
+                failed: tuple[str, ...] = done.value
+                break
+            self._rest()
+        if failed:
+            raise Ros2Error("; ".join(failed), advice="switch it off by hand, and check whether its switch answers")
 
     def _missing(self) -> Iterator[_Missing]:
         yield from self._missing_navigation()
@@ -100,15 +113,25 @@ class Startup:
             yield pressed, "release it and start again"
         for name, bound in self._captures.bound.items():
             yield from self._missing_capture(name, bound)
+        yield from self._missing_switches()
 
     def _missing_navigation(self) -> Iterator[_Missing]:
         navigation = self._navigation
-        yield from self._no_action("navigation", navigation.client)
+        for client in navigation.clients:
+            yield from self._no_action("navigation", client)
         if navigation.from_ll is not None:
             yield from self._no_service("the map", navigation.from_ll, navigation.from_ll_name, FROM_LL)
         if navigation.speed is not None and navigation.speed.subscribers() == 0:
             what = f"the speed limit {navigation.speed_name}: there is no subscriber"
             yield what, "check whether Nav2's controller is active"
+
+    def _missing_switches(self) -> Iterator[_Missing]:
+        for name, (binding, end) in self._implements.switches.items():
+            full_name = self._implements.whole_name(binding.name)
+            if binding.kind == "service":
+                yield from self._no_service(name, end, full_name, binding.type)  # type: ignore[arg-type]
+            elif end.subscribers() == 0:  # type: ignore[union-attr]
+                yield f"{name} {full_name}: there is no subscriber", "check whether it runs on the robot"
 
     def _missing_capture(self, name: str, bound: BoundAction) -> Iterator[_Missing]:
         call = bound.binding.call

@@ -10,7 +10,15 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from fieldhand.clock import Clock
-from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, GoalFault, GoalState, Position, Progress
+from fieldhand.execution.drivers.protocol import (
+    ActionGoal,
+    DriveGoal,
+    GoalFault,
+    GoalState,
+    Position,
+    Progress,
+    StretchWork,
+)
 from fieldhand.execution.drivers.simulation.ground_truth import GroundTruth, Hindrance, Point
 from fieldhand.execution.drivers.simulation.state import SimulationState
 from fieldhand.execution.drivers.simulation.world import World
@@ -18,6 +26,7 @@ from fieldhand.forecast.visit_order import drives_for, start_place
 from fieldhand.language import message
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
+from fieldhand.site.working.stretch import total_m
 
 #: Seconds within which two times are equal: clocks add floating-point numbers.
 EPSILON_S = 1e-6
@@ -103,6 +112,9 @@ class SimulatedDriver:
         self._course: _Course | None = None
         self._result = Progress(state="idle")
         self._lost: list[tuple[float, str]] = []
+        #: Power in watts of implements that are on without being part of a goal, by action, and since when.
+        self._loads: dict[str, float] = {}
+        self._loaded_s, self._load_j = self._begun_s, 0.0
 
     @property
     def seed(self) -> int | None:
@@ -110,15 +122,20 @@ class SimulatedDriver:
 
     def start_drive(self, goal: DriveGoal) -> None:
         self._begin()
-        alpha = self._robot.leg_cost.alpha
+        alpha = self._robot.leg_cost.alpha if goal.work is None else 1.0  # a given path is followed exactly
         cost = goal.length_m * (alpha + self._rng.exponential(1.0 - alpha) if alpha < 1.0 else 1.0)
         pace = cost / goal.speed_m_s / goal.length_m if goal.length_m > 0 else 0.0  # seconds per metre of the path
         now_s = self._clock.now() - self._begun_s
         course = whole = _Course(
             start_s=self._clock.now(), lasts_s=cost / goal.speed_m_s, outcome="succeeded", metres=cost, path=goal.path_m
         )
+        if goal.work is not None and goal.work.action:
+            course = whole = self._with_implement(course, goal, goal.work)
         if not self.lost() and (what := self._truth.drive_fails(goal.place)):
             course = replace(course.cut(0.5), what=what, fault="failed")
+        if goal.work is not None and (failing := self._truth.implement_fails(goal.work, goal.path_m)) is not None:
+            part, what = failing
+            course = replace(whole.cut(part), what=what, fault="implement") if part <= course.reach else course
         met: list[tuple[Hindrance, GoalFault]] = []
         if (hindrance := self._truth.obstacle(goal.path_m, lambda metres: now_s + pace * metres)) is not None:
             met.append((hindrance, "blocked"))
@@ -130,6 +147,15 @@ class SimulatedDriver:
             if part <= course.reach:
                 course = replace(whole.cut(part), what=hindrance.what, fault=fault, meets=hindrance)
         self._set_out(course)
+
+    def _with_implement(self, course: _Course, goal: DriveGoal, work: StretchWork) -> _Course:
+        """Return a course with the time and energy of an implement."""
+        implement = self._robot.action[work.action].implement
+        on_m = total_m(work.on)
+        if implement is None or not on_m:
+            return course
+        seconds = on_m / goal.speed_m_s + implement.on_delay_s
+        return replace(course, lasts_s=course.lasts_s + implement.on_delay_s, action_j=implement.power_w * seconds)
 
     def start_action(self, goal: ActionGoal) -> None:
         self._begin()
@@ -147,6 +173,23 @@ class SimulatedDriver:
                 what=what,
             )
         )
+
+    def switch(self, action: str, *, on: bool) -> str:
+        """Switch an implement outside of a goal, as an external client does; return why that failed, or an empty text.
+
+        Its power drains the battery until it is switched off.
+        """
+        why = self._truth.switch_fails(action, Place.of_robot(self._xy, lat=0.0, lon=0.0)) if on else ""
+        self._load_j, self._loaded_s = self._loaded_j(), self._clock.now()
+        self._loads.pop(action, None)
+        implement = self._robot.action[action].implement
+        if on and not why and implement is not None:
+            self._loads[action] = implement.power_w
+        return why
+
+    def _loaded_j(self) -> float:
+        """Return the energy in joules that implements outside of goals have used since the last goal began."""
+        return self._load_j + sum(self._loads.values()) * (self._clock.now() - self._loaded_s)
 
     def read_sensors(self, action: str, place: Place) -> Mapping[str, float]:
         """Return the readings of an action's sensors at a place without a capture; empty if they fail.
@@ -213,7 +256,7 @@ class SimulatedDriver:
         else:
             idle = self._robot.percent(0.0, self._clock.now() - self._charged_s)
             left -= self._drained(idle, self._charged_s, self._clock.now())
-        return max(0.0, left)
+        return max(0.0, left - self._robot.percent(0.0, 0.0, self._loaded_j()))
 
     def lost(self) -> str | None:
         now_s = self._clock.now() - self._begun_s
@@ -265,6 +308,7 @@ class SimulatedDriver:
         if not self.poll().over:
             raise RuntimeError("a goal is running: a driver has one at a time")
         self._charge, self._charged_s = self._left(), self._clock.now()
+        self._load_j, self._loaded_s = 0.0, self._clock.now()
 
     def _set_out(self, course: _Course) -> None:
         """Start a course, shortened if the robot gets lost or its battery runs empty."""

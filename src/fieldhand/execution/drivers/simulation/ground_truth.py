@@ -16,8 +16,11 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from shapely.geometry import LineString
+from shapely.geometry import Point as ShapelyPoint
 
 from fieldhand.errors import WorldError
+from fieldhand.execution.drivers.protocol import StretchWork
 from fieldhand.execution.drivers.simulation.world import (
     ActionFails,
     BatteryDrains,
@@ -41,6 +44,9 @@ NOISE = 0.02
 
 #: Metres within which a robot stands at the edge of an obstacle.
 RIM = 1e-6
+
+#: Metres from a path within which a tree is beside it.
+_BESIDE_M = 4.0
 
 Point = tuple[float, float]
 
@@ -106,6 +112,32 @@ class GroundTruth:
             if value is not None:
                 readings[name] = value
         return readings, ""
+
+    def implement_fails(self, work: StretchWork, path: tuple[Point, ...]) -> tuple[float, str] | None:
+        """Return the part of a path, 0 to 1, after which an implement fails, and why, and count it, or None.
+
+        A failure at a tree occurs where the path passes it; any other in the middle of the path.
+        """
+        line = LineString(path)
+        for number, fault in enumerate(self._faults):
+            if not isinstance(fault, ActionFails) or fault.action != work.action or self._exhausted(number):
+                continue
+            tree, part = self._trees.get(number), 0.5
+            if tree is not None:
+                at = ShapelyPoint(tree.xy)
+                if line.distance(at) > _BESIDE_M:
+                    continue
+                part = float(line.project(at, normalized=True))
+            self._used[number] += 1
+            return part, message("{action} gave an error", context="log", action=work.action)
+        return None
+
+    def switch_fails(self, action: str, place: Place) -> str:
+        """Return why an implement does not switch on at a place, and count it; empty if it does."""
+        for number, fault in enumerate(self._faults):
+            if isinstance(fault, ActionFails) and fault.action == action and self._strikes(number, place):
+                return message("{action} gave an error", context="log", action=action)
+        return ""
 
     def drive_fails(self, place: Place) -> str:
         """Return why a drive to a place fails half-way, and count it; empty if it does not."""

@@ -42,6 +42,7 @@ class NavigationServer:
         now: Returns the time in seconds.
         stamped: Returns a header for a frame name.
         report: Called at the end of each goal with its result and progress.
+        type_name: Action type; empty for that of navigation.
     """
 
     def __init__(
@@ -57,11 +58,13 @@ class NavigationServer:
         now: Callable[[], float],
         stamped: Callable[[str], RosMessage],
         report: Callable[[str, Progress], None],
+        type_name: str = "",
     ) -> None:
         self._binding, self._interfaces = bindings.navigation, interfaces
+        self._type = type_name or bindings.navigation.type
         self._platform, self._site, self._places, self._datum = platform, site, places, datum
         self._speed, self._now, self._stamped, self._report = speed, now, stamped, report
-        self._result = f"{self._binding.type}_Result"
+        self._result = f"{self._type}_Result"
         self._goal: ServerGoal | None = None
         self._through: tuple[Point, ...] = ()
         self._legs: tuple[tuple[Point, Point], ...] = ()
@@ -117,6 +120,8 @@ class NavigationServer:
                 raise Ros2Error("this robot drives no loops", advice="send the waypoints once")
             degrees = [_geographic(pose) for pose in _listed(goal["gps_poses"])[_first(goal) :]]
         else:
+            followed = goal.get("path")
+            goal = followed if isinstance(followed, Mapping) else goal
             goal_message: object = goal.get("poses", (goal.get("pose"),))
             # From Kilted on, the poses are wrapped in a message with its own header.
             goal_message = goal_message.get("goals") if isinstance(goal_message, Mapping) else goal_message
@@ -170,7 +175,10 @@ class NavigationServer:
         return result
 
     def _feedback(self, goal: ServerGoal, now: float) -> RosMessage:
-        if self._binding.type.endswith("/FollowGPSWaypoints"):
+        if self._type.endswith("/FollowPath"):
+            left = length_m((self._platform.position.xy, *self._through[self._index_ahead() :]))
+            return {"distance_to_goal": left, "speed": self._platform.speed_m_s}
+        if self._type.endswith("/FollowGPSWaypoints"):
             return {"current_waypoint": _first(goal.goal_message) + self._index_ahead()}
         at = self._platform.position
         ((x, y),) = degrees_to_map(self._datum, [(at.lat, at.lon)])
@@ -188,7 +196,7 @@ class NavigationServer:
             "navigation_time": _duration(now - self._begun_s),
             "distance_remaining": left_m,
         }
-        if self._binding.type.endswith("/NavigateThroughPoses"):
+        if self._type.endswith("/NavigateThroughPoses"):
             feedback["number_of_poses_remaining"] = len(ahead)
         return feedback
 

@@ -22,6 +22,7 @@ from fieldhand.execution.drivers.ros2.simulated_robot.place_lookup import PlaceL
 from fieldhand.execution.drivers.ros2.simulated_robot.robot_platform import SimulatedPlatform
 from fieldhand.execution.drivers.ros2.simulated_robot.sensor_topics import SensorTopics
 from fieldhand.execution.drivers.ros2.simulated_robot.speed_limit import SpeedLimit
+from fieldhand.execution.drivers.ros2.simulated_robot.switch_server import SwitchServer
 from fieldhand.execution.drivers.ros2.simulated_robot.telemetry_topics import TelemetryTopics
 from fieldhand.execution.drivers.ros2.transport import QosProfile, RosMessage, Server, Transport
 from fieldhand.execution.drivers.simulation.driver import SimulatedDriver
@@ -46,7 +47,8 @@ class GoalReport:
     Attributes:
         seconds: Time since the robot was first created.
         name: Full ROS name of the action or service.
-        end: ``succeeded``, ``failed``, ``cancelled``, ``pre-empted`` or ``rejected``.
+        end: ``succeeded``, ``failed``, ``cancelled``, ``pre-empted`` or ``rejected``; of a switch ``on``, ``off`` or
+            ``failed``.
         why: Reason of a failure or rejection; otherwise empty.
         place: The nearest tree or marker, or the one that was named; degrees if far from any.
         metres, took_s: Distance and duration of the goal.
@@ -144,7 +146,15 @@ class SimulatedRobot:
         self._places = PlaceLookup(site, profile)
         start = site.start
         self._datum = bindings.navigation.datum or Datum(lat=start.lat, lon=start.lon)
-        self._servers: list[CaptureServer] = [self._navigation(site, bindings, interfaces, transport)]
+        self._nav: list[NavigationServer] = []
+        navigation = bindings.navigation
+        self._servers: list[CaptureServer | SwitchServer] = [
+            self._navigation(site, bindings, interfaces, transport, navigation.action, navigation.type)
+        ]
+        if navigation.working:
+            self._servers.append(
+                self._navigation(site, bindings, interfaces, transport, navigation.working_action, navigation.working)
+            )
         self._sensors = SensorTopics(
             transport,
             interfaces,
@@ -163,6 +173,11 @@ class SimulatedRobot:
                     capture_server(
                         capture_call, transport, full_name, stamp=self._stamp, refused=self._refused(full_name)
                     )
+                )
+            if bound.switch is not None:
+                full_name = bindings.whole_name(bound.switch.name)
+                self._servers.append(
+                    SwitchServer(name, bound.switch, transport, full_name, self.platform, self._switched(full_name))
                 )
         self._telemetry = TelemetryTopics(transport, interfaces, bindings, self.platform, stamped=self._stamped)
         self._from_ll: Server | None = None
@@ -193,7 +208,8 @@ class SimulatedRobot:
         self.platform.step()
         for server in self._servers:
             server.step()
-        self._nav.step()
+        for navigation in self._nav:
+            navigation.step()
         for to, request in self._from_ll.requests() if self._from_ll is not None else ():
             self._locate(to, request)
         if self.platform.driving:
@@ -210,10 +226,16 @@ class SimulatedRobot:
         self._transport.close()
 
     def _navigation(
-        self, site: Site, bindings: Ros2Bindings, interfaces: Interfaces, transport: Transport
+        self,
+        site: Site,
+        bindings: Ros2Bindings,
+        interfaces: Interfaces,
+        transport: Transport,
+        action: str,
+        type_name: str,
     ) -> ActionServer:
-        name = bindings.whole_name(bindings.navigation.action)
-        self._nav = NavigationServer(
+        name = bindings.whole_name(action)
+        server = NavigationServer(
             bindings,
             interfaces,
             self.platform,
@@ -224,10 +246,10 @@ class SimulatedRobot:
             now=self._clock.now,
             stamped=self._stamped,
             report=lambda end, progress: self._report_goal(name, end, self._nearest(), progress),
+            type_name=type_name,
         )
-        return ActionServer(
-            transport, name, bindings.navigation.type, self._nav, stamp=self._stamp, refused=self._refused(name)
-        )
+        self._nav.append(server)
+        return ActionServer(transport, name, type_name, server, stamp=self._stamp, refused=self._refused(name))
 
     def _measure(self, action: str) -> Mapping[str, float]:
         return self.platform.read_sensors(action, self._nearest())
@@ -236,6 +258,13 @@ class SimulatedRobot:
         def over(action: str, place: Place, progress: Progress) -> None:
             self._sensors.captured(action, progress.readings, self._clock.now())
             self._report_goal(full_name, progress.state, place, progress)
+
+        return over
+
+    def _switched(self, full_name: str) -> Callable[[bool, str], None]:
+        def over(on: bool, why: str) -> None:
+            end = "failed" if why else "on" if on else "off"
+            self._report_goal(full_name, end, self._nearest(), Progress(state="succeeded", what=why))
 
         return over
 

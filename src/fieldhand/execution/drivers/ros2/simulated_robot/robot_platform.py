@@ -110,6 +110,10 @@ class SimulatedPlatform:
         self._driver.start_action(ActionGoal(action=action, place=place, parameters=parameters))
         self._begin(f"at {action}", over)
 
+    def switch(self, action: str, *, on: bool) -> str:
+        """Switch an implement; return why that failed, or an empty text."""
+        return self._driver.switch(action, on=on)
+
     def read_sensors(self, action: str, place: Place) -> Mapping[str, float]:
         """Return the readings of an action's sensors without a capture; a failure gives none."""
         return self._driver.read_sensors(action, place)
