@@ -3,7 +3,8 @@
 ``zone``, ``block``, ``row``, ``tree``, ``gate``, ``marker``: the site. ``path``, ``stop``: a plan, its legs with the
 node that drives them, and its stops with their number and the nodes that drive or act there; ``work``: a stretch of
 work along a path, with the intervals in which it is ``on``. ``avoided``: ground that a plan keeps out of. ``choice``:
-a place that an answer to a question would select. ``leg``, ``worked``, ``capture``, ``end``: a mission that was driven, with times in seconds since its start.
+a place that an answer to a question would select. ``leg``, ``worked``, ``capture``, ``end``: a mission that was driven,
+with times in seconds since its start.
 """
 
 from __future__ import annotations
