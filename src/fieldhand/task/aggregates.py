@@ -51,8 +51,8 @@ class MeanKnown:
 
 @dataclass(frozen=True, kw_only=True)
 class CompareSeries:
-    """That value of all readings so far compared with that of the readings named ``than``, plus ``value``: ``gt`` and 2
-    is more than 2 higher."""
+    """A value of all readings so far compared with that of the readings named ``than``, plus ``value``: ``gt`` and 2 is
+    more than 2 higher."""
 
     of: Statistic
     reading: str

@@ -24,7 +24,7 @@ Along = Literal["", "along", "down", "up"]
 
 @dataclass(frozen=True, slots=True)
 class HowMany:
-    """How many of several readings pass a test: a number of them, or a share in percent."""
+    """The number of several readings that pass a test, or their share in percent, compared with a bound."""
 
     check: Literal["lt", "le", "gt", "ge", "eq"]
     number: float
