@@ -686,7 +686,7 @@ Conditions = tuple[WatchCondition, ...]
 
 @dataclass(frozen=True, slots=True)
 class WatchResponse:
-    """What the robot does when a condition begins to hold.
+    """The response of the robot to a condition that begins to hold.
 
     Attributes:
         response: Response.
