@@ -60,7 +60,7 @@ def percentage(part: Amount) -> float | None:
 @construction("tree_share: part=PART [OF]", cost=0.1)
 def fraction(part: Lex) -> float:
     """Compose "a tenth of"."""
-    return round(100.0 * part.value, 2)
+    return round(100.0 * float(part.value), 2)
 
 
 @construction(
