@@ -297,3 +297,17 @@ def test_a_robot_works_on_a_gap_from_the_aisle_beside_it():
 
 def test_a_random_sample_of_gaps_and_nearest_gaps_work_like_those_of_trees():
     assert {p.kind for p in found(RandomSample(count=4, of=Missing()))} == {"gap"}
+
+
+def test_the_vines_of_a_quota_are_named_by_their_group_unless_they_are_many():
+    quota = Quota(per="variety", count=2)
+    chosen = found(quota)
+    said = quota.say_groups(chosen, VINEYARD)
+    groups = dict(part.split(": ") for part in said.split("; "))
+    assert set(groups) == set(VINEYARD.attributes["variety"])
+    for variety, ids in groups.items():
+        assert all(VINEYARD.by_id[tree].properties["variety"] == variety for tree in ids.split(", "))
+    assert sorted(tree for ids in groups.values() for tree in ids.split(", ")) == sorted(p.id for p in chosen)
+    many = Quota(per="row", count=2)
+    assert many.say_groups(found(many), VINEYARD) == ""
+    assert Quota(percent=1.0).say_groups(chosen, VINEYARD) == ""

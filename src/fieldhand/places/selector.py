@@ -12,7 +12,7 @@ Each selector has its own file with its data, resolution, wording and size. Its 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, ClassVar, Literal, Self
 
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from fieldhand.places.resolution import Resolution
     from fieldhand.places.resolution_notes import ResolutionNotes
     from fieldhand.places.wording import SelectorWording
-    from fieldhand.site.model import Site
+    from fieldhand.site.model import Place, Site
     from fieldhand.terms import MarkerName, Side
 
 #: State that determines the places of a selector: only the site; the robot's position, which affects the choice but not
@@ -219,6 +219,11 @@ class Selector(ABC):
             phrase: The selector in words.
         """
         return phrase
+
+    def say_groups(self, places: Sequence[Place], site: Site) -> str:
+        """Return its places in words by the groups from which it chooses them; empty if there are none."""
+        del places, site
+        return ""
 
     def nth_phrase(self, number: int, wording: SelectorWording) -> NounPhrase:
         """Return the phrase for the n-th place of this selector; -1 is the last."""

@@ -63,8 +63,10 @@ def build(features: FeatureSet, faults: Faults, *, name: str, sha256: str, notes
         raise _no_trees(features, faults.source, left_out=True)
     no_start = not trees and "start" not in markers
     if no_start:
-        closed = [zone for zone in (*zones, *fences) if zone.kind == "keep_out"]
-        markers = {**markers, "start": _start_on(bare, closed, projection)}
+        markers = {
+            **markers,
+            "start": _start_on(bare, [z for z in (*zones, *fences) if z.kind == "keep_out"], projection),
+        }
     return Site(
         name=_site_name(name, faults.source),
         trees=trees,

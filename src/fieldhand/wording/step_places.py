@@ -6,6 +6,7 @@ from fieldhand.language import counted, message
 from fieldhand.language.words import say_rounded
 from fieldhand.places.selector import Selector
 from fieldhand.places.wording import say_places, say_selector
+from fieldhand.site.model import Site
 from fieldhand.task.plan import ForEach
 from fieldhand.wording.resolved_places import ResolvedPlaces
 
@@ -46,10 +47,12 @@ def say_expected_visits(resolved: ResolvedPlaces | None) -> str:
     return message("({expectation}; {gone_first})", expectation=chance, gone_first=first)
 
 
-def say_ids(selector: Selector, resolved: ResolvedPlaces | None) -> str:
-    """Return the ids of the places if they are few and not named yet."""
+def say_ids(selector: Selector, resolved: ResolvedPlaces | None, site: Site) -> str:
+    """Return the ids of the places if they are few and not named yet, or those of each group."""
     if resolved is None:
         return ""
+    if resolved.known and (groups := selector.say_groups(resolved.places, site)):
+        return message("({ids})", ids=groups)
     ids = tuple(p.id for p in resolved.places)
     text = say_selector(selector)
     if selector.decided_by_readings:

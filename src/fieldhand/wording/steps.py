@@ -83,7 +83,7 @@ def write_lines(
         site, robot: Site and robot of the mission.
         found: Resolved places of each node, from :func:`fieldhand.wording.resolved_places.gather`.
     """
-    writer = _LineWriter(robot, resolved)
+    writer = _LineWriter(site, robot, resolved)
     writer.node(task.composition.plan, 0)
     watches = [
         ReadBackLine(number=None, node=task.composition.plan.id, indent=0, text=say_watch(watch, robot))
@@ -130,8 +130,9 @@ class _Taken:
 class _LineWriter:
     """Writes the lines, and tracks the names by which later steps refer to earlier ones."""
 
-    def __init__(self, robot: RobotProfile, resolved: Mapping[str, ResolvedPlaces]) -> None:
+    def __init__(self, site: Site, robot: RobotProfile, resolved: Mapping[str, ResolvedPlaces]) -> None:
         self.lines: list[ReadBackLine] = []
+        self._site = site
         self._robot, self._resolved = robot, resolved
         self._number = 0
         #: Description of each label, and the place of each reading.
@@ -303,7 +304,9 @@ class _LineWriter:
         else:
             at = message("At each of {trees}", trees=text)
         return in_order(
-            node, message("{at_places} {ids}", at_places=at, ids=say_ids(node.select, resolved)), len(places)
+            node,
+            message("{at_places} {ids}", at_places=at, ids=say_ids(node.select, resolved, self._site)),
+            len(places),
         )
 
     def _optional_visits(self, node: ForEach, text: str, resolved: ResolvedPlaces | None) -> str:

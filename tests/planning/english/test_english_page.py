@@ -15,8 +15,9 @@ from planning.english.outlines import outline
 from support.requests.planned import outcome_of
 
 PAGE = Path(__file__).resolve().parents[3] / "docs" / "english.md"
-_EXAMPLE = re.compile(r"^(amiga|vineyard)?> (.+)\n  (plan|asks|refuses): (.+)$", re.MULTILINE)
-EXAMPLES = _EXAMPLE.findall(PAGE.read_text(encoding="utf-8"))
+EXAMPLES = re.findall(
+    r"^(amiga|vineyard)?> (.+)\n  (plan|asks|refuses): (.+)$", PAGE.read_text(encoding="utf-8"), re.MULTILINE
+)
 
 
 def test_the_page_has_examples() -> None:

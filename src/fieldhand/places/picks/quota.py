@@ -15,11 +15,13 @@ from fieldhand.places.sources.trees import Trees
 from fieldhand.site.feature_kinds import phrase as words_of
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
     from fieldhand.places.resolution_notes import ResolutionNotes
     from fieldhand.places.wording import SelectorWording
-    from fieldhand.site.model import Site
+    from fieldhand.site.model import Place, Site
 
 #: Choice of the trees within each group.
 Manner = Literal["spread", "random", "first", "last", "highest", "lowest"]
@@ -63,6 +65,12 @@ class Quota(FromGroup):
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:
         return many(message("{trees}, {chosen}", trees=self._amount(wording.phrase(self.of)), chosen=self._chosen))
+
+    def say_groups(self, places: Sequence[Place], site: Site) -> str:
+        from fieldhand.places.picks.quotas import say_each_group
+        from fieldhand.places.place_group import PlaceGroup
+
+        return say_each_group(PlaceGroup.of(site, places), self.per) if self.per else ""
 
     def _amount(self, group: NounPhrase) -> str:
         """Return how many of which trees, without how they are chosen."""

@@ -12,7 +12,7 @@ import shapely
 from numpy.typing import NDArray
 
 from fieldhand.errors import PlaceError
-from fieldhand.language import counted, message
+from fieldhand.language import counted, joined, message
 from fieldhand.places.filters.attributes import column_of, column_rows, note_lacking, with_number
 from fieldhand.places.picks.random_sample import drawn
 from fieldhand.places.place_errors import too_few, value_text
@@ -30,6 +30,9 @@ Indices = NDArray[np.intp]
 
 #: Maximum number of computed distances, about half a second; beyond it, trees are chosen along the rows.
 _MOST_MEASURED = 50_000_000
+
+#: Maximum number of trees that are listed by group.
+_MOST_LISTED = 40
 
 #: Shift of the choice from one row to the next, as a fraction of the step along the row; the golden ratio makes
 #: neighbouring rows differ most (Kronecker sequence).
@@ -64,6 +67,15 @@ def of_each_group(of: PlaceGroup, selector: Quota, notes: ResolutionNotes) -> Pl
         names = listed([_with_count(part.name, len(group)) for part, group in zip(parts, chosen, strict=True)])
         notes.rule = message("chosen of each: {names}", names=names)
     return PlaceGroup(site=of.site, index=index, others=of.others)
+
+
+def say_each_group(trees: PlaceGroup, per: str) -> str:
+    """Return the ids of trees by their groups: "Merlot: 12, 48; Syrah: 3, 9"; empty if there are too many."""
+    if len(trees) > _MOST_LISTED:
+        return ""
+    groups = [(name, group) for name, group in _groups(trees, per, ResolutionNotes()) if len(group)]
+    named = [message("{name}: {ids}", name=name, ids=joined(", ", [p.id for p in g.places])) for name, g in groups]
+    return joined("; ", named)
 
 
 def _check(selector: Quota) -> None:
