@@ -185,6 +185,9 @@ def test_two_fields_need_a_way_between_them() -> None:
         {"turning_radius_m": -1.0},
         {"headland_passes": -1},
         {"headland_m": -2.0},
+        {"headland_m": float("nan")},
+        {"bearing_deg": float("inf")},
+        {"working_width_m": 0.01},  # more swaths than a plan can have
     ],
 )
 def test_parameters_out_of_range_are_errors(change: dict[str, float]) -> None:

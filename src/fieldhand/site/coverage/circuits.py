@@ -16,6 +16,9 @@ from fieldhand.site.coverage.headland import rings_at
 from fieldhand.site.coverage.plan import XY, CoverageLeg
 from fieldhand.site.driving.graph import Points
 
+#: Chords per quarter turn around a corner: a ring is less than 1 % nearer to it than the distance asked for.
+_CHORDS = 16
+
 #: Points closer than this in metres are the same.
 _SAME_M = 1e-6
 
@@ -79,7 +82,7 @@ def perimeter(
         )
     lines = []
     for metres in (inset_m + apart_m * np.arange(rings)).tolist():
-        found = rings_at(area, metres, holes=holes)
+        found = rings_at(area, metres, holes=holes, chords=_CHORDS)
         if not found:
             raise PlaceError(
                 message("the area is too narrow for a drive {metres} m inside its edge", metres=f"{metres:g}"),

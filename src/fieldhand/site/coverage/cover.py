@@ -29,6 +29,9 @@ _PLANNED = 3
 #: Areas with more swaths than this are planned for the cheapest division only.
 _MANY_SWATHS = 400
 
+#: Greatest number of swaths of a plan.
+MOST_SWATHS = 2_000
+
 #: Swaths shorter than this, in metres, are rounding errors.
 _NOTHING_M = 1e-6
 
@@ -104,7 +107,11 @@ def _cost(plan: CoveragePlan, turn_m: float) -> float:
 
 def validate(area: BaseGeometry, params: CoverageParams) -> None:
     """Raise an error if there is no area to cover, or a parameter is out of range."""
+    numbers = [value for value in vars(params).values() if isinstance(value, float)]
+    west, south, east, north = area.bounds if not area.is_empty else (0.0, 0.0, 0.0, 0.0)
+    extent = math.hypot(east - west, north - south)
     problems = [
+        (not all(map(math.isfinite, numbers)), message("the numbers of a coverage must be finite")),
         (not params.working_width_m > 0.0, message("the working width must be greater than 0")),
         (not 0.0 <= params.overlap_m < params.working_width_m,
          message("the overlap of swaths must be less than the working width")),
@@ -112,6 +119,8 @@ def validate(area: BaseGeometry, params: CoverageParams) -> None:
         (params.headland_passes < 0 or (params.headland_m or 0.0) < 0.0, message("a headland cannot be negative")),
         (area.is_empty or not area.area > 0.0, message("there is no area to cover")),
         (not area.is_valid, message("the edge of the area crosses itself")),
+        (extent > MOST_SWATHS * (params.working_width_m - params.overlap_m),
+         message("the area needs more than {most} swaths", most=MOST_SWATHS)),
     ]  # fmt: skip
     for is_wrong, problem in problems:
         if is_wrong:
@@ -228,6 +237,11 @@ def _ordered(
     """Return the swaths in driving order, each in its direction."""
     if not lanes:
         return []
+    if len(lanes) > MOST_SWATHS:
+        raise PlaceError(
+            message("the area needs more than {most} swaths", most=MOST_SWATHS),
+            advice=message("cover each part separately, or correct the area"),
+        )
     ends = ends_of([lane.points for lane in lanes])
     extra = [point for point in (start, goal) if point is not None]
     metres = ground.lengths([*ends, *extra])

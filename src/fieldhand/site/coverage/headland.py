@@ -30,11 +30,11 @@ def headland_width(params: CoverageParams) -> float:
     return params.working_width_m + (params.headland_passes - 1) * (params.working_width_m - params.overlap_m)
 
 
-def inset(area: BaseGeometry, by_m: float) -> BaseGeometry:
-    """Return the ground of an area that is farther than ``by_m`` from its edge."""
+def inset(area: BaseGeometry, by_m: float, chords: int = _CHORDS) -> BaseGeometry:
+    """Return the ground of an area that is farther than ``by_m`` from its edge; ``chords`` per quarter turn."""
     if by_m <= 0.0:
         return area
-    smaller = area.buffer(-by_m, quad_segs=_CHORDS)
+    smaller = area.buffer(-by_m, quad_segs=chords)
     parts = [part for part in shapely.get_parts(smaller) if part.area > _NOTHING_M2]
     return shapely.union_all(parts) if parts else Polygon()
 
@@ -54,11 +54,11 @@ def headland_rings(area: BaseGeometry, params: CoverageParams) -> list[Points]:
     return [ring for metres in at.tolist() for ring in rings_at(area, metres)]
 
 
-def rings_at(area: BaseGeometry, inset_m: float, *, holes: bool = True) -> list[Points]:
+def rings_at(area: BaseGeometry, inset_m: float, *, holes: bool = True, chords: int = _CHORDS) -> list[Points]:
     """Return the rings at a distance inside the edge of an area, with or without those around its holes,
     anticlockwise."""
     found = []
-    for part in shapely.get_parts(inset(area, inset_m)):
+    for part in shapely.get_parts(inset(area, inset_m, chords)):
         if part.is_empty:
             continue
         turned = orient(part)
