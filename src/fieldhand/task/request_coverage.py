@@ -105,8 +105,10 @@ def _ranges(task: Task) -> Iterator[tuple[Span, WordRole]]:
     for budget in task.constraints.budgets:
         yield from ((span, "limit") for span in budget.said)
     yield from ((span, "limit") for span in task.constraints.reserve_said)
-    for way in (*task.constraints.avoid, *task.constraints.only_gates):
-        yield from ((span, "limit") for span in way.said)
+    for avoid in task.constraints.avoid:
+        yield from ((span, "limit") for span in avoid.said)
+    for only in task.constraints.only_gates:
+        yield from ((span, "limit") for span in only.said)
     for watch in task.composition.watches:
         yield from ((span, "condition") for span in watch.said)
     yield from ((span, "end") for span in task.composition.nominal_said)

@@ -89,6 +89,7 @@ def _distances(expected: Expected, log: Log) -> Iterator[str]:
 
 def _too_near(site: CaseSite, expected: Expected, log: Log) -> Iterator[str]:
     for kept in expected.keeps_from:
+        shape: shapely.Geometry
         if kept.zone:
             shape, name = site.zones[kept.zone], f"the zone '{kept.zone}'"
         else:

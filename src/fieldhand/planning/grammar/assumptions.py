@@ -59,8 +59,8 @@ def assumed_hands(plan: Node, request: str) -> Iterator[str]:
     if not re.search(r"\b(?:left|right)(?:[ -]?hand)?\b", request, re.IGNORECASE):
         return
     parts = (part for node in walk(plan) for part in (node.selector.walk() if node.selector else ()))
-    sides = dict.fromkeys(side.side for part in parts if (side := as_beside(part)) is not None and side.side != "both")
-    for side in sides:
+    named = (one.side for part in parts if (one := as_beside(part)) is not None)
+    for side in dict.fromkeys(side for side in named if side != "both"):
         hand = message("left") if side in ("east", "north") else message("right")
         yield message(
             "Left and right are as seen when driving a row from its first tree to its last: the {hand} side is the"
