@@ -250,6 +250,11 @@ def as_edge(selector: s.Selector) -> s.Edge | None:
     return selector if isinstance(selector, s.Edge) else None
 
 
+def as_beside(selector: s.Selector) -> s.Beside | None:
+    """Return the selector if it names a side of trees, None otherwise."""
+    return selector if isinstance(selector, s.Beside) else None
+
+
 def as_rows(selector: s.Selector) -> s.Rows | None:
     """Return the selector if it is rows by their labels or all rows, None otherwise."""
     return selector if isinstance(selector, s.Rows) else None

@@ -93,7 +93,7 @@ Count the grapes on 10 Syrah vines.
 Take pictures of the missing vines in the south block.
 Take pictures of a few vines in the north block.
 Take pictures of the 10 worst vines.
-Take pictures on the left side of row 4 of the north block.
+Take pictures on the left side of the north block.
 Skip the ones you did yesterday and take pictures of the rest of row 5 in the north block.
 Sample 5 vines per variety.
 Take pictures of 5 vines. Do not drive through row 10.
@@ -218,7 +218,7 @@ MODIFIERS = """
 slowly; carefully; quickly; gently; tomorrow; daily; hourly; regularly; tonight; yesterday; sometimes; weekly; every morning; each week
 on weekdays; at 6 am; before sunrise; at noon; in the morning; after the rain; during lunch; next week; last week; on Monday; in June
 once a day; every hour; for powdery mildew; for pests; for water stress; for the lab; with flash; in colour; from above
-on the left side; facing north; in the shade; without flash; weak; sick; healthy; missing; ripe; sprayed; pruned; thirsty; infected
+on the sunny side; facing north; in the shade; without flash; weak; sick; healthy; missing; ripe; sprayed; pruned; thirsty; infected
 flowering; shaded; a few; several; on average; at the median; per variety; unless it rains; if the weather is fine
 weather permitting; avoiding the mud; except the weak ones; and spray; and mow; and count the grapes; and prune
 and water it; and take a leaf sample; and record a video; and call me; the ones you did yesterday; starting at the pond; via the barn

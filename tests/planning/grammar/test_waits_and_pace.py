@@ -73,7 +73,6 @@ REFUSED = {
     "Go to tree 4 and wait until I come back.": "asks for waiting until something happens",
     "Wait 30 hours at tree 4.": "a wait lasts at most 24 hours",
     "Photograph tree 4 at walking pace.": "asks for a way of driving",
-    "Photograph tree 50 from the left.": "asks for a left or right side",
 }
 ASKED = {
     "Photograph every yellow tree and wait 10 s.": "which is meant?",

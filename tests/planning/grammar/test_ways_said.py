@@ -72,6 +72,17 @@ PLANNED = {
         ("Photograph all trees within 8 m of row 3.", "for Within(8, Rows(3, 3)): [picture]"),
         ("Measure CO2 at 5 trees between 10 and 20 m from the pond.", "for Take(5, of InZone(pond, True, 10, of InZone(pond, 20))): [co2]"),
         ("Measure CO2 at the tree farthest from the pond.", "co2 @ Farthest(InZone(pond))"),
+        # Sides of rows, which run north to south here.
+        ("Take pictures of row 4 on the left side.", "for Beside(east, of Rows(4, 4)): [picture]"),
+        ("Take pictures on the left side of row 4.", "for Beside(east, of Rows(4, 4)): [picture]"),
+        ("Take pictures of the left side of row 4 and the right side of row 6.", "for UnionOf(Beside(east, of Rows(4, 4))+Beside(west, of Rows(6, 6))): [picture]"),
+        ("Measure CO2 on the right-hand side of rows 3 to 5.", "for Beside(west, of Rows(3, 5)): [co2]"),
+        ("Photograph every tree of row 4, along its left side.", "for Beside(east, of Rows(4, 4)): [picture]"),
+        ("Take a picture of the left side of tree 40.", "picture @ Beside(east, of TreeIs(40))"),
+        ("Take pictures of the east side of row 4.", "for Beside(east, of Rows(4, 4)): [picture]"),
+        ("Take pictures on the west side of row 4.", "for Beside(west, of Rows(4, 4)): [picture]"),
+        ("Drive on the west side of row 4.", "for Beside(west, of Rows(4, 4)): [go Here]"),
+        ("Take pictures of the north side of row 4.", "picture @ InRow(1, 1, north, of Rows(4, 4))"),
     ],
     "vineyard": [
         ("Take pictures of the Merlot but avoid the pond and drive around the north block.", "for Excluding(InBlock(North), of Where(variety, eq, Merlot)): [picture] | avoid InZone(pond) | avoid InBlock(North)"),
@@ -102,6 +113,8 @@ REFUSED = [
     ("demo", "Photograph tree 40 and keep away from people."),
     ("demo", "Photograph tree 40 and avoid mud."),
     ("demo", "Photograph tree 40 and use the east gate only."),
+    ("demo", "Take pictures on the left side."),
+    ("demo", "Take pictures on the left side of the wet corner."),
 ]
 
 
@@ -118,6 +131,14 @@ def test_what_is_avoided_is_planned_as_it_is_said(site: str, request_: str, plan
     assert outline(outcome.task).removesuffix(" | return_to_start") == plan
     assert mismatches(outcome.task, site_of(site), HUSKY) == ()
     assert unaccounted(outcome.task) == ()
+
+
+@pytest.mark.parametrize("hand", ["left", "right"])
+def test_the_left_and_the_right_side_of_a_row_are_stated_as_an_assumption(hand: str) -> None:
+    outcome = composed(f"Take pictures of the {hand} side of row 4.", site_of("demo"), HUSKY)
+    assert isinstance(outcome, Planned)
+    compass = {"left": "east", "right": "west"}[hand]
+    assert any(f"the {hand} side is the {compass} side" in text for text in outcome.task.command.assumptions)
 
 
 @pytest.mark.parametrize(("site", "request_"), ASKED)

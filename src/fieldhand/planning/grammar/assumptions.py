@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 
 from fieldhand.language import message
-from fieldhand.planning.selections import as_row_of
+from fieldhand.language.words import COMPASS
+from fieldhand.planning.selections import as_beside, as_row_of
 from fieldhand.site.model import Site
 from fieldhand.task.plan import Node, Span, walk
 
@@ -45,6 +47,28 @@ def assumed_ways(plan: Node, request: str, sides: Sequence[Span], site: Site) ->
                 said=said,
                 compass=compass,
             )
+
+
+def assumed_hands(plan: Node, request: str) -> Iterator[str]:
+    """Yield which side of a row is its left or right side, if the request says so.
+
+    Args:
+        plan: Plan of the request.
+        request: Request as typed.
+    """
+    if not re.search(r"\b(?:left|right)(?:[ -]?hand)?\b", request, re.IGNORECASE):
+        return
+    parts = (part for node in walk(plan) for part in (node.selector.walk() if node.selector else ()))
+    named = (one.side for part in parts if (one := as_beside(part)) is not None)
+    for side in dict.fromkeys(side for side in named if side != "both"):
+        hand = message("left") if side in ("east", "north") else message("right")
+        yield message(
+            "Left and right are as seen when driving a row from its first tree to its last: the {hand} side is the"
+            " {side} side.",
+            context="assumption",
+            hand=hand,
+            side=COMPASS[side],
+        )
 
 
 def assumed_wholes(plan: Node, request: str) -> Iterator[str]:

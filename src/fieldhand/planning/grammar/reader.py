@@ -11,7 +11,7 @@ from fieldhand.planning.english.tokens import Word, words_of
 from fieldhand.planning.english.wishes import says_start
 from fieldhand.planning.grammar.ambiguity import PlanQuestion, chosen_answer, not_an_answer, question_between
 from fieldhand.planning.grammar.answer_places import different_places
-from fieldhand.planning.grammar.assumptions import assumed_ways, assumed_wholes
+from fieldhand.planning.grammar.assumptions import assumed_hands, assumed_ways, assumed_wholes
 from fieldhand.planning.grammar.blocks import in_each_block, leaves_block_open, rules_in_each_block
 from fieldhand.planning.grammar.chart import Chart, Grammar, PhraseEdge, tokens_of
 from fieldhand.planning.grammar.dialogue import (
@@ -186,7 +186,11 @@ def _read_words(
                     remarks=remarks.spans,
                     labels=remarks.labels,
                     corrected=remarks.corrected,
-                    assumed=(*assumed_ways(state.plan, request, sides, site), *assumed_wholes(state.plan, request)),
+                    assumed=(
+                        *assumed_ways(state.plan, request, sides, site),
+                        *assumed_wholes(state.plan, request),
+                        *assumed_hands(state.plan, request),
+                    ),
                 )
                 for state in states
             ]

@@ -3,17 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Literal
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.clauses import Adjunct
 from fieldhand.planning.grammar.meaning import CaptureCommand, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import SIDES
+from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.selections import are_rows
+from fieldhand.site.model import Site
 from fieldhand.terms import TreeSide
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
+
+#: Side of a row, as seen when driving it from its first tree to its last.
+Hand = Literal["left", "right"]
 
 
 @construction(
@@ -61,6 +68,89 @@ def side_of(side: TreeSide, place: PlaceMeaning) -> PlaceMeaning | None:
     """Compose "the east side of tree 4", and of each of several; the east side of an area is a part of it."""
     is_tree = place.shape == "one" and bool(place.selector.named_tree)
     return beside(place, side) if is_tree or (place.shape == "several" and place.each) else None
+
+
+@construction("place: side=own_side OF place=place", cost=0.2, given=("site",))
+def side_of_row(side: TreeSide, place: PlaceMeaning, site: Site) -> PlaceMeaning | None:
+    """Compose "the west side of row 4", which runs north to south; the north side of it is one of its ends."""
+    return beside(place, side) if place.shape == "area" and side in _across_rows(place.selector, site) else None
+
+
+@construction("hand: [DET] LEFTSIDE", "hand: ITS LEFTSIDE", "hand: DET LEFTHAND", cost=0.1)
+def left() -> Hand:
+    """Compose "the left side"."""
+    return "left"
+
+
+@construction("hand: [DET] RIGHTSIDE", "hand: ITS RIGHTSIDE", "hand: DET RIGHTHAND", cost=0.1)
+def right() -> Hand:
+    """Compose "the right side"."""
+    return "right"
+
+
+@construction("place: hand=hand OF place=place", cost=0.1, given=("site",))
+def hand_of(hand: Hand, place: PlaceMeaning, site: Site) -> PlaceMeaning | None:
+    """Compose "the left side of row 4", as seen when driving it from its first tree to its last."""
+    if place.shape == "area" and not are_rows(place.selector):
+        return None
+    ways = _run_east_west(place.selector, site)
+    if len(ways) != 1:
+        return None
+    return beside(place, _compass(hand, ways))
+
+
+def _on_row_side(command: CaptureCommand, side: TreeSide) -> CaptureCommand | None:
+    place = command.place
+    return (
+        None if place is None or (place.shape == "area" and not are_rows(place.selector)) else _on_side(command, side)
+    )
+
+
+@construction("adjunct: AT hand=hand", "adjunct: FROM hand=hand", "adjunct: ALONG hand=hand", cost=0.2, given=("site",))
+def on_hand(hand: Hand, site: Site) -> Adjunct | None:
+    """Compose "on the left side", behind trees of rows that all run the same way."""
+    ways = {block.runs_east_west for block in site.planting.blocks}
+    return Adjunct(_on_row_side, _compass(hand, ways), of_place=True, is_sentence=True) if len(ways) == 1 else None
+
+
+@construction("adjunct: FROM side=own_side", "adjunct: AT side=own_side", cost=0.1, given=("site",))
+def on_side_of_row(side: TreeSide, site: Site) -> Adjunct | None:
+    """Compose "from the west side", of rows that run north to south."""
+    ways = {block.runs_east_west for block in site.planting.blocks}
+    if len(ways) != 1 or (side in ("north", "south")) not in ways:
+        return None
+    return Adjunct(_on_rows, side, of_place=True)
+
+
+def _on_rows(command: CaptureCommand, side: TreeSide) -> CaptureCommand | None:
+    place = command.place
+    is_rows = place is not None and place.shape == "area" and are_rows(place.selector)
+    return _on_side(command, side) if is_rows else None
+
+
+def _compass(hand: Hand, ways: set[bool]) -> TreeSide:
+    """Return the side of the compass of rows that run from north to south, or from west to east."""
+    if True in ways:
+        return "north" if hand == "left" else "south"
+    return "east" if hand == "left" else "west"
+
+
+def _run_east_west(selector: s.Selector, site: Site) -> set[bool]:
+    """Return for the rows of trees whether they run east to west; empty if one of the trees is in no row."""
+    planting = site.planting
+    trees = [site.by_id[name].index for name in ids_of(selector, site) or () if name in site.by_id]
+    rows = planting.row_of[trees].tolist()
+    if not rows or min(rows) < 0:
+        return set()
+    return {planting.blocks[planting.rows[row].block].runs_east_west for row in rows}
+
+
+def _across_rows(selector: s.Selector, site: Site) -> set[TreeSide]:
+    """Return the sides of rows, if they all run the same way; empty for other places."""
+    if not are_rows(selector):
+        return set()
+    ways = _run_east_west(selector, site)
+    return set() if len(ways) != 1 else {"north", "south"} if True in ways else {"east", "west"}
 
 
 def _on_side(command: CaptureCommand, side: TreeSide) -> CaptureCommand | None:

@@ -200,11 +200,19 @@ def beginning_of_row() -> Chosen:
     return Chosen(_TREE, choice=Choice("at", Positions(BOTH_ENDS[:1], noun="start")))
 
 
-@construction("row_end: side=DIR FINISH", "row_end: side=DIR part=SIDE", "row_end: marker=marker FINISH", cost=0.0)
-def row_end(side: Lex | None = None, marker: s.Selector | None = None, part: Lex | None = None) -> Positions | None:
+@construction(
+    "row_end: side=DIR FINISH", "row_end: side=DIR part=SIDE", "row_end: marker=marker FINISH",
+    cost=0.0, given=("site",),
+)  # fmt: skip
+def row_end(
+    site: Site, side: Lex | None = None, marker: s.Selector | None = None, part: Lex | None = None
+) -> Positions | None:
     """Compose "northern end" and "charger end" of a row: its first tree, counted from there."""
     if (side is not None and side.value not in SIDES) or (part is not None and "borders" not in part.features):
         return None
+    ways = {block.runs_east_west for block in site.planting.blocks}
+    if part is not None and side is not None and ways and (side.value in ("east", "west")) not in ways:
+        return None  # "the west side of row 4", which runs north to south
     at = Positions(BOTH_ENDS[:1], near=marker, noun="side")
     return at if side is None else replace(at, counted_from=side.value)
 
