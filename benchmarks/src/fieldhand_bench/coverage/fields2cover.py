@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from importlib import import_module
 from importlib.util import find_spec
@@ -82,34 +83,33 @@ def best_plan(area: Polygon, width_m: float, headland_m: float) -> OtherPlan | N
 def _plans(
     f2c: ModuleType, area: Polygon, width_m: float, headland_m: float, decomposition: str, objective: str
 ) -> Iterator[OtherPlan]:
+    """Yield the plans of a decomposition, without those on which Fields2Cover fails."""
     headlands, search, goal = f2c.HG_Const_gen(), f2c.SG_BruteForce(), getattr(f2c, objective)()
     search.setAllowOverlap(True)  # the last swath may overlap; else a strip of up to a width is left out
     cells = _cells(f2c, area)
     middle = headlands.generateHeadlands(cells, headland_m / 2.0)
     inside = headlands.generateHeadlands(cells, headland_m)
     if not decomposition:
-        swaths = search.generateBestSwaths(goal, width_m, inside)
-        yield from _plan(f2c, objective, middle, inside, swaths, width_m)
+        with suppress(RuntimeError):
+            swaths = search.generateBestSwaths(goal, width_m, inside)
+            yield _plan(f2c, objective, middle, inside, swaths, width_m)
         return
     largest = max((inside.getGeometry(k) for k in range(inside.size())), key=lambda cell: cell.area())
     along = search.computeBestAngle(goal, width_m, largest)
     for angle in (along, along + math.pi / 2.0):
         cutter = getattr(f2c, decomposition)()
         cutter.setSplitAngle(angle)
-        swaths = search.generateBestSwaths(goal, width_m, cutter.decompose(inside))
-        yield from _plan(f2c, f"{decomposition}, {objective}", middle, inside, swaths, width_m)
+        with suppress(RuntimeError):
+            swaths = search.generateBestSwaths(goal, width_m, cutter.decompose(inside))
+            yield _plan(f2c, f"{decomposition}, {objective}", middle, inside, swaths, width_m)
 
 
-def _plan(f2c: ModuleType, setup: str, middle: Any, inside: Any, swaths: Any, width_m: float) -> Iterator[OtherPlan]:
-    """Yield the plan of a setup, or nothing if Fields2Cover fails on it."""
-    try:
-        route = f2c.RP_RoutePlannerBase().genRoute(middle, swaths)
-    except RuntimeError:
-        return
+def _plan(f2c: ModuleType, setup: str, middle: Any, inside: Any, swaths: Any, width_m: float) -> OtherPlan:
+    route = f2c.RP_RoutePlannerBase().genRoute(middle, swaths)
     flat = swaths.flatten()
     lines = tuple(shapely.from_wkt(flat.at(k).getPath().exportToWkt()) for k in range(flat.size()))
     ground = shapely.from_wkt(inside.exportToWkt())
-    yield OtherPlan(
+    return OtherPlan(
         setup=setup.replace("DECOMP_", "").replace("OBJ_", ""),
         inside=ground,
         swaths=lines,
