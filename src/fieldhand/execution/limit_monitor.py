@@ -279,12 +279,12 @@ class LimitMonitor:
     def _work_left(self, doing: OpenDrive | OpenCapture) -> Work:
         if isinstance(doing, OpenStretch):
             mission = self._mission
-            left = doing.stretch.part(mission.controller.reached_m, doing.stretch.length_m)
+            rest = doing.stretch.part(mission.controller.reached_m, doing.stretch.length_m)
             constraints, robot = mission.task.constraints, mission.robot
-            if left is None:
+            if rest is None:
                 return Work()
             # The metres themselves are those of the current drive.
-            return replace(use_of(left, doing.work, constraints, robot).work(speed_of(constraints, robot)), metres=0.0)
+            return replace(use_of(rest, doing.work, constraints, robot).work(speed_of(constraints, robot)), metres=0.0)
         if not isinstance(doing, OpenCapture):
             return Work()
         action = self._mission.robot.action[doing.action]

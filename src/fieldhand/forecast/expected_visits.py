@@ -21,7 +21,7 @@ from fieldhand.forecast.visit_distances import visit_distances
 from fieldhand.forecast.walk_steps import VisitForecast
 from fieldhand.places.context import Context
 from fieldhand.site.model import Place
-from fieldhand.task.plan import ForEach, OptionalStep
+from fieldhand.task.plan import ForEach, OptionalStep, WorkAlong
 
 if TYPE_CHECKING:
     from fieldhand.forecast.request_handler import ForecastHandler
@@ -55,7 +55,7 @@ class ExpectedVisits:
 
 def expected_visits(
     walker: ForecastHandler,
-    node: ForEach | OptionalStep,
+    node: ForEach | OptionalStep | WorkAlong,
     visits: Sequence[Visit],
     rng: np.random.Generator,
     before: ExpectedVisits | None = None,
@@ -120,7 +120,7 @@ def _candidates(
 
 def _several(
     walker: ForecastHandler,
-    node: ForEach | OptionalStep,
+    node: ForEach | OptionalStep | WorkAlong,
     visits: Sequence[Visit],
     rest: RemainingWork,
     accepted: float,
@@ -175,7 +175,7 @@ def _one(
     )
 
 
-def _rest(walker: ForecastHandler, node: ForEach | OptionalStep, visits: Sequence[Visit]) -> RemainingWork:
+def _rest(walker: ForecastHandler, node: ForEach | OptionalStep | WorkAlong, visits: Sequence[Visit]) -> RemainingWork:
     """Return the mandatory work that follows, from the end of a step or the beginning of a for-each."""
     here, to_come = walker.context, walker.to_come()
     if node.is_optional_step:

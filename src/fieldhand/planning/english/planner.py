@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from fieldhand.errors import RequestError
 from fieldhand.language import Number, message
+from fieldhand.planning.english.lexicon import lexicon_for
 from fieldhand.planning.english.missing_blocks import missing_blocks
 from fieldhand.planning.english.tokens import Word, words_of
 from fieldhand.planning.english.wishes import early_wishes
@@ -52,7 +53,7 @@ class EnglishPlanner:
         """Plan a request without help if it is refused."""
         check_request(request)
         words = words_of(request)
-        if found := early_wishes(words):
+        if found := early_wishes(words, lexicon_for(robot, site)):
             from fieldhand.planning.refusals.helping import wish_reasons
 
             return Refused(reasons=tuple(wish_reasons(found, request, words, site, robot)), planner=NAME)

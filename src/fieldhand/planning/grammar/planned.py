@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from fieldhand.errors import PlaceError, TaskError
 from fieldhand.language import Number, message, named
 from fieldhand.places.context import Context
-from fieldhand.places.resolution import resolve
+from fieldhand.places.resolution import Resolution, resolve
 from fieldhand.planning.foreseen import foreseeable
 from fieldhand.planning.homeward import faulted_exits, usual_exit, with_assumed_exit
 from fieldhand.planning.planner import Outcome, Planned, Reason, Refused
@@ -130,10 +130,14 @@ def _impossible_limits(limits: Iterable[LimitPhrase]) -> Iterable[Reason]:
 def _impossible(plan: p.Node, site: Site) -> Iterable[Reason]:
     """Yield a reason for each place that the site lacks, as far as it can be told before the robot drives."""
     for node in p.walk(plan):
-        selector = node.selector
+        selector, here = node.selector, Context(here=site.start)
+        of_ground = node.work is not None and node.work.mode in ("area", "perimeter")
         for part in () if selector is None else foreseeable(selector):
             try:
-                resolve(part, site, Context(here=site.start))
+                if of_ground:
+                    part.ground(Resolution(site, here))
+                else:
+                    resolve(part, site, here)
             except (PlaceError, TaskError) as error:
                 yield Reason(what=error.what, said=node.said, advice=error.advice, final=True)
                 break

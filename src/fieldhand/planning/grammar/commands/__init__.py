@@ -15,12 +15,14 @@ from fieldhand.planning.grammar.commands import (
     requests,
     spacing,
     things,
+    working,
 )
 
 #: The constructions of all themes. Of readings that cost the same, the one composed first is kept, so the order counts.
 GRAMMAR = Grammar()
 _THEMES = (
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, requests, exclusions,
+    working,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)

@@ -51,6 +51,7 @@ from fieldhand.planning.grammar.dialogue.state import (
 )
 from fieldhand.planning.grammar.dialogue.totals import with_total
 from fieldhand.planning.grammar.dialogue.turns import as_meant
+from fieldhand.planning.grammar.dialogue.working import driven_along, work_along
 from fieldhand.planning.grammar.meaning import (
     LAST_THING,
     After,
@@ -81,6 +82,7 @@ from fieldhand.planning.grammar.meaning import (
     UntilCondition,
     VisitLimit,
     When,
+    WorkCommand,
 )
 from fieldhand.planning.selections import (
     AREAS,
@@ -143,15 +145,16 @@ def read_clauses(setting: Setting, said: Said, *, in_fragments: bool = False) ->
             state = _read(setting, state, clause, clauses[k + 1 :])
         except NotComposed as fault:
             raise fault.about(clause.command.used) from None
-    return _ended(with_order_kept(setting, capture_elided(setting, state)))
+    return _ended(setting, with_order_kept(setting, capture_elided(setting, state)))
 
 
-def _ended(state: DialogueState) -> DialogueState:
+def _ended(setting: Setting, state: DialogueState) -> DialogueState:
     """Return the state at the end of the request.
 
     Raises:
         NotComposed: Something is missing.
     """
+    state = driven_along(setting, state)
     if state.open or state.awaits_command or state.order is not None:
         raise NotComposed(_IDLE, advice=_WHAT_THERE)
     state = _without_idle(state)
@@ -164,7 +167,7 @@ def _ended(state: DialogueState) -> DialogueState:
             raise NotComposed(message("something follows the end of the mission", context="fault"))
         if node.is_choice and EMPTY in node.children:
             raise NotComposed(message("nothing is said to be done in one of the cases", context="fault"))
-        if node.is_optional_step and not any(one.act for one in p.walk(node)):
+        if node.is_optional_step and not any(one.act or one.work for one in p.walk(node)):
             raise NotComposed(message("it does not say what may be left out", context="fault"))
     if state.nominal is None and state.in_case is not None:
         cases = state.plan.steps[-1].children if state.plan.steps[-1].is_choice else ()
@@ -266,6 +269,8 @@ def _read(
                 raise NotComposed(message("something follows the end of the mission", context="fault"))
             driven = drive(setting, state, command)
             return _same_there(setting, state, driven, command, following) if command.instead else driven
+        case WorkCommand():
+            return work_along(setting, state, command)
         case Lead():
             if joint is not None and not (joint.full or joint.then or joint.both):
                 _require_other_places(state, command.place)
