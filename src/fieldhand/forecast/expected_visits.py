@@ -20,7 +20,7 @@ from fieldhand.forecast.sampled_costs import DRAWS
 from fieldhand.forecast.visit_distances import visit_distances
 from fieldhand.forecast.walk_steps import VisitForecast
 from fieldhand.site.model import Place
-from fieldhand.task.plan import ForEach, OptionalStep
+from fieldhand.task.plan import ForEach, OptionalStep, WorkAlong
 
 if TYPE_CHECKING:
     from fieldhand.forecast.request_handler import ForecastHandler
@@ -54,7 +54,7 @@ class ExpectedVisits:
 
 def expected_visits(
     walker: ForecastHandler,
-    node: ForEach | OptionalStep,
+    node: ForEach | OptionalStep | WorkAlong,
     visits: Sequence[Visit],
     rng: np.random.Generator,
     before: ExpectedVisits | None = None,
@@ -119,7 +119,7 @@ def _candidates(
 
 def _several(
     walker: ForecastHandler,
-    node: ForEach | OptionalStep,
+    node: ForEach | OptionalStep | WorkAlong,
     visits: Sequence[Visit],
     rest: RemainingWork,
     accepted: float,
@@ -176,7 +176,7 @@ def _one(
     )
 
 
-def _rest(walker: ForecastHandler, node: ForEach | OptionalStep, visits: Sequence[Visit]) -> RemainingWork:
+def _rest(walker: ForecastHandler, node: ForEach | OptionalStep | WorkAlong, visits: Sequence[Visit]) -> RemainingWork:
     """Return the mandatory work that follows, from the end of a step or the beginning of a for-each."""
     here, to_come = walker.context, walker.to_come()
     if node.is_optional_step:

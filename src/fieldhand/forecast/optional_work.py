@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from typing import cast
 
 import numpy as np
 
@@ -39,7 +40,10 @@ class LikelyOptionalWork:
         closed: tuple[Place, ...],
         stretches: tuple[Visit, ...] = (),
     ) -> tuple[Place, ...]:
-        return self._some(walker, node, stretches or _visits(walker).of_places(node, places, walker.context), closed)
+        if stretches or not places:
+            return self._some(walker, node, stretches, closed)
+        of_places = _visits(walker).of_places(cast("ForEach", node), places, walker.context)  # stretches come as visits
+        return self._some(walker, node, of_places, closed)
 
     def takes(self, walker: ForecastHandler, node: OptionalStep) -> bool:
         try:

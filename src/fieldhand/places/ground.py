@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 import shapely
+from shapely.geometry import MultiPoint
 from shapely.geometry.base import BaseGeometry
 
 from fieldhand.site.model import Site
@@ -30,7 +31,7 @@ def ground_of_trees(site: Site, trees: Sequence[int]) -> BaseGeometry:
         margin = site.spacing_m / 2.0
         if number >= 0 and math.isfinite(planting.blocks[number].row_spacing_m):
             margin = planting.blocks[number].row_spacing_m / 2.0
-        points = shapely.multipoints(np.asarray(site.xy[inside]))
-        outline = shapely.concave_hull(points, ratio=_RATIO) if len(inside) > 3 else points.convex_hull
+        points = MultiPoint(np.asarray(site.xy[inside]))
+        outline = shapely.concave_hull(points, ratio=_RATIO) if len(inside) > 3 else shapely.convex_hull(points)
         parts.append(outline.buffer(margin, join_style="mitre", mitre_limit=2.0))
     return shapely.union_all(parts)

@@ -118,7 +118,12 @@ class PlanFacts:
     @cached_property
     def actions(self) -> frozenset[str]:
         """Return the actions of the plan."""
-        return frozenset(one.action for one in self.captures)
+        return frozenset({*(one.action for one in self.captures), *(work.action for work in self.works if work.action)})
+
+    @cached_property
+    def works(self) -> tuple[p.WorkAlong, ...]:
+        """Return the work along paths."""
+        return tuple(node.work for node in self.nodes if node.work is not None)
 
     @cached_property
     def trees(self) -> tuple[tuple[str, str], ...]:
@@ -282,7 +287,7 @@ def _tests(nodes: tuple[p.Node, ...], selectors: tuple[tuple[str, Selector], ...
 def _done(node: p.Node) -> frozenset[str]:
     """Return the actions inside a node, and "stop" if it ends the mission."""
     stops = {"stop" for one in p.walk(node) if one.ends_plan}
-    return frozenset(stops | {act.action for act in p.acts(node)})
+    return frozenset(stops | ({act.action for act in p.acts(node)} | {work.action for work in p.works(node)}))
 
 
 def _tested(part: c.Condition, node: str) -> Iterator[PlannedTest]:
@@ -346,6 +351,10 @@ def _numbers(nodes: tuple[p.Node, ...], selectors: tuple[tuple[str, Selector], .
             yield PlannedNumber(
                 node=node.id, what="captures at a place", value=node.act.count, kind="count", field="captures"
             )
+        if node.work is not None:
+            for what, value in (("laps", node.work.laps), ("every n-th aisle", node.work.every)):
+                if value > 1:
+                    yield PlannedNumber(node=node.id, what=what, value=value, kind="count", field=what.split()[0])
         if node.at_most is not None:
             yield PlannedNumber(node=node.id, what="visits at most", value=node.at_most, kind="count", field="at_most")
         if node.rounds is not None and node.tested is None:

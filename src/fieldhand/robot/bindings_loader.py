@@ -277,7 +277,7 @@ def _action(bound: ActionBindingDocument, action: ActionDocument, units: dict[st
                 topic=message.topic,
                 type=message.type,
                 value=_field(message, message.type, units[name]),
-                within_s=message.within_s or max(_NEXT_S, _TIMES * action.duration_s),
+                within_s=message.within_s or max(_NEXT_S, _TIMES * (action.duration_s or 0.0)),
                 reliable=message.reliable,
             )
             for name, message in bound.topics.items()
@@ -297,7 +297,7 @@ def _call(bound: ActionBindingDocument, action: ActionDocument, units: dict[str,
         readings={name: _field(reading, "", units[name]) for name, reading in call.readings.items()},
         success=call.success or "",
         message=call.message or "",
-        within_s=call.within_s or max(_LEAST_S, _TIMES * action.duration_s),
+        within_s=call.within_s or max(_LEAST_S, _TIMES * (action.duration_s or 0.0)),
     )
 
 

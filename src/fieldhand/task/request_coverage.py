@@ -86,11 +86,9 @@ def _words(task: Task) -> Iterator[tuple[int, int, WordRole]]:
             found.append((text, start, end, next(holding, "nothing")))
     spoken = {_stem(text) for text, _, _, role in found if role not in ("no_part", "nothing") and text.isalpha()}
     spoken |= {_stem(r.name.lower()) for r in task.resources if r.kind == "robot"}
-    spoken |= {
-        _stem(word)
-        for act in (*acts(task.composition.plan), *works(task.composition.plan))
-        for word in act.action.split("_")
-    }
+    plan = task.composition.plan
+    actions = [*(act.action for act in acts(plan)), *(work.action for work in works(plan))]
+    spoken |= {_stem(word) for action in actions for word in action.split("_")}
     for text, start, end, role in found:
         dropped = role == "no_part" and not is_filler(text, language) and _stem(text) not in spoken
         yield start, end, "nothing" if dropped else role

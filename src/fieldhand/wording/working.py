@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from fieldhand.forecast.working import amount_of, implement_of
-from fieldhand.language import counted, joined, labelled, message
+from fieldhand.language import Message, counted, joined, labelled, message
 from fieldhand.language.words import COMPASS, listed, say_action, say_number, say_quantity, say_rounded
 from fieldhand.places.selector import Selector
 from fieldhand.places.wording import SelectorWording
@@ -89,7 +89,7 @@ def say_extent(node: WorkAlong, robot: RobotProfile, resolved: ResolvedPlaces | 
     return message("({facts})", facts=joined(", ", parts))
 
 
-def say_amount(node: WorkAlong, robot: RobotProfile, stretches: Sequence[Stretch]) -> list[str]:
+def say_amount(node: WorkAlong, robot: RobotProfile, stretches: Sequence[Stretch]) -> list[Message]:
     """Return the amount that is applied, in a list; empty if nothing is."""
     amount = amount_of(node, robot, sum(s.on_m for s in stretches))
     if amount is None:
@@ -97,7 +97,7 @@ def say_amount(node: WorkAlong, robot: RobotProfile, stretches: Sequence[Stretch
     return [message("about {amount}", amount=say_quantity(_rounded(amount.value), amount.unit))]
 
 
-def say_area(square_m: float) -> str:
+def say_area(square_m: float) -> Message:
     """Return an area: in hectares, or in square metres if it is small."""
     if square_m >= _HECTARE_FROM_M2:
         return message("{area} ha", area=say_number(round(square_m / 10_000.0, 2)))
@@ -116,7 +116,7 @@ def _doing(node: WorkAlong, robot: RobotProfile) -> str:
     return doing if action is None else labelled(doing, action.labels)
 
 
-def _settings(node: WorkAlong, robot: RobotProfile) -> list[str]:
+def _settings(node: WorkAlong, robot: RobotProfile) -> list[Message]:
     """Return the parameters: "at 300 l/ha" for the rate, also where it is the default, "with X 3" for others."""
     action = robot.action.get(node.action)
     if action is None:

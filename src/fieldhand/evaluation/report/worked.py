@@ -1,4 +1,4 @@
-"""What implements did during a mission: metres, area with overlap, and amounts, from the event log."""
+"""Work of implements during a mission: metres, area with overlap, and amounts, from the event log."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
+from shapely.geometry import LineString
 
 from fieldhand.language.words import capitalised, say_action, say_number
 from fieldhand.robot.model import RobotProfile
@@ -69,7 +70,7 @@ def _area(site: Site, robot: RobotProfile, action: str, done: list[Worked]) -> s
     for part in (part for event in done for part in event.paths):
         degrees = np.asarray(part, dtype=np.float64).reshape(-1, 2)
         if len(degrees) > 1 and np.isfinite(degrees).all():
-            line = shapely.linestrings(site.projection.metres(degrees[:, 0], degrees[:, 1]))
+            line = LineString(site.projection.metres(degrees[:, 0], degrees[:, 1]))
             strips.append(line.buffer(width / 2.0, cap_style="flat"))
     total, covered = sum(strip.area for strip in strips), shapely.union_all(strips).area
     again = total - covered

@@ -15,6 +15,8 @@ from fieldhand.site.model import Site
 
 #: Words of the shared vocabulary that a robot's own word may replace; no function word is among them.
 _REPLACEABLE = frozenset({"READING", "FILLER", "TREE", "PLACE", "EDGE", "SIDE"})
+#: Categories of verbs that a robot's own verbs may replace.
+_VERBS = frozenset({"TAKE", "MEASURE"})
 #: An id of letters and a number, which names a tree without the word for it.
 CODE = re.compile(r"([^\W\d_]+)(\d+)")
 
@@ -107,7 +109,7 @@ def _lexicon_of(robot: RobotProfile, site: Site) -> Lexicon:
             own.setdefault(phrase, entry)
     for phrase, entry in robot_entries(robot):
         shared = shared_vocabulary().get(phrase)
-        if shared is None or shared.kind in _REPLACEABLE or (shared.kind == "TAKE" and entry.kind == "ACTV"):
+        if shared is None or shared.kind in _REPLACEABLE or (shared.kind in _VERBS and entry.kind in ("ACTV", "WORKV")):
             if phrase in own and own[phrase].kind == "ATTR":
                 attributes[phrase] = own[phrase]
             own[phrase] = entry

@@ -52,7 +52,8 @@ def robot_entries(robot: RobotProfile) -> Iterator[tuple[Phrase, NameEntry]]:
     """Nouns and verbs of the robot's own. A word of several actions keeps them all, the usual one first."""
     actions: dict[Phrase, list[str]] = {}
     quantities: dict[Phrase, list[str]] = {}
-    for action in robot.actions:
+    at_places = [action for action in robot.actions if action.implement is None]
+    for action in at_places:
         # "read_co2" is a verb and a noun: as one noun it would be none behind "if it is low, read CO2 ...".
         for word in (*action.words, *(() if "_" in action.name and action.words else (action.name,))):
             actions.setdefault(split(word), []).append(action.name)
@@ -67,7 +68,14 @@ def robot_entries(robot: RobotProfile) -> Iterator[tuple[Phrase, NameEntry]]:
         naming = Naming(actions=(*named, *measuring), quantities=tuple(measured))
         yield phrase, NameEntry(kind="NOUN", value=naming)
         yield _plural(phrase), NameEntry(kind="NOUN", value=naming, plural=True)
-    for action in robot.actions:
+    for implement in robot.implements.values():
+        for verb in implement.verbs:
+            for form in forms_of(verb):
+                yield split(form), NameEntry(kind="WORKV", value=implement.name)
+        for word in implement.words:
+            if word not in implement.verbs:
+                yield split(word), NameEntry(kind="WORKN", value=implement.name)
+    for action in at_places:
         for verb in action.verbs:
             for form in forms_of(verb):
                 yield split(form), NameEntry(kind="ACTV", value=Naming(actions=(action.name,)))

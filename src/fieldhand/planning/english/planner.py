@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from fieldhand.errors import RequestError
 from fieldhand.language import Number, message
+from fieldhand.planning.english.lexicon import lexicon_for
 from fieldhand.planning.english.missing_blocks import missing_blocks
 from fieldhand.planning.english.tokens import Word, words_of
 from fieldhand.planning.english.wishes import Wish, early_wishes
@@ -53,9 +54,13 @@ class EnglishPlanner:
         """Plan a request without help if it is refused."""
         check_request(request)
         words = words_of(request)
+<<<<<<< HEAD
         if (timed := self._timed(request, words, site, robot, answers)) is not None:
             return timed
         if found := _unplanned(early_wishes(words), words, robot):
+=======
+        if found := early_wishes(words, lexicon_for(robot, site)):
+>>>>>>> working
             from fieldhand.planning.refusals.helping import wish_reasons
 
             return Refused(reasons=tuple(wish_reasons(found, request, words, site, robot)), planner=NAME)

@@ -52,6 +52,7 @@ class WishKind:
         aside: True if the rest of the request is a request without the words.
         rest: True if all that follows in the same clause belongs to it.
         offers: What is listed in the advice.
+        works: True if it is looked for only where the request asks for no work of an implement of the robot.
         example: Form of a request with the same purpose, with a placeholder for another request.
         said: Regular expressions of its words.
     """
@@ -65,6 +66,7 @@ class WishKind:
     aside: bool
     rest: bool
     offers: Offers
+    works: bool
     example: str
     said: tuple[str, ...]
 
@@ -105,9 +107,11 @@ class Wish:
         return message(self.kind.advice, context="wish", robot=robot, offers=offers)
 
 
-def early_wishes(words: Sequence[Word]) -> list[Wish]:
+def early_wishes(words: Sequence[Word], lexicon: Lexicon) -> list[Wish]:
     """Return the wishes that no reading can leave out."""
-    found = _longest(_found(words, [kind for kind in wish_kinds() if kind.early]))
+    entries = (lexicon.own.get((word.norm,)) for word in words)
+    works = any(entry is not None and entry.kind in ("WORKV", "WORKN") for entry in entries)
+    found = _longest(_found(words, [kind for kind in wish_kinds() if kind.early and not (works and kind.works)]))
     times = [wish for wish in found if wish.kind.now]
     if len(times) == 1 and _is_of_whole_request(times[0], words):
         found.remove(times[0])
@@ -196,6 +200,7 @@ def wish_kinds() -> tuple[WishKind, ...]:
             aside=known.get("aside", False),
             rest=known.get("rest", False),
             offers=known.get("offers", ""),
+            works=known.get("works", False),
             example=known.get("example", ""),
             said=tuple(known["said"]),
         )

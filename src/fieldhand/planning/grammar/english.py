@@ -90,6 +90,9 @@ class EnglishPhrases:
         own = more_words().get(phrase) or more_words().get(in_full, ())
         if known is not None and known.kind == "FILLER" and any(one.kind in _SAY_SOMETHING for one in own):
             known = None
+        if known is not None and known.kind == "WORKV":
+            yield known  # "film row 3" is a recording, not a picture, where the robot records
+            return
         if known is not None:
             yield known
             if (attribute := self.lexicon.attributes.get(phrase)) is not None:

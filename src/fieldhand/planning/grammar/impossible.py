@@ -165,6 +165,17 @@ def in_an_aisle() -> Impossible:
     )
 
 
+@construction("WORKV where=place")
+def work_at_places(where: PlaceMeaning) -> Impossible | None:
+    """Compose "spray tree 4"."""
+    if where.shape == "area":
+        return None
+    return Impossible(
+        message("this is done while driving along a path, not at single trees"),
+        message("say along which rows, between which rows, or over which area"),
+    )
+
+
 @construction("first=place NEAR place", "first=place NEAREST [AT] place")
 def single_and_near(first: PlaceMeaning) -> Impossible | None:
     """Compose "the northernmost tree near the charger"."""

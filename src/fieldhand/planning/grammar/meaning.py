@@ -6,8 +6,12 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 from fieldhand.places import selectors as s
+<<<<<<< HEAD
 from fieldhand.places.series_statistics import Statistic
 from fieldhand.task.watches import Fallback, Response, WatchCondition
+=======
+from fieldhand.task.nodes.work_along import RowSides, WorkMode
+>>>>>>> working
 
 #: What a place phrase means: one place, several places, an area whose trees are meant, places just spoken of (``here``,
 #: ``those``), trees around of which another phrase says how many (``nearby``), a step along the row, rows of which
@@ -278,6 +282,29 @@ class DriveCommand:
     ends: bool = False
     instead: bool = False
     pace: PaceClause | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class WorkCommand:
+    """A command to work along a path, or to drive along it.
+
+    Attributes:
+        action: Action of an implement; empty to drive only.
+        along: Rows or area; None if the phrase names none.
+        mode: How it is worked.
+        used: Tokens of the phrase.
+        sides, every, laps, optional, parameters: As of the plan node.
+    """
+
+    action: str
+    along: s.Selector | None
+    mode: WorkMode
+    used: int
+    sides: RowSides = "one"
+    every: int = 1
+    laps: int = 1
+    optional: bool = False
+    parameters: tuple[tuple[str, str | float], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -721,6 +748,7 @@ class WatchCommand:
 Command = (
     CaptureCommand
     | DriveCommand
+    | WorkCommand
     | Lead
     | Home
     | StopCommand

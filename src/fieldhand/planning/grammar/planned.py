@@ -10,9 +10,13 @@ from dataclasses import dataclass, replace
 from fieldhand.errors import PlaceError, TaskError
 from fieldhand.language import Number, message, named
 from fieldhand.places.context import Context
+<<<<<<< HEAD
 from fieldhand.places.resolution import resolve
 from fieldhand.places.sources.gate_is import GateIs
 from fieldhand.places.wording import say_selector
+=======
+from fieldhand.places.resolution import Resolution, resolve
+>>>>>>> working
 from fieldhand.planning.foreseen import foreseeable
 from fieldhand.planning.grammar.dialogue.watching import with_visits
 from fieldhand.planning.grammar.meaning import WayRule
@@ -186,10 +190,14 @@ def _impossible_ways(meant: Meant, site: Site) -> Iterable[Reason]:
 def _impossible(plan: p.Node, site: Site) -> Iterable[Reason]:
     """Yield a reason for each place that the site lacks, as far as it can be told before the robot drives."""
     for node in p.walk(plan):
-        selector = node.selector
+        selector, here = node.selector, Context(here=site.start)
+        of_ground = node.work is not None and node.work.mode in ("area", "perimeter")
         for part in () if selector is None else foreseeable(selector):
             try:
-                resolve(part, site, Context(here=site.start))
+                if of_ground:
+                    part.ground(Resolution(site, here))
+                else:
+                    resolve(part, site, here)
             except (PlaceError, TaskError) as error:
                 yield Reason(what=error.what, said=node.said, advice=error.advice, final=True)
                 break

@@ -127,7 +127,7 @@ def _work_of(drives: Drives, plan: CoveragePlan) -> AreaWork:
 
 def _drivable(drives: Drives, name: str, points: Sequence[XY]) -> Iterator[Stretch]:
     """Yield the parts of a line on drivable ground."""
-    line = LineString(points)
+    line: BaseGeometry = LineString(points)
     if drives.layout.free.bounded:
         line = line.intersection(drives.layout.free.soft.buffer(_SHORT_M / 50.0))
     parts = [p for p in shapely.get_parts(shapely.line_merge(line)) if p.length >= _SHORT_M]

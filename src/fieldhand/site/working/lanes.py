@@ -86,8 +86,8 @@ def _lane(drives: Drives, stops: Sequence[XY], indices: Sequence[int]) -> LanePa
         way = drives.way_between(stops[one], stops[two])
         assert way is not None  # noqa: S101  points without a way were separated
         points += way[0][1:]
-    line = LineString(points) if len(points) > 1 else LineString([points[0], points[0]])
-    line = line.simplify(_SIMPLE_M)
+    path = LineString(points) if len(points) > 1 else LineString([points[0], points[0]])
+    line = path.simplify(_SIMPLE_M)
     corners = tuple((float(x), float(y)) for x, y in line.coords)
     at, before = [], 0.0
     for k in indices:

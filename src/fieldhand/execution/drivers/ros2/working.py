@@ -88,7 +88,7 @@ class ImplementClient:
             request = message_of({path: _value(value, parameters) for path, value in values.items()})
             if binding.kind == "topic":
                 assert not hasattr(end, "ask")  # noqa: S101  a topic has a publisher
-                yield from self._send(binding, end, request)  # type: ignore[arg-type]
+                yield from self._send(binding, end, request)
             else:
                 answer = yield from self._ask(binding, end, request)  # type: ignore[arg-type]
                 if binding.success and not value_at(answer, binding.success):

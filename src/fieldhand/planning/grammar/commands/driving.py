@@ -58,6 +58,8 @@ def stops(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | None:
 )
 def drive_to(place: PlaceMeaning, used: int, verb: Lex | None = None, along: Lex | None = None) -> DriveCommand | None:
     """Compose "go to tree 4"."""
+    if verb is not None and "patrols" in verb.features:
+        return None  # of which trees, and what is done there?
     if along is not None and place.shape == "several" and as_some(place.selector) is not None:
         return None  # "along 5 trees": those follow each other
     return DriveCommand(place, used, begins=verb is not None and "begins" in verb.features)

@@ -53,8 +53,12 @@ from fieldhand.planning.grammar.dialogue.state import (
 )
 from fieldhand.planning.grammar.dialogue.totals import with_total
 from fieldhand.planning.grammar.dialogue.turns import as_meant
+<<<<<<< HEAD
 from fieldhand.planning.grammar.dialogue.waits import waited, with_settling
 from fieldhand.planning.grammar.dialogue.watching import watched
+=======
+from fieldhand.planning.grammar.dialogue.working import driven_along, work_along
+>>>>>>> working
 from fieldhand.planning.grammar.meaning import (
     LAST_THING,
     After,
@@ -89,7 +93,11 @@ from fieldhand.planning.grammar.meaning import (
     WatchCommand,
     WayRule,
     When,
+<<<<<<< HEAD
     wait_seconds,
+=======
+    WorkCommand,
+>>>>>>> working
 )
 from fieldhand.planning.selections import (
     AREAS,
@@ -152,15 +160,20 @@ def read_clauses(setting: Setting, said: Said, *, in_fragments: bool = False) ->
             state = _read(setting, state, clause, clauses[k + 1 :])
         except NotComposed as fault:
             raise fault.about(clause.command.used) from None
+<<<<<<< HEAD
     return with_paces(setting, with_settling(setting, _ended(with_order_kept(setting, capture_elided(setting, state)))))
+=======
+    return _ended(setting, with_order_kept(setting, capture_elided(setting, state)))
+>>>>>>> working
 
 
-def _ended(state: DialogueState) -> DialogueState:
+def _ended(setting: Setting, state: DialogueState) -> DialogueState:
     """Return the state at the end of the request.
 
     Raises:
         NotComposed: Something is missing.
     """
+    state = driven_along(setting, state)
     if state.open or state.awaits_command or state.order is not None:
         raise NotComposed(_IDLE, advice=_WHAT_THERE)
     state = _without_idle(state)
@@ -173,7 +186,7 @@ def _ended(state: DialogueState) -> DialogueState:
             raise NotComposed(message("something follows the end of the mission", context="fault"))
         if node.is_choice and EMPTY in node.children:
             raise NotComposed(message("nothing is said to be done in one of the cases", context="fault"))
-        if node.is_optional_step and not any(one.act for one in p.walk(node)):
+        if node.is_optional_step and not any(one.act or one.work for one in p.walk(node)):
             raise NotComposed(message("it does not say what may be left out", context="fault"))
     if state.nominal is None and state.in_case is not None:
         cases = state.plan.steps[-1].children if state.plan.steps[-1].is_choice else ()
@@ -288,6 +301,8 @@ def _read(
             if command.pace is not None:
                 driven = paced_drive(setting, state, driven, command.pace)
             return _same_there(setting, state, driven, command, following) if command.instead else driven
+        case WorkCommand():
+            return work_along(setting, state, command)
         case Lead():
             if joint is not None and not (joint.full or joint.then or joint.both):
                 _require_other_places(state, command.place)

@@ -1,0 +1,281 @@
+"""Constructions of work along paths: "spray rows 3 to 8", "mow every second aisle", "patrol the property line twice".
+
+A robot's implements have words of their own: ``WORKV`` are their verbs, ``WORKN`` their nouns ("the mower").
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.commands.parameters import with_parameter
+from fieldhand.planning.grammar.meaning import Amount, ParameterValue, Thing, WorkCommand
+from fieldhand.planning.grammar.places.areas import edges
+from fieldhand.planning.grammar.places.compass import SIDES
+from fieldhand.planning.grammar.places.numbers import name_of
+from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.selections import are_rows, is_one_row, over
+from fieldhand.robot.model import RobotProfile
+from fieldhand.task.nodes.work_along import RowSides, WorkMode
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+
+@dataclass(frozen=True, slots=True)
+class Tract:
+    """Rows, aisles or ground along which something is done.
+
+    Attributes:
+        selector: Trees of the rows, or the area.
+        mode: How it is worked; empty for ground that is worked along its rows or lane by lane, as the implement works.
+        sides: Sides of the rows.
+        every: 2 for every second aisle.
+        along: True if the phrase says "along".
+        optional: True for as much of it as the budget allows.
+    """
+
+    selector: s.Selector
+    mode: WorkMode | None
+    sides: RowSides = "one"
+    every: int = 1
+    along: bool = False
+    optional: bool = False
+
+
+@construction(
+    "tract: rows=rows", "tract: way=ALONG rows=rows", "tract: in_ rows=rows",
+    "tract: rows=each_row", "tract: way=ALONG rows=each_row", "tract: in_ rows=each_row",
+    "tract: rows=all_rows", "tract: way=ALONG rows=all_rows", "tract: in_ rows=all_rows",
+    cost=0.8,
+)  # fmt: skip
+def rows_tract(rows: s.Selector, way: Lex | None = None) -> Tract | None:
+    """Compose "along rows 3 to 8"."""
+    return Tract(rows, "rows", along=way is not None) if are_rows(rows) or rows == s.Rows() else None
+
+
+@construction(
+    "tract: [ALONG] BETWEEN ROW first=row_name AND [ROW] last=row_name",
+    "tract: [ALONG] [DET] AISLE BETWEEN [ROW] first=row_name AND [ROW] last=row_name",
+    "tract: [ALONG] [DET] AISLE FROM ROW first=row_name range_to [ROW] last=row_name",
+    cost=0.0,
+)
+def aisles_between(first: Lex, last: Lex) -> Tract:
+    """Compose "between rows 10 and 14"."""
+    return Tract(s.Rows(first=name_of(first), last=name_of(last)), "aisles")
+
+
+@construction(
+    "tract: [ALONG] [in_] EACH AISLE",
+    "tract: [ALONG] [in_] EACH [DET] AISLE",
+    "tract: [ALONG] [in_] [DET] noun=AISLE",
+    "tract: [ALONG] [in_] EACH other=OTHER AISLE",
+    "tract: [ALONG] [in_] EACH rank=ORD AISLE",
+    cost=0.1,
+)
+def aisles(noun: Lex | None = None, other: Lex | None = None, rank: Lex | None = None) -> Tract | None:
+    """Compose "every second aisle" and "the aisles"."""
+    if noun is not None and not noun.plural:
+        return None
+    every = 1 if rank is None else int(rank.value)
+    if other is not None:
+        every = 2
+    return Tract(s.Trees(), "aisles", every=every) if every >= 1 else None
+
+
+@construction("tract: part=tract OF where=region", "tract: part=tract in_ where=region", cost=0.1)
+def tract_of(part: Tract, where: s.Selector) -> Tract | None:
+    """Compose "every second aisle of the north block"."""
+    if part.mode not in ("aisles", "headlands") or where == part.selector:
+        return None
+    if part.selector == s.Trees():
+        return replace(part, selector=where)
+    return replace(part, selector=over(part.selector, where)) if are_rows(part.selector) else None
+
+
+@construction("tract: [AT] [DET] side=DIR SIDE OF rows=rows", cost=0.0)
+def one_side(side: Lex, rows: s.Selector) -> Tract | None:
+    """Compose "the west side of row 4"."""
+    return Tract(rows, "rows", sides=side.value) if side.value in SIDES else None
+
+
+@construction("tract: EACHSIDE OF rows=rows", "tract: part=tract EACHSIDE", cost=0.0)
+def both_sides(rows: s.Selector | None = None, part: Tract | None = None) -> Tract | None:
+    """Compose "both sides of row 4" and "rows 3 to 8 on both sides"."""
+    if part is not None:
+        return replace(part, sides="both") if part.mode == "rows" and part.sides == "one" else None
+    return None if rows is None else Tract(rows, "rows", sides="both")
+
+
+@construction("tract: part=tract [COMMA] except out=rows", "tract: part=tract [COMMA] BUT [NOT] out=rows", cost=0.0)
+def without_rows(part: Tract, out: s.Selector) -> Tract | None:
+    """Compose "rows 3 to 8 except row 5"."""
+    if part.mode != "rows" or not are_rows(out):
+        return None
+    return replace(part, selector=s.Excluding(places=out, of=part.selector))
+
+
+@construction("tract: where=region", "tract: in_ where=region", cost=0.4)
+def ground(where: s.Selector) -> Tract | None:
+    """Compose "the meadow" and "the north block"."""
+    return None if are_rows(where) or where == edges() else Tract(where, None)
+
+
+@construction("tract: EVERYTHING", "tract: EVERYTHING BUT out=region", "tract: EACH OF site", "tract: site", cost=0.3)
+def whole_site(out: s.Selector | None = None) -> Tract:
+    """Compose "everything but the wet corner"."""
+    return Tract(s.Trees() if out is None else s.Excluding(places=out), None)
+
+
+@construction("tract: ASMANY part=tract as_can", "tract: ASMANY noun=ROW as_can", cost=0.0)
+def as_many(part: Tract | None = None, noun: Lex | None = None) -> Tract | None:
+    """Compose "as many of rows 3 to 8 as you can"."""
+    if noun is not None and not noun.plural:
+        return None
+    return replace(part or Tract(s.Rows(), "rows"), optional=True)
+
+
+@construction("tract: [ALONG] [DET] noun=HEADLAND", cost=0.0)
+def headlands(noun: Lex) -> Tract:
+    """Compose "the headlands"."""
+    del noun
+    return Tract(s.Trees(), "headlands")
+
+
+@construction(
+    "edge_line: [DET] EDGE", "edge_line: [DET] EDGE OF where=region", "edge_line: [DET] EDGE OF site", cost=0.0
+)
+def edge_line(where: s.Selector | None = None) -> s.Selector | None:
+    """Compose "the edge of the north block"."""
+    return None if where is not None and are_rows(where) else where or s.Trees()
+
+
+@construction(
+    "edge: line=edge_line", "edge: AROUND line=edge_line", "edge: ALONG line=edge_line",
+    "edge: AROUND where=region", "edge: AROUND site",
+    cost=0.1,
+)  # fmt: skip
+def edge(where: s.Selector | None = None, line: s.Selector | None = None) -> Tract | None:
+    """Compose "the property line" and "around the north block"."""
+    if line is not None:
+        return Tract(line, "perimeter")
+    if where is not None and are_rows(where):
+        return None
+    return Tract(s.Trees() if where is None else where, "perimeter")
+
+
+@construction("tract: edge=edge", cost=0.0)
+def edge_as_tract(edge: Tract) -> Tract:
+    """Compose "around the pond" behind a verb."""
+    return edge
+
+
+# --- commands ---------------------------------------------------------------------------------------------------------
+
+
+@construction(
+    "work: verb=WORKV where=tract",
+    "work: verb=WORKV where=tract how=parameter",
+    "work: verb=WORKV where=tract WITH amount=amount",
+    "work: verb=WORKV how=parameter where=tract",
+    "work: verb=WORKV WITH amount=amount where=tract",
+    "work: verb=WORKV [COMMA] how=parameter",
+    "work: verb=WORKV",
+    "work: verb=WORKV it=IT",
+    "work: verb=WORKV it=IT how=parameter",
+    "work: USE [DET] verb=WORKN where=tract",
+    "work: USE [DET] verb=WORKN AT where=tract",
+    "work: USE [DET] verb=WORKN where=tract how=parameter",
+    "work: VISIT where=tract WITH [DET] verb=WORKN",
+    "work: VISIT where=tract USE [DET] verb=WORKN",
+    "work: GO where=tract WITH [DET] verb=WORKN",
+    "work: TAKE [DET] verb=WORKN OF where=tract",
+    "work: TAKE [DET] verb=WORKV OF where=tract",
+    "work: WORKV [DET] verb=WORKN OF where=tract",
+    "work: WORKV [DET] verb=WORKV OF where=tract",
+    cost=0.1,
+    given=("robot",),
+)
+def work(
+    verb: Lex,
+    used: int,
+    robot: RobotProfile,
+    where: Tract | None = None,
+    how: ParameterValue | None = None,
+    amount: Amount | None = None,
+    it: Lex | None = None,
+) -> list[WorkCommand] | None:
+    """Compose "spray rows 3 to 8 at 300 l/ha" and "run the mower between rows 10 and 14"."""
+    del it  # the rows or the area before
+    parameters: tuple[tuple[str, str | float], ...] = ()
+    if amount is not None:
+        how = ParameterValue(amount.number, amount.unit, ())
+    if how is not None:
+        made = with_parameter(Thing(verb.value), how, robot)
+        if made is None:
+            return None
+        parameters = made.parameters
+    implement = robot.action[verb.value].implement
+    covers = implement is not None and implement.covers
+    command = WorkCommand(action=verb.value, along=None, mode="rows", used=used, parameters=parameters)
+    if where is None:
+        return [command]
+    mode = where.mode or ("area" if covers else "rows")
+    command = replace(command, along=where.selector, mode=mode, sides=where.sides, every=where.every)
+    command = replace(command, optional=where.optional)
+    if covers and mode == "rows" and not where.along and where.sides == "one" and not is_one_row(where.selector):
+        return [command, replace(command, mode="aisles")]  # beside the rows, or the ground between them?
+    return [command]
+
+
+@construction("work: verb=GO where=edge", "work: verb=GO where=region", cost=0.1)
+def patrol(verb: Lex, where: Tract | s.Selector, used: int) -> WorkCommand | None:
+    """Compose "patrol the property line" and "drive around the north block"."""
+    selector = where.selector if isinstance(where, Tract) else where
+    if not isinstance(where, Tract) and (are_rows(selector) or "patrols" not in verb.features):
+        return None
+    if selector == edges():
+        return None  # "the property line" is that of the site
+    return WorkCommand(action="", along=selector, mode="perimeter", used=used)
+
+
+@construction("work: GO where=tract", cost=0.1)
+def through_aisles(where: Tract, used: int) -> WorkCommand | None:
+    """Compose "drive through every second aisle"."""
+    if where.mode not in ("aisles", "headlands") or where.optional:
+        return None
+    return WorkCommand(action="", along=where.selector, mode=where.mode, used=used, every=where.every)
+
+
+@construction("work: one=work [COMMA] n=COUNT", cost=0.1)
+def in_laps(one: WorkCommand, n: Lex, used: int) -> WorkCommand | None:
+    """Compose "patrol the boundary twice"."""
+    if one.laps != 1 or not 1 <= int(n.value) <= 100 or one.along is None:
+        return None
+    return replace(one, laps=int(n.value), used=used)
+
+
+@construction("work: one=work [COMMA] ASMANY as_can", cost=0.1)
+def as_much(one: WorkCommand, used: int) -> WorkCommand | None:
+    """Compose "spray rows 3 to 8, as much as you can"."""
+    return None if one.along is None or one.optional else replace(one, optional=True, used=used)
+
+
+@construction("work: one=work [COMMA] [AT] [DET] side=DIR SIDE", cost=0.1)
+def on_one_side(one: WorkCommand, side: Lex, used: int) -> WorkCommand | None:
+    """Compose "spray rows 3 to 8 at 300 l/ha on the west side"."""
+    fits = one.mode == "rows" and one.sides == "one" and one.along is not None and side.value in SIDES
+    return replace(one, sides=side.value, used=used) if fits else None
+
+
+@construction("work: one=work [COMMA] EACHSIDE", cost=0.1)
+def on_both_sides(one: WorkCommand, used: int) -> WorkCommand | None:
+    """Compose "spray rows 3 to 8 at 300 l/ha on both sides"."""
+    return replace(one, sides="both", used=used) if one.mode == "rows" and one.sides == "one" else None
+
+
+@construction("command: one=work", cost=0.0)
+def work_as_command(one: WorkCommand) -> WorkCommand:
+    """Compose "mow the meadow" as a command."""
+    return one
