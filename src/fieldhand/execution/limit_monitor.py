@@ -285,24 +285,13 @@ class LimitMonitor:
             return Work(seconds=self._mission.dwell_left_s)
         constraints, robot = self._mission.task.constraints, self._mission.robot
         if isinstance(doing, OpenStretch):
-<<<<<<< HEAD
             rest = doing.stretch.part(self._mission.controller.reached_m, doing.stretch.length_m)
-=======
-            mission = self._mission
-            rest = doing.stretch.part(mission.controller.reached_m, doing.stretch.length_m)
-            constraints, robot = mission.task.constraints, mission.robot
->>>>>>> working
             if rest is None:
                 return Work()
             # The metres themselves are those of the current drive.
             return replace(use_of(rest, doing.work, constraints, robot).work(speed_of(constraints, robot)), metres=0.0)
-<<<<<<< HEAD
         if isinstance(doing, OpenDrive):
             return Work(seconds=on_m * slower_s_per_m(constraints, robot, doing.goal.speed_m_s))
-=======
-        if not isinstance(doing, OpenCapture):
-            return Work()
->>>>>>> working
         action = self._mission.robot.action[doing.action]
         left = max(0.0, 1.0 - self._mission.controller.poll().seconds / action.duration_s)
         return Work(seconds=left * action.duration_s, joules=left * action.energy_j)

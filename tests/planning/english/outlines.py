@@ -99,12 +99,10 @@ def node(n: p.Node) -> str:
             return "; ".join(node(step) for step in n.steps)
         case p.StopMission():
             return "stop"
-<<<<<<< HEAD
         case p.Wait():
             return f"wait {n.seconds:g}"
         case p.Pace():
             return f"at {n.speed_m_s:g} m/s: [{node(n.body)}]"
-=======
         case p.WorkAlong():
             how = "".join(
                 f", {name} {value:g}" if isinstance(value, float) else f", {name} {value}"
@@ -115,7 +113,6 @@ def node(n: p.Node) -> str:
             how += f", {n.laps} laps" if n.laps != 1 else ""
             how += ", optional" if n.optional else ""
             return f"{n.action or 'drive'} {n.mode} {selector(n.along)}{how}"
->>>>>>> working
         case _:
             raise AssertionError(n)
 

@@ -109,8 +109,8 @@ class Case:
         worlds: Worlds in which the mission is simulated; none if ``asks``.
         asks: True if the request is ambiguous or cannot be fulfilled, so that a question or a refusal is right.
         source: File of the case, for messages.
-        runs: First instants at which the mission is due, for a robot whose clock shows UTC, if it is approved on 1 January
-            2026 at 00:00 UTC; none for a mission that begins when it is started.
+        runs: First instants at which the mission is due, for a robot whose clock shows UTC, if it is approved on
+            1 January 2026 at 00:00 UTC; none for a mission that begins when it is started.
     """
 
     id: str

@@ -54,13 +54,9 @@ class EnglishPlanner:
         """Plan a request without help if it is refused."""
         check_request(request)
         words = words_of(request)
-<<<<<<< HEAD
         if (timed := self._timed(request, words, site, robot, answers)) is not None:
             return timed
-        if found := _unplanned(early_wishes(words), words, robot):
-=======
-        if found := early_wishes(words, lexicon_for(robot, site)):
->>>>>>> working
+        if found := _unplanned(early_wishes(words, lexicon_for(robot, site)), words, robot):
             from fieldhand.planning.refusals.helping import wish_reasons
 
             return Refused(reasons=tuple(wish_reasons(found, request, words, site, robot)), planner=NAME)
@@ -80,7 +76,7 @@ class EnglishPlanner:
         times = without_times(words)
         if (
             times is None
-            or _unplanned(early_wishes(times.words), times.words, robot)
+            or _unplanned(early_wishes(times.words, lexicon_for(robot, site)), times.words, robot)
             or tuple(missing_blocks(times.words, site))
         ):
             return None

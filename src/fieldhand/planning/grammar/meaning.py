@@ -6,12 +6,9 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 from fieldhand.places import selectors as s
-<<<<<<< HEAD
 from fieldhand.places.series_statistics import Statistic
-from fieldhand.task.watches import Fallback, Response, WatchCondition
-=======
 from fieldhand.task.nodes.work_along import RowSides, WorkMode
->>>>>>> working
+from fieldhand.task.watches import Fallback, Response, WatchCondition
 
 #: What a place phrase means: one place, several places, an area whose trees are meant, places just spoken of (``here``,
 #: ``those``), trees around of which another phrase says how many (``nearby``), a step along the row, rows of which

@@ -10,13 +10,9 @@ from dataclasses import dataclass, replace
 from fieldhand.errors import PlaceError, TaskError
 from fieldhand.language import Number, message, named
 from fieldhand.places.context import Context
-<<<<<<< HEAD
-from fieldhand.places.resolution import resolve
+from fieldhand.places.resolution import Resolution, resolve
 from fieldhand.places.sources.gate_is import GateIs
 from fieldhand.places.wording import say_selector
-=======
-from fieldhand.places.resolution import Resolution, resolve
->>>>>>> working
 from fieldhand.planning.foreseen import foreseeable
 from fieldhand.planning.grammar.dialogue.watching import with_visits
 from fieldhand.planning.grammar.meaning import WayRule

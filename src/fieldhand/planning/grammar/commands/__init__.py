@@ -20,24 +20,16 @@ from fieldhand.planning.grammar.commands import (
     sides,
     spacing,
     things,
-<<<<<<< HEAD
     waits,
     ways,
-=======
     working,
->>>>>>> working
 )
 
 #: The constructions of all themes. Of readings that cost the same, the one composed first is kept, so the order counts.
 GRAMMAR = Grammar()
 _THEMES = (
-<<<<<<< HEAD
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, events, requests, exclusions,
-    ways, sampling, waits, pace, sides, aggregates,
-=======
-    things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, requests, exclusions,
-    working,
->>>>>>> working
+    ways, sampling, waits, pace, sides, aggregates, working,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)

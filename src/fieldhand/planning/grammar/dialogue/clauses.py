@@ -53,12 +53,9 @@ from fieldhand.planning.grammar.dialogue.state import (
 )
 from fieldhand.planning.grammar.dialogue.totals import with_total
 from fieldhand.planning.grammar.dialogue.turns import as_meant
-<<<<<<< HEAD
 from fieldhand.planning.grammar.dialogue.waits import waited, with_settling
 from fieldhand.planning.grammar.dialogue.watching import watched
-=======
 from fieldhand.planning.grammar.dialogue.working import driven_along, work_along
->>>>>>> working
 from fieldhand.planning.grammar.meaning import (
     LAST_THING,
     After,
@@ -93,11 +90,8 @@ from fieldhand.planning.grammar.meaning import (
     WatchCommand,
     WayRule,
     When,
-<<<<<<< HEAD
-    wait_seconds,
-=======
     WorkCommand,
->>>>>>> working
+    wait_seconds,
 )
 from fieldhand.planning.selections import (
     AREAS,
@@ -160,11 +154,8 @@ def read_clauses(setting: Setting, said: Said, *, in_fragments: bool = False) ->
             state = _read(setting, state, clause, clauses[k + 1 :])
         except NotComposed as fault:
             raise fault.about(clause.command.used) from None
-<<<<<<< HEAD
-    return with_paces(setting, with_settling(setting, _ended(with_order_kept(setting, capture_elided(setting, state)))))
-=======
-    return _ended(setting, with_order_kept(setting, capture_elided(setting, state)))
->>>>>>> working
+    ended = _ended(setting, with_order_kept(setting, capture_elided(setting, state)))
+    return with_paces(setting, with_settling(setting, ended))
 
 
 def _ended(setting: Setting, state: DialogueState) -> DialogueState:
