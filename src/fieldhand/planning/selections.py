@@ -127,6 +127,11 @@ def is_whole_rows(rows: s.Selector) -> bool:
     return all(isinstance(part.of, s.Trees | s.InBlock) for part in rows_of(rows))
 
 
+def picks_per_row(selector: s.Selector) -> bool:
+    """Return True if a selector picks trees of each of several rows."""
+    return any(isinstance(part, s.Quota) and part.per == "row" for part in selector.walk())
+
+
 def is_one_row(rows: s.Selector) -> bool:
     """Return True for a single row."""
     return isinstance(rows, s.RowOf) or (isinstance(rows, s.Rows) and rows.first == rows.last != "")

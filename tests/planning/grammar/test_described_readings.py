@@ -497,8 +497,6 @@ OPEN: list[tuple[str, str]] = [
     ),
     ("husky", "Photograph tree 60. If it is hot, go to tree 9 instead."),
     ("husky", "End at the charger with a picture."),
-    ("husky", "Measure CO2 at every yellow tree. If the average is high, photograph tree 4."),
-    ("husky", "Measure CO2 at trees 4 and 9. If tree 4 is higher than tree 9, photograph tree 4."),
     ("husky", "Measure CO2 at trees 4 and 9. If the first is higher than the second, photograph tree 4."),
     ("husky", "Measure CO2 at trees 4 and 9. If exactly one of them is high, photograph it."),
     ("husky", "Measure CO2 at tree 4 twice. If the second one is high, photograph the tree."),

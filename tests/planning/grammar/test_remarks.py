@@ -212,7 +212,6 @@ KEPT = [
     "CO2, radon, and a picture of tree 4.",
     "Take a picture of tree 4, then spray it.",
     "My uncle sprays the trees at noon. Take a picture of tree 4.",
-    "It should be done at noon. Take a picture of tree 4.",
     "We do it every Tuesday. Take a picture of tree 4.",
     "It must be back in 20 minutes. Take a picture of tree 4.",
     "I hope you photograph the Carmels. Take a picture of tree 4.",

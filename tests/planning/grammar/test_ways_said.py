@@ -102,7 +102,6 @@ ASKED = [
 REFUSED = [
     ("demo", "Don't drive through row 5."),
     ("demo", "Avoid the pond."),
-    ("demo", "Drive around the pond."),
     ("demo", "Don't take any pictures of row 5."),
     ("demo", "Photograph row 4, but avoid the charger."),
     ("demo", "Photograph tree 40 and do not drive near the pond."),

@@ -205,7 +205,6 @@ NOT_PLANNED = {
     "Photograph every tree of row 5. Every 20 m, read CO2.": "every 20 m along which line?",
     "Photograph every tree of row 5 at stops 20 m apart.": "at every tree, or at stops?",
     "CO2 along row 5. Distance: 20 m.": "between stops, or of the drive?",
-    "Photograph tree 4 and stay there 20 minutes.": "waiting is not possible",
     "Photograph tree 4, done, then tree 9.": "something follows the end",
     "Photograph yellow trees for 20 minutes.": "at most 20 minutes, or as many as fit?",
     "Ground photos, not ground ones, at tree 5.": "the contrast contradicts itself",

@@ -107,7 +107,6 @@ def share_of_them(share: Amount, bound: Lex | None = None) -> HowMany | None:
     "how_many: ATLEAST n=count OFTHEALL",
     "how_many: ATLEAST n=count TREE",
     "how_many: ATLEAST n=count READING",
-    "how_many: n=count OFTHEALL",
     "how_many: n=count bound=BOUND OFTHEALL",
     cost=0.0,
 )
@@ -115,6 +114,12 @@ def so_many(n: int, bound: Lex | None = None) -> HowMany | None:
     """Compose "more than 3 of them", "fewer than 4 readings" and "at least 2 of the vines"."""
     check = _check(bound)
     return None if check is None else HowMany(check, float(n))
+
+
+@construction("how_many: n=count OFTHEALL", cost=0.0)
+def several_of_all(n: int) -> HowMany | None:
+    """Compose "3 of them"; "one of them" is each of them in its turn."""
+    return HowMany("ge", float(n)) if n > 1 else None
 
 
 def _check(bound: Lex | None) -> Literal["lt", "le", "gt", "ge"] | None:

@@ -47,6 +47,8 @@ def beside(place: PlaceMeaning, side: TreeSide) -> PlaceMeaning | None:
         return None
     if place.optional or place.at_most is not None or place.selector.named_marker:
         return None
+    if side == "both" and s.Trees() in (place.selector, *place.selector.members):
+        return None  # "the trees on either side" are those beside another place
     if any(isinstance(part, s.Beside | s.Spaced | s.PointsIn | s.GateIs) for part in place.selector.walk()):
         return None
     sided = s.Beside(side=side, of=place.selector)

@@ -43,7 +43,15 @@ from fieldhand.planning.grammar.meaning import (
     When,
 )
 from fieldhand.planning.grammar.places.numbered import ids_of
-from fieldhand.planning.selections import are_rows, blocks_of, is_in_block, is_one_row, named_places, over
+from fieldhand.planning.selections import (
+    are_rows,
+    blocks_of,
+    is_in_block,
+    is_one_row,
+    named_places,
+    over,
+    picks_per_row,
+)
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
 from fieldhand.task.aggregates import Aggregate, CompareSeries, CountReadings, MeanKnown
@@ -321,7 +329,8 @@ def _require_several(plan: p.InOrder, path: Path, act: p.Act) -> None:
             message("it is not clear whether the readings at each place are meant, or those at all", context="fault")
         )
     rows = () if select is None else select.members
-    if len(rows) > 1 and all(any(is_one_row(part) for part in row.walk()) for row in rows):
+    by_rows = len(rows) > 1 and all(any(is_one_row(part) for part in row.walk()) for row in rows)
+    if by_rows or (select is not None and picks_per_row(select)):
         raise NotComposed(
             message("it is not clear whether the readings of each row are meant, or those of all", context="fault")
         )
