@@ -73,7 +73,7 @@ construction("edge_side: EDGE side=DIR", "edge_side: SIDE side=DIR", "edge_side:
     spots.edge_side
 )
 construction("corner_at: noun=CORNER side=DIR", cost=0.0)(spots.corner_at)
-construction("row_end: FINISH side=DIR", cost=0.0)(positions.row_end)
+construction("row_end: FINISH side=DIR", cost=0.0, given=("site",))(positions.row_end)
 construction("nominal: inner=nominal OTHER", cost=0.2)(quantities.another)
 construction("nominal: ANOTHER inner=nominal OTHER", cost=0.1)(quantities.another)
 construction("chosen: chosen=chosen OTHER", cost=0.1)(chosen.others)
