@@ -12,7 +12,9 @@ from planning.english.outlines import outline
 from support.requests.planned import outcome_of
 
 PAGE = Path(__file__).resolve().parents[3] / "docs" / "english.md"
-EXAMPLES = re.findall(r"^(amiga)?> (.+)\n  (plan|asks|refuses): (.+)$", PAGE.read_text(encoding="utf-8"), re.MULTILINE)
+EXAMPLES = re.findall(
+    r"^(amiga|tractor)?> (.+)\n  (plan|asks|refuses): (.+)$", PAGE.read_text(encoding="utf-8"), re.MULTILINE
+)
 
 
 def test_the_page_has_examples() -> None:

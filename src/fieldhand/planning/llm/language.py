@@ -26,7 +26,7 @@ from fieldhand.task.plan import Node
 LETTERS = {"node": "N", "condition": "C", "selector": "S"}
 
 #: Attributes that only the program writes.
-DERIVED = frozenset({"id", "said", "at-said", "reserve-said", "nominal-said", "no-part", "seed"})
+DERIVED = frozenset({"id", "said", "at-said", "along-said", "reserve-said", "nominal-said", "no-part", "seed"})
 
 _KINDS = {"text": "name", "integer": "int", "number": "number", "flag": "true", "value": "value"}
 
@@ -71,6 +71,8 @@ def _form(shape: Shape) -> str:
     inside = []
     if shape.head and shape.head.of == "action":
         inside.append("<ACTION/>")
+    elif shape.head and shape.head.of == "implement":
+        inside.append("[<ACTION/>]")
     elif shape.head:
         inside.append(f"<{' '.join(['QUANTITY', *map(_attribute, shape.head.attributes)])}/>")
     inside += [_child(child) for child in shape.children]

@@ -33,7 +33,7 @@ from fieldhand.task.plan import Node
 MOST_DATA = 4_000
 LONGEST_LINE = 400
 #: Maximum number of tokens of the first two messages without the request; the site gets the remainder, within bounds.
-MOST_TOKENS = 5_970
+MOST_TOKENS = 6_330
 SITE_TOKENS = (250, 800)
 #: Maximum number of synonyms shown for an action or quantity.
 MOST_SYNONYMS = 5
@@ -138,6 +138,8 @@ def robot_lines(robot: RobotProfile) -> list[str]:
 
 def _action(action: Action) -> str:
     parts = [f"- {action.name}: {action.description}".rstrip(": ")]
+    if action.implement is not None:
+        parts.append("only in a work-along")
     if action.measures:
         parts.append(f"measures {', '.join(action.measures)}")
     words = _plainest([*action.words, *action.verbs])
