@@ -41,6 +41,7 @@ class Log:
     Attributes:
         done: Actions that succeeded, in their order.
         stops: (k, 2), stops at which an action was done, metres east and north.
+        worked: Metres with each action on along paths, each part as (k, 2) corners, metres east and north.
         travelled_m: Distance driven in total, metres.
         status: Final status of the mission; None if the log does not record it.
         end: (2,), final position, metres east and north; None if the log does not record it.
@@ -48,6 +49,7 @@ class Log:
 
     done: tuple[Done, ...]
     stops: Points
+    worked: tuple[tuple[str, Points], ...] = ()
     travelled_m: float
     status: str | None
     end: Points | None
@@ -61,6 +63,7 @@ def read_log(lines: Iterable[str], site: CaseSite) -> Log:
     """
     done: list[Done] = []
     stops: list[Points] = []
+    worked: list[tuple[str, Points]] = []
     travelled, status, end = 0.0, None, None
     for number, line in enumerate(lines, start=1):
         if not line.strip():
@@ -74,6 +77,9 @@ def read_log(lines: Iterable[str], site: CaseSite) -> Log:
                     _add(done, str(event["action"]), int(event.get("count", 1)), *site.nearest(at))
                     if not stops or math.dist(at, stops[-1]) > _ONE_STOP_M:
                         stops.append(at)
+                case "worked", _:
+                    paths = (np.array(path, dtype=np.float64).reshape(-1, 2) for path in event["paths"])
+                    worked += [(str(event["action"]), site.metres(path)) for path in paths if len(path) > 1]
                 case "mission", ended:
                     status, end = str(ended), _at(event, site)
         except (ValueError, KeyError, TypeError, AttributeError) as error:
@@ -82,7 +88,8 @@ def read_log(lines: Iterable[str], site: CaseSite) -> Log:
                 where=f"event log, line {number}",
                 advice="was the log cut off or edited?",
             ) from None
-    return Log(done=tuple(done), stops=np.array(stops).reshape(-1, 2), travelled_m=travelled, status=status, end=end)
+    at_stops = np.array(stops).reshape(-1, 2)
+    return Log(done=tuple(done), stops=at_stops, worked=tuple(worked), travelled_m=travelled, status=status, end=end)
 
 
 def _at(event: Mapping[str, Any], site: CaseSite) -> Points:
