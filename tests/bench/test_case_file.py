@@ -111,7 +111,7 @@ BAD = {
     "no worlds": (book(without("worlds")), "the key 'worlds' is missing (or 'ask: true'"),
     "asked in a world": (book(case(ask=True)), "leave out ask or worlds"),
     "nothing expected": (book(case(worlds=[{"readings": {"co2": 1}}])), "the key 'expect' is missing"),
-    "nothing said of what must be done": (book(expecting(max_travel_m=5)), "give steps or count_only"),
+    "nothing said of what must be done": (book(expecting(max_travel_m=5)), "give steps, count_only or worked"),
     "no site": ({"robot": "husky", "cases": [case()]}, "has no site"),
     "a missing site": (book(case(), site="nowhere.geojson"), "there is no site file 'nowhere.geojson'"),
     "a site that is none": (book(case(), site="cases.yaml"), "is not a GeoJSON file"),

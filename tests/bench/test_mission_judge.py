@@ -220,3 +220,38 @@ def test_drives_keep_away_from_trees(metres: float, fault: str) -> None:
     expect = {"steps": [{"do": "photo"}], "keeps_from": [{"trees": {"ids": [6]}, "m": metres}]}
     assert found(expect, lines).startswith(fault)
     assert bool(found(expect, lines)) == bool(fault)
+
+
+# --- work along paths -------------------------------------------------------------------------------------------------
+
+SPRAYED = {"worked": [{"do": "spray", "metres": [18, 22], "past": {"ids": [0, 1, 2, 3, 4]}}]}
+
+
+def sprayed(row: int, last: int = COLUMNS - 1, action: str = "spray") -> list[str]:
+    """A log of work beside one row, 1.5 m south of it."""
+    corners = [(lat - 1.5 / 111_000.0, lon) for lat, lon in (degrees(row * COLUMNS), degrees(row * COLUMNS + last))]
+    worked = {"event": "worked", "action": action, "status": "success", "travelled_m": 30.0, "paths": [corners]}
+    return [json.dumps(worked), *log()]
+
+
+def test_work_beside_the_right_row_is_as_asked() -> None:
+    assert found(SPRAYED, sprayed(0)) == ""
+
+
+@pytest.mark.parametrize(
+    ("lines", "says"),
+    [
+        (log(), "spray was on along 0 m, wanted 18 to 22 m"),
+        (sprayed(1), "5 of them not {ids: [0, 1, 2, 3, 4]}"),
+        (sprayed(0, last=3), "spray was on along 15 m"),
+        ([*sprayed(1)[:1], *sprayed(0)], "spray was on beside 10 trees"),
+        (sprayed(0, action="mow"), "nobody asked for mow"),
+        ([*sprayed(0)[:1], *log(("photo", 3))], "photo"),
+    ],
+)
+def test_a_mistake_in_work_is_found(lines: list[str], says: str) -> None:
+    assert says in found(SPRAYED, lines)
+
+
+def test_work_that_nobody_asked_for_is_found() -> None:
+    assert "nobody asked for spray" in found({"steps": []}, sprayed(0))

@@ -21,7 +21,7 @@ from language.silent_language import silent_po, words_left, words_of
 
 #: Names of the built-in orchard and robots, of options' values, units and kinds of file.
 KNOWN = {
-    *("fieldhand", "Demo", "orchard", "husky", "Husky", "amiga", "start", "end", "geojson", "csv", "html"),
+    *("fieldhand", "Demo", "orchard", "husky", "Husky", "amiga", "tractor", "start", "end", "geojson", "csv", "html"),
     *("ppm", "min", "auto", "english", "llm", "simulation", "dds", "rclpy", "max", "xx", "es", "en", "TREE", "domain"),
 }
 #: Commands, as advice names them.

@@ -143,7 +143,7 @@ def test_an_agent_that_is_killed_within_an_upload_has_nothing(tmp_path: Path) ->
         (("--cert", "robot.crt", "--key", "other.key"), "cannot be used"),
         (("--cert", "robot.crt", "--key", "wide.key"), "can be read by others"),
         (("--token-file", "wide.key"), "can be read by others"),
-        (("--robot", "tractor"), "tractor"),
+        (("--robot", "combine"), "combine"),
         (("--site", "nowhere.geojson"), "nowhere.geojson"),
         (("--store", "token"), "cannot be written"),
         (("--world", "robot.crt"), "robot.crt"),

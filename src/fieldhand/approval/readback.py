@@ -222,6 +222,8 @@ def _notes(walks: Sequence[Walk], site: Site) -> tuple[str, ...]:
         if selector is None or step.node.id in seen:
             continue
         seen.add(step.node.id)
+        if step.node.work is not None and step.node.work.on_ground:
+            continue
         found.update((message("{note}.", note=capitalised(note)), None) for note in notes(selector, site, step.context))
     return tuple(found)
 

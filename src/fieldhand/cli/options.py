@@ -47,14 +47,16 @@ LenientOption = Annotated[
 ]
 RobotOption = Annotated[
     str,
-    typer.Option("--robot", autocompletion=_robots, help="Built-in robot (husky, amiga) or a profile file (YAML)."),
+    typer.Option(
+        "--robot", autocompletion=_robots, help="Built-in robot (husky, amiga, tractor) or a profile file (YAML)."
+    ),
 ]
 MissionRobotOption = Annotated[
     str | None,
     typer.Option(
         "--robot",
         autocompletion=_robots,
-        help="Built-in robot (husky, amiga) or a profile file; husky if none is given.",
+        help="Built-in robot (husky, amiga, tractor) or a profile file; husky if none is given.",
     ),
 ]
 ByOption = Annotated[str | None, typer.Option("--by", help="Name of the operator; else the user who is logged in.")]

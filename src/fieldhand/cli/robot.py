@@ -37,7 +37,7 @@ robot.command("check")(check)
 
 @robot.command("show")
 def show_robot(
-    name: Annotated[str, typer.Argument(help="Built-in robot (husky, amiga) or a profile file (YAML).")],
+    name: Annotated[str, typer.Argument(help="Built-in robot (husky, amiga, tractor) or a profile file (YAML).")],
     xsd: Annotated[
         Path | None, typer.Option("--xsd", callback=to_file, help="Write the schema of this robot's Tasks here.")
     ] = None,

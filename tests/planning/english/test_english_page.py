@@ -16,7 +16,7 @@ from support.requests.planned import outcome_of
 
 PAGE = Path(__file__).resolve().parents[3] / "docs" / "english.md"
 EXAMPLES = re.findall(
-    r"^(amiga|vineyard)?> (.+)\n  (plan|asks|refuses): (.+)$", PAGE.read_text(encoding="utf-8"), re.MULTILINE
+    r"^(amiga|tractor|vineyard)?> (.+)\n  (plan|asks|refuses): (.+)$", PAGE.read_text(encoding="utf-8"), re.MULTILINE
 )
 
 

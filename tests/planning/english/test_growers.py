@@ -23,6 +23,7 @@ from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Clarify, Outcome, Planned, Refused
 from fieldhand.robot.loader import load_robot
 from fieldhand.task.plan import walk
+from planning.english.outlines import outline
 from planning.english.vineyards import ALONG, ROWS, Vine, vines, vineyard
 from support.examples import examples
 
@@ -99,7 +100,6 @@ Sample 5 vines per variety.
 Take pictures of 5 vines. Do not drive through row 10.
 Measure CO2 at the two vines closest to vine N250 on the east side.
 Take as many pictures as you can of the south block with 30 % battery.
-Patrol the property line.
 Patrol the vineyard.
 Measure CO2 at vine N9999.
 Measure CO2 at N9999.
@@ -195,6 +195,21 @@ def test_two_draws_of_a_request_are_independent() -> None:
     )
     assert isinstance(outcome, Planned), outcome
     assert len({v.id for v in visited(outcome)}) > 10
+
+
+@pytest.mark.parametrize(
+    ("request_", "expected"),
+    [
+        ("Patrol the property line.", "drive perimeter Trees"),
+        ("Drive around the south block once.", "drive perimeter InBlock(South)"),
+        ("Drive along rows 3 to 8 of the north block.", "drive rows Rows(3, 8, of InBlock(North))"),
+        ("Drive through every second aisle of the south block.", "drive aisles InBlock(South), every 2"),
+    ],
+)
+def test_any_robot_drives_along_rows_aisles_and_edges(request_: str, expected: str) -> None:
+    outcome = outcome_of(request_)
+    assert isinstance(outcome, Planned)
+    assert outline(outcome.task) == f"{expected} | return_to_start"
 
 
 @pytest.mark.parametrize("request_", NOT_PLANNED)

@@ -28,6 +28,7 @@ from fieldhand.task.schema import schema_xsd
 from fieldhand.testing.generated.tasks import ROVER
 
 HUSKY, AMIGA = capabilities_of(load_robot("husky")), capabilities_of(load_robot("amiga"))
+TRACTOR = capabilities_of(load_robot("tractor"))
 #: Parts of a draft that the program writes.
 UNSHOWN = {"resources", "resource", "state", "variable", "goals", "goal", "warnings", "warning", "read-as", "request"}
 UNWRITTEN = DERIVED | {"expected", "node", "conditional", "value-as", "sha256", "action"}
@@ -107,7 +108,8 @@ def filled(form: str, *, whole: bool) -> str:
 @pytest.mark.parametrize("whole", [True, False], ids=["whole", "least"])
 @pytest.mark.parametrize("cls", EVERY, ids=lambda cls: cls.__name__)
 def test_every_form_that_is_shown_is_valid_with_all_that_may_be_left_out_and_without(cls: type, whole: bool) -> None:
-    action, quantity = next(iter(HUSKY.actions)), "co2"
+    robot = TRACTOR if cls is plan.WorkAlong else HUSKY
+    action, quantity = next(iter(robot.actions)), "co2"
     element = filled(paragraphs()[element_name(cls)][0], whole=whole).replace("<drive/>", f"<{action}/>")
     element = (
         element.replace("<height ", f"<{quantity} ")
@@ -120,7 +122,7 @@ def test_every_form_that_is_shown_is_valid_with_all_that_may_be_left_out_and_wit
     elif cls in get_args(Condition):
         element = f"<if><condition>{element}</condition><then><stop/></then></if>"
     document = f"<task><task-composition><plan>{element}</plan></task-composition></task>"
-    draft = read_draft(document, HUSKY)
+    draft = read_draft(document, robot)
     assert isinstance(draft, TaskDraft), (element, draft)
 
 

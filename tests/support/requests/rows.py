@@ -1220,9 +1220,9 @@ REFUSED = [
     (
         "husky",
         "drive down the aisle between rows 3 and 4 and take a picture",
-        "'aisle': an aisle is not a place where something can be done",
+        "'take a picture': it does not say where",
     ),
-    ("husky", "take a picture of the headland", "'headland' is not possible yet"),
+    ("husky", "take a picture of the headland", "'the headland' is no place of this site's file"),
     (
         "husky",
         "take 3 CO2 readings 20 m apart in the northern half",

@@ -19,7 +19,7 @@ from pydantic import (
 
 from fieldhand_bench.missions import places
 from fieldhand_bench.missions.case_site import CornerName
-from fieldhand_bench.missions.cases import Expected, ExpectedStep, KeptFrom, MarkerName
+from fieldhand_bench.missions.cases import Expected, ExpectedStep, ExpectedWork, KeptFrom, MarkerName
 from fieldhand_bench.missions.places import ANYWHERE, CasePlace, Demand, Side
 
 
@@ -206,6 +206,20 @@ class KeptFromForm(Form):
         )
 
 
+class WorkForm(Form):
+    """Work along paths that must be done."""
+
+    do: Text
+    metres: BoundsPair
+    past: PlaceForm | None = None
+    reach_m: Above0 = 2.5
+
+    def work(self) -> ExpectedWork:
+        """Return the work as used by the judge."""
+        past = ANYWHERE if self.past is None else self.past.place()
+        return ExpectedWork(action=self.do, metres=self.metres, past=past, reach_m=self.reach_m)
+
+
 class ExpectForm(Form):
     """The outcome expected in a world."""
 
@@ -214,6 +228,7 @@ class ExpectForm(Form):
     count_only: Annotated[dict[str, BoundsPair], Field(min_length=1)] | None = None
     distinct_trees: dict[str, BoundsPair] = {}
     at_all: PlaceForm | None = None
+    worked: tuple[WorkForm, ...] = ()
     free_points: StrictBool = False
     repeats: StrictBool = False
     apart_m: BoundsPair | None = None
@@ -228,8 +243,8 @@ class ExpectForm(Form):
 
     @model_validator(mode="after")
     def _require_content(self) -> ExpectForm:
-        if self.steps is None and self.count_only is None:
-            raise ValueError("nothing is said of what must be done: give steps or count_only")
+        if self.steps is None and self.count_only is None and not self.worked:
+            raise ValueError("nothing is said of what must be done: give steps, count_only or worked")
         if self.order is not None and self.steps is None:
             raise ValueError("'order' is about steps, which are not here")
         self._require_labels()
@@ -244,7 +259,7 @@ class ExpectForm(Form):
             if step.as_ in known:
                 raise ValueError(f"step {number}: an earlier step is called '{step.as_}' already")
             known |= {step.as_} if step.as_ else set()
-        for name, place in (("at_all", self.at_all), ("end", self.end)):
+        for name, place in (("at_all", self.at_all), ("end", self.end), *(("worked", one.past) for one in self.worked)):
             if place is not None:
                 _require(place.place().labels, set(), name)
 
@@ -254,15 +269,23 @@ class ExpectForm(Form):
         yield from (step.do for step in self.steps or ())
         yield from self.count_only or {}
         yield from self.distinct_trees
+        yield from (work.do for work in self.worked)
+
+    @property
+    def counts_nothing(self) -> bool:
+        """Return True if the steps are all that may be done."""
+        return self.steps is not None or self.count_only is None
 
     def expected(self) -> Expected:
         """Return the expected outcome as used by the judge."""
         return Expected(
-            steps=None if self.steps is None else tuple(step.step() for step in self.steps),
+            # Nothing but work along paths: no action at a place.
+            steps=tuple(step.step() for step in self.steps or ()) if self.counts_nothing else None,
             any_order=self.order == "any",
             counts=self.count_only,
             trees=self.distinct_trees,
             at_all=ANYWHERE if self.at_all is None else self.at_all.place(),
+            works=tuple(work.work() for work in self.worked),
             free_points=self.free_points,
             repeats=self.repeats,
             apart_m=self.apart_m,

@@ -49,6 +49,23 @@ class KeptFrom:
 
 
 @dataclass(frozen=True, kw_only=True)
+class ExpectedWork:
+    """Work along paths that must be done.
+
+    Attributes:
+        action: Name in the robot's profile.
+        metres: Metres with the action on.
+        past: The trees within ``reach_m`` of these metres, and no others; anywhere if they do not matter.
+        reach_m: Distance up to which a tree is passed, metres.
+    """
+
+    action: str
+    metres: Bounds
+    past: CasePlace = ANYWHERE
+    reach_m: float = 2.5
+
+
+@dataclass(frozen=True, kw_only=True)
 class Expected:
     """The outcome that a mission must have.
 
@@ -58,6 +75,7 @@ class Expected:
         counts: Captures of each action, without any other actions; None if only ``steps`` are given.
         trees: Number of different trees at which each action was done.
         at_all: Place of every action.
+        works: Work along paths, without any other.
         free_points: True if actions may be done away from trees.
         repeats: True if an action may be repeated at a tree; used with ``counts``.
         apart_m: Distance between successive stops, metres.
@@ -76,6 +94,7 @@ class Expected:
     counts: Mapping[str, Bounds] | None = None
     trees: Mapping[str, Bounds] = field(default_factory=dict)
     at_all: CasePlace = ANYWHERE
+    works: tuple[ExpectedWork, ...] = ()
     free_points: bool = False
     repeats: bool = False
     apart_m: Bounds | None = None

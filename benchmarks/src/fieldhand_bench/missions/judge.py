@@ -6,7 +6,9 @@ import itertools
 import math
 from collections.abc import Iterator, Mapping
 
+import numpy as np
 import shapely
+from shapely.geometry import LineString
 from shapely.geometry.base import BaseGeometry
 
 from fieldhand_bench.missions.case_site import CaseSite
@@ -29,6 +31,7 @@ def judge(site: CaseSite, expected: Expected, log: Log) -> tuple[str, ...]:
         *_steps(site, expected, log),
         *_counts(expected, log),
         *_elsewhere(site, expected, log),
+        *_works(site, expected, log),
         *_distances(expected, log),
         *_too_near(site, expected, log),
         *_end(site, expected, log),
@@ -76,6 +79,26 @@ def _elsewhere(site: CaseSite, expected: Expected, log: Log) -> Iterator[str]:
     for one in log.done:
         if not expected.at_all.holds(site, one.tree, {}):
             yield f"{describe(site, one)} is not at {expected.at_all.words}"
+
+
+def _works(site: CaseSite, expected: Expected, log: Log) -> Iterator[str]:
+    for action in sorted({action for action, _ in log.worked} - {work.action for work in expected.works}):
+        yield f"nobody asked for {action}"
+    for work in expected.works:
+        paths = [path for action, path in log.worked if action == work.action]
+        metres = sum(float(np.hypot(*np.diff(path, axis=0).T).sum()) for path in paths)
+        if not _within(metres, work.metres):
+            yield f"{work.action} was on along {metres:.0f} m, wanted {_bounds_text(work.metres)} m"
+        if work.past.demands:
+            line = shapely.union_all([LineString(path) for path in paths])
+            away = shapely.distance(shapely.points(site.xy), line)
+            passed = {int(k) for k in np.flatnonzero(away <= work.reach_m)}
+            wanted = {k for k in range(len(site.xy)) if work.past.holds(site, k, {})}
+            if passed != wanted:
+                yield (
+                    f"{work.action} was on beside {len(passed)} trees, {len(passed - wanted)} of them not "
+                    f"{work.past.words}, and beside {len(passed & wanted)} of the {len(wanted)} that are"
+                )
 
 
 def _distances(expected: Expected, log: Log) -> Iterator[str]:

@@ -42,6 +42,7 @@ class Log:
         done: Actions that succeeded, in their order.
         stops: (k, 2), stops at which an action was done, metres east and north.
         paths: (n, 2) each, corners of the drives, metres east and north.
+        worked: Metres with each action on along paths, each part as (k, 2) corners, metres east and north.
         travelled_m: Distance driven in total, metres.
         status: Final status of the mission; None if the log does not record it.
         end: (2,), final position, metres east and north; None if the log does not record it.
@@ -52,6 +53,7 @@ class Log:
 
     done: tuple[Done, ...]
     stops: Points
+    worked: tuple[tuple[str, Points], ...] = ()
     travelled_m: float
     status: str | None
     end: Points | None
@@ -70,6 +72,7 @@ def read_log(lines: Iterable[str], site: CaseSite) -> Log:
     done: list[Done] = []
     stops: list[Points] = []
     paths: list[Points] = []
+    worked: list[tuple[str, Points]] = []
     travelled, status, end = 0.0, None, None
     lasts_s = fastest = left_s = 0.0
     stood: Points | None = None
@@ -99,6 +102,9 @@ def read_log(lines: Iterable[str], site: CaseSite) -> Log:
                         stops.append(at)
                 case "drive", _ if event.get("path"):
                     paths.append(site.metres(np.array(event["path"], dtype=np.float64).reshape(-1, 2)))
+                case "worked", _:
+                    parts = (np.array(path, dtype=np.float64).reshape(-1, 2) for path in event["paths"])
+                    worked += [(str(event["action"]), site.metres(path)) for path in parts if len(path) > 1]
                 case "mission", ended:
                     status, end = str(ended), _at(event, site)
         except (ValueError, KeyError, TypeError, AttributeError) as error:
@@ -117,6 +123,7 @@ def read_log(lines: Iterable[str], site: CaseSite) -> Log:
         fastest_m_s=fastest,
         stands={tree: len(known) for tree, known in stands.items()},
         paths=tuple(paths),
+        worked=tuple(worked),
     )
 
 

@@ -187,7 +187,7 @@ def _impossible(plan: p.Node, site: Site) -> Iterable[Reason]:
     """Yield a reason for each place that the site lacks, as far as it can be told before the robot drives."""
     for node in p.walk(plan):
         selector, here = node.selector, Context(here=site.start)
-        of_ground = node.work is not None and node.work.mode in ("area", "perimeter")
+        of_ground = node.work is not None and node.work.on_ground
         for part in () if selector is None else foreseeable(selector):
             try:
                 if of_ground:

@@ -307,7 +307,7 @@ def _is_apposition(
     clause: Sequence[int], said: Sequence[int], words: Sequence[Word], kinds: Sequence[set[str]]
 ) -> bool:
     """Return True for what is told of a tree behind it ("tree 4, the one by the road"), if it names no other place."""
-    if clause[0] == said[0] or not kinds[clause[0] - 2] & {"NUM", "TREEID"}:
+    if not said or clause[0] == said[0] or not kinds[clause[0] - 2] & {"NUM", "TREEID"}:
         return False
     if clause[0] > 2 and kinds[clause[0] - 3] & {"AND", "COMMA"}:
         return False  # "trees 4 and 9, the one by the road"

@@ -29,7 +29,9 @@ from fieldhand.task.ways import Avoid, OnlyGate
 LETTERS = {"node": "N", "condition": "C", "selector": "S", "watched": "W"}
 
 #: Attributes that only the program writes.
-DERIVED = frozenset({"id", "said", "at-said", "reserve-said", "nominal-said", "no-part", "seed", "time-zone"})
+DERIVED = frozenset(
+    {"id", "said", "at-said", "along-said", "reserve-said", "nominal-said", "no-part", "seed", "time-zone"}
+)
 
 _KINDS = {"text": "name", "integer": "int", "number": "number", "flag": "true", "value": "value"}
 
@@ -81,6 +83,8 @@ def _form(shape: Shape) -> str:
     inside = []
     if shape.head and shape.head.of == "action":
         inside.append("<ACTION/>")
+    elif shape.head and shape.head.of == "implement":
+        inside.append("[<ACTION/>]")
     elif shape.head:
         inside.append(f"<{' '.join([shape.head.of.upper(), *map(_attribute, shape.head.attributes)])}/>")
     inside += [_child(child) for child in shape.children]

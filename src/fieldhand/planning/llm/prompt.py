@@ -163,6 +163,8 @@ def _event(event: MonitoredEvent) -> str:
 
 def _action(action: Action) -> str:
     parts = [f"- {action.name}: {action.description}".rstrip(": ")]
+    if action.implement is not None:
+        parts.append("only in a work-along")
     if action.measures:
         parts.append(f"measures {', '.join(action.measures)}")
     words = _plainest([*action.words, *action.verbs])

@@ -122,7 +122,8 @@ def _places(root: Node, site: Site) -> Iterator[AnswerProblem]:
     for node in plan.walk(root):
         selector = node.selector
         if selector is not None:
-            yield from _unresolved(selector, site, node.id)
+            on_ground = node.work is not None and node.work.on_ground
+            yield from _unresolved(selector, site, node.id, on_ground=on_ground)
             if not node.visits_each:
                 yield from _more_than_one(selector, site, node.id)
         if node.rewarded_by and phrase(node.rewarded_by) not in known:
@@ -133,11 +134,16 @@ def _places(root: Node, site: Site) -> Iterator[AnswerProblem]:
                 yield _no_attribute(part.attribute, site, node.id)
 
 
-def _unresolved(selector: Selector, site: Site, where: str) -> Iterator[AnswerProblem]:
-    """Yield the problems of the largest parts that can be resolved before the mission starts."""
+def _unresolved(selector: Selector, site: Site, where: str, *, on_ground: bool) -> Iterator[AnswerProblem]:
+    """Yield the problems of the largest parts that can be resolved before the mission starts: places, or ground."""
+    from fieldhand.places.resolution import Resolution
+
     for part in foreseeable(selector):
         try:
-            _resolve(part, site)
+            if on_ground:
+                part.ground(Resolution(site, Context(here=site.start)))
+            else:
+                _resolve(part, site)
         except PlaceError as error:
             yield AnswerProblem(kind="site", message=_error_text(error), where=where)
 

@@ -33,16 +33,15 @@ class WorkAlong(PlanNode):
     Attributes:
         action: The action; empty to drive only.
         parameters: Name and value of each parameter that the profile declares for the action.
-        along: Trees whose rows are meant, or with ``area`` and ``perimeter`` the zone, block or trees.
+        along: Trees of the rows; with ``area`` and ``perimeter`` the zone, block or trees.
         along_said: Character ranges of the request that name them.
-        mode: ``rows``: beside each row, from its first to its last tree of the selector. ``aisles``: between
-            neighbouring rows. ``headlands``: along both ends of the rows. ``area``: all ground, lane by lane.
-            ``perimeter``: along the edge.
-        sides: Sides of each row that are worked: any one of them, both, or that towards a side of the compass.
+        mode: ``rows``: beside each row, from first to last tree. ``aisles``: between neighbouring rows.
+            ``headlands``: along both ends of the rows. ``area``: all ground, lane by lane. ``perimeter``: its edge.
+        sides: Sides of each row: any one, both, or one of the compass.
         every: With ``aisles``, 2 for every second aisle.
-        laps: Number of times that the whole is done, one after another.
+        laps: Times that the whole is done.
         gaps: ``on`` to keep the action on in gaps of a row.
-        order: ``best`` for short drives between the stretches; ``given`` for the order of the selector.
+        order: ``best`` for short drives between stretches; ``given`` for the selector's order.
         optional: Stretches may be dropped to keep the budget ("as much as you can").
     """
 
@@ -93,6 +92,11 @@ class WorkAlong(PlanNode):
     @property
     def work(self) -> WorkAlong:
         return self
+
+    @property
+    def on_ground(self) -> bool:
+        """Return True if the ground that the selector names is worked, whether or not trees stand on it."""
+        return self.mode in ("area", "perimeter")
 
     @property
     def selector(self) -> Selector:

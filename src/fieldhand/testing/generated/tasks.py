@@ -201,7 +201,7 @@ class Parts:
             return st.tuples(st.just(name), drawn.map(lambda d: tuple(d.items())))
 
         able = [name for name, a in self.capabilities.actions.items() if a.is_implement == implements]
-        return st.sampled_from(sorted(able)).flatmap(parameters)
+        return st.sampled_from(sorted(able)).flatmap(parameters) if able else st.nothing()
 
     def tasks(self) -> st.SearchStrategy[Task]:
         """Return a strategy for complete Tasks from ``make_task``: with ids, goals and state variables."""

@@ -432,6 +432,8 @@ def _at_the_same_place(setting: Setting, state: DialogueState, command: CaptureC
     if command.place is None and not state.plan.steps:
         asked = message("'{said}': at which tree or trees?", context="question", said=setting.quoted(command.used))
         raise OpenQuestion(asked)
+    if command.place is None and state.block.steps and state.block.steps[-1].work is not None:
+        raise NotComposed(message("it does not say where", context="fault"))  # at the end of the last row?
     if command.place is not None and state.where is None:
         raise NotComposed(message("which place is meant?", context="fault"))
     if command.place is not None and not command.place.itself and _is_of_other_case(state, command.place):

@@ -551,7 +551,12 @@ def _measured_before_last(setting: Setting, state: DialogueState, command: When,
     *rest, last = state.block.steps
     if action is None or command.tests.of_last or any(_measures(node, action) for _, node in walk(state.plan)):
         return None
-    if last.visits_each and last.children[0].children and all(step.act for step in last.children[0].children):
+    if (
+        last.visits_each
+        and last.children
+        and last.children[0].children
+        and all(step.act for step in last.children[0].children)
+    ):
         place, body = None, last.children[0]
         inside: Path = (*state.scope, len(rest), "body")
     elif last.act is not None and len(state.things) == 1 and (last.act.at is not None or state.where is not None):
@@ -579,7 +584,7 @@ def _measured_before_last(setting: Setting, state: DialogueState, command: When,
 def _decide_last_at_tree(state: DialogueState, condition: c.Condition, said: Spans) -> DialogueState:
     """Return the state in which a condition on the tree decides the last capture, at the tree or at each of several."""
     *rest, last = state.block.steps
-    if last.visits_each:
+    if last.visits_each and last.children:
         choice = p.If(id="", condition=condition, then=last.children[0], said=said)
         steps: tuple[p.Node, ...] = (*rest, last.with_children([p.InOrder(id="", steps=(choice,))]))
         path: Path = (*state.scope, len(rest), "body", 0)

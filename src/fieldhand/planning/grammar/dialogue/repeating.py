@@ -163,8 +163,8 @@ def repeated_in(setting: Setting, state: DialogueState, area: s.Selector, used: 
     captured = [path for path, node in walk(plan) if node.act is not None]
     visits = as_for_each(copies[-1])
     return replace(
-        state, plan=plan, readings=names.last, captured=captured[-1], choice=None, open=False, where_scope=(),
-        loop=None if visits is None else (len(plan.steps) - 1, "body"),
+        state, plan=plan, readings=names.last, captured=captured[-1] if captured else None, choice=None, open=False,
+        where_scope=(), loop=None if visits is None else (len(plan.steps) - 1, "body"),
         where=None if visits is None else PlaceMeaning(visits.select, "several"),
         commands_in_sentence=state.commands_in_sentence + 1,
     )  # fmt: skip
