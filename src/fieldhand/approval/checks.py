@@ -16,6 +16,7 @@ from fieldhand.approval.battery import battery_problems
 from fieldhand.approval.branch_checks import branch_problems, exit_problems
 from fieldhand.approval.budget import budget_problems
 from fieldhand.approval.problem import PlanProblem, node_in, with_words
+from fieldhand.approval.recharging import recharge_ability_problems, recharge_problems, return_problems
 from fieldhand.approval.request_warnings import request_warnings
 from fieldhand.errors import FieldhandError, PlaceError, TaskError
 from fieldhand.forecast.estimate import Estimate, estimate, explore
@@ -94,6 +95,8 @@ def examine(
     problems.extend(unaccounted(task))
     if not _errors(problems):
         problems.extend(request_warnings(task, site, robot))
+        problems.extend(recharge_ability_problems(task, site, robot))
+    if not _errors(problems):
         problems.extend(_places(task, site, robot))
     forecast = None
     if not _errors(problems):
@@ -108,6 +111,8 @@ def examine(
                 problems.extend(exit_problems(forecast, site))
                 problems.extend(budget_problems(task, site, robot, forecast))
                 problems.extend(battery_problems(task, robot))
+                problems.extend(recharge_problems(task, site, robot, forecast))
+                problems.extend(return_problems(task, robot, forecast))
     once = dict.fromkeys(with_words(problem, task) for problem in problems)
     found = tuple(sorted(once, key=lambda p: p.severity != "error"))
     return Examination(task=task, site=site, robot=robot, problems=found, estimate=forecast)

@@ -12,8 +12,9 @@ from fieldhand.errors import DriveFault
 from fieldhand.evaluation.battery_drain import BatteryDrain
 from fieldhand.forecast.distances import Distances
 from fieldhand.forecast.mission_state import MissionState, Visit
+from fieldhand.forecast.recharge_rules import RechargeRules, mission_limits, recharge_rules
 from fieldhand.forecast.remaining_work import RemainingWork, remaining_work_after
-from fieldhand.forecast.resource_limits import ResourceLimit, resource_limits
+from fieldhand.forecast.resource_limits import ResourceLimit
 from fieldhand.forecast.risk_allowance import RiskAllowance
 from fieldhand.forecast.route_cost import RouteCost, overrun_chances
 from fieldhand.places.context import Context
@@ -47,7 +48,7 @@ class MissionBudget:
         self.task, self.site, self.drives = task, site, drives
         self.drain = BatteryDrain(robot)
         self._blocked = False
-        limits = resource_limits(task.constraints, robot, charge_percent)
+        limits = mission_limits(task, site, robot, drives, charge_percent)
         self.accepted: Floats = np.array([r.failure_probability for r in limits])
         self.distances = Distances(drives)
         self._allowance: RiskAllowance | None = None
@@ -80,7 +81,20 @@ class MissionBudget:
     def resources(self, state: MissionState) -> tuple[ResourceLimit, ...]:
         """Return the current resource limits; the battery's is based on its measured charge."""
         charge = state.charge_percent + state.spent.percent
-        return resource_limits(self.task.constraints, self.robot, charge)
+        return mission_limits(
+            self.task,
+            self.site,
+            self.robot,
+            self.drives,
+            charge,
+            charges=state.charges,
+            planned=state.planned_charges,
+        )
+
+    @property
+    def recharge(self) -> RechargeRules | None:
+        """Return the rules of recharging with the battery as observed; None if the mission does not recharge."""
+        return recharge_rules(self.task, self.site, self.robot)
 
     def chances(self, way: RouteCost, state: MissionState) -> Floats:
         """Return for each limit the probability that a route takes more than is left."""

@@ -219,7 +219,7 @@ class MissionRunner:
                 order = self._order() or self._stopped()
                 if order:
                     return self._aborted(order)
-                if self.monitor.alarm != "none":
+                if self.monitor.alarm != "none" and not self.monitor.turn_to_charger():
                     return self._alarmed(tree)
                 tree.tick_once()
                 if (ending := self._over(tree)) is not None:
@@ -293,6 +293,7 @@ class MissionRunner:
         """Drive to the destination of the exit. A failure on the way ends the mission there."""
         mission, monitor = self.mission, self.monitor
         monitor.turn("exit")
+        mission.recharge_due = ""
         mission.emit(Exited(t=mission.t, node=ending.node, exit=ending.exit, then=ending.then, reason=ending.reason))
         home = mission.site.home(ending.then, mission.standing)
         heard = self._order() if ending.status == "aborted" else None

@@ -67,8 +67,7 @@ class LikelyOptionalWork:
         walker.allowance = found.allowance
         step = WalkStep(node=node, kind="visit-list", context=walker.context, shed=(*found.shed, *closed))
         walker.note(replace(step, places=found.places, visit_forecast=found.visit_forecast))
-        if samples is not None:
-            samples.visit(found.preview, found.works)
+        walker.sample_visits(found.preview, found.works)
         return found.places
 
 

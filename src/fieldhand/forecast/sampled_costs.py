@@ -25,17 +25,54 @@ _AT_A_TIME = 64
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
+class SampledCharging:
+    """The charges of each sampled mission, shape (missions,) each.
+
+    Attributes:
+        charges: Number of charges.
+        docked_s: Seconds at the charger, during which it supplies the robot.
+        left: Charge in percent at the end.
+        lowest: Lowest charge in percent on arrival at the charger or at the end.
+    """
+
+    charges: Floats
+    docked_s: Floats
+    left: Floats
+    lowest: Floats
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
 class SampledUse:
     """Resources used by each sampled mission, shape (missions,) each.
 
     Attributes:
         metres: Cost of the legs in metres.
-        seconds, joules: Time and energy of actions, without driving and idle power.
+        seconds, joules: Time and energy of actions and charging, without driving and idle power.
+        charging: What was charged; None for missions that do not recharge.
     """
 
     metres: Floats
     seconds: Floats
     joules: Floats
+    charging: SampledCharging | None = None
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class SampledVisits:
+    """The optional visits of each sampled mission, with the work at each candidate place."""
+
+    preview: Preview
+    works: tuple[Work, ...]
+
+    @property
+    def work(self) -> tuple[Floats, Floats, Floats]:
+        """Return metres, seconds and joules of the work at the visited places for each mission."""
+        each = [self.works[vertex - 1] for vertex in self.preview.vertices.tolist()]
+        return (
+            self.preview.visited @ np.array([w.metres for w in each], dtype=np.float64),
+            self.preview.visited @ np.array([w.seconds for w in each], dtype=np.float64),
+            self.preview.visited @ np.array([w.joules for w in each], dtype=np.float64),
+        )
 
 
 class LegCostSamples:
@@ -93,6 +130,16 @@ class MissionSamples:
         return self._leg_costs.seed
 
     @property
+    def draws(self) -> int:
+        """Return the number of missions."""
+        return self._leg_costs.draws
+
+    def leg(self, number: int, *, detour: bool = False) -> Floats:
+        """Return the cost of a leg of 1 m for each mission, by its number on the walk; another one for a detour."""
+        rng = np.random.default_rng([self.seed, 1 + detour, number])
+        return self._leg_costs.costs.draw(rng, self.draws)
+
+    @property
     def metres(self) -> Floats:
         """Return the cost of the legs so far for each mission in metres, shape (missions,)."""
         if self._pending:
@@ -124,8 +171,8 @@ class MissionSamples:
 
     def visit(self, preview: Preview, works: Sequence[Work]) -> None:
         """Add each mission's optional visits with their work; the preview's vertices are numbered from 1."""
-        each = [works[vertex - 1] for vertex in preview.vertices.tolist()]
-        self._metres = self.metres + preview.legs + preview.visited @ np.array([w.metres for w in each])
-        self._seconds = self._seconds + preview.visited @ np.array([w.seconds for w in each])
-        self._joules = self._joules + preview.visited @ np.array([w.joules for w in each])
+        metres, seconds, joules = SampledVisits(preview=preview, works=tuple(works)).work
+        self._metres = self.metres + preview.legs + metres
+        self._seconds = self._seconds + seconds
+        self._joules = self._joules + joules
         self._leaving = preview.last

@@ -15,7 +15,7 @@ from fieldhand.task.plan import Node
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drive
 
-StepKind = Literal["drive", "act", "visit-list", "decide", "exit"]
+StepKind = Literal["drive", "act", "charge", "visit-list", "decide", "exit"]
 DecisionKind = Literal["holds", "fails", "blocked", "taken"]
 
 #: Answers a question about a node, given its id: whether its condition holds, or its action fails.
@@ -62,7 +62,7 @@ class VisitForecast:
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class WalkStep:
-    """A step of a walk: a drive, an action, a decision, a list of visits, or the exit.
+    """A step of a walk: a drive, an action, a charge of the battery, a decision, a list of visits, or the exit.
 
     Attributes:
         node: Plan node that the step belongs to; for the exit, the ``Stop`` that takes it or the root of the plan.
@@ -124,6 +124,6 @@ class Walk:
 
     @property
     def work(self) -> tuple[float, float]:
-        """Return seconds and joules of all actions."""
-        acts = [s for s in self.steps if s.kind == "act"]
+        """Return seconds and joules of all actions and charges."""
+        acts = [s for s in self.steps if s.kind in ("act", "charge")]
         return (sum(s.seconds for s in acts), sum(s.joules for s in acts))

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from fieldhand.task.battery_condition import BatteryBelow
 from fieldhand.terms import Test, Value
 
 
@@ -73,7 +74,7 @@ class Not:
     condition: Condition
 
 
-Condition = Compare | Between | Level | TreeHas | AllOf | AnyOf | Not
+Condition = Compare | Between | Level | TreeHas | BatteryBelow | AllOf | AnyOf | Not
 
 
 def walk(condition: Condition) -> Iterator[Condition]:

@@ -6,7 +6,7 @@ resources.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Literal
 
@@ -128,12 +128,30 @@ class Constraints:
         reserve_percent: Charge to leave at the end; None for the profile's reserve.
         reserve_said: Character ranges of the request that state the reserve.
         speed_m_s: Maximum speed; None for the robot's.
+        return_percent: Charge at which the robot drives home, wherever it is; None for the profile's.
+        recharge: Charge at the site's charger whenever the work needs it, and go on.
+        recharge_below_percent: Charge below which it goes to the charger although the next visit would still fit.
+        recharge_until_percent: Charge up to which it charges; None for the profile's.
+        recharge_at_most: Maximum number of charges; None for any number.
+        energy_said: Character ranges of the request that state the recharging or the return.
     """
 
     budgets: tuple[Budget, ...] = ()
     reserve_percent: float | None = None
     reserve_said: tuple[Span, ...] = ()
     speed_m_s: float | None = None
+    return_percent: float | None = None
+    recharge: bool = False
+    recharge_below_percent: float | None = None
+    recharge_until_percent: float | None = None
+    recharge_at_most: int | None = None
+    energy_said: tuple[Span, ...] = ()
+
+    def __repr__(self) -> str:
+        """Return the fields as text. Those added later are left out at their default: ids of Tasks are hashes of it."""
+        first = ("budgets", "reserve_percent", "reserve_said", "speed_m_s")
+        said = (f for f in fields(self) if f.name in first or getattr(self, f.name) != f.default)
+        return f"{type(self).__name__}({', '.join(f'{f.name}={getattr(self, f.name)!r}' for f in said)})"
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from fieldhand.task.nodes.any_order import AnyOrder
     from fieldhand.task.nodes.for_each import ForEach
     from fieldhand.task.nodes.optional_step import OptionalStep
+    from fieldhand.task.nodes.recharge import Recharge
     from fieldhand.task.nodes.repeat import Repeat
     from fieldhand.task.plan import Node
 
@@ -71,6 +72,13 @@ class Capture:
     """Make the captures of an action at the current place. Result: the values measured by the last one."""
 
     node: Act
+
+
+@dataclass(frozen=True, kw_only=True)
+class Charge:
+    """Dock at the charger, which is the current place, and charge the battery. Result: none."""
+
+    node: Recharge
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -142,6 +150,7 @@ Instruction = (
     | DriveTo
     | BindLabel
     | Capture
+    | Charge
     | ForgetReading
     | SetReading
     | Decide

@@ -23,6 +23,7 @@ from fieldhand.task.nodes.go_to import GoTo
 from fieldhand.task.nodes.if_else import If
 from fieldhand.task.nodes.in_order import InOrder
 from fieldhand.task.nodes.optional_step import OptionalStep
+from fieldhand.task.nodes.recharge import Recharge
 from fieldhand.task.nodes.repeat import Repeat
 from fieldhand.task.nodes.stop_mission import StopMission
 from fieldhand.task.nodes.try_otherwise import Try
@@ -36,6 +37,7 @@ __all__ = [
     "InOrder",
     "Node",
     "OptionalStep",
+    "Recharge",
     "Repeat",
     "Span",
     "StopMission",
@@ -44,7 +46,7 @@ __all__ = [
     "walk",
 ]
 
-Node = InOrder | AnyOrder | ForEach | Repeat | If | Try | OptionalStep | GoTo | Act | StopMission
+Node = InOrder | AnyOrder | ForEach | Repeat | If | Try | OptionalStep | GoTo | Act | Recharge | StopMission
 
 
 def walk(node: Node) -> Iterator[Node]:

@@ -39,6 +39,13 @@ _FACETS: dict[str, dict[str, str]] = {
     "limit": {"minExclusive": "0"},
     "failure_probability": {"minExclusive": "0", "maxExclusive": "1"},
     "reserve_percent": {"minInclusive": "0", "maxExclusive": "100"},
+    "return_percent": {"minExclusive": "0", "maxExclusive": "100"},
+    "recharge_below_percent": {"minExclusive": "0", "maxExclusive": "100"},
+    "recharge_until_percent": {"minExclusive": "0", "maxInclusive": "100"},
+    "recharge_at_most": {"minInclusive": "1", "maxInclusive": "1000"},
+    "until_percent": {"minExclusive": "0", "maxInclusive": "100"},
+    "percent": {"minExclusive": "0", "maxExclusive": "100"},
+    "duration_s": {"minExclusive": "0", "maxInclusive": "604800"},
     "reward": {"minInclusive": "0"},
     "speed_m_s": {"minInclusive": "0.01", "maxInclusive": "20"},
 }

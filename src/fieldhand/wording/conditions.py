@@ -10,7 +10,9 @@ from fieldhand.language.words import listed, say_action, say_name, say_number, s
 from fieldhand.places.filters.attribute_words import say_of_tree, say_with_article
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task import conditions as c
+from fieldhand.task.battery_condition import BatteryBelow
 from fieldhand.task.plan import Act
+from fieldhand.wording.recharging import say_battery
 
 Names = Mapping[str, str]
 
@@ -51,6 +53,8 @@ def say_condition(
         case c.TreeHas():
             clause = say_of_tree(condition.attribute, condition.test, condition.value)
             return message("it is not the case that {clause}", clause=clause) if negated else clause
+        case BatteryBelow(percent=percent):
+            return say_battery(percent, negated=negated)
         case c.AllOf() | c.AnyOf():
             whole = _joined(condition, places, robot)
             return message("it is not the case that {clause}", clause=whole) if negated else whole

@@ -13,6 +13,8 @@ from fieldhand.task.frames import Task
 from fieldhand.task.results import (
     Acted,
     Arrived,
+    ChargeBegun,
+    ChargeEnded,
     ClockSet,
     Continued,
     Decided,
@@ -32,6 +34,7 @@ from fieldhand.task.results import (
     Waited,
 )
 from fieldhand.wording.limits import say_crossing
+from fieldhand.wording.recharging import say_charge_begun, say_charge_ended
 
 #: A list of places longer than this is counted, not named.
 NAMED = 8
@@ -86,6 +89,10 @@ class EventText:
                 if event.then == "repeat":
                     return message("{capture} in doubt: {what}; it is taken again", **fills)
                 return message("{capture} in doubt: {what}; it is not taken again", **fills)
+            case ChargeBegun():
+                return say_charge_begun(event)
+            case ChargeEnded():
+                return say_charge_ended(event)
             case Resumed():
                 charge = f"{event.charge_percent:.0f}"
                 return message("continues after a power cut, battery at {charge} %", charge=charge)

@@ -14,8 +14,22 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.conditions import Condition
 from fieldhand.task.frames import Task, Then
-from fieldhand.task.plan import Act, AnyOrder, ForEach, GoTo, If, InOrder, Node, OptionalStep, Repeat, StopMission, Try
+from fieldhand.task.plan import (
+    Act,
+    AnyOrder,
+    ForEach,
+    GoTo,
+    If,
+    InOrder,
+    Node,
+    OptionalStep,
+    Recharge,
+    Repeat,
+    StopMission,
+    Try,
+)
 from fieldhand.wording.conditions import say_act, say_condition
+from fieldhand.wording.recharging import say_recharge
 from fieldhand.wording.resolved_places import ResolvedPlaces
 from fieldhand.wording.step_places import in_order, say_expected, say_expected_visits, say_ids
 
@@ -147,6 +161,9 @@ class _LineWriter:
                 self._arrived(node.label, node.id, number)
             case Act():
                 self._act(node, indent)
+            case Recharge():
+                self.step(node.id, indent, say_recharge(node, self._robot))
+                self._arrived("", node.id, self._number)
             case StopMission(exit=taken):
                 failed = message("End the mission here, which counts as failed.")
                 self.step(node.id, indent, message("End the mission here.") if taken == "nominal" else failed)

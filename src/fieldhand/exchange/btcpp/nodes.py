@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from fieldhand.exchange.btcpp.elements import Elements, Tag
-from fieldhand.exchange.btcpp.vocabulary import ALLOWS, CONDITIONS, GO_TO, IF_UNKNOWN, ORDER, RESOLVE
+from fieldhand.exchange.btcpp.vocabulary import ALLOWS, CONDITIONS, GO_TO, IF_UNKNOWN, ORDER, RECHARGE, RESOLVE
 from fieldhand.exchange.btcpp.writing import EXIT_ENTRY
 from fieldhand.places.selectors import SELECTORS
 from fieldhand.task import plan as p
@@ -70,6 +70,8 @@ class NodeReader:
             case str() if tag.kind == GO_TO:
                 place = self.elements.parts(tag, "place", SELECTORS)
                 return p.GoTo(**beside, place=place, **self.elements.fields(tag, p.GoTo))
+            case str() if tag.kind == RECHARGE:
+                return p.Recharge(**beside, **self.elements.fields(tag, p.Recharge))
             case str() if tag.kind in self.elements.capabilities.actions:
                 return self._act(tag, beside | {"at_said": self.elements.spans(tag, "_at_said")})
         raise self.elements.error(

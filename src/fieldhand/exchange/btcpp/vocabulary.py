@@ -9,17 +9,19 @@ from __future__ import annotations
 from dataclasses import MISSING, dataclass
 from typing import TYPE_CHECKING, Literal
 
+from fieldhand.task.battery_condition import BatteryBelow
 from fieldhand.task.capabilities import Capabilities, ChoiceParameter, NumberParameter
 from fieldhand.task.codec_shapes import Attribute, shape_of
 from fieldhand.task.codec_text import attribute_text, number_text
 from fieldhand.task.conditions import Between, Compare, Level, TreeHas
-from fieldhand.task.plan import Act, ForEach, OptionalStep
+from fieldhand.task.plan import Act, ForEach, OptionalStep, Recharge
 
 if TYPE_CHECKING:
     from lxml.etree import _Element
 
-BEGIN, GO_TO, RESOLVE, ORDER, ALLOWS, EXIT, FAULT = (
+BEGIN, GO_TO, RESOLVE, ORDER, ALLOWS, EXIT, FAULT, RECHARGE = (
     "BeginMission", "GoToPlace", "ResolvePlaces", "OrderSteps", "BudgetAllows", "TakeExit", "HandleFault",
+    "RechargeBattery",
 )  # fmt: skip
 #: Leaf of each kind of condition.
 CONDITIONS: dict[type, str] = {
@@ -27,6 +29,7 @@ CONDITIONS: dict[type, str] = {
     Between: "ReadingBetween",
     Level: "ReadingIs",
     TreeHas: "TreeHas",
+    BatteryBelow: "BatteryBelow",
 }
 #: Port with the result of a condition whose reading was never taken, derived from the leaf's position.
 IF_UNKNOWN = "if_unknown"
@@ -91,6 +94,7 @@ def leaves(capabilities: Capabilities) -> tuple[Leaf, ...]:
         Leaf(id=RESOLVE, kind="Action", ports=(_SELECT, *_ports(ForEach, beside=("label",)), places)),
         Leaf(id=ORDER, kind="Action", ports=(first, order)),
         Leaf(id=EXIT, kind="Action", ports=(then,)),
+        Leaf(id=RECHARGE, kind="Action", ports=_ports(Recharge)),
         Leaf(id=FAULT, kind="Action", ports=(exits,)),
         Leaf(
             id=ALLOWS, kind="Condition", ports=(node, Port(name="place", type=_TEXT, default=""), *_ports(OptionalStep))

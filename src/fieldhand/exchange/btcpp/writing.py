@@ -23,6 +23,7 @@ from fieldhand.exchange.btcpp.vocabulary import (
     GO_TO,
     IF_UNKNOWN,
     ORDER,
+    RECHARGE,
     RESOLVE,
     models,
     plain_attributes,
@@ -31,6 +32,7 @@ from fieldhand.exchange.btcpp.vocabulary import (
 from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import Here
 from fieldhand.task import plan as p
+from fieldhand.task.battery_condition import BatteryBelow
 from fieldhand.task.capabilities import Capabilities
 from fieldhand.task.codec import encode_parts
 from fieldhand.task.codec_shapes import Attribute
@@ -142,6 +144,8 @@ class _TreeWriter:
                 return _element(GO_TO, **(_ports(node, node.id) | {"place": encode_parts([place])}))
             case p.Act():
                 return self._act(node)
+            case p.Recharge():
+                return _element(RECHARGE, **_ports(node, node.id))
             case p.StopMission(exit=taken):
                 # No script after the node: it would also run if a fallback skips the node.
                 return _element("Sequence", _script(f"{EXIT_ENTRY} := '{taken}'"), _element("AlwaysFailure"))
@@ -217,7 +221,7 @@ class _TreeWriter:
                 return _element("Inverter", self._condition(one, where, negated=not negated))
             case _:
                 ports = _ports(condition, where)
-                if not isinstance(condition, TreeHas):
+                if not isinstance(condition, TreeHas | BatteryBelow):
                     ports |= {"reading": _reading(condition.reading, where), "quantity": condition.quantity}
                 unknown = {IF_UNKNOWN: "true"} if negated else {}
                 return _element(CONDITIONS[type(condition)], **ports, **unknown)

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from fieldhand.task.conditions import Condition
     from fieldhand.task.instructions import Instruction
     from fieldhand.task.nodes.act import Act
+    from fieldhand.task.nodes.recharge import Recharge
     from fieldhand.task.nodes.stop_mission import StopMission
     from fieldhand.task.plan import Node
     from fieldhand.task.run import PlanRun
@@ -197,6 +198,11 @@ class PlanNode(ABC):
     @property
     def act(self) -> Act | None:
         """The node itself, if it is an action."""
+        return None
+
+    @property
+    def recharge(self) -> Recharge | None:
+        """The node itself, if it charges the battery."""
         return None
 
     @property

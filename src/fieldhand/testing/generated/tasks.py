@@ -70,6 +70,9 @@ _BY_FIELD: dict[str, st.SearchStrategy[Any]] = {
     "failure_probability": st.floats(0, 1, exclude_min=True, exclude_max=True),
     "reserve_percent": st.floats(0, 100, exclude_max=True),
     "speed_m_s": st.floats(0.01, 20),
+    "percent": st.floats(0, 100, exclude_min=True, exclude_max=True),
+    "until_percent": st.floats(0, 100, exclude_min=True),
+    "duration_s": st.floats(1, 604_800),
 }
 _spans = st.lists(st.tuples(st.integers(0, 999), st.integers(0, 999)), max_size=2).map(tuple)
 
@@ -189,6 +192,12 @@ class Parts:
                 reserve_percent=st.none() | _BY_FIELD["reserve_percent"],
                 reserve_said=_spans,
                 speed_m_s=st.none() | _BY_FIELD["speed_m_s"],
+                return_percent=st.none() | _BY_FIELD["percent"],
+                recharge=st.booleans(),
+                recharge_below_percent=st.none() | _BY_FIELD["percent"],
+                recharge_until_percent=st.none() | _BY_FIELD["until_percent"],
+                recharge_at_most=st.none() | st.integers(1, 1000),
+                energy_said=_spans,
             ),
             nominal=st.sampled_from(("return_to_end", "return_to_start", "stay")),
             faulted=st.lists(self.instance(FaultedExit), max_size=3).map(tuple),

@@ -22,6 +22,7 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import acts
+from fieldhand.task.recharging import recharges
 
 
 def effective_bindings(robot: RobotProfile, by: Connection) -> Ros2Bindings:
@@ -82,7 +83,7 @@ def connected_robot(
             replace(robot, ros2=bindings),
             clock=clock,
             within_s=within_s,
-            actions={act.action for act in acts(task.composition.plan)},
+            actions=_actions(task, robot),
         )
         yield Vehicle(
             driver=driver,
@@ -97,6 +98,13 @@ def connected_robot(
         if driver is not None:
             driver.leave()
         transport.close()
+
+
+def _actions(task: Task, robot: RobotProfile) -> set[str]:
+    """Return the names of everything that the robot has to do in one place."""
+    charging = robot.energy.charging if recharges(task) else None
+    docking = set() if charging is None else {action.name for action in charging.maneuvers}
+    return {act.action for act in acts(task.composition.plan)} | docking
 
 
 class RobotPresence:

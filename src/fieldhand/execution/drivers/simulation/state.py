@@ -19,6 +19,7 @@ class SimulationState:
         captures: Number of draws per quantity and place: (quantity, place, count).
         struck: Number of occurrences per fault of its world: (number, count).
         lost: Until when, in seconds, its position is lost, and why.
+        docked: True if it is connected to its charger.
     """
 
     seconds: float
@@ -30,3 +31,4 @@ class SimulationState:
     captures: tuple[tuple[str, str, int], ...] = ()
     struck: tuple[tuple[int, int], ...] = ()
     lost: tuple[tuple[float, str], ...] = ()
+    docked: bool = False

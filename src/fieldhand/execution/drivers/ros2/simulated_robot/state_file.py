@@ -52,6 +52,7 @@ class _Document(BaseModel):
     captures: tuple[tuple[str, str, Count], ...]
     struck: tuple[tuple[Count, Count], ...]
     lost: tuple[tuple[Finite | None, str], ...]
+    docked: bool = False
 
 
 def write_state(path: Path, state: SimulationState, identity: Identity) -> None:
