@@ -103,7 +103,7 @@ def _ranges(task: Task) -> Iterator[tuple[Span, WordRole]]:
         yield from ((span, "place") for span in node.at_said)
     for budget in task.constraints.budgets:
         yield from ((span, "limit") for span in budget.said)
-    yield from ((span, "limit") for span in task.constraints.reserve_said)
+    yield from ((span, "limit") for span in (*task.constraints.reserve_said, *task.constraints.energy_said))
     yield from ((span, "end") for span in task.composition.nominal_said)
     yield from ((span, "no_part") for span in task.command.no_part)
 

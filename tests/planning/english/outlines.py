@@ -7,7 +7,8 @@ from dataclasses import fields
 from fieldhand.places import selectors as s
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
-from fieldhand.task.frames import Task
+from fieldhand.task.battery_condition import BatteryBelow
+from fieldhand.task.frames import Constraints, Task
 
 SHORT = {"take_thermal_picture": "picture", "take_picture": "picture", "read_co2": "co2"}
 SHORT |= {"read_ambient_temperature": "air", "read_soil_moisture": "moisture", "read_soil_nitrate": "nitrate"}
@@ -19,8 +20,16 @@ def outline(task: Task) -> str:
     limits = "".join(f" | {b.kind} {b.limit:g}" for b in task.constraints.budgets)
     if task.constraints.reserve_percent is not None:
         limits += f" | reserve {task.constraints.reserve_percent:g}"
+    if task.constraints.recharge:
+        limits += f" | recharge{_charge(task.constraints)}"
     exit_ = "" if task.composition.nominal == "return_to_end" else f" | {task.composition.nominal}"
     return node(task.composition.plan) + limits + exit_
+
+
+def _charge(limits: Constraints) -> str:
+    below, until, most = limits.recharge_below_percent, limits.recharge_until_percent, limits.recharge_at_most
+    said = ("" if below is None else f" below {below:g}") + ("" if until is None else f" to {until:g}")
+    return said + ("" if most is None else f" at most {most}")
 
 
 def node(n: p.Node) -> str:
@@ -53,6 +62,9 @@ def node(n: p.Node) -> str:
             return f"maybe [{node(n.body)}]"
         case p.InOrder():
             return "; ".join(node(step) for step in n.steps)
+        case p.Recharge():
+            to = "" if n.until_percent is None else f" to {n.until_percent:g}"
+            return f"recharge{to}" + ("" if n.duration_s is None else f" for {n.duration_s:g} s")
         case p.StopMission():
             return "stop"
         case _:
@@ -85,6 +97,8 @@ def condition(x: c.Condition) -> str:
             return f"{x.low:g} <= {x.reading} <= {x.high:g} {x.unit}"
         case c.Level():
             return f"{x.reading} {x.level}"
+        case BatteryBelow():
+            return f"battery <= {x.percent:g}"
         case c.TreeHas():
             value = f"{x.value:g}" if isinstance(x.value, float) else x.value
             return f"{x.attribute} {SIGNS[x.test]} {value}"

@@ -12,6 +12,7 @@ from fieldhand.language import Number, message, named
 from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve
 from fieldhand.planning.foreseen import foreseeable
+from fieldhand.planning.grammar.dialogue.energy import MeantRecharging
 from fieldhand.planning.homeward import faulted_exits, usual_exit, with_assumed_exit
 from fieldhand.planning.planner import Outcome, Planned, Reason, Refused
 from fieldhand.robot.capabilities import measures_of
@@ -19,7 +20,8 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task import plan as p
 from fieldhand.task.build import make_task
-from fieldhand.task.frames import Budget, BudgetKind, Constraints, Resource, Then
+from fieldhand.task.frames import Budget, BudgetKind, Constraints, Resource, Task, Then
+from fieldhand.task.recharging import recharges
 
 NAME = "english"
 KINDS: dict[str, BudgetKind] = {"metres": "distance_m", "seconds": "duration_s", "percent": "energy_percent"}
@@ -49,6 +51,7 @@ class Meant:
     Attributes:
         plan: Plan.
         limits: Budgets and reserves.
+        recharging: How the mission recharges; None if it does not.
         nominal: How the mission ends; None if the request does not say so.
         nominal_said: Spans of the request that say it.
         no_part: Spans of the request that ask for nothing.
@@ -59,6 +62,7 @@ class Meant:
 
     plan: p.Node
     limits: tuple[LimitPhrase, ...] = ()
+    recharging: MeantRecharging | None = None
     nominal: Then | None = None
     nominal_said: tuple[p.Span, ...] = ()
     no_part: tuple[p.Span, ...] = ()
@@ -82,7 +86,7 @@ def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> O
             Resource(kind="robot", name=robot.name, sha256=robot.sha256),
             Resource(kind="site", name=site.name, sha256=site.sha256),
         ),
-        constraints=_constraints(meant.limits),
+        constraints=_with_recharging(_constraints(meant.limits), meant.recharging),
         nominal=nominal,
         nominal_said=meant.nominal_said,
         no_part=tuple((start, end) for start, end in meant.no_part if re.search(r"\w", request[start:end])),
@@ -90,7 +94,7 @@ def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> O
         assumptions=tuple(dict.fromkeys(meant.assumptions)),
         warnings=meant.warnings,
     )
-    problems = tuple(_impossible(task.composition.plan, site))
+    problems = (*_unable(task, robot, site), *_impossible(task.composition.plan, site))
     if problems:
         return Refused(reasons=problems, planner=NAME)
     if meant.nominal is None:
@@ -111,6 +115,34 @@ def _constraints(limits: Iterable[LimitPhrase]) -> Constraints:
             known = budgets.get(kind, Budget(kind=kind, limit=limit.amount))
             budgets[kind] = replace(known, limit=min(limit.amount, known.limit), said=(*known.said, limit.said))
     return Constraints(budgets=tuple(budgets.values()), reserve_percent=reserve, reserve_said=reserve_said)
+
+
+def _with_recharging(constraints: Constraints, meant: MeantRecharging | None) -> Constraints:
+    if meant is None:
+        return constraints
+    return replace(
+        constraints,
+        recharge=True,
+        recharge_below_percent=meant.below_percent,
+        recharge_until_percent=meant.until_percent,
+        recharge_at_most=meant.at_most,
+        energy_said=meant.said,
+    )
+
+
+def _unable(task: Task, robot: RobotProfile, site: Site) -> Iterable[Reason]:
+    """Yield what the robot or the site lacks for recharging."""
+    if not recharges(task):
+        return
+    steps = [span for node in p.walk(task.composition.plan) if node.recharge is not None for span in node.said]
+    said = (*task.constraints.energy_said, *steps)
+    if robot.energy.charging is None:
+        what = message("{robot} cannot recharge: its profile has no charging", robot=robot.name)
+        advice = message("describe its charger under energy: charging in its profile, or ask for less")
+        yield Reason(what=what, said=said, advice=advice, final=True)
+    elif "charger" not in site.markers:
+        advice = message('add a point of "kind": "charger" to its file')
+        yield Reason(what=message("the site has no charger"), said=said, advice=advice, final=True)
 
 
 def _impossible_limits(limits: Iterable[LimitPhrase]) -> Iterable[Reason]:

@@ -26,7 +26,7 @@ from fieldhand.task.plan import Node
 LETTERS = {"node": "N", "condition": "C", "selector": "S"}
 
 #: Attributes that only the program writes.
-DERIVED = frozenset({"id", "said", "at-said", "reserve-said", "nominal-said", "no-part", "seed"})
+DERIVED = frozenset({"id", "said", "at-said", "reserve-said", "energy-said", "nominal-said", "no-part", "seed"})
 
 _KINDS = {"text": "name", "integer": "int", "number": "number", "flag": "true", "value": "value"}
 

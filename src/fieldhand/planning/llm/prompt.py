@@ -126,13 +126,14 @@ def fenced(name: str, lines: Iterable[str], most: int = MOST_DATA) -> str:
 
 
 def robot_lines(robot: RobotProfile) -> list[str]:
-    """Return the robot's capabilities: actions as elements, measured quantities, and their synonyms."""
+    """Return the robot's capabilities: actions as elements, measured quantities, and their synonyms; recharging."""
     return [
         f"{robot.name}: {robot.description}",
         "actions:",
         *(_action(action) for action in robot.actions),
         "quantities:",
         *(_quantity(quantity) for quantity in robot.quantities),
+        *(["it recharges at the charger"] if robot.energy.charging is not None else []),
     ]
 
 

@@ -9,6 +9,7 @@ from fieldhand.planning.grammar.commands import (
     clauses,
     conditions,
     driving,
+    energy,
     exclusions,
     limits,
     parameters,
@@ -20,7 +21,7 @@ from fieldhand.planning.grammar.commands import (
 #: The constructions of all themes. Of readings that cost the same, the one composed first is kept, so the order counts.
 GRAMMAR = Grammar()
 _THEMES = (
-    things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, requests, exclusions,
+    things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, energy, requests, exclusions,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)

@@ -62,6 +62,7 @@ _LEADS_ON = When | Otherwise | Lead | LimitClause | Allowed | InAnOrder | Failin
     "command: one=otherwise",
     "command: one=pass_on",
     "command: one=limit",
+    "command: one=recharging",
     "command: one=allow",
     "command: one=until",
     "command: one=visit_limit",

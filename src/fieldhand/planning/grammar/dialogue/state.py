@@ -18,6 +18,7 @@ from fieldhand.planning.grammar.meaning import (
     LimitClause,
     PlaceMeaning,
     RankCommand,
+    RechargeClause,
     Thing,
 )
 from fieldhand.robot.model import RobotProfile
@@ -128,6 +129,7 @@ class DialogueState:
     readings: int = 0
     limits: tuple[LimitClause, ...] = ()
     limits_said: tuple[Spans, ...] = ()
+    recharging: tuple[tuple[RechargeClause, Spans], ...] = ()
     nominal: Then | None = None
     nominal_said: Spans = ()
     open: bool = False
