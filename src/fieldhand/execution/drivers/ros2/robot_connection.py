@@ -83,7 +83,7 @@ def connected_robot(
             replace(robot, ros2=bindings),
             clock=clock,
             within_s=within_s,
-            actions=_actions(task, robot),
+            actions=needed_actions(task, robot),
         )
         yield Vehicle(
             driver=driver,
@@ -100,7 +100,7 @@ def connected_robot(
         transport.close()
 
 
-def _actions(task: Task, robot: RobotProfile) -> set[str]:
+def needed_actions(task: Task, robot: RobotProfile) -> set[str]:
     """Return the names of everything that the robot has to do in one place."""
     charging = robot.energy.charging if recharges(task) else None
     docking = set() if charging is None else {action.name for action in charging.maneuvers}
