@@ -95,12 +95,15 @@ def _charged(
     takes_s = float(charging.seconds(begun, until_percent, capacity_j))
     wanted_s = takes_s if most_s is None else min(most_s, takes_s)
     at, here = mission.observation.position, mission.here
-    place = {"kind": here.kind, "place": here.id, "lat": at.lat, "lon": at.lon}
+    lat, lon = at.lat, at.lon
     mission.emit(
         ChargeBegun(
             t=mission.t,
             node=node,
-            **place,
+            kind=here.kind,
+            place=here.id,
+            lat=lat,
+            lon=lon,
             charge_percent=begun,
             until_percent=until_percent,
             seconds=wanted_s,
@@ -121,7 +124,10 @@ def _charged(
         ChargeEnded(
             t=mission.t,
             node=node,
-            **place,
+            kind=here.kind,
+            place=here.id,
+            lat=lat,
+            lon=lon,
             charge_percent=now,
             gained_percent=now - begun,
             seconds=mission.clock.now() - begun_s,

@@ -59,15 +59,18 @@ class Charging:
             capacity_j: Energy of a full battery in joules.
         """
         percents, joule_per_watt = self._table
-        begun, done = (np.interp(p, percents, joule_per_watt) for p in (from_percent, to_percent))
-        return np.maximum(done - begun, 0.0) * capacity_j / 100.0
+        begun, done = (
+            np.interp(np.asarray(p, dtype=np.float64), percents, joule_per_watt) for p in (from_percent, to_percent)
+        )
+        return np.asarray(np.maximum(done - begun, 0.0) * capacity_j / 100.0)
 
     def percent_after(self, from_percent: ArrayLike, seconds: ArrayLike, capacity_j: float) -> NDArray[np.float64]:
         """Return the charge after some seconds at the charger, elementwise, at most 100."""
         percents, joule_per_watt = self._table
-        begun = np.interp(from_percent, percents, joule_per_watt)
+        charge = np.asarray(from_percent, dtype=np.float64)
+        begun = np.interp(charge, percents, joule_per_watt)
         after = np.interp(begun + np.asarray(seconds) * 100.0 / capacity_j, joule_per_watt, percents)
-        return np.maximum(after, from_percent)
+        return np.asarray(np.maximum(after, charge))
 
     @cached_property
     def _table(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
