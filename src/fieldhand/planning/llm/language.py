@@ -29,7 +29,9 @@ from fieldhand.task.ways import Avoid, OnlyGate
 LETTERS = {"node": "N", "condition": "C", "selector": "S", "watched": "W"}
 
 #: Attributes that only the program writes.
-DERIVED = frozenset({"id", "said", "at-said", "reserve-said", "nominal-said", "no-part", "seed", "time-zone"})
+DERIVED = frozenset(
+    {"id", "said", "at-said", "reserve-said", "energy-said", "nominal-said", "no-part", "seed", "time-zone"}
+)
 
 _KINDS = {"text": "name", "integer": "int", "number": "number", "flag": "true", "value": "value"}
 

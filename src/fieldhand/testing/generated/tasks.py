@@ -92,6 +92,9 @@ _BY_FIELD: dict[str, st.SearchStrategy[Any]] = {
     "done_by_min": st.integers(0, 10080),
     "offset_min": st.floats(-1440, 1440),
     "at_most_s": st.floats(1, 86_400),
+    "percent": st.floats(0, 100, exclude_min=True, exclude_max=True),
+    "until_percent": st.floats(0, 100, exclude_min=True),
+    "duration_s": st.floats(1, 604_800),
 }
 _spans = st.lists(st.tuples(st.integers(0, 999), st.integers(0, 999)), max_size=2).map(tuple)
 
@@ -151,7 +154,7 @@ class Parts:
             return st.one_of(st.none(), self.of_hint(name, rest, depth))
         if name == "reward" and hint is float:
             return st.floats(0, 1e6)
-        if name in _BY_FIELD:
+        if name in _BY_FIELD and hint is not bool:
             return _BY_FIELD[name]
         if hint == Value:
             return values
@@ -225,6 +228,12 @@ class Parts:
                 speed_m_s=st.none() | _BY_FIELD["speed_m_s"],
                 avoid=st.lists(self.instance(Avoid), max_size=2).map(tuple),
                 only_gates=st.lists(self.instance(OnlyGate), max_size=2).map(tuple),
+                return_percent=st.none() | _BY_FIELD["percent"],
+                recharge=st.booleans(),
+                recharge_below_percent=st.none() | _BY_FIELD["percent"],
+                recharge_until_percent=st.none() | _BY_FIELD["until_percent"],
+                recharge_at_most=st.none() | st.integers(1, 1000),
+                energy_said=_spans,
             ),
             nominal=st.sampled_from(("return_to_end", "return_to_start", "stay")),
             faulted=st.lists(self.instance(FaultedExit), max_size=3).map(tuple),
