@@ -116,7 +116,7 @@ class RechargeRules:
         )
         table = _quantiles(self.tolerated if charged else self.accepted)
         metres = first + np.sqrt(variance) * np.interp(skewness, _SKEWNESS, table)
-        return self.reserve_percent + metres * self.per_metre + np.asarray(work_percent)
+        return np.asarray(self.reserve_percent + metres * self.per_metre + np.asarray(work_percent))
 
     def needed_for(self, way: RouteCost, *, charged: bool = False, docks: bool = False) -> float:
         """Return the charge in percent that suffices for one route, as :meth:`needed`; with docking at its end."""

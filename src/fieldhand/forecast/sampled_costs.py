@@ -68,10 +68,11 @@ class SampledVisits:
     def work(self) -> tuple[Floats, Floats, Floats]:
         """Return metres, seconds and joules of the work at the visited places for each mission."""
         each = [self.works[vertex - 1] for vertex in self.preview.vertices.tolist()]
+        visited = self.preview.visited.astype(np.float64)
         return (
-            self.preview.visited @ np.array([w.metres for w in each], dtype=np.float64),
-            self.preview.visited @ np.array([w.seconds for w in each], dtype=np.float64),
-            self.preview.visited @ np.array([w.joules for w in each], dtype=np.float64),
+            visited @ np.array([w.metres for w in each], dtype=np.float64),
+            visited @ np.array([w.seconds for w in each], dtype=np.float64),
+            visited @ np.array([w.joules for w in each], dtype=np.float64),
         )
 
 
