@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import pytest
+from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import strategies as st
 
 from fieldhand import mission
+from fieldhand.approval.authorize import EveryWarning
 from fieldhand.execution.drivers.simulation.world import ActionFails, BatteryDrains, World
 from fieldhand.places.selectors import Rows, TreeIs
 from fieldhand.site.model import Site
@@ -22,6 +27,7 @@ from fieldhand.task.results import (
     Faulted,
     LimitCrossed,
 )
+from support.examples import examples
 from support.missions.rechargeable import rechargeable, simulated, task_of
 from support.missions.rig import of_type
 
@@ -169,3 +175,37 @@ def test_work_at_one_place_is_continued_after_a_charge(site: Site) -> None:
     assert len(of_type(done.events, Acted)) == 144
     assert of_type(done.events, ChargeEnded)
     assert all(o.outcome == "success" for o in done.outcomes)
+
+
+@settings(max_examples=examples(8, thorough=60), deadline=None, suppress_health_check=list(HealthCheck))
+@given(
+    st.none() | st.integers(25, 70),
+    st.none() | st.integers(80, 100),
+    st.none() | st.integers(1, 3),
+    st.integers(0, 99),
+    st.booleans(),
+)
+def test_something_is_done_between_two_charges(
+    below: int | None, until: int | None, most: int | None, seed: int, optional: bool
+) -> None:
+    site, robot = Site.demo(), rechargeable()
+    plan = ForEach(select=Rows(first="2", last="4"), body=PICTURE, optional=optional)
+    task = task_of(
+        plan,
+        site,
+        robot,
+        recharge=True,
+        recharge_below_percent=None if below is None else float(below),
+        recharge_until_percent=None if until is None else float(until),
+        recharge_at_most=most,
+    )
+    review = mission.review(task, site, robot)
+    assume(not review.errors)
+    done = mission.simulate(mission.authorize(review, by="tests", confirmed=EveryWarning()), seed=seed)
+    of_interest = [e for e in done.events if isinstance(e, ChargeEnded | Acted)]
+    for one, other in pairwise(of_interest):
+        assert not (isinstance(one, ChargeEnded) and isinstance(other, ChargeEnded))
+    charges = of_type(done.events, ChargeEnded)
+    assert {e.place for e in charges} <= {"charger"}
+    assert most is None or len(charges) <= most
+    assert not [e for e in of_type(done.events, LimitCrossed) if e.then == "stop"]

@@ -62,7 +62,7 @@ class RechargeDecider:
         first = self._needed(rules, rules.charger, visit, after, charged=True)
         able = state.charges < rules.at_most and bool(rules.gains(charge)) and first <= rules.until_percent
         if able and math.isfinite(self._metres(here, rules.charger)):
-            until = rules.target(math.inf if after is None else self._whole(rules, visit, after))
+            until = float(rules.target(math.inf if after is None else self._whole(rules, visit, after), charge))
             return RechargeDecision(decision="charge", why=_why(rules, charge, needed), charge_to=until)
         if permitted or charge >= self._needed(rules, here, visit, after, charged=True):
             return RechargeDecision(decision="go")  # charging would be safer, or was only wished for

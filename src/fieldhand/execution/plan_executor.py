@@ -57,6 +57,7 @@ class PlanExecutor:
         self.mission = mission
         self.place: Place | None = None
         self.between = False
+        self._charged_again = False
 
     def program(self) -> Steps:
         """Carry out the whole plan; yield while the robot is busy, and between rounds.
@@ -123,7 +124,9 @@ class PlanExecutor:
         Raises:
             PlanOver: It has failed.
         """
-        mission, in_vain = self.mission, self.mission.charged_in_vain and bool(self.mission.recharge_due)
+        mission, again = self.mission, self.mission.charged_in_vain
+        in_vain = again and (bool(mission.recharge_due) or self._charged_again)
+        self._charged_again = again
         try:
             yield from charge_and_return(mission, why, until_percent)
         except OutputError:

@@ -39,6 +39,7 @@ def charge_and_return(mission: ActiveMission, why: str, until_percent: float) ->
     mission.to_charger = True
     try:
         yield from drive(mission, "", charger)
+        mission.here = charger
         yield from charge(mission, "", until_percent, None, why)
     finally:
         mission.to_charger = False

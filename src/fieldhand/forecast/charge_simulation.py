@@ -280,7 +280,7 @@ class _Missions:
         if goes.any():
             self.drive(np.where(goes, self.away_m, 0.0) * self._samples.leg(number, detour=True))
             self._ordered += goes
-            self._dock(goes, np.full(len(goes), rules.target(float(needed.rest[number]))), None)
+            self._dock(goes, rules.target(float(needed.rest[number]), self.level), None)
         return goes
 
     def visit(self, visits: SampledVisits, cycle: ChargeCycle, rest: Work) -> None:

@@ -135,15 +135,21 @@ class RechargeRules:
         charge = np.asarray(charge_percent)
         return (charge < np.asarray(enough_percent) - 1e-9) | (charge < self.below_percent)
 
-    def target(self, rest_percent: float) -> float:
+    def target(self, rest_percent: float, charge_percent: ArrayLike) -> Floats:
         """Return up to what percent to charge: the wanted charge or, if the Task leaves it open, what the rest takes.
+
+        It is well above the charge now and that below which the robot charges, so that no charge follows another.
 
         Args:
             rest_percent: Charge that suffices for everything that is left; infinite if it is unknown.
+            charge_percent: Charge now.
         """
+        charge = np.asarray(charge_percent, dtype=np.float64)
         if not self.as_needed:
-            return self.until_percent
-        return min(self.until_percent, max(rest_percent + MARGIN_PERCENT, self.reserve_percent + LEAST_GAIN_PERCENT))
+            return np.full_like(charge, self.until_percent)
+        least = max(self.reserve_percent, self.below_percent) + LEAST_GAIN_PERCENT
+        wanted = np.maximum(charge + LEAST_GAIN_PERCENT, max(rest_percent + MARGIN_PERCENT, least))
+        return np.asarray(np.minimum(self.until_percent, wanted))
 
     def gains(self, charge_percent: ArrayLike) -> NDArray[np.bool_]:
         """Return True where charging would raise the charge noticeably."""
