@@ -125,6 +125,7 @@ class Parts:
     def one_of(self, options: tuple[type, ...], depth: int) -> st.SearchStrategy[Any]:
         """Return a strategy for any of some classes; at depth 0 only for those without nested parts."""
         usable = [o for o in options if depth > 0 or not _needs_parts(o)]
+        usable = [o for o in usable if o not in (EventHolds, EventBeyond) or self._events(o)]
         return st.one_of(*(self._deferred(o, depth) for o in usable))
 
     def _deferred(self, cls: type, depth: int) -> st.SearchStrategy[Any]:
@@ -182,15 +183,21 @@ class Parts:
         if cls is Act:
             return st.builds(_with_action, made, self.actions())
         if cls is WorkAlong:
-            return st.builds(_with_action, made, st.one_of(st.just(("", ())), self.actions(implements=True)))
+            able = any(action.is_implement for action in self.capabilities.actions.values())
+            chosen = [st.just(("", ())), *([self.actions(implements=True)] if able else [])]
+            return st.builds(_with_action, made, st.one_of(chosen))
         if cls in (EventHolds, EventBeyond):
-            events = self.capabilities.events
-            known = sorted(n for n, e in events.items() if (e.holds if cls is EventHolds else e.unit))
-            return st.builds(_with_event, made, st.sampled_from(known), st.just(events))
+            known = self._events(cls)
+            return st.builds(_with_event, made, st.sampled_from(known), st.just(self.capabilities.events))
         if "quantity" in {one.name for one in fields(cls)}:
             able = {n: q for n, q in self.capabilities.quantities.items() if q.levels or cls is not Level}
             return st.builds(_with_quantity, made, st.sampled_from(sorted(able)), st.just(able), st.integers(0, 9))
         return made
+
+    def _events(self, cls: type) -> list[str]:
+        """Return the events of the robot that a condition of a class can test."""
+        events = self.capabilities.events
+        return sorted(n for n, e in events.items() if (e.holds if cls is EventHolds else e.unit))
 
     def actions(
         self, *, implements: bool = False
