@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -87,8 +87,12 @@ def stretches(steps: Iterable[WalkStep | SampledVisits], rules: RechargeRules, d
             (body,) = step.node.children
             asked, covered = work + work_of(body, rules.robot), _spot(place)
         elif step.kind == "work":
-            # It was asked about before the drive to its begin, and leads to another place.
-            covered = None
+            covered, before = None, found[-1] if found else None
+            drive = None if before is None else before.step
+            if before is not None and drive is not None and drive.node is step.node and drive.kind == "drive":
+                # It is asked about before the drive to its begin, and leads to another place.
+                found[-1] = replace(before, asked=before.work + work, to_charger_m=away)
+                asked = None
         elif step.kind in ("drive", "exit"):
             covered = None
         elif covered == _spot(place):
