@@ -183,8 +183,8 @@ class Parts:
         if cls is Act:
             return st.builds(_with_action, made, self.actions())
         if cls is WorkAlong:
-            able = any(action.is_implement for action in self.capabilities.actions.values())
-            chosen = [st.just(("", ())), *([self.actions(implements=True)] if able else [])]
+            works = any(action.is_implement for action in self.capabilities.actions.values())
+            chosen = [st.just(("", ())), *([self.actions(implements=True)] if works else [])]
             return st.builds(_with_action, made, st.one_of(chosen))
         if cls in (EventHolds, EventBeyond):
             known = self._events(cls)
