@@ -33,8 +33,10 @@ from fieldhand.places.resolution import resolve_one
 from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import Bound, ByReading, Farthest, Here, Nearest, TreeIs, UnionOf
 from fieldhand.robot.capabilities import capabilities_of
+from fieldhand.robot.charging_document import ChargingDocument
+from fieldhand.robot.model import RobotProfile
 from fieldhand.site.drives import Drives
-from fieldhand.site.model import Place
+from fieldhand.site.model import Place, Site
 from fieldhand.task.aggregates import Aggregate, CompareSeries, CountReadings, MeanKnown, SeriesCondition
 from fieldhand.task.codec import decode_parts
 from fieldhand.task.conditions import AllOf, AnyOf, Compare, Condition, Not
@@ -49,6 +51,7 @@ from fieldhand.task.plan import (
     Node,
     OptionalStep,
     Pace,
+    Recharge,
     Repeat,
     StopMission,
     Try,
@@ -60,7 +63,10 @@ from fieldhand.task.plan import (
     InOrder as Steps,
 )
 from fieldhand.task.results import Acted, Arrived, Decided, Dwelt, Ended, Event, Exited, Visiting
-from support.missions.rig import approved, husky, orchard, task_for
+from support.missions.rechargeable import CHARGING
+from support.missions.rig import approved, task_for
+from support.missions.rig import husky as bare_husky
+from support.missions.rig import orchard as bare_orchard
 
 #: What happens: kind ("drive", "capture", "failure", "wait"), id of the node, id of the place (of a wait the seconds).
 Trace = list[tuple[str, str, str]]
@@ -72,6 +78,22 @@ QUANTITIES = {
     "take_thermal_picture": ("canopy_temperature", "degC", 33.0),
     "read_ambient_temperature": ("ambient_temperature", "degC", 30.0),
 }
+
+
+@cache
+def orchard() -> Site:
+    """The orchard of the rig with a charger."""
+    site = bare_orchard()
+    ((lat, lon),) = site.projection.lat_lon([(-5.0, 10.0)])
+    charger = Place(kind="marker", id="charger", x=-5.0, y=10.0, lat=lat, lon=lon)
+    return replace(site, markers={**site.markers, "charger": charger})
+
+
+@cache
+def husky() -> RobotProfile:
+    """The husky of the rig, which can recharge."""
+    robot = bare_husky()
+    return replace(robot, energy=replace(robot.energy, charging=ChargingDocument.model_validate(CHARGING).charging()))
 
 
 class Drawn:
@@ -154,6 +176,8 @@ class Drawn:
                 return GoTo(id="", place=self._place(label, tried=tried))
             if self._chance(0.1):
                 return Wait(id="", seconds=float(self._rng.integers(1, 90)))
+            if self._chance(0.08):
+                return Recharge(id="", duration_s=float(self._rng.integers(60, 600)))
             return self._act(tried=tried, label=label)
 
         def inner(*, also_tried: bool = False, also_optional: bool = False, named: str = "") -> Node:
@@ -493,6 +517,8 @@ class Interpreter:
                 return self._tick(element[0]) is not False
             case "Wait":
                 self.trace.append(("wait", _node(element), f"{float(element.get('wait_duration')):.3f}"))
+            case "RechargeBattery":
+                self._drive(element, orchard().markers["charger"])
             case "ResolvePlaces":
                 self._series.pop(element.get("collects", ""), None)
                 self._entries[_entry(element.get("places"))] = self._resolved(element)
@@ -518,6 +544,9 @@ class Interpreter:
     def _go(self, element: Any) -> None:
         wanted = element.get("place")
         place = self._entries[_entry(wanted)] if wanted.startswith("{") else self._place(wanted)
+        self._drive(element, place)
+
+    def _drive(self, element: Any, place: Place) -> None:
         here, visited, bound = self._context.here, self._context.visited, self._context.bound
         if place.xy != here.xy:
             here = self._drives.between(here, place).end

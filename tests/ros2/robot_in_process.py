@@ -23,6 +23,7 @@ from fieldhand.execution.drivers.ros2.dds import open_dds
 from fieldhand.execution.drivers.ros2.dds.transport import DdsTransport
 from fieldhand.execution.drivers.ros2.driver import Ros2Driver
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
+from fieldhand.execution.drivers.ros2.robot_connection import needed_actions
 from fieldhand.execution.drivers.ros2.simulated_robot.robot import bindings_of
 from fieldhand.execution.guard import NoGuard
 from fieldhand.execution.mission_runner import Result, run
@@ -32,7 +33,7 @@ from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import Patience, RobotProfile
 from fieldhand.site.loader import open_site
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import Act, Node, walk
+from fieldhand.task.plan import Node
 from ros2.conftest import LOOPBACK
 from ros2.robot_process import ALL, FROM_ROBOT, NUMBER, TO_ROBOT
 from ros2.scripted_robot import SITE, SPEED, TICK_S, bindings, interfaces
@@ -184,7 +185,7 @@ def connected_simulated_robot(
             steady=clock.now,
             sleep=clock.advance,
             look_every_s=tick_s,
-            actions={node.action for node in walk(task.composition.plan) if isinstance(node, Act)},
+            actions=needed_actions(task, profile),
         )
         by = Connection(transport="dds", sim_time=True)
         yield Vehicle(driver=driver, clock=clock, charge_percent=driver.charge_percent(), by=by), far

@@ -17,6 +17,8 @@ from fieldhand.task import plan as p
 from fieldhand.task.results import (
     Acted,
     Arrived,
+    ChargeBegun,
+    ChargeEnded,
     Decided,
     Driving,
     Ended,
@@ -61,7 +63,12 @@ class _Reader:
     def __init__(self, site: Site, events: Sequence[Event]) -> None:
         self._site = site
         over = next((k for k, e in enumerate(events) if isinstance(e, Exited | Ended)), len(events))
-        self.left = [e for e in events[:over] if not isinstance(e, Started | LimitCrossed)]
+        aside = Driving | Arrived | ChargeBegun | ChargeEnded  # of a charge that interrupts the plan
+        self.left = [
+            e
+            for e in events[:over]
+            if not isinstance(e, Started | LimitCrossed) and (e.node or not isinstance(e, aside))
+        ]
         self.account = Account()
         self._here = ""
         self._optional = 0
@@ -85,6 +92,9 @@ class _Reader:
         if isinstance(event, Driving) and event.node == node.id:
             self.left.pop(0)
             event = self._peek()
+            while isinstance(event, Driving) and event.node == node.id:  # broken off to charge, and begun again
+                self.left.pop(0)
+                event = self._peek()
             if not isinstance(event, Arrived):
                 raise _Cut
         if not isinstance(event, Arrived) or event.node != node.id:
@@ -123,6 +133,8 @@ class _Reader:
                 self._go_to(node)
             case p.Act():
                 self._act(node)
+            case p.Recharge():
+                self._recharge(node)
             case p.StopMission():
                 raise _Stopped
 
@@ -194,6 +206,17 @@ class _Reader:
                 raise _Cut
             self.left.pop(0)
             captures += event.count if event.status == "success" else 0
+        self._do()
+
+    def _recharge(self, node: p.Recharge) -> None:
+        self._drives(node)
+        charged = False
+        while isinstance(event := self._peek(), ChargeBegun | ChargeEnded) and event.node == node.id:
+            charged = isinstance(event, ChargeEnded)
+            self.left.pop(0)
+        if not charged:
+            self._miss(node)
+            raise _Cut
         self._do()
 
     def _loop(self, node: p.ForEach) -> None:

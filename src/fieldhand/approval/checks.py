@@ -16,6 +16,7 @@ from fieldhand.approval.battery import battery_problems
 from fieldhand.approval.branch_checks import branch_problems, exit_problems
 from fieldhand.approval.budget import budget_problems
 from fieldhand.approval.problem import PlanProblem, node_in, with_words
+from fieldhand.approval.recharging import recharge_ability_problems, recharge_problems, return_problems
 from fieldhand.approval.request_warnings import request_warnings
 from fieldhand.approval.speed import speed_problems
 from fieldhand.approval.timing import timing_problems
@@ -104,6 +105,7 @@ def examine(
     if not _errors(problems):
         problems.extend(request_warnings(task, site, robot))
         problems.extend(way_problems(task, site, robot))
+        problems.extend(recharge_ability_problems(task, site, robot))
     if not _errors(problems):
         problems.extend(_places(task, site, robot))
     forecast = None
@@ -121,6 +123,8 @@ def examine(
                 problems.extend(battery_problems(task, robot))
                 problems.extend(timing_problems(task, site, forecast))
                 problems.extend(working_problems(task, robot, forecast))
+                problems.extend(recharge_problems(task, site, robot, forecast))
+                problems.extend(return_problems(task, robot, forecast))
     once = dict.fromkeys(with_words(problem, task) for problem in problems)
     found = tuple(sorted(once, key=lambda p: p.severity != "error"))
     return Examination(task=task, site=site, robot=robot, problems=found, estimate=forecast)

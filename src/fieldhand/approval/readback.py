@@ -22,6 +22,7 @@ from fieldhand.site.model import Site
 from fieldhand.task.build import FAULTED_EXITS
 from fieldhand.task.frames import Budget, FaultedExit, Task, Then
 from fieldhand.wording.branches import FAULTS, say_decisions
+from fieldhand.wording.recharging import say_charges, say_energy_limits
 from fieldhand.wording.resolved_places import gather
 from fieldhand.wording.steps import ReadBackLine, say_exit_after, write_lines
 from fieldhand.wording.timing import say_timing
@@ -38,6 +39,7 @@ class Totals:
     Attributes:
         metres, seconds, percent: Distance, time, and percent of a full battery, including the drive home.
         captures: Number of captures.
+        charges: Number of charges of the battery; None if the mission does not recharge.
         branches: Number of branches examined.
         worst: Sentences that describe that branch and its probability of running short.
     """
@@ -48,6 +50,7 @@ class Totals:
     captures: int
     branches: int
     worst: tuple[str, ...] = ()
+    charges: Figure | None = None
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -126,12 +129,16 @@ def read_back(task: Task, site: Site, robot: RobotProfile, estimate: Estimate) -
 def say_totals(totals: Totals) -> tuple[str, ...]:
     """Return the expected consumption as sentences."""
     m, s, p = totals.metres, totals.seconds, totals.percent
+    time = say_duration(s.mean)
+    if totals.charges is not None:
+        charges = say_charges(totals.charges.mean, totals.charges.p90)
+        time = message("{charges}, {time}", charges=charges, time=time)
     total = counted(
         "{count} capture, about {metres} m, {time}, {percent} of the battery.",
         "{count} captures, about {metres} m, {time}, {percent} of the battery.",
         totals.captures,
         metres=say_rounded(m.mean),
-        time=say_duration(s.mean),
+        time=time,
         percent=_percent(p.mean),
     )
     high = message(
@@ -181,6 +188,7 @@ def _limits(task: Task, robot: RobotProfile) -> tuple[str, ...]:
         found.append(own)
     else:
         found.append(message("at least {percent} % charge is left at the end (as the Task asks).", percent=reserve))
+    found.extend(say_energy_limits(task.constraints, robot))
     speed = task.constraints.speed_m_s
     if speed is not None:
         found.append(message("at most {speed} m/s.", speed=say_number(speed)))
@@ -281,6 +289,7 @@ def _totals(estimate: Estimate, task: Task, robot: RobotProfile) -> Totals:
         captures=worst.captures,
         branches=len(estimate.branches),
         worst=_worst(estimate, task, robot),
+        charges=worst.charges,
     )
 
 

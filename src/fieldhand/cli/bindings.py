@@ -27,7 +27,7 @@ def binding_lines(profile: RobotProfile) -> Iterator[str]:
     yield f"  metres {'along the position' if ros2.odometry is None else _topic(ros2, ros2.odometry)}"
     if ros2.stop is not None:
         yield f"  stop {_topic(ros2, ros2.stop.topic)}: while {ros2.stop.path} is {str(ros2.stop.stopped).lower()}"
-    for action in profile.actions:
+    for action in profile.doable.values():
         bound = ros2.actions.get(action.name)
         if bound is None:
             yield f"  {action.name}: nothing performs it"

@@ -54,7 +54,7 @@ class BatteryDrain:
         The larger of two rates counts: that of the whole mission, and the highest rate of any span up to now in which
         the charge fell far enough to be significant, less one step of the meter.
         """
-        modelled = self._model.percent(spent.metres, spent.seconds, spent.joules)
+        modelled = self._model.percent(spent.metres, spent.seconds - spent.docked_s, spent.joules)
         self._remember(modelled, spent.percent)
         pace = max(_damped(modelled, spent.percent), self._latest(modelled, spent.percent))
         factor = max(1.0, 1.0 + CAUTION * (pace - 1.0))

@@ -17,12 +17,13 @@ from numpy.typing import NDArray
 from fieldhand.evaluation.battery_drain import BatteryDrain
 from fieldhand.evaluation.mission_budget import MissionBudget
 from fieldhand.evaluation.reasons import RoundTrip, running_short
+from fieldhand.evaluation.recharge_decision import RechargeDecider, RechargeDecision
 from fieldhand.evaluation.visit_chooser import VisitChooser
 from fieldhand.evaluation.visit_risk import VisitRisk
 from fieldhand.evaluation.work_ahead import WorkAhead, WorkAheadFinder
 from fieldhand.forecast.mission_state import MissionState, Verdict, Visit, VisitChoice
 from fieldhand.forecast.route_cost import RouteCost, cost_model, mean_metres, route_cost
-from fieldhand.language import joined
+from fieldhand.language import joined, message
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.frames import Task
@@ -73,6 +74,7 @@ class BudgetGuard:
         self._budget = MissionBudget(task, site, robot, drives, charge_percent)
         self._optional = VisitChooser(self._budget)
         self._ahead = WorkAheadFinder(self._budget)
+        self._recharge = RechargeDecider(self._budget)
         self._threshold: Floats | None = None
         self._granted: tuple[_Grant, ...] = ()
 
@@ -95,10 +97,44 @@ class BudgetGuard:
         within the budget, are given up at once; all others are given up together when no visit is worth its risk.
         """
         self._budget.drain.learn(state.spent)
-        choice = self._optional.next(state, candidates, at_most, still_to_come)
+        possible = [k for k, visit in enumerate(candidates) if self._recharge.is_possible(visit)]
+        choice = self._optional.next(state, [candidates[k] for k in possible], at_most, still_to_come)
+        if len(possible) < len(candidates):
+            beyond = set(range(len(candidates))).difference(possible)
+            index = None if choice.index is None else possible[choice.index]
+            choice = replace(choice, index=index, shed=(*(possible[k] for k in choice.shed), *sorted(beyond)))
         if choice.index is not None:
+            decided = self._recharge.decide(state, candidates[choice.index], None)
+            if decided.decision == "charge":
+                self._optional.withdraw(state, candidates[choice.index])
+                return self._charge_or_skip(state, candidates, choice.index, decided, at_most, still_to_come)
             self._grant(state, candidates[choice.index])
         return replace(choice, reason=self._and_the_battery(choice.reason))
+
+    def _charge_or_skip(
+        self,
+        state: MissionState,
+        candidates: Sequence[Visit],
+        chosen: int,
+        decided: RechargeDecision,
+        at_most: int | None,
+        still_to_come: Sequence[Visit],
+    ) -> VisitChoice:
+        """Charge before the chosen visit or, where the budgets do not allow it, leave out what needs charging."""
+        if self._recharge.fits_in_time(state, candidates[chosen]):
+            return VisitChoice(index=None, reason=self._and_the_battery(decided.why), charge_to=decided.charge_to)
+        near = [k for k, visit in enumerate(candidates) if self._recharge.is_within_charge(state, visit)]
+        why = message("there is no time to charge for more: {why}", context="log", why=decided.why)
+        if not near:
+            return VisitChoice(index=None, reason=self._and_the_battery(why))
+        self._optional.forget()
+        found = self._optional.next(state, [candidates[k] for k in near], at_most, still_to_come)
+        far = sorted(set(range(len(candidates))).difference(near))
+        index = None if found.index is None else near[found.index]
+        if index is not None:
+            self._grant(state, candidates[index])
+        shed = (*(near[k] for k in found.shed), *far)
+        return replace(found, index=index, shed=shed, reason=joined("; ", [r for r in (found.reason, why) if r]))
 
     def update_drives(self, drives: Drives) -> None:
         """Use new drives after a way was blocked or cleared; discard everything computed for the old ones."""
@@ -116,9 +152,18 @@ class BudgetGuard:
         """
         self._budget.drain.learn(state.spent)
         if self._is_granted(state, visit.place):
+            low = self._recharge.decide(state, visit, None, permitted=True)
+            if low.decision == "charge":
+                return Verdict(go=False, reason=self._and_the_battery(low.why), charge_to=low.charge_to)
             return Verdict(go=True)
-        budget, here = self._budget, state.context.here
         ahead = self._ahead.of(state, visit, still_to_come)
+        after = None if ahead is None else ahead.way
+        decided = self._recharge.decide(state, visit, after)
+        if decided.decision == "charge":
+            return Verdict(go=False, reason=self._and_the_battery(decided.why), charge_to=decided.charge_to)
+        if decided.decision == "never":
+            return Verdict(go=False, reason=self._and_the_battery(decided.why), chance_short=1.0)
+        budget, here = self._budget, state.context.here
         leg = budget.length(here, visit.place)
         way_on = None if ahead is None else route_cost([leg], budget.slower(visit, leg)) + ahead.way
         home = budget.length(visit.end, budget.home(visit.end))

@@ -62,15 +62,22 @@ class BudgetFailsafe:
         on, home = route_cost([now.on_m, now.after_m], now.work), route_cost([now.home_m])
         chances = overrun_chances(on, resources, robot, now.spent)
         at_once = overrun_chances(home, resources, robot, now.spent)
+        needs_on, needs_home = mean_metres(on, resources, robot), mean_metres(home, resources, robot)
+        if now.haven_m < now.home_m or now.haven_after_m < now.after_m:
+            # The charge need only last to the charger; the budgets are for the whole way home.
+            on, home = route_cost([now.on_m, now.haven_after_m], now.work), route_cost([now.haven_m])
+            charge = resources[-1:]
+            chances[-1:] = overrun_chances(on, charge, robot, now.spent)
+            at_once[-1:] = overrun_chances(home, charge, robot, now.spent)
+            needs_on[-1:], needs_home[-1:] = mean_metres(on, charge, robot), mean_metres(home, charge, robot)
         accepted = np.array([r.failure_probability for r in resources])
         drains = np.array([r.kind in ("reserve", "energy_percent") for r in resources])
         most = np.where(drains & (self._drain.factor >= ABNORMAL), accepted, np.maximum(EVEN, accepted))
-        needs_on, needs_home = mean_metres(on, resources, robot), mean_metres(home, resources, robot)
         safer = (at_once < chances - _LESS_LIKELY) | (needs_home < _LESS * needs_on)
         risky = (chances > most) & safer
         # If even the charge above the stop level does not last for the way home, going on gains nothing.
-        charge = self._homeward(now, now.home_m)
-        risky[-1] |= charge.alarm == "out_of_reach" and needs_home[-1] < needs_on[-1]
+        out_of_reach = self._homeward(now, now.haven_m)
+        risky[-1] |= out_of_reach.alarm == "out_of_reach" and needs_home[-1] < needs_on[-1]
         if not risky.any():
             return FailsafeForecast(drain=self._drain.factor)
         worst = int(np.where(risky, chances, -1.0).argmax())

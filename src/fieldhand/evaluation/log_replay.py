@@ -23,6 +23,7 @@ from fieldhand.task.plan import Act, Node, WorkAlong, acts
 from fieldhand.task.results import (
     Acted,
     Arrived,
+    ChargeEnded,
     ClockSet,
     Decided,
     Driving,
@@ -169,6 +170,8 @@ class _Replay:
                 self._capture(act)
             case ask.WaitFor(node=node):
                 self._wait(node)
+            case ask.Charge(node=recharge):
+                self._charge(recharge)
             case ask.DriveTo(node=node, tour=None) if node.act is None:
                 self._drive(node)
             case ask.Decide(node=node):
@@ -269,6 +272,15 @@ class _Replay:
         count.seen += good
         if not good:
             count.failed += failed
+            raise self._lost()
+
+    def _charge(self, node: Node) -> None:
+        """Consume the charges of the node: the last one that began is the one that counts."""
+        charged = False
+        while (event := self._peek_own(node)) is not None and not isinstance(event, Driving | Arrived):
+            charged = isinstance(event, ChargeEnded)
+            self._next += 1
+        if not charged:
             raise self._lost()
 
     def _drive(self, node: Node) -> None:

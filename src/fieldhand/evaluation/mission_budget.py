@@ -13,8 +13,9 @@ from fieldhand.errors import DriveFault
 from fieldhand.evaluation.battery_drain import BatteryDrain
 from fieldhand.forecast.distances import Distances
 from fieldhand.forecast.mission_state import MissionState, Visit, Work
+from fieldhand.forecast.recharge_rules import RechargeRules, mission_limits, recharge_rules
 from fieldhand.forecast.remaining_work import RemainingWork, remaining_work_after
-from fieldhand.forecast.resource_limits import ResourceLimit, resource_limits, slower_s_per_m
+from fieldhand.forecast.resource_limits import ResourceLimit, slower_s_per_m
 from fieldhand.forecast.risk_allowance import RiskAllowance
 from fieldhand.forecast.route_cost import RouteCost, overrun_chances
 from fieldhand.places.context import Context
@@ -48,7 +49,7 @@ class MissionBudget:
         self.task, self.site, self.drives = task, site, drives
         self.drain = BatteryDrain(robot)
         self._blocked = False
-        limits = resource_limits(task.constraints, robot, charge_percent)
+        limits = mission_limits(task, site, robot, drives, charge_percent)
         self.accepted: Floats = np.array([r.failure_probability for r in limits])
         self.distances = Distances(drives)
         self._allowance: RiskAllowance | None = None
@@ -85,7 +86,21 @@ class MissionBudget:
         """
         charge = state.charge_percent + state.spent.percent
         pace = pace_of(state.frames) if state.frames and state.frames[-1].node.is_optional else math.inf
-        return resource_limits(self.task.constraints, self.robot, charge, pace_m_s=pace)
+        return mission_limits(
+            self.task,
+            self.site,
+            self.robot,
+            self.drives,
+            charge,
+            charges=state.charges,
+            planned=state.planned_charges,
+            pace_m_s=pace,
+        )
+
+    @property
+    def recharge(self) -> RechargeRules | None:
+        """Return the rules of recharging with the battery as observed; None if the mission does not recharge."""
+        return recharge_rules(self.task, self.site, self.robot)
 
     def slower(self, visit: Visit, metres: float) -> Work:
         """Return the time that the pace of a visit adds to the drive to it."""

@@ -102,6 +102,12 @@ class VisitChooser:
         self._begun = {**self._begun, **{node: run.accepted for node, run in self._runs.items()}}
         self._runs.clear()
 
+    def withdraw(self, state: MissionState, visit: Visit) -> None:
+        """Take the last choice back: the visit is not made now, but can be chosen again."""
+        run = self._runs.get(state.node)
+        if run is not None:
+            run.done.discard(run.vertex.get(_key(visit.place), -1))
+
     def next(
         self, state: MissionState, candidates: Sequence[Visit], at_most: int | None, to_come: Sequence[Visit]
     ) -> VisitChoice:

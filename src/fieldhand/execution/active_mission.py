@@ -7,7 +7,8 @@ blackboard.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Literal
 
@@ -18,13 +19,14 @@ from fieldhand.execution.drive_controller import DriveController, drive_goal
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Progress, StretchWork
 from fieldhand.execution.guard import Guard
 from fieldhand.execution.journal.records import Observation
-from fieldhand.execution.limit_levels import charge_levels, fastest_drain
-from fieldhand.execution.open_goals import OpenCapture, OpenDrive, OpenStretch, joules_done, unusable
+from fieldhand.execution.limit_levels import charge_levels, fastest_charge, fastest_drain
+from fieldhand.execution.open_goals import OpenCapture, OpenDrive, OpenManeuver, OpenStretch, joules_done, unusable
 from fieldhand.execution.recorded_inputs import RecordedInputs
 from fieldhand.execution.time_of_day import TimeOfDay
 from fieldhand.forecast.conditions import ConditionInputs
 from fieldhand.forecast.mission_state import MissionState, Spent
 from fieldhand.forecast.optional_visits import OptionalVisits
+from fieldhand.forecast.recharge_rules import charge_target, charger_of
 from fieldhand.forecast.resource_limits import speed_of
 from fieldhand.forecast.visit_order import start_place
 from fieldhand.forecast.working import amount_of, end_of, use_of, working_speed
@@ -97,6 +99,10 @@ class ActiveMission:
         run: Current nodes of the plan.
         ending: Set when the plan ends before its last node; the tree is not ticked any more.
         fault: Fault for the Task's exits.
+        charges, planned_charges: Number of charges so far that the guard ordered, and of those that the plan contains.
+        docked: True while the robot is connected to its charger.
+        to_charger: True while it interrupts the plan to charge.
+        recharge_due: Reason to charge before the next drive or action; empty if there is none.
     """
 
     def __init__(
@@ -131,7 +137,7 @@ class ActiveMission:
         self.action_j = 0.0
         self._full = self.observation.charge_percent
         self._cuts = 0
-        self._open: OpenDrive | OpenCapture | None = None
+        self._open: OpenDrive | OpenCapture | OpenManeuver | None = None
         self._recorded: Progress | None = None
         self.events: list[Event] = []
         self.here = start_place(drives)
@@ -149,6 +155,13 @@ class ActiveMission:
         self.fault: Fault = "action_failed"
         self.what = ""
         self.halted = False
+        self.charges = self.planned_charges = 0
+        self.docked = self._charging = self.to_charger = False
+        self.recharge_due = ""
+        self._charged_percent = self._docked_s = 0.0
+        self._docked_since, self._docked_at = 0.0, 0.0
+        self._done = self._done_before_charge = 0
+        self._look_again_s = LOOK_AGAIN_S
         self._battery = BatteryMeter(
             self._full,
             self.clock.now(),
@@ -177,9 +190,13 @@ class ActiveMission:
                 metres += progress.metres
                 joules += self._implement_j(goal)
             else:
-                joules += joules_done(self.robot.action[goal.action], progress)
-        percent = self._full - self.charge_percent()
-        return Spent(metres=metres, seconds=self.t, percent=percent, joules=joules)
+                joules += joules_done(self.robot.doable[goal.action], progress)
+        charge, charged, docked_s = self.charge_percent(), self._charged_percent, self._docked_s
+        if self._charging:
+            charged += max(0.0, charge - self._docked_at)
+            docked_s += self.clock.now() - self._docked_since
+        percent = self._full - charge + charged
+        return Spent(metres=metres, seconds=self.t, percent=percent, joules=joules, docked_s=docked_s)
 
     @property
     def drives(self) -> Drives:
@@ -195,7 +212,12 @@ class ActiveMission:
     def facts(self) -> ConditionInputs:
         """Facts against which a condition is tested now."""
         return ConditionInputs(
-            site=self.site, robot=self.robot, here=self.here, readings=self.readings, series=self.series
+            site=self.site,
+            robot=self.robot,
+            here=self.here,
+            readings=self.readings,
+            series=self.series,
+            charge_percent=self.charge_percent(),
         )
 
     def charge_percent(self) -> float:
@@ -261,6 +283,8 @@ class ActiveMission:
             context=self._context(self.standing),
             spent=self.spent,
             charge_percent=self.charge_percent(),
+            charges=self.charges,
+            planned_charges=self.planned_charges,
         )
 
     def bind(self, label: str, places: tuple[Place, ...]) -> None:
@@ -410,6 +434,64 @@ class ActiveMission:
         self._open = OpenCapture(node=node, action=action, number=number)
         self.controller.start(ActionGoal(action=action, place=self.here, parameters=parameters))
 
+    # --- charging ------------------------------------------------------------------------------------------------
+
+    @property
+    def charger(self) -> Place | None:
+        """The charger of the site, if the robot can use it."""
+        return charger_of(self.site, self.robot)
+
+    @property
+    def charge_target(self) -> float:
+        """The charge in percent up to which the mission charges."""
+        return charge_target(self.task.constraints, self.robot)
+
+    def start_maneuver(self, node: str, action: str, number: int) -> None:
+        """Start the ``number``-th attempt at docking or undocking."""
+        self._open = OpenManeuver(node=node, action=action, number=number)
+        self.controller.start(ActionGoal(action=action, place=self.here))
+
+    def docked_now(self) -> None:
+        """Record that the robot has docked: from now on its charge rises."""
+        self.charged()
+        self.docked = self._charging = True
+        self._docked_since, self._docked_at = self.clock.now(), self.charge_percent()
+        self._battery.rises(fastest_charge(self.robot))
+
+    def charged(self) -> None:
+        """Record that the robot begins to leave its charger: its charge falls again."""
+        if self._charging:
+            self._charged_percent += max(0.0, self.charge_percent() - self._docked_at)
+            self._docked_s += self.clock.now() - self._docked_since
+            self._battery.rises(0.0)
+        self._charging = False
+
+    @property
+    def may_recharge(self) -> bool:
+        """True if the robot may interrupt the plan to charge now."""
+        constraints = self.task.constraints
+        most = constraints.recharge_at_most
+        allowed = constraints.recharge and self.charger is not None and (most is None or self.charges < most)
+        return allowed and not self.to_charger
+
+    @property
+    def charged_in_vain(self) -> bool:
+        """True if nothing of the plan was done since it was last interrupted to charge."""
+        return self.charges > 0 and self._done == self._done_before_charge
+
+    def recharged(self) -> None:
+        """Record that the plan was interrupted to charge."""
+        self.charges, self._done_before_charge = self.charges + 1, self._done
+
+    @contextmanager
+    def looking_every(self, seconds: float) -> Iterator[None]:
+        """Look less often while nothing can happen, but at least once in these seconds."""
+        self._look_again_s = max(LOOK_AGAIN_S, seconds)
+        try:
+            yield
+        finally:
+            self._look_again_s = LOOK_AGAIN_S
+
     def attend(self) -> Progress:
         """Return the progress of the current goal, and record its end once."""
         progress = self.controller.poll()
@@ -419,7 +501,9 @@ class ActiveMission:
         if not progress.over:
             return progress
         self._open = None
-        if isinstance(goal, OpenCapture):
+        if isinstance(goal, OpenManeuver):
+            self.action_j += joules_done(self.robot.doable[goal.action], progress)
+        elif isinstance(goal, OpenCapture):
             progress = self._end_capture(goal, progress)
         else:
             self._end_drive(goal, progress)
@@ -439,7 +523,7 @@ class ActiveMission:
         """Return the seconds until the robot or a wait is due, or None if it neither works nor waits."""
         found = [] if (soon := self.observation.next_in) is None else [soon]
         if self._wake_s is not None:
-            found.append(min(LOOK_AGAIN_S, max(0.0, self._wake_s - self.clock.now())))
+            found.append(min(self._look_again_s, max(0.0, self._wake_s - self.clock.now())))
         if found and self.task.composition.watches:
             found.append(LOOK_AGAIN_S)
         return min(found, default=None)
@@ -455,7 +539,7 @@ class ActiveMission:
         return self._open is not None
 
     @property
-    def doing(self) -> OpenDrive | OpenCapture | None:
+    def doing(self) -> OpenDrive | OpenCapture | OpenManeuver | None:
         """The current goal."""
         return self._open
 
@@ -523,7 +607,7 @@ class ActiveMission:
                 side=place.side,
                 lat=place.lat,
                 lon=place.lon,
-                attempt=doing.number if isinstance(doing, OpenCapture) else 1,
+                attempt=doing.number if isinstance(doing, OpenCapture | OpenManeuver) else 1,
                 what=progress.what,
                 charge_percent=self.charge_percent(),
             )
@@ -537,6 +621,7 @@ class ActiveMission:
         if progress.state != "succeeded":
             self.arrived_at, self.standing = None, self._stands()
             return
+        self._done += not self.to_charger
         self.stop_at(open_.goal.place)
         if isinstance(open_, OpenStretch):
             return
@@ -553,6 +638,7 @@ class ActiveMission:
             if what := next(filter(None, why), ""):
                 progress = dataclasses.replace(progress, state="failed", fault="failed", readings={}, what=what)
         done = progress.state == "succeeded"
+        self._done += done
         self.emit(
             Acted(
                 t=self.t,

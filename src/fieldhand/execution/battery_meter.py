@@ -53,6 +53,11 @@ class BatteryMeter:
         self._explained_s = min(hold_s, STEP_PERCENT / fastest) if fastest > 0.0 else hold_s
         self._outliers: deque[_Outlier] = deque()
         self._falls = False
+        self._rise = 0.0
+
+    def rises(self, percent_per_s: float) -> None:
+        """Accept a charge that rises up to that fast; 0 where the robot is not at its charger."""
+        self._rise = percent_per_s
 
     def read(self, percent: float, now: float) -> float:
         """Process a reading and return the filtered charge. Readings that are not finite are ignored."""
@@ -85,7 +90,8 @@ class BatteryMeter:
     def _is_explained(self, percent: float, now: float) -> bool:
         """Return True if the battery can have come to that charge since the last one that counts."""
         fell = self.percent - percent
-        return -STEP_PERCENT <= fell <= STEP_PERCENT + self._fastest * max(0.0, now - self._at)
+        seconds = max(0.0, now - self._at)
+        return -STEP_PERCENT - self._rise * seconds <= fell <= STEP_PERCENT + self._fastest * seconds
 
     def _add_outlier(self, outlier: _Outlier) -> None:
         falls = outlier.percent < self.percent

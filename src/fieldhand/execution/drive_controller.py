@@ -156,7 +156,7 @@ class DriveController:
             if not cut:
                 self._end(progress)
                 return
-            then = "skip" if no_more else self._robot.action[goal.action].in_doubt
+            then = "skip" if no_more else self._robot.doable[goal.action].in_doubt
             self._on_doubt(goal, then, progress)
             # The robot may have been moved during a repair.
             self._strayed = True

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from fieldhand.errors import BlockedFault
 from fieldhand.execution.active_mission import ActiveMission
+from fieldhand.execution.docking import ChargeFirst
 from fieldhand.execution.obstacles import cut_off_places
 from fieldhand.execution.shed_work import admit, mandatory_visit, mandatory_visits_left, report_shed
 from fieldhand.forecast.mission_state import Visit, VisitChoice
@@ -212,7 +213,11 @@ class ForEachVisits:
         """Return the next visit in planned order, if the guard permits it."""
         visit = self.left.pop(0)
         self.place = visit.place
-        admit(self.mission, visit, refused=[visit.place, *self.undone()])
+        try:
+            admit(self.mission, visit, refused=[visit.place, *self.undone()])
+        except ChargeFirst:
+            self.left.insert(0, visit)
+            raise
         return visit.place
 
     def _chosen(self) -> Place | None:
@@ -223,6 +228,8 @@ class ForEachVisits:
         choice = mission.guard.choose(
             state, list(self.left), at_most=at_most, still_to_come=mandatory_visits_left(mission)
         )
+        if choice.charge_to:
+            raise ChargeFirst(choice.reason, choice.charge_to)
         given_up = set(range(len(self.left))) if choice.index is None else set(choice.shed) - {choice.index}
         if given_up:
             places = [self.left[i].place for i in sorted(given_up)]

@@ -9,6 +9,7 @@ from collections.abc import Callable, Generator, Mapping
 
 from fieldhand.errors import ActionFault, BlockedFault, DriveFault, LostFault
 from fieldhand.execution.active_mission import ActiveMission
+from fieldhand.execution.docking import ChargeFirst, leave_charger
 from fieldhand.execution.obstacles import avoid, wait_for_way
 from fieldhand.execution.waiting import wait, wait_for_position
 from fieldhand.language import joined, message
@@ -44,6 +45,7 @@ def drive(
         BlockedFault: No way is left. The robot stands where it stopped.
         LostFault: The position is unknown.
         DriveFault: All tries failed, or there never was a way. The robot stands where it stopped.
+        ChargeFirst: The battery has to be charged first; the drive was broken off.
     """
     if mission.is_at(place):
         return
@@ -52,6 +54,7 @@ def drive(
         mission.stop_at(mission.standing)
         mission.emit_arrived(node, mission.standing, 0.0)
         return
+    yield from leave_charger(mission)
     tries, stops, waited, obstacle = mission.robot.retries + 1, 0, not patient, ""
     while True:
         yield from wait_for_position(mission, node)
@@ -65,10 +68,17 @@ def drive(
             waited = True
             yield from wait_for_way(mission, node, place)
             continue
+        broken_off = False
         while not (progress := mission.attend()).over:
+            if mission.recharge_due and not broken_off:
+                mission.stop_driver()
+                broken_off = True
+                continue
             yield
         if progress.state == "succeeded":
             return
+        if progress.state == "cancelled" and broken_off:
+            raise ChargeFirst(mission.recharge_due, mission.charge_target)
         why = progress.what or message("it failed", context="log")
         what = message("drive to {place}: {what}", context="log", place=_named(place), what=why)
         if progress.state == "cancelled":

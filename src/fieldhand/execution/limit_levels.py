@@ -40,12 +40,13 @@ class LimitLevel:
 def levels_of(constraints: Constraints, robot: RobotProfile) -> tuple[LimitLevel, ...]:
     """Return the limit levels of a Task on a robot."""
     reserve = reserve_percent(constraints, robot)
-    battery = robot.energy.levels(reserve)
+    battery = robot.energy.levels(max(reserve, constraints.return_percent or 0.0))
+    stop = robot.energy.levels(reserve).stop
     charges: tuple[tuple[Crossing, float, Consequence], ...] = (
         ("warn", battery.warn, "go_on"),
         ("return", battery.home, "return"),
         ("reserve", reserve, "go_on"),
-        ("stop", battery.stop, "stop"),
+        ("stop", stop, "stop"),
     )
     return (
         # A level of 0 is never crossed: the battery is empty then.
@@ -65,6 +66,13 @@ def charge_levels(constraints: Constraints, robot: RobotProfile, full: float) ->
         *(level.threshold for level in levels if level.quantity == "charge_percent"),
         *(full - level.threshold for level in levels if level.quantity == "energy_percent"),
     )
+
+
+def fastest_charge(robot: RobotProfile) -> float:
+    """Return the highest plausible rise of the charge at the charger in percent per second: twice the profile's."""
+    charging = robot.energy.charging
+    watts = 0.0 if charging is None else max(power for _, power in charging.curve)
+    return 2.0 * 100.0 * watts / robot.energy.capacity_j
 
 
 def fastest_drain(robot: RobotProfile) -> float:

@@ -17,9 +17,10 @@ from shapely.geometry import LineString, Point
 from fieldhand.errors import DriveFault
 from fieldhand.execution.active_mission import ActiveMission
 from fieldhand.execution.limit_levels import Consequence, LimitLevel, fastest_drain, levels_of
-from fieldhand.execution.open_goals import OpenCapture, OpenDrive, OpenStretch
+from fieldhand.execution.open_goals import OpenCapture, OpenDrive, OpenManeuver, OpenStretch
 from fieldhand.forecast.failsafe_state import FailsafeForecast, FailsafeState
 from fieldhand.forecast.mission_state import Spent, Work
+from fieldhand.forecast.recharge_rules import charger_distance
 from fieldhand.forecast.resource_limits import slower_s_per_m, speed_of
 from fieldhand.forecast.working import use_of
 from fieldhand.site.model import Place, Site
@@ -71,13 +72,27 @@ class LimitMonitor:
         self._reach_m = 0.0
         self._levels = levels_of(mission.task.constraints, mission.robot)
         self._crossed: set[LimitLevel] = set()
-        self._homes: tuple[tuple[tuple[float, float], ...], float, float] | None = None
+        self._homes: dict[bool, tuple[tuple[tuple[float, float], ...], float, float]] = {}
         self._foreseen: set[Phase] = set()
         self._fastest = fastest_drain(mission.robot)
+        #: True if the battery raised the last alarm, not a budget.
+        self._by_charge = False
 
     def turn(self, phase: Phase) -> None:
         """Enter a phase of the mission; the previous alarm is settled."""
         self.phase, self.alarm, self.why = phase, "none", ""
+
+    def turn_to_charger(self) -> bool:
+        """Settle an alarm to turn home by charging instead, if that is possible; return True if it is."""
+        mission = self._mission
+        charger = mission.charger
+        if self.alarm != "return" or not self._by_charge or not mission.may_recharge or charger is None:
+            return False
+        if not self.reaches(charger):
+            return False
+        mission.recharge_due, self.alarm = self.why, "none"
+        self._foreseen.discard(self.phase)
+        return True
 
     def look(self) -> None:
         """Check all levels: record crossings, and raise the alarm if one has consequences."""
@@ -95,7 +110,7 @@ class LimitMonitor:
                 self._emit_crossing(level.quantity, level.level, value, level.threshold, self._follows(level))
             elif level in self._crossed and level.quantity == "charge_percent":
                 self._clear(level, value)
-        if self.alarm == "none" and self.phase not in self._foreseen:
+        if self.alarm == "none" and self.phase not in self._foreseen and not self._mission.recharge_due:
             self._foresee(spent, charge)
 
     def has_news(self, now: float, charge: float) -> bool:
@@ -160,13 +175,18 @@ class LimitMonitor:
             metres = mission.drives.between(mission.standing, home).length_m
         except DriveFault:
             return False
-        return self._ask_failsafe(mission.spent, mission.charge_percent(), (metres, 0.0, 0.0)).alarm == "none"
+        ways = (metres, 0.0, 0.0)
+        return self._ask_failsafe(mission.spent, mission.charge_percent(), ways, returning=True).alarm == "none"
 
     # --- crossings -----------------------------------------------------------------------------------------------
 
     def _follows(self, level: LimitLevel) -> Consequence:
         """Return the consequence of a crossing in this phase."""
-        if self.phase == "over" or (self.phase == "exit" and level.then == "return"):
+        mission = self._mission
+        homeward = self.phase == "exit" or mission.to_charger
+        if level.quantity == "charge_percent" and (mission.docked or isinstance(mission.doing, OpenManeuver)):
+            return "go_on"  # it is at the charger
+        if self.phase == "over" or (homeward and level.then == "return"):
             return "go_on"
         if level.then == "return" and self._exit_after(level.quantity) == "stay":
             return "end"
@@ -212,6 +232,7 @@ class LimitMonitor:
         if then != "go_on" and self.alarm != "stop":
             self.alarm = "shelter" if level == "out_of_reach" else "return" if then == "end" else then
             self.why, self.exit = say_crossing(event), self._exit_after(quantity)
+            self._by_charge = quantity == "charge_percent"
 
     # --- the way home --------------------------------------------------------------------------------------------
 
@@ -220,12 +241,16 @@ class LimitMonitor:
         doing = self._mission.doing
         if self.phase == "plan" and self._has_open_end:
             return
-        if self.phase == "over" or (doing is None and not self._mission.dwell_left_s):
+        if self.phase == "over" or isinstance(doing, OpenManeuver):
+            return
+        if doing is None and not self._mission.dwell_left_s:
             return
         if self.phase == "exit" and not isinstance(doing, OpenDrive):
             return
-        ways = self._ways(doing)
-        found = self._ask_failsafe(spent, charge, ways, self._work_left(doing, ways[0]))
+        ways, haven = self._ways(doing), None
+        if self.phase == "plan" and self._mission.may_recharge:
+            haven = self._ways(doing, to_charger=True)
+        found = self._ask_failsafe(spent, charge, ways, self._work_left(doing, ways[0]), haven)
         if found.alarm == "none":
             return
         self._foreseen.add(self.phase)
@@ -237,10 +262,19 @@ class LimitMonitor:
             self._emit_crossing(quantity, "out_of_reach", found.left, found.needed, "stop")
 
     def _ask_failsafe(
-        self, spent: Spent, charge: float, ways: tuple[float, float, float], work: Work | None = None
+        self,
+        spent: Spent,
+        charge: float,
+        ways: tuple[float, float, float],
+        work: Work | None = None,
+        haven: tuple[float, float, float] | None = None,
+        *,
+        returning: bool | None = None,
     ) -> FailsafeForecast:
-        """Ask the failsafe; ``ways`` are those of :meth:`_ways`."""
+        """Ask the failsafe; ``ways`` are those of :meth:`_ways` home, ``haven`` those to the charger."""
         on_m, after_m, home_m = ways
+        _, charger_after_m, charger_m = ways if haven is None else haven
+        homeward = self.phase == "exit" or self._mission.to_charger
         return self._mission.inputs.foresee(
             FailsafeState(
                 spent=spent,
@@ -249,25 +283,28 @@ class LimitMonitor:
                 work=work or Work(),
                 after_m=after_m,
                 home_m=home_m,
-                returning=self.phase == "exit",
+                haven_after_m=min(after_m, charger_after_m),
+                haven_m=min(home_m, charger_m),
+                returning=homeward if returning is None else returning,
             )
         )
 
-    def _ways(self, doing: OpenDrive | OpenCapture | None) -> tuple[float, float, float]:
-        """Return metres left of the current drive, from its end home, and at most from here home."""
-        mission = self._mission
+    def _ways(self, doing: OpenDrive | OpenCapture | None, *, to_charger: bool = False) -> tuple[float, float, float]:
+        """Return metres left of the current drive, from its end home (or to the charger), and at most from here."""
+        mission, metres_from = self._mission, self._charger_m if to_charger else self._home_m
         if not isinstance(doing, OpenDrive) or len(mission.driven) < 2:
-            home = self._home_m(mission.standing)
+            home = metres_from(mission.standing)
             return 0.0, home, home
-        if self._homes is None or self._homes[0] is not mission.driven:
+        known = self._homes.get(to_charger)
+        if known is None or known[0] is not mission.driven:
             begins, end = _point(mission.site, mission.driven[0]), doing.goal.place
             returning = self.phase == "exit"
-            ways = (0.0, 0.0) if returning else (self._home_m(begins), self._home_m(end))
-            self._homes = mission.driven, *ways
+            ways = (0.0, 0.0) if returning else (metres_from(begins), metres_from(end))
+            known = self._homes[to_charger] = mission.driven, *ways
         path, at = LineString(mission.driven), mission.observation.position
         done = path.project(Point(at.xy))
         on_m = max(0.0, path.length - done)
-        _, from_start, from_end = self._homes
+        _, from_start, from_end = known
         return on_m, from_end, min(done + from_start, on_m + from_end)
 
     def _home_m(self, at: Place) -> float:
@@ -278,6 +315,14 @@ class LimitMonitor:
             return 0.0 if home.xy == at.xy else mission.drives.between(at, home).length_m
         except DriveFault:
             return 0.0
+
+    def _charger_m(self, at: Place) -> float:
+        """Return the metres to the charger; infinity if there is no way."""
+        mission, charger = self._mission, self._mission.charger
+        if charger is None:
+            return math.inf
+        metres = charger_distance(mission.drives, at, charger)
+        return math.inf if metres is None else metres
 
     def _work_left(self, doing: OpenDrive | OpenCapture | None, on_m: float) -> Work:
         """Return the work left of a capture, a stretch or a wait, or the time that a pace adds to a drive."""

@@ -227,7 +227,7 @@ class MissionRunner:
                 order = self._order() or self._stopped()
                 if order:
                     return self._aborted(order)
-                if self.monitor.alarm != "none":
+                if self.monitor.alarm != "none" and not self.monitor.turn_to_charger():
                     return self._alarmed(tree, self.monitor.why, self.monitor.exit)
                 if (due := self._due(tree)) is not None:
                     if (ending := self._respond(tree, due)) is not None:
@@ -368,6 +368,7 @@ class MissionRunner:
         """Drive to the destination of the exit. A failure on the way ends the mission there."""
         mission, monitor = self.mission, self.monitor
         monitor.turn("exit")
+        mission.recharge_due = ""
         mission.emit(Exited(t=mission.t, node=ending.node, exit=ending.exit, then=ending.then, reason=ending.reason))
         home = mission.site.home(ending.then, mission.standing)
         heard = self._order() if ending.status == "aborted" else None

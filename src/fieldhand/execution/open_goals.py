@@ -42,6 +42,15 @@ class OpenCapture:
     number: int
 
 
+@dataclass(frozen=True, kw_only=True)
+class OpenManeuver:
+    """Docking or undocking that the driver has begun; ``number`` counts its attempts."""
+
+    node: str
+    action: str
+    number: int
+
+
 def joules_done(action: Action, progress: Progress) -> float:
     """Return the energy used so far by a capture in joules, by the profile."""
     return action.energy_j * min(1.0, progress.seconds / action.duration_s)

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Generator, Mapping
+from dataclasses import replace
 from typing import Any
 
 from fieldhand.errors import BlockedFault, DriveFault, FieldhandError, OutputError, PlaceError
 from fieldhand.execution.active_mission import ActiveMission, Ending
+from fieldhand.execution.docking import ChargeFirst
 from fieldhand.execution.for_each_visits import ForEachVisits, OptionalStepVisit
 from fieldhand.execution.goals import capture, drive
 from fieldhand.execution.obstacles import wait_for_way
+from fieldhand.execution.recharging import charge_and_return, charge_as_planned
 from fieldhand.execution.shed_work import (
     PlanOver,
     admit,
@@ -17,13 +20,14 @@ from fieldhand.execution.shed_work import (
     mandatory_visit,
     mandatory_visits_left,
     report_shed,
+    shed_rest,
     shed_unreachable,
 )
 from fieldhand.execution.stretch_visits import StretchVisits
 from fieldhand.execution.waiting import dwell
 from fieldhand.execution.working import work
 from fieldhand.forecast.conditions import evaluate
-from fieldhand.forecast.mission_state import VisitChoice
+from fieldhand.forecast.mission_state import Verdict, Visit, VisitChoice
 from fieldhand.forecast.visit_order import home_if_last, steps_in_order
 from fieldhand.language import message
 from fieldhand.places.selector import Selector
@@ -31,9 +35,9 @@ from fieldhand.site.model import Place
 from fieldhand.task import instructions
 from fieldhand.task.conditions import Condition
 from fieldhand.task.nodes.base import Failed, GivenUp, Stopped
-from fieldhand.task.plan import Act, AnyOrder, Node, OptionalStep
+from fieldhand.task.plan import Act, AnyOrder, Node, OptionalStep, WorkAlong
 from fieldhand.task.results import Decided, MissionStatus
-from fieldhand.task.run import Steps, carry_out_in_steps
+from fieldhand.task.run import StackFrame, Steps, carry_out_in_steps
 
 Instructions = Generator[None, None, Any]
 
@@ -53,6 +57,7 @@ class PlanExecutor:
         self.mission = mission
         self.place: Place | None = None
         self.between = False
+        self._charged_again = False
 
     def program(self) -> Steps:
         """Carry out the whole plan; yield while the robot is busy, and between rounds.
@@ -65,6 +70,7 @@ class PlanExecutor:
         run = self.mission.run
         try:
             yield from carry_out_in_steps(run.program(), self._perform)
+            yield from self._charge_for_the_way_home()
         except Failed:
             pass  # the mission has recorded the fault
         except PlanOver:
@@ -83,7 +89,7 @@ class PlanExecutor:
     def _perform(self, request: instructions.Instruction) -> Instructions:
         """Carry out a request; record a failure and raise it in the plan."""
         try:
-            return (yield from self._answer(request))
+            return (yield from self._answer_charged(request))
         except OutputError:
             raise
         except FieldhandError as error:
@@ -101,6 +107,56 @@ class PlanExecutor:
         self.mission.fail(request.node.id, error, handled=self.mission.run.is_caught)
         return Failed(request.node.id)
 
+    def _answer_charged(self, request: instructions.Instruction) -> Instructions:
+        """Carry out a request, as often interrupted to charge the battery as is needed."""
+        moves = isinstance(request, instructions.Permit | instructions.DriveTo | instructions.NextVisit)
+        while True:
+            try:
+                if moves and self.mission.recharge_due:
+                    raise ChargeFirst(self.mission.recharge_due, self.mission.charge_target)
+                return (yield from self._answer(request))
+            except ChargeFirst as first:
+                yield from self._charge(first.why, first.until_percent)
+
+    def _charge(self, why: str, until_percent: float) -> Steps:
+        """Interrupt the plan to charge; the mission ends if that fails for good.
+
+        Raises:
+            PlanOver: It has failed.
+        """
+        mission, again = self.mission, self.mission.charged_in_vain
+        in_vain = again and (bool(mission.recharge_due) or self._charged_again)
+        self._charged_again = again
+        try:
+            yield from charge_and_return(mission, why, until_percent)
+        except OutputError:
+            raise
+        except FieldhandError as error:
+            mission.fail("", error, handled=False)
+            shed_rest(mission, self.place, Verdict(go=False, reason=mission.what))
+            then = mission.exit_for("low_budget")
+            mission.end(Ending(status="faulted", exit="faulted", then=then, reason=mission.what))
+            raise PlanOver from error
+        if in_vain:
+            # A charged battery did not last for the next visit: the robot would go to and fro for ever.
+            what = message("not even a charged battery lasts for the next visit: {why}", context="log", why=why)
+            shed_rest(mission, self.place, Verdict(go=False, reason=what))
+            then = mission.exit_for("low_budget")
+            mission.end(Ending(status="returned", exit="faulted", then=then, reason=what))
+            raise PlanOver
+
+    def _charge_for_the_way_home(self) -> Steps:
+        """Charge once more if the plan is done but the charge does not suffice for the way home."""
+        mission = self.mission
+        if not mission.task.constraints.recharge or mission.charger is None:
+            return
+        home = mission.site.home(mission.task.composition.nominal, mission.standing)
+        state = mission.state()
+        state = replace(state, frames=(StackFrame(node=mission.run.plan),))
+        verdict = mission.guard.admit(state, Visit(place=home))
+        if verdict.charge_to:
+            yield from self._charge(verdict.reason, verdict.charge_to)
+
     def _answer(self, request: instructions.Instruction) -> Instructions:
         match request:
             case instructions.Locate(selector=selector):
@@ -114,9 +170,9 @@ class PlanExecutor:
             case instructions.Capture(node=act):
                 return (yield from self._capture(act))
             case instructions.WaitFor(node=node, seconds=seconds):
-                here = self.place = self.mission.standing
-                admit(self.mission, mandatory_visit(self.mission, here, node), refused=[here])
-                yield from dwell(self.mission, node.id, seconds)
+                yield from self._wait(node, seconds)
+            case instructions.Charge(node=node):
+                yield from charge_as_planned(self.mission, node)
             case instructions.ForgetReading(reading=reading):
                 self.mission.readings.pop(reading, None)
             case instructions.SetReading(reading=reading, value=value):
@@ -132,7 +188,7 @@ class PlanExecutor:
             case instructions.BeginStretches(node=along):
                 return StretchVisits(self.mission, along)
             case instructions.WorkStretch(node=along, tour=stretches):
-                yield from work(self.mission, along, stretches)
+                yield from self._work(along, stretches)
             case instructions.NextVisit(tour=tour, made=made):
                 self.place = None
                 yield from self._look_around(first=tour.place is None and made == 0)
@@ -188,10 +244,52 @@ class PlanExecutor:
 
     def _capture(self, node: Act) -> Generator[None, None, Mapping[str, float]]:
         readings: Mapping[str, float] = {}
+        yield from self._have_enough_for(node)
         for _ in range(node.count):
+            if self.mission.recharge_due:
+                yield from self._charge(self.mission.recharge_due, self.mission.charge_target)
+                yield from drive(self.mission, "", self.mission.here)
             readings = yield from capture(self.mission, node)
             self.mission.collect(node.reading, readings)
         return readings
+
+    def _have_enough_for(self, node: Act) -> Steps:
+        """Charge before an action if the drive to it took more than expected, and come back."""
+        mission = self.mission
+        if not mission.may_recharge or mission.charged_in_vain:
+            return
+        verdict = mission.guard.admit(mission.state(), mandatory_visit(mission, mission.here, node))
+        if verdict.charge_to:
+            yield from self._charge(verdict.reason, verdict.charge_to)
+            yield from drive(mission, "", mission.here)
+
+    def _wait(self, node: Node, seconds: float) -> Steps:
+        """Stand still where the robot is; the battery is charged before or in between if need be."""
+        mission = self.mission
+        here = self.place = mission.standing
+        try:
+            admit(mission, mandatory_visit(mission, here, node), refused=[here])
+        except ChargeFirst as first:
+            yield from self._charge(first.why, first.until_percent)
+            yield from drive(mission, "", mission.here)
+
+        def charge() -> Steps:
+            yield from self._charge(mission.recharge_due, mission.charge_target)
+            yield from drive(mission, "", mission.here)
+
+        yield from dwell(mission, node.id, seconds, charge)
+
+    def _work(self, node: WorkAlong, tour: StretchVisits) -> Steps:
+        """Work along the current stretch, interrupted to charge the battery if need be."""
+        while True:
+            try:
+                yield from work(self.mission, node, tour)
+            except ChargeFirst as first:
+                yield from self._charge(first.why, first.until_percent)
+                assert tour.place is not None  # noqa: S101  a stretch is current
+                yield from drive(self.mission, node.id, tour.place)
+            else:
+                return
 
     def _decide(self, node: Node, condition: Condition) -> bool:
         mission = self.mission
@@ -224,6 +322,8 @@ class PlanExecutor:
             return False
         mission.run.frame.tour = OptionalStepVisit(place=visit.place)
         choice = mission.guard.choose(state, [visit], still_to_come=mandatory_visits_left(mission))
+        if choice.charge_to:
+            raise ChargeFirst(choice.reason, choice.charge_to)
         if choice.index is None:
             report_shed(mission, node.id, [visit.place], choice, optional=True)
         return choice.index is not None

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from fieldhand.errors import PlaceError
 from fieldhand.execution.active_mission import ActiveMission, Ending
+from fieldhand.execution.docking import ChargeFirst
 from fieldhand.forecast.mission_state import Verdict, Visit, VisitChoice
 from fieldhand.forecast.service import service_of
 from fieldhand.language import message
@@ -47,10 +48,13 @@ def admit(mission: ActiveMission, visit: Visit, *, refused: Sequence[Place]) -> 
     Raises:
         GivenUp: The current optional visit or step is given up.
         Over: The mission turns home.
+        ChargeFirst: The battery has to be charged first; then the guard is to be asked again.
     """
     verdict = mission.guard.admit(mission.state(), visit, mandatory_visits_left(mission))
     if verdict.go:
         return
+    if verdict.charge_to:
+        raise ChargeFirst(verdict.reason, verdict.charge_to)
     optional = mission.run.optional
     if optional is not None:
         at = optional.tour.place if optional.tour is not None else None

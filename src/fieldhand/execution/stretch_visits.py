@@ -6,9 +6,10 @@ from collections.abc import Sequence
 
 from fieldhand.errors import BlockedFault
 from fieldhand.execution.active_mission import ActiveMission
+from fieldhand.execution.docking import ChargeFirst
 from fieldhand.execution.shed_work import admit, mandatory_visits_left, report_shed
 from fieldhand.forecast.mission_state import Visit, VisitChoice
-from fieldhand.forecast.working import stretches_of, visit_of
+from fieldhand.forecast.working import begin_of, stretches_of, visit_of
 from fieldhand.language import counted, message
 from fieldhand.language.words import listed
 from fieldhand.site.model import Place
@@ -71,10 +72,14 @@ class StretchVisits:
             if self._missed and not self.node.optional:
                 raise BlockedFault(_missed(self._missed, self._why))
             return None
-        self.current, visit = self._left.pop(index)
+        self.current, visit = chosen = self._left.pop(index)
         self.place = visit.place
         if not self.node.optional:
-            admit(self.mission, visit, refused=[visit.place, *self.undone()])
+            try:
+                admit(self.mission, visit, refused=[visit.place, *self.undone()])
+            except ChargeFirst:
+                self._left.insert(index, chosen)
+                raise
         return self.place
 
     def undone(self) -> tuple[Place, ...]:
@@ -104,6 +109,10 @@ class StretchVisits:
     def arrived(self) -> None:
         """Record that the robot has reached the begin of the current stretch."""
 
+    def break_off(self, left: Stretch) -> None:
+        """Record what is left of the current stretch, which is interrupted and continued later."""
+        self.current, self.place = left, begin_of(left, self.mission.site)
+
     def cannot_reach(self, fault: BlockedFault) -> None:
         """Give up the current stretch."""
         assert self.place is not None  # noqa: S101  a stretch is current
@@ -123,6 +132,8 @@ class StretchVisits:
             return None
         visits = [visit for _, visit in self._left]
         choice = mission.guard.choose(mission.state(), visits, still_to_come=mandatory_visits_left(mission))
+        if choice.charge_to:
+            raise ChargeFirst(choice.reason, choice.charge_to)
         gone = set(range(len(visits))) if choice.index is None else set(choice.shed) - {choice.index}
         if gone:
             report_shed(mission, self.node.id, [visits[k].place for k in sorted(gone)], choice, optional=True)

@@ -25,18 +25,31 @@ def wait(mission: ActiveMission, seconds: float, over: Callable[[], bool] = lamb
         mission.wait_until(None)
 
 
-def dwell(mission: ActiveMission, node: str, seconds: float) -> Steps:
-    """Stand still for some seconds of the mission because the plan says so. The time of a pause counts."""
+def dwell(mission: ActiveMission, node: str, seconds: float, charge: Callable[[], Steps]) -> Steps:
+    """Stand still for some seconds of the mission because the plan says so. The time of a pause counts.
+
+    Args:
+        mission: The mission.
+        node: Id of the node.
+        seconds: Seconds to wait.
+        charge: Charges the battery and returns, if that interrupts the wait; its time does not count.
+    """
     while mission.halted:
         yield
-    begun_s = mission.clock.now()
     mission.emit(Dwelling(t=mission.t, node=node, seconds=seconds))
-    mission.dwells_until_s = begun_s + seconds
-    try:
-        yield from wait(mission, seconds)
-    finally:
-        mission.dwells_until_s = None
-    mission.emit(Dwelt(t=mission.t, node=node, seconds=mission.clock.now() - begun_s))
+    waited_s = 0.0
+    while True:
+        begun_s = mission.clock.now()
+        mission.dwells_until_s = begun_s + seconds - waited_s
+        try:
+            yield from wait(mission, seconds - waited_s, over=lambda: bool(mission.recharge_due))
+        finally:
+            mission.dwells_until_s = None
+        waited_s += mission.clock.now() - begun_s
+        if waited_s >= seconds - _SAME_S:
+            break
+        yield from charge()
+    mission.emit(Dwelt(t=mission.t, node=node, seconds=waited_s))
 
 
 def wait_for_position(mission: ActiveMission, node: str) -> Steps:

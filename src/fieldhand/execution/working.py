@@ -12,6 +12,7 @@ from shapely.ops import unary_union
 
 from fieldhand.errors import ActionFault, BlockedFault, DriveFault, LostFault
 from fieldhand.execution.active_mission import ActiveMission
+from fieldhand.execution.docking import ChargeFirst
 from fieldhand.execution.goals import MOST_STOPS, drive
 from fieldhand.execution.obstacles import avoid
 from fieldhand.execution.stretch_visits import StretchVisits
@@ -40,6 +41,7 @@ def work(mission: ActiveMission, node: WorkAlong, tour: StretchVisits) -> Steps:
         ActionFault: All tries of the implement failed.
         DriveFault: All tries to drive along failed. The robot stands where it stopped.
         LostFault: The position is unknown.
+        ChargeFirst: The battery has to be charged first; the tour knows what is left of the stretch.
     """
     stretch = tour.current
     assert stretch is not None  # noqa: S101  a stretch is current
@@ -50,17 +52,27 @@ def work(mission: ActiveMission, node: WorkAlong, tour: StretchVisits) -> Steps:
         yield from wait_for_position(mission, node.id)
         attempt += 1
         mission.start_stretch(node, rest, attempt)
+        broken_off = False
         while not (progress := mission.attend()).over:
+            if mission.recharge_due and not broken_off:
+                mission.stop_driver()
+                broken_off = True
+                continue
             yield
         if progress.state == "succeeded":
             break
         what = progress.what or message("it failed", context="log")
-        if progress.state == "cancelled":
+        if progress.state == "cancelled" and not broken_off:
             raise DriveFault(message("{stretch}: {what}", context="log", stretch=whole, what=what))
         left = rest.part(mission.controller.reached_m, rest.length_m)
         if left is None:
             mission.stop_at(end_of(rest, mission.site))
             break
+        if progress.state == "cancelled":
+            tour.break_off(left)
+            if missed_m > NOTHING_M:
+                tour.miss(begin_of(stretch, mission.site), why)
+            raise ChargeFirst(mission.recharge_due, mission.charge_target)
         stops += progress.fault in ("blocked", "lost")
         if stops > MOST_STOPS:
             raise _stopped_too_often(whole, progress.fault, stops)

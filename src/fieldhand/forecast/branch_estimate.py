@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.forecast.resource_limits import ResourceKind, ResourceLimit, speed_of
-from fieldhand.forecast.sampled_costs import SampledUse
+from fieldhand.forecast.sampled_costs import SampledCharging, SampledUse
 from fieldhand.forecast.walk_steps import Decision, Walk
 from fieldhand.robot.model import RobotProfile
 from fieldhand.short_repr import short_repr
@@ -66,6 +66,7 @@ class BranchEstimate:
         captures: Number of captures on the branch.
         visits: Mean number of optional visits and steps.
         shed: Places of optional visits and steps for which the budget will probably not suffice.
+        charges: Number of charges; None if the mission does not recharge.
         walk: The walk along the branch.
         fault: Fault that ends the branch at its last node; None if none does.
     """
@@ -81,6 +82,7 @@ class BranchEstimate:
     shed: tuple[Place, ...]
     walk: Walk
     fault: Fault | None = None
+    charges: Figure | None = None
 
     __repr__ = short_repr
 
@@ -99,6 +101,7 @@ class BranchEstimate:
             "battery_percent": asdict(self.percent),
             "battery_left_percent": {"p50": self.left[0], "p90": self.left[1]},
             "captures": self.captures,
+            **({} if self.charges is None else {"charges": asdict(self.charges)}),
             "limits": [asdict(chance) for chance in self.chances],
         }
 
@@ -123,21 +126,23 @@ def estimate_branch(
     used = walked.used
     assert used is not None  # noqa: S101  estimates draw missions on every walk
     metres, seconds, percent = amounts(used, constraints, robot)
+    charging = used.charging
     amount = {"distance_m": metres, "duration_s": seconds, "energy_percent": percent, "reserve": percent}
     lists = [s for s in walked.steps if s.node.is_optional and s.kind == "visit-list"]
     energy = _figure(percent)
+    left = charge_percent - percent if charging is None else charging.left
     return BranchEstimate(
         decisions=walked.decisions,
         metres=_figure(metres),
         seconds=_figure(seconds),
         percent=energy,
-        left=(max(0.0, charge_percent - energy.p50), max(0.0, charge_percent - energy.p90)),
+        left=(max(0.0, float(np.quantile(left, 0.5))), max(0.0, float(np.quantile(left, 0.1)))),
         chances=tuple(
             Chance(
                 kind=r.kind,
                 limit=r.limit,
                 accepted=r.failure_probability,
-                chance=float((amount[r.kind] > r.limit * (1 + 1e-9)).mean()),
+                chance=_overrun(r, amount[r.kind], charging, charge_percent),
                 draws=len(metres),
             )
             for r in resources
@@ -145,16 +150,30 @@ def estimate_branch(
         captures=sum(s.captures for s in walked.steps),
         visits=sum(s.visit_forecast.visits for s in lists if s.visit_forecast is not None),
         shed=tuple(p for s in lists for p in s.shed),
+        charges=None if charging is None else _figure(charging.charges),
         walk=walked,
         fault=fault,
     )
+
+
+def _overrun(limit: ResourceLimit, used: Floats, charging: SampledCharging | None, charge_percent: float) -> float:
+    """Return the fraction of missions that exceed a limit; with recharging, those that arrive below the reserve."""
+    if limit.kind == "reserve" and charging is not None:
+        reserve = charge_percent - limit.limit
+        return float((charging.lowest < reserve - 1e-9).mean())
+    return float((used > limit.limit * (1 + 1e-9)).mean())
 
 
 def amounts(used: SampledUse, constraints: Constraints, robot: RobotProfile) -> tuple[Floats, Floats, Floats]:
     """Return metres, seconds and percent of a full battery per sampled mission."""
     metres, seconds = used.metres, used.metres / speed_of(constraints, robot) + used.seconds
     driving, idling = robot.percent(1.0, 0.0), robot.percent(0.0, 1.0)
-    return metres, seconds, driving * metres + idling * seconds + robot.percent(0.0, 0.0, 1.0) * used.joules
+    docked_s = 0.0 if used.charging is None else used.charging.docked_s
+    return (
+        metres,
+        seconds,
+        driving * metres + idling * (seconds - docked_s) + robot.percent(0.0, 0.0, 1.0) * used.joules,
+    )
 
 
 def _figure(draws: Floats) -> Figure:

@@ -22,6 +22,7 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.feature_kinds import phrase
 from fieldhand.site.model import Place, Site
 from fieldhand.task.aggregates import Aggregate, CompareSeries, CountReadings, MeanKnown
+from fieldhand.task.battery_condition import BatteryBelow
 from fieldhand.task.conditions import AllOf, AnyOf, Between, Compare, Condition, Level, Not, TreeHas
 from fieldhand.terms import Test, Value
 
@@ -45,6 +46,7 @@ class ConditionInputs:
         here: The plan's current place.
         series: All readings of each name, for conditions on series.
         called: Name of the tested value in the reason; by default that of its quantity.
+        charge_percent: Charge of the battery now; None if unknown.
     """
 
     site: Site
@@ -53,6 +55,7 @@ class ConditionInputs:
     readings: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     series: SeriesByName = field(default_factory=dict)
     called: str = ""
+    charge_percent: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,6 +84,8 @@ def evaluate(condition: Condition, facts: ConditionInputs) -> ConditionResult:
             return _level(condition, facts)
         case TreeHas():
             return _attribute(condition, facts)
+        case BatteryBelow(percent=percent):
+            return _battery(percent, facts)
         case Not(condition=inner):
             found = evaluate(inner, facts)
             return ConditionResult(truth=None if found.truth is None else not found.truth, why=found.why)
@@ -209,6 +214,19 @@ def _attribute(condition: TreeHas, facts: ConditionInputs) -> ConditionResult:
     else:
         why = message("the {name} of tree {id}, {has}, is not {how} {bound}", context="log", **fills)
     return ConditionResult(truth=truth, why=why)
+
+
+def _battery(percent: float, facts: ConditionInputs) -> ConditionResult:
+    if facts.charge_percent is None:
+        return ConditionResult(truth=None, why=message("the charge of the battery is unknown", context="log"))
+    fills = {"charge": say_number(facts.charge_percent, 3), "percent": say_number(percent)}
+    if facts.charge_percent <= percent:
+        return ConditionResult(
+            truth=True, why=message("the battery is at {charge} %, not above {percent} %", context="log", **fills)
+        )
+    return ConditionResult(
+        truth=False, why=message("the battery is at {charge} %, above {percent} %", context="log", **fills)
+    )
 
 
 def _is_number(value: Value) -> bool:

@@ -235,6 +235,15 @@ def limit_problems(
                     need=say_rounded(need),
                 )
             )
+        elif chance.exceeded and resource.kind == "reserve" and worst.charges is not None:
+            found.append(
+                message(
+                    "the charge may fall below the reserve before the robot is at the charger or home: {chance} %"
+                    " chance, but only {accepted} % is accepted",
+                    chance=say_rounded(100 * chance.chance),
+                    accepted=say_rounded(100 * resource.failure_probability),
+                )
+            )
         elif chance.exceeded and worst.visits:
             found.append(
                 message(

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from fieldhand.forecast.candidates import cheapest
 from fieldhand.forecast.mission_state import Spent, Visit, Work
 from fieldhand.forecast.orienteering_problem import GONE, left_before, policy_for, visits_problem
+from fieldhand.forecast.recharge_rules import mission_limits
 from fieldhand.forecast.remaining_work import RemainingWork, optional_runs, remaining_work_after, whole_mission_work
-from fieldhand.forecast.resource_limits import resource_limits
 from fieldhand.forecast.risk_allowance import RiskAllowance
 from fieldhand.forecast.route_cost import RouteCost, cost_model, overrun_chances, route_cost
 from fieldhand.forecast.sampled_costs import DRAWS
@@ -132,7 +132,9 @@ def _several(
     from fieldhand.orienteering.preview import preview
 
     robot = walker.robot
-    resources = resource_limits(walker.task.constraints, robot, walker.charge_percent, pace_m_s=walker.plan.pace_m_s)
+    resources = mission_limits(
+        walker.task, walker.site, robot, walker.drives, walker.charge_percent, pace_m_s=walker.plan.pace_m_s
+    )
     problem = visits_problem(
         legs=visit_distances(walker.context.here, visits, rest, walker.drives),
         rewards=[v.reward for v in visits],
@@ -157,8 +159,8 @@ def _one(
     here, costs = walker.context.here, cost_model(walker.robot)
     there = _length(walker, here, visit.place)
     back, home = (0.0 if rest.first is None else _length(walker, at, rest.first) for at in (visit.end, here))
-    resources = resource_limits(
-        walker.task.constraints, walker.robot, walker.charge_percent, pace_m_s=walker.plan.pace_m_s
+    resources = mission_limits(
+        walker.task, walker.site, walker.robot, walker.drives, walker.charge_percent, pace_m_s=walker.plan.pace_m_s
     )
     with_it, without = (
         overrun_chances(way + rest.way, resources, walker.robot, walker.spent, used)
@@ -195,7 +197,7 @@ def _rest(walker: ForecastHandler, node: ForEach | OptionalStep | WorkAlong, vis
 def _share(walker: ForecastHandler, rest: RemainingWork) -> tuple[float, float, RiskAllowance]:
     """Return the overrun probability without the visits, their share, and the allowance left for later visits."""
     task, robot = walker.task, walker.robot
-    resources = resource_limits(task.constraints, robot, walker.charge_percent)
+    resources = mission_limits(task, walker.site, robot, walker.drives, walker.charge_percent)
     allowance = walker.allowance
     if allowance is None:
         whole = whole_mission_work(task, walker.site, robot, walker.drives, walker.beginning)

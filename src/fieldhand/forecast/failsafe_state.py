@@ -24,6 +24,7 @@ class FailsafeState:
         work: Remaining work of the current capture or wait; the time that a lower speed adds to the current drive.
         after_m: Metres home from the end of the current drive.
         home_m: Upper bound of the metres home from here.
+        haven_after_m, haven_m: As ``after_m`` and ``home_m``, to the charger where it is nearer and may be used.
         returning: True if the robot is already on its way home.
     """
 
@@ -33,6 +34,8 @@ class FailsafeState:
     work: Work
     after_m: float
     home_m: float
+    haven_after_m: float
+    haven_m: float
     returning: bool
 
 

@@ -19,13 +19,16 @@ class Spent:
     """Resources used so far, or by a part of a mission: metres, seconds, percent of a full battery.
 
     Attributes:
+        percent: What the battery supplied; what it was charged with in between is not subtracted.
         joules: Energy of actions in joules by the profile, without idle power.
+        docked_s: Seconds of these at the charger, which supplied the robot.
     """
 
     metres: float = 0.0
     seconds: float = 0.0
     percent: float = 0.0
     joules: float = 0.0
+    docked_s: float = 0.0
 
     def __add__(self, other: Spent) -> Spent:
         return Spent(
@@ -33,6 +36,7 @@ class Spent:
             seconds=self.seconds + other.seconds,
             percent=self.percent + other.percent,
             joules=self.joules + other.joules,
+            docked_s=self.docked_s + other.docked_s,
         )
 
 
@@ -94,12 +98,15 @@ class MissionState:
         context: Current place, visited trees, and bound places.
         spent: Resources used since the mission began.
         charge_percent: Current battery charge, 0 to 100.
+        charges, planned_charges: Number of charges so far that the guard ordered, and of those that the plan contains.
     """
 
     frames: tuple[StackFrame, ...]
     context: Context
     spent: Spent
     charge_percent: float
+    charges: int = 0
+    planned_charges: int = 0
 
     @property
     def node(self) -> str:
@@ -109,12 +116,16 @@ class MissionState:
 
 @dataclass(frozen=True, kw_only=True)
 class Verdict:
-    """The guard's decision about a mandatory visit: reason, probability of running short, and cause of a refusal."""
+    """The guard's decision about a mandatory visit: reason, probability of running short, and cause of a refusal.
+
+    ``charge_to``: percent to which the battery has to be charged first; then the guard is asked again. 0 for none.
+    """
 
     go: bool
     reason: str = ""
     chance_short: float = 0.0
     cause: ShedCause = "budget"
+    charge_to: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -125,6 +136,7 @@ class VisitChoice:
         chance_short: Probability of running short by the visits given up, if there are any; otherwise by the next one.
         cause: Cause of giving them up.
         names_places: True if the reason names their places.
+        charge_to: Percent to which the battery has to be charged first; then the guard is asked again. 0 for none.
     """
 
     index: int | None
@@ -133,3 +145,4 @@ class VisitChoice:
     chance_short: float = 0.0
     cause: ShedCause = "budget"
     names_places: bool = False
+    charge_to: float = 0.0

@@ -80,8 +80,7 @@ class LikelyOptionalWork:
         walker.allowance = found.allowance
         step = WalkStep(node=node, kind="visit-list", context=walker.context, shed=(*found.shed, *closed))
         walker.note(replace(step, places=found.places, visit_forecast=found.visit_forecast))
-        if samples is not None:
-            samples.visit(found.preview, found.works, walker.slower_s_per_m)
+        walker.sample_visits(found.preview, found.works)
         return found.places
 
 

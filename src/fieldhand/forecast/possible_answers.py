@@ -19,6 +19,7 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task import conditions as c
 from fieldhand.task import plan
+from fieldhand.task.battery_condition import BatteryBelow
 from fieldhand.task.conditions import Between, Compare, Condition, Level, TreeHas
 
 #: Maximum number of combinations of values tried for one test; above it, both answers count as possible.
@@ -70,6 +71,7 @@ class ConditionOutcomes:
         here: Place,
         tested: _Tested,
         values: tuple[_Values, ...],
+        charges: _Values = (),
     ) -> _Outcome | None:
         """Return the possible results of a test, given the values that each reading may have; None if too many.
 
@@ -79,22 +81,29 @@ class ConditionOutcomes:
             here: The current place.
             tested: Reading and quantity of each tested reading that was taken.
             values: Possible values of each of them.
+            charges: Possible charges of the battery, where the condition tests it.
         """
         at = here.id if any(isinstance(part, TreeHas) for part in c.walk(condition)) else ""
-        key = (node_id, at, tested, values)
+        charges = charges if tests_battery(condition) else ()
+        key = (node_id, at, tested, values, charges)
         known = self._outcomes.get(key)
         if known is None and math.prod(len(v) for v in values) <= _MOST:
-            known = self._outcomes[key] = self._try(condition, here, tested, values)
+            known = self._outcomes[key] = self._try(condition, here, tested, values, charges)
         return known
 
-    def _try(self, condition: Condition, here: Place, tested: _Tested, values: tuple[_Values, ...]) -> _Outcome:
+    def _try(
+        self, condition: Condition, here: Place, tested: _Tested, values: tuple[_Values, ...], charges: _Values
+    ) -> _Outcome:
         with_answer: dict[bool, list[tuple[float, ...]]] = {}
         for combination in itertools.product(*values):
             readings: dict[str, dict[str, float]] = {}
             for (reading, quantity), value in zip(tested, combination, strict=True):
                 readings.setdefault(reading, {})[quantity] = value
-            facts = ConditionInputs(site=self._site, robot=self._robot, here=here, readings=readings)
-            with_answer.setdefault(evaluate(condition, facts).holds, []).append(combination)
+            for charge in charges or (None,):
+                facts = ConditionInputs(
+                    site=self._site, robot=self._robot, here=here, readings=readings, charge_percent=charge
+                )
+                with_answer.setdefault(evaluate(condition, facts).holds, []).append(combination)
         return _Outcome(
             values={
                 answer: tuple(tuple(dict.fromkeys(each)) for each in zip(*some, strict=True))
@@ -143,16 +152,16 @@ class BranchReadings:
         single = {r for r in c.readings(plain) - names if r not in self._bound}
         return tuple(sorted(single | {r for r in c.series(condition) if not self._sizes.get(r)}))
 
-    def answers(self, node_id: str, condition: Condition, here: Place) -> tuple[bool, ...]:
+    def answers(self, node_id: str, condition: Condition, here: Place, charges: _Values = ()) -> tuple[bool, ...]:
         """Return the possible answers to a condition now, at least one."""
         plain, tested, values = self._tested(condition)
-        found = self._outcomes.outcome(node_id, plain, here, tested, values)
+        found = self._outcomes.outcome(node_id, plain, here, tested, values, charges)
         return (True, False) if found is None else found.answers
 
-    def settle(self, node_id: str, condition: Condition, here: Place, answer: bool) -> None:
+    def settle(self, node_id: str, condition: Condition, here: Place, answer: bool, charges: _Values = ()) -> None:
         """Restrict the readings to values consistent with an answer."""
         plain, tested, values = self._tested(condition)
-        found = self._outcomes.outcome(node_id, plain, here, tested, values)
+        found = self._outcomes.outcome(node_id, plain, here, tested, values, charges)
         if found is None:
             return
         for (reading, quantity), left in zip(tested, found.values[answer], strict=bool(tested)):
@@ -179,6 +188,11 @@ class BranchReadings:
         self._derived[derived.name] = derived
         self._bound[derived.name] = (self._takings, "")
         self._left[self._takings, derived.quantity] = derived.values(self._sizes, self._outcomes.values_of)
+
+
+def tests_battery(condition: Condition) -> bool:
+    """Return True if a condition tests the charge of the battery."""
+    return any(isinstance(part, BatteryBelow) for part in c.walk(condition))
 
 
 def _standing_for(root: plan.Node, robot: RobotProfile) -> Iterator[tuple[str, _Values]]:

@@ -11,10 +11,12 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 from fieldhand.errors import PlaceError, TaskError
 from fieldhand.forecast import visit_order
+from fieldhand.forecast.charge_simulation import charged_use
 from fieldhand.forecast.mission_state import Visit, Work
 from fieldhand.forecast.possible_answers import BranchReadings
+from fieldhand.forecast.recharge_rules import recharge_rules
 from fieldhand.forecast.risk_allowance import RiskAllowance
-from fieldhand.forecast.sampled_costs import MissionSamples
+from fieldhand.forecast.sampled_costs import MissionSamples, SampledUse
 from fieldhand.forecast.service import retry_work, work_of
 from fieldhand.forecast.walk_state import Answers, WalkState
 from fieldhand.forecast.walk_steps import Walk, WalkStep
@@ -26,7 +28,7 @@ from fieldhand.task import instructions as ask
 from fieldhand.task.build import exit_of
 from fieldhand.task.frames import Task
 from fieldhand.task.nodes.base import Failed, Stopped
-from fieldhand.task.plan import Act, ForEach, Node, OptionalStep, WorkAlong
+from fieldhand.task.plan import Act, ForEach, Node, OptionalStep, Recharge, WorkAlong
 from fieldhand.task.run import carry_out
 
 if TYPE_CHECKING:
@@ -154,8 +156,17 @@ class ForecastHandler(WalkState):
             exit=taken,
             decisions=tuple(self.decisions),
             unread=tuple(dict.fromkeys(self.unread)),
-            used=None if self.samples is None else self.samples.used,
+            used=self._used(),
         )
+
+    def _used(self) -> SampledUse | None:
+        """Return the resources used by the sampled missions, with their charges."""
+        if self.samples is None:
+            return None
+        rules = recharge_rules(self.task, self.site, self.robot)
+        if rules is None:
+            return self.samples.used
+        return charged_use(self.sampled, self.task, rules, self.drives, self.samples, self.charge_percent)
 
     def along(self, node: Node) -> tuple[WalkStep, ...]:
         """Return the steps of one node without an exit, up to the first place that cannot be resolved from here.
@@ -204,6 +215,8 @@ class ForecastHandler(WalkState):
             case ask.WaitFor(node=node, seconds=seconds):
                 here = (self.context.here,)
                 self.note(WalkStep(node=node, kind="wait", context=self.context, places=here, seconds=seconds))
+            case ask.Charge(node=recharge):
+                return self._recharge(recharge)
             case ask.Locate(node=node, selector=selector):
                 if selector is None:
                     return self.context.here
@@ -259,6 +272,20 @@ class ForecastHandler(WalkState):
             return PlannedStretches([stretches[k] for k in order], [visits[k] for k in order])
         self.note(WalkStep(node=node, kind="visit-list", context=self.context, places=places))
         return PlannedStretches(stretches, visits)
+
+    def _recharge(self, node: Recharge) -> None:
+        """Record a charge of the battery; how long it takes depends on the charge of each sampled mission."""
+        work = work_of(node, self.robot)
+        self.note(
+            WalkStep(
+                node=node,
+                kind="charge",
+                context=self.context,
+                places=(self.context.here,),
+                seconds=work.seconds,
+                joules=work.joules,
+            )
+        )
 
     def _capture(self, node: Act) -> Mapping[str, float]:
         """Record the captures of an action, which may fail inside a ``Try``.

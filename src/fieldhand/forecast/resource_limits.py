@@ -35,16 +35,21 @@ class ResourceLimit:
         limit: Amount available for the whole mission: metres, seconds, or percent of a full battery.
         failure_probability: Accepted probability of using more (Pf).
         per_metre: Amount used per metre of driving, in the unit of ``limit``.
+        per_percent: Amount used per percent of charge besides, since it has to be charged again; included in
+            ``per_metre`` and ``limit`` (:mod:`fieldhand.forecast.recharge_rules`).
     """
 
     kind: ResourceKind
     limit: float
     failure_probability: float
     per_metre: float
+    per_percent: float = 0.0
 
     def of_work(self, robot: RobotProfile, work: Work) -> float:
         """Return the amount of the resource that work uses."""
         driven = work.metres * self.per_metre
+        if self.per_percent:
+            driven += self.per_percent * robot.percent(0.0, work.seconds, work.joules)
         match self.kind:
             case "distance_m":
                 return driven
@@ -59,13 +64,14 @@ class ResourceLimit:
 
     def used(self, spent: Spent) -> float:
         """Return the amount used so far."""
+        charged = self.per_percent * spent.percent
         match self.kind:
             case "distance_m":
-                return spent.metres
+                return charged + spent.metres
             case "duration_s":
-                return spent.seconds
+                return charged + spent.seconds
             case _:
-                return spent.percent
+                return charged + spent.percent
 
     def metres_left(self, spent: Spent) -> float:
         """Return the mean metres that can be driven with the amount left; negative if overspent."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -25,18 +24,61 @@ _AT_A_TIME = 64
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
+class SampledCharging:
+    """The charges of each sampled mission, shape (missions,) each.
+
+    Attributes:
+        charges: Number of charges.
+        docked_s: Seconds at the charger, during which it supplies the robot.
+        left: Charge in percent at the end.
+        lowest: Lowest charge in percent on arrival at the charger or at the end.
+    """
+
+    charges: Floats
+    docked_s: Floats
+    left: Floats
+    lowest: Floats
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
 class SampledUse:
     """Resources used by each sampled mission, shape (missions,) each.
 
     Attributes:
         metres: Cost of the legs in metres.
-        seconds, joules: Time and energy of actions, without driving and idle power; with the time of waits, and that by
-            which slower drives exceed the mission's speed.
+        seconds, joules: Time and energy of actions and charging, without driving and idle power; with the time of
+            waits, and that by which slower drives exceed the mission's speed.
+        charging: What was charged; None for missions that do not recharge.
     """
 
     metres: Floats
     seconds: Floats
     joules: Floats
+    charging: SampledCharging | None = None
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class SampledVisits:
+    """The optional visits of each sampled mission, with the work at each candidate place.
+
+    Attributes:
+        slower_s_per_m: Seconds per metre that the drives take beyond those of the mission's speed.
+    """
+
+    preview: Preview
+    works: tuple[Work, ...]
+    slower_s_per_m: float = 0.0
+
+    @property
+    def work(self) -> tuple[Floats, Floats, Floats]:
+        """Return metres, seconds and joules of the work at the visited places for each mission."""
+        each = [self.works[vertex - 1] for vertex in self.preview.vertices.tolist()]
+        visited: Floats = self.preview.visited.astype(np.float64)
+        return (
+            visited @ np.array([w.metres for w in each], dtype=np.float64),
+            visited @ np.array([w.seconds for w in each], dtype=np.float64),
+            visited @ np.array([w.joules for w in each], dtype=np.float64),
+        )
 
 
 class LegCostSamples:
@@ -95,6 +137,16 @@ class MissionSamples:
         return self._leg_costs.seed
 
     @property
+    def draws(self) -> int:
+        """Return the number of missions."""
+        return self._leg_costs.draws
+
+    def leg(self, number: int, *, detour: bool = False) -> Floats:
+        """Return the cost of a leg of 1 m for each mission, by its number on the walk; another one for a detour."""
+        rng = np.random.default_rng([self.seed, 1 + detour, number])
+        return self._leg_costs.costs.draw(rng, self.draws)
+
+    @property
     def metres(self) -> Floats:
         """Return the cost of the legs so far for each mission in metres, shape (missions,)."""
         if self._pending:
@@ -139,11 +191,11 @@ class MissionSamples:
         self._work = self._work + Work(seconds=work.seconds, joules=work.joules)
         self._metres = self._metres + work.metres
 
-    def visit(self, preview: Preview, works: Sequence[Work], slower_s_per_m: float = 0.0) -> None:
+    def visit(self, visits: SampledVisits) -> None:
         """Add each mission's optional visits with their work; the preview's vertices are numbered from 1."""
-        each = [works[vertex - 1] for vertex in preview.vertices.tolist()]
+        metres, seconds, joules = visits.work
         _ = self.metres
-        self._add(preview.legs + preview.visited @ np.array([w.metres for w in each]), slower_s_per_m)
-        self._seconds = self._seconds + preview.visited @ np.array([w.seconds for w in each])
-        self._joules = self._joules + preview.visited @ np.array([w.joules for w in each])
-        self._leaving = preview.last
+        self._add(visits.preview.legs + metres, visits.slower_s_per_m)
+        self._seconds = self._seconds + seconds
+        self._joules = self._joules + joules
+        self._leaving = visits.preview.last

@@ -8,7 +8,7 @@ import math
 from fieldhand.forecast.mission_state import Work
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
-from fieldhand.task.plan import Act, Node
+from fieldhand.task.plan import Act, Node, Recharge
 
 
 def service_of(node: Node, robot: RobotProfile) -> tuple[float, float]:
@@ -24,6 +24,8 @@ def service_of(node: Node, robot: RobotProfile) -> tuple[float, float]:
     if node.act is not None:
         action = robot.action[node.act.action]
         return (node.act.count * action.duration_s, node.act.count * action.energy_j)
+    if node.recharge is not None:
+        return _charging(node.recharge, robot)
     if node.is_optional_step:
         return (0.0, 0.0)
     if node.dwell_s:
@@ -33,6 +35,17 @@ def service_of(node: Node, robot: RobotProfile) -> tuple[float, float]:
     together = max if node.is_choice else sum
     times = (1 if node.rounds is None else node.rounds) * (1 if node.at_most is None else node.at_most)
     return (times * together(seconds), times * together(joules))
+
+
+def _charging(node: Recharge, robot: RobotProfile) -> tuple[float, float]:
+    """Return seconds and joules of a charge from the reserve. The charger supplies the robot's idle power."""
+    charging, energy = robot.energy.charging, robot.energy
+    if charging is None:
+        return (0.0, 0.0)
+    until = charging.until_percent if node.until_percent is None else node.until_percent
+    full_s = float(charging.seconds(energy.reserve_percent, until, energy.capacity_j))
+    seconds = full_s if node.duration_s is None else node.duration_s
+    return (charging.around_s + seconds, charging.around_j - seconds * energy.idle_w)
 
 
 def retry_work(node: Act, robot: RobotProfile) -> Work:

@@ -7,10 +7,11 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from fieldhand.forecast import visit_order
+from fieldhand.forecast.expected_charge import ExpectedCharge
 from fieldhand.forecast.mission_state import Spent, Work
 from fieldhand.forecast.possible_answers import BranchReadings
 from fieldhand.forecast.resource_limits import slower_s_per_m, speed_of
-from fieldhand.forecast.sampled_costs import MissionSamples
+from fieldhand.forecast.sampled_costs import MissionSamples, SampledVisits
 from fieldhand.forecast.walk_steps import Decision, DecisionKind, NodeAnswer, StepKind, WalkStep, never
 from fieldhand.forecast.working import end_of, use_of
 from fieldhand.places.context import Context, VisitedIds
@@ -24,6 +25,7 @@ from fieldhand.task.plan import Act, Node, WorkAlong
 from fieldhand.task.run import PlanRun
 
 if TYPE_CHECKING:
+    from fieldhand.orienteering.preview import Preview
     from fieldhand.site.drives import Drives
     from fieldhand.site.working.stretch import Stretch
 
@@ -83,6 +85,9 @@ class WalkState:
         readings: Readings taken on the way; None if the walk begins in the middle of a mission, where they are unknown.
     """
 
+    #: Battery charge at the start of the mission, 0 to 100.
+    charge_percent: float = 100.0
+
     def __init__(
         self,
         task: Task,
@@ -115,6 +120,9 @@ class WalkState:
         self._collected = collected(task.composition.plan)
         self.samples = samples
         self.spent = Spent()
+        self._charge = ExpectedCharge(task, robot)
+        #: Steps and optional visits in order, as the sampled missions do them.
+        self.sampled: list[WalkStep | SampledVisits] = []
         #: Destinations in order, including those at which the walk already was.
         self.stops: list[Place] = []
         #: Positions in ``stops`` from which a stretch leads to the next one.
@@ -206,14 +214,15 @@ class WalkState:
     def decide(self, node: Node, kind: DecisionKind) -> bool:
         """Return the answer to a question that the walk cannot determine itself, and record it as a decision."""
         condition = node.tested if kind == "holds" else None
+        charges = self._charge.likely(self.charge_percent)
         possible: tuple[bool, ...] = (True, False)
         if condition is not None and self.readings is not None:
-            possible = self.readings.answers(node.id, condition, self.context.here)
+            possible = self.readings.answers(node.id, condition, self.context.here, charges)
             self.unread += [(node.id, reading) for reading in self.readings.missing(condition)]
         sure = len(possible) == 1
         answer = possible[0] if sure else self._answers.of(kind)(node.id)
         if condition is not None and self.readings is not None:
-            self.readings.settle(node.id, condition, self.context.here, answer)
+            self.readings.settle(node.id, condition, self.context.here, answer, charges)
         place = self.context.here.id
         self.decisions.append(Decision(node=node.id, kind=kind, answer=answer, sure=sure, place=place))
         if kind == "holds":
@@ -244,17 +253,26 @@ class WalkState:
         if self.readings is not None:
             self.readings.collect(reading, 0)
 
+    def sample_visits(self, preview: Preview, works: Sequence[Work]) -> None:
+        """Add the optional visits of each sampled mission."""
+        if self.samples is not None:
+            visits = SampledVisits(preview=preview, works=tuple(works), slower_s_per_m=self.slower_s_per_m)
+            self.samples.visit(visits)
+            self.sampled.append(visits)
+
     def note(self, step: WalkStep) -> None:
         """Add a step and the resources it uses."""
         self.steps.append(step)
         metres = step.work.metres if step.drive is None else step.drive.length_m
         if self.samples is not None and self.plan.optional is None:
+            self.sampled.append(step)
             if step.drive is not None:
                 self.samples.drive(metres, step.slower_s_per_m)
             elif step.kind == "work":
                 self.samples.work(step.work)
-            elif step.kind in ("act", "wait"):
+            elif step.kind in ("act", "wait", "charge"):
                 self.samples.work(Work(seconds=step.seconds, joules=step.joules))
+        self._charge.after(step)
         self.spent += Spent(
             metres=metres, seconds=step.seconds, percent=self.robot.percent(0.0, step.seconds, step.joules)
         )

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from fieldhand.site.drives import Drive
     from fieldhand.site.working.stretch import Stretch
 
-StepKind = Literal["drive", "act", "wait", "work", "visit-list", "decide", "exit"]
+StepKind = Literal["drive", "act", "wait", "work", "charge", "visit-list", "decide", "exit"]
 DecisionKind = Literal["holds", "fails", "blocked", "taken"]
 
 #: Answers a question about a node, given its id: whether its condition holds, or its action fails.
@@ -64,7 +64,7 @@ class VisitForecast:
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class WalkStep:
-    """A step of a walk: a drive, an action, a wait, work along a stretch, a decision, a list of visits, or the exit.
+    """A step of a walk: a drive, an action, a wait, work along a stretch, a charge, a decision, visits, or the exit.
 
     Attributes:
         node: Plan node that the step belongs to; for the exit, the ``Stop`` that takes it or the root of the plan.
@@ -132,7 +132,7 @@ class Walk:
 
     @property
     def work(self) -> tuple[float, float]:
-        """Return seconds and joules of actions at places and of waits, and the seconds added by slower drives."""
+        """Return seconds and joules of actions at places, waits and charges, and the seconds added by slower drives."""
         work = [work_in(s) for s in self.steps]
         return (sum(w.seconds for w in work), sum(w.joules for w in work))
 
@@ -144,7 +144,7 @@ class Walk:
 
 
 def work_in(step: WalkStep) -> Work:
-    """Return the work of a step at one place: of an action or a wait, and the time that a slower drive adds."""
-    if step.kind in ("act", "wait"):
+    """Return the work of a step at one place (action, wait or charge), or the time that a slower drive adds."""
+    if step.kind in ("act", "wait", "charge"):
         return Work(seconds=step.seconds, joules=step.joules)
     return Work(seconds=0.0 if step.drive is None else step.drive.length_m * step.slower_s_per_m)

@@ -28,6 +28,9 @@ _LIMITS = words_in("""
     within in under most more less than maximum max limit limited only up exceed exceeding longer have spend
     spending budget of further over use using takes take
     """)
+#: Words of a request that asks to recharge, and words that may.
+_RECHARGING = frozenset({"recharge", "recharges", "recharging", "recharged"})
+_CHARGING = _RECHARGING | {"charge", "charges", "charging", "charged", "charger", "dock", "top", "topping", "tops"}
 #: Relative tolerance for rounded conversions.
 _CLOSE = 0.02
 #: Words that ask for a speed by other means than its number.
@@ -57,6 +60,7 @@ def limit_mismatches(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMisma
             yield PlanMismatch(kind="limit", what=what_differs)
     yield from _invented(facts, plan)
     yield from _waits(facts, plan)
+    yield from _recharging(facts, plan)
     if facts.as_many and not any(getattr(node, "optional", False) for node in plan.nodes):
         yield PlanMismatch(
             kind="limit",
@@ -70,6 +74,8 @@ def _battery(facts: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> Iter
     if not sentence & BATTERY or facts.conditional(amount.sentence):
         return
     percent = amount.values[0]
+    if any(abs(percent - x) < 0.5 for x in plan.charges_percent):
+        return
     reserve = plan.task.constraints.reserve_percent
     budgets = [b.limit for b in plan.task.constraints.budgets if b.kind == "energy_percent"]
     used = [*budgets, *([100.0 - reserve] if reserve is not None else [])]
@@ -94,6 +100,16 @@ def _share(facts: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> Iterat
             kind="count",
             what=message("the request says '{amount}', which the plan does not contain", amount=amount.words),
         )
+
+
+def _recharging(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
+    """Yield a charge of the battery that only the request or only the plan contains."""
+    if plan.recharges and not facts.words & _CHARGING and not facts.unknown:
+        yield PlanMismatch(
+            kind="limit", what=message("the plan charges the battery, which the request does not mention")
+        )
+    elif not plan.recharges and facts.words & _RECHARGING:
+        yield PlanMismatch(kind="limit", what=message("the request asks to recharge, but the plan does not"))
 
 
 def _dropped(facts: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> Iterator[PlanMismatch]:
@@ -179,7 +195,8 @@ def _invented(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
                 ),
             )
     reserve = plan.task.constraints.reserve_percent
-    if reserve is not None and not any(abs(reserve - x) < 0.5 for x in _stated(facts, "percent")):
+    in_time = bool(facts.words & BATTERY and _stated(facts, "time"))  # "keep 30 minutes of battery"
+    if reserve is not None and not in_time and not any(abs(reserve - x) < 0.5 for x in _stated(facts, "percent")):
         yield PlanMismatch(
             kind="limit",
             what=message(

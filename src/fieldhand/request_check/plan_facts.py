@@ -17,8 +17,10 @@ from fieldhand.places.selector import Selector
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
 from fieldhand.task.aggregates import CompareSeries, CountReadings, MeanKnown
+from fieldhand.task.battery_condition import BatteryBelow
 from fieldhand.task.codec_shapes import element_name
 from fieldhand.task.frames import Task
+from fieldhand.task.recharging import recharges
 from fieldhand.task.watches import EventBeyond, ReadingBeyond
 from fieldhand.terms import Side, Test, Value
 
@@ -133,7 +135,23 @@ class PlanFacts:
     @cached_property
     def markers(self) -> frozenset[str]:
         """Return the named markers."""
-        return frozenset(x.named_marker for _, x in self.selectors if x.named_marker)
+        named = frozenset(x.named_marker for _, x in self.selectors if x.named_marker)
+        return named | {"charger"} if self.recharges else named
+
+    @cached_property
+    def recharges(self) -> bool:
+        """Return True if the mission charges the battery."""
+        return recharges(self.task)
+
+    @cached_property
+    def charges_percent(self) -> tuple[float, ...]:
+        """Return the charges of the battery that the plan names: those at which something begins or ends."""
+        limits = self.task.constraints
+        named = [limits.return_percent, limits.recharge_below_percent, limits.recharge_until_percent]
+        named += [node.recharge.until_percent for node in self.nodes if node.recharge is not None]
+        tests = [node.tested for node in self.nodes if node.tested is not None]
+        tested = [part.percent for test in tests for part in c.walk(test) if isinstance(part, BatteryBelow)]
+        return (*(one for one in named if one is not None), *tested)
 
     @cached_property
     def areas(self) -> tuple[tuple[str, str], ...]:

@@ -183,6 +183,8 @@ def _levels(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
             yield PlanMismatch(kind="condition", what=what_differs, node=tested[word])
     if tested or any(t.quantity for t in plan.tests):
         return
+    if plan.recharges or plan.charges_percent:
+        return  # "when the battery is low"
     for word in sorted(facts.levels):
         what_differs = message(
             "the request makes something depend on '{word}', but the plan tests no reading", word=word

@@ -84,7 +84,7 @@ def bindings_of(document: ProfileDocument) -> Ros2Bindings | None:
         stop=None
         if ros2.stop is None
         else StopBinding(topic=_topic(ros2.stop), path=ros2.stop.path, stopped=ros2.stop.stopped),
-        actions={name: _action(bound, document.actions[name], units) for name, bound in ros2.actions.items()},
+        actions={name: _action(bound, document.doable[name], units) for name, bound in ros2.actions.items()},
         interfaces=ros2.interfaces,
         events={name: _event(bound, document.events[name]) for name, bound in ros2.events.items()},
     )
@@ -94,13 +94,12 @@ def _binding_problems(document: ProfileDocument, ros2: Ros2Document) -> Iterator
     units = {name: quantity.unit for name, quantity in document.quantities.items()}
     yield from _unreadable(ros2.battery, ros2.battery.type, "percent", "ros2.battery")
     yield from _event_problems(document, ros2)
+    doable = document.doable
     for name, bound in ros2.actions.items():
         where = f"ros2.actions.{name}"
-        action = document.actions.get(name)
+        action = doable.get(name)
         if action is None:
-            yield ProfileProblem(
-                path=where, what=f"the profile has no action {name!r}", advice=_nearest(name, document.actions)
-            )
+            yield ProfileProblem(path=where, what=f"the profile has no action {name!r}", advice=_nearest(name, doable))
             continue
         yield from _requests(bound, action, where)
         yield from _switches(bound, action, where)

@@ -12,6 +12,8 @@ from typing import Annotated
 from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
 from fieldhand.robot.bindings_document import Ros2Document
+from fieldhand.robot.charging import DOCK, UNDOCK
+from fieldhand.robot.charging_document import ChargingDocument
 from fieldhand.robot.events import CLEAR_S, Unheard
 from fieldhand.robot.fields import (
     IdentifierField,
@@ -248,6 +250,7 @@ class EnergyDocument(Keyed):
     return_percent: Annotated[NumberField, Field(ge=0, le=100)] | None = None
     stop_percent: Annotated[NumberField, Field(ge=0, lt=100)] | None = None
     hold_s: Annotated[NumberField, Field(ge=0, le=60)] = HOLD_S
+    charging: ChargingDocument | None = None
 
     @model_validator(mode="after")
     def _levels(self) -> EnergyDocument:
@@ -266,6 +269,11 @@ class EnergyDocument(Keyed):
             raise ValueError(
                 f"stop_percent {stop:g} is not below reserve_percent {reserve:g}; the robot would stop before it"
                 " reaches the reserve: give less, or leave the key out"
+            )
+        if self.charging is not None and self.charging.until_percent <= max(reserve, home or 0.0):
+            raise ValueError(
+                f"charging.until_percent {self.charging.until_percent:g} is not above the charge at which the robot"
+                f" turns home ({max(reserve, home or 0.0):g}); charge further"
             )
         return self
 
@@ -302,6 +310,26 @@ class ProfileDocument(Keyed):
             raise ValueError(
                 f"standoff_m {self.standoff_m:g} is less than half of width_m ({self.width_m / 2:g}): the robot would"
                 " stand in the tree"
+            )
+        return self
+
+    @property
+    def doable(self) -> dict[str, ActionDocument]:
+        """Return the actions, and those of docking, which are bound to ROS 2 in the same way."""
+        charging = self.energy.charging
+        docking = {} if charging is None else {DOCK: charging.dock, UNDOCK: charging.undock}
+        return self.actions | {
+            name: ActionDocument(words=(name,), duration_s=one.duration_s, energy_j=one.energy_j)
+            for name, one in docking.items()
+            if one is not None
+        }
+
+    @model_validator(mode="after")
+    def _docks(self) -> ProfileDocument:
+        if self.energy.charging is not None and (taken := sorted({DOCK, UNDOCK}.intersection(self.actions))):
+            raise ValueError(
+                f"the action {taken[0]!r} has the name of a step of charging; describe it in energy.charging, or give"
+                " it another name"
             )
         return self
 

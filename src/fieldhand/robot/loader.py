@@ -272,6 +272,7 @@ def _profile(document: ProfileDocument, *, sha256: str, source: str) -> RobotPro
             return_percent=energy.return_percent,
             stop_percent=energy.stop_percent,
             hold_s=energy.hold_s,
+            charging=None if energy.charging is None else energy.charging.charging(),
         ),
         leg_cost=LegCost(alpha=document.leg_cost.alpha),
         retries=document.retries,

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from fieldhand.robot.bindings import Ros2Bindings
+from fieldhand.robot.charging import Charging
 from fieldhand.robot.events import MonitoredEvent
 from fieldhand.robot.implement import Implement
 from fieldhand.short_repr import short_repr
@@ -168,6 +169,7 @@ class Energy:
         warn_percent, return_percent, stop_percent: Charge levels in percent; None to derive them from the reserve
             (:meth:`levels`).
         hold_s: Seconds for which an implausible charge must persist before it counts.
+        charging: How it recharges; None if it cannot.
     """
 
     capacity_j: float
@@ -178,6 +180,7 @@ class Energy:
     return_percent: float | None = None
     stop_percent: float | None = None
     hold_s: float = HOLD_S
+    charging: Charging | None = None
 
     def levels(self, reserve_percent: float) -> BatteryLevels:
         """Return the charge levels of a mission with a given reserve.
@@ -268,6 +271,12 @@ class RobotProfile:
     def implements(self) -> Mapping[str, Action]:
         """Return the actions that are on while the robot drives, by name."""
         return {a.name: a for a in self.actions if a.implement is not None}
+
+    @cached_property
+    def doable(self) -> Mapping[str, Action]:
+        """Return everything that its driver can be told to do in one place: the actions, and those of docking."""
+        charging = self.energy.charging
+        return {**self.action, **({} if charging is None else {a.name: a for a in charging.maneuvers})}
 
     @cached_property
     def quantity(self) -> Mapping[str, Quantity]:

@@ -173,7 +173,7 @@ def _fill_head(element: _Element, head: NamedElement, value: Any) -> None:
     inside = _sub(element, name)
     for attribute in head.attributes:
         _set(inside, attribute, getattr(value, attribute.field))
-    for key, content in value.parameters if head.of != "quantity" else ():
+    for key, content in value.parameters if head.of in ("action", "implement") else ():
         where = f"<{name}>, parameter {key!r}"
         if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_.-]*", key) or key in inside.attrib:
             raise TaskError("is not a name, or is given twice", where=where)

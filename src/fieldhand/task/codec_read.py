@@ -134,7 +134,7 @@ class Reader:
         if len(inside):
             raise self.error(inside[0], f"is not allowed inside <{local_name(inside)}>", "move it out")
         found: dict[str, Any] = {head.field: local_name(inside)}
-        if head.of != "action":
+        if head.of not in ("action", "implement"):
             return found | self.attributes(inside, head.attributes)
         parameters = [(str(key), bare_value(str(text))) for key, text in inside.attrib.items()]
         for key, content in parameters:

@@ -61,12 +61,23 @@ class ConstraintsElement:
     Attributes:
         reserve_percent: Charge to leave at the end; None for the profile's reserve.
         speed_m_s: Maximum speed; None for the robot's.
+        return_percent: Charge at which the robot drives home, wherever it is; None for the profile's.
+        recharge: Charge at the site's charger whenever the work needs it, and go on.
+        recharge_below_percent: Charge below which it goes to the charger although the next visit would still fit.
+        recharge_until_percent: Charge up to which it charges; None for the profile's.
+        recharge_at_most: Maximum number of charges; None for any number.
     """
 
     parts: tuple[Budget | Avoid | OnlyGate, ...] = ()
     reserve_percent: float | None = None
     reserve_said: tuple[Span, ...] = ()
     speed_m_s: float | None = None
+    return_percent: float | None = None
+    recharge: bool = False
+    recharge_below_percent: float | None = None
+    recharge_until_percent: float | None = None
+    recharge_at_most: int | None = None
+    energy_said: tuple[Span, ...] = ()
 
 
 #: Attribute in which a draft quotes words of the request, and the ranges that replace it in each element (``said`` in
@@ -159,6 +170,16 @@ class Shape:
     head: NamedElement | None = None
 
 
+#: Attributes of ``<constraints>`` about recharging, which have the names of the fields of Constraints.
+_ENERGY = (
+    "return_percent",
+    "recharge",
+    "recharge_below_percent",
+    "recharge_until_percent",
+    "recharge_at_most",
+    "energy_said",
+)
+
 #: Classes with a stand-in that XML groups differently, and the conversions to and from it.
 SURROGATES: dict[type, tuple[type, Callable[[Any], Any], Callable[[Any], Any]]] = {
     Composition: (
@@ -183,6 +204,7 @@ SURROGATES: dict[type, tuple[type, Callable[[Any], Any], Callable[[Any], Any]]] 
             reserve_percent=c.reserve_percent,
             reserve_said=c.reserve_said,
             speed_m_s=c.speed_m_s,
+            **{name: getattr(c, name) for name in _ENERGY},
         ),
         lambda t: Constraints(
             budgets=tuple(part for part in t.parts if isinstance(part, Budget)),
@@ -191,6 +213,7 @@ SURROGATES: dict[type, tuple[type, Callable[[Any], Any], Callable[[Any], Any]]] 
             speed_m_s=t.speed_m_s,
             avoid=tuple(part for part in t.parts if isinstance(part, Avoid)),
             only_gates=tuple(part for part in t.parts if isinstance(part, OnlyGate)),
+            **{name: getattr(t, name) for name in _ENERGY},
         ),
     ),
 }

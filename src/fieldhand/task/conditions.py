@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from fieldhand.task.aggregates import Aggregate, CompareSeries, CountReadings, MeanKnown, SeriesCondition, series_of
+from fieldhand.task.battery_condition import BatteryBelow
 from fieldhand.terms import Test, Value
 
 
@@ -75,7 +76,18 @@ class Not:
 
 
 Condition = (
-    Compare | Between | Level | TreeHas | AllOf | AnyOf | Not | Aggregate | CountReadings | MeanKnown | CompareSeries
+    Compare
+    | Between
+    | Level
+    | TreeHas
+    | BatteryBelow
+    | AllOf
+    | AnyOf
+    | Not
+    | Aggregate
+    | CountReadings
+    | MeanKnown
+    | CompareSeries
 )
 
 

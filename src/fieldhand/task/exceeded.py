@@ -13,7 +13,7 @@ from fieldhand.clock import clock_time
 from fieldhand.language import Number, joined, message
 from fieldhand.language.words import say_near
 from fieldhand.task.frames import BudgetKind, Constraints
-from fieldhand.task.results import Arrived, Driving, Event, MissionStatus, Started
+from fieldhand.task.results import Arrived, ChargeEnded, Driving, Event, MissionStatus, Started
 
 LimitKind = BudgetKind | Literal["reserve"]
 
@@ -114,13 +114,25 @@ def say_exceeded(kind: LimitKind, used: float, limit: float, t: float, near: str
 
 
 def _exceeded(kind: LimitKind, limit: float, started: Started, events: Sequence[Event]) -> Exceeded | None:
-    used = [(event, amount) for event in events if (amount := _amount(kind, started, event)) is not None]
+    used = _used(kind, started, events)
     if not used or not is_exceeded(kind, used[-1][1], limit):
         return None
     first = next(event for event, amount in used if is_exceeded(kind, amount, limit))
     near = _near(first, events[: events.index(first)])
     why = say_exceeded(kind, used[-1][1], limit, first.t, near)
     return Exceeded(kind=kind, used=used[-1][1], limit=limit, t=first.t, near=near, why=why)
+
+
+def _used(kind: LimitKind, started: Started, events: Sequence[Event]) -> list[tuple[Event, float]]:
+    """Return the events that show how much of a limit is used. What was charged does not give energy back."""
+    found: list[tuple[Event, float]] = []
+    charged = 0.0
+    for event in events:
+        if isinstance(event, ChargeEnded):
+            charged += event.gained_percent
+        if (amount := _amount(kind, started, event)) is not None:
+            found.append((event, amount + charged if kind == "energy_percent" else amount))
+    return found
 
 
 def _amount(kind: LimitKind, started: Started, event: Event) -> float | None:

@@ -135,6 +135,12 @@ class Constraints:
         speed_m_s: Maximum speed; None for the robot's.
         avoid: Places that the robot keeps away from.
         only_gates: Gates that it may pass; empty for all gates.
+        return_percent: Charge at which the robot drives home, wherever it is; None for the profile's.
+        recharge: Charge at the site's charger whenever the work needs it, and go on.
+        recharge_below_percent: Charge below which it goes to the charger although the next visit would still fit.
+        recharge_until_percent: Charge up to which it charges; None for the profile's.
+        recharge_at_most: Maximum number of charges; None for any number.
+        energy_said: Character ranges of the request that state the recharging or the return.
     """
 
     budgets: tuple[Budget, ...] = ()
@@ -143,12 +149,18 @@ class Constraints:
     speed_m_s: float | None = None
     avoid: tuple[Avoid, ...] = ()
     only_gates: tuple[OnlyGate, ...] = ()
+    return_percent: float | None = None
+    recharge: bool = False
+    recharge_below_percent: float | None = None
+    recharge_until_percent: float | None = None
+    recharge_at_most: int | None = None
+    energy_said: tuple[Span, ...] = ()
 
     def __repr__(self) -> str:
-        """Return the fields; later ones only if they are set, since the id of a Task is a hash of this text."""
-        later = ("avoid", "only_gates")
-        shown = [f.name for f in fields(self) if f.name not in later or getattr(self, f.name)]
-        return f"Constraints({', '.join(f'{name}={getattr(self, name)!r}' for name in shown)})"
+        """Return the fields as text. Those added later are left out at their default: ids of Tasks are hashes of it."""
+        first = ("budgets", "reserve_percent", "reserve_said", "speed_m_s")
+        said = (f for f in fields(self) if f.name in first or getattr(self, f.name) != f.default)
+        return f"{type(self).__name__}({', '.join(f'{f.name}={getattr(self, f.name)!r}' for f in said)})"
 
 
 @dataclass(frozen=True, kw_only=True)

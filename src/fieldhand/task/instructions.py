@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from fieldhand.task.nodes.any_order import AnyOrder
     from fieldhand.task.nodes.for_each import ForEach
     from fieldhand.task.nodes.optional_step import OptionalStep
+    from fieldhand.task.nodes.recharge import Recharge
     from fieldhand.task.nodes.repeat import Repeat
     from fieldhand.task.nodes.work_along import WorkAlong
     from fieldhand.task.plan import Node
@@ -80,6 +81,13 @@ class WaitFor:
 
     node: Node
     seconds: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Charge:
+    """Dock at the charger, which is the current place, and charge the battery. Result: none."""
+
+    node: Recharge
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -175,6 +183,7 @@ Instruction = (
     | BindLabel
     | Capture
     | WaitFor
+    | Charge
     | ForgetReading
     | SetReading
     | BeginSeries

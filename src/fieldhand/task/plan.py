@@ -24,6 +24,7 @@ from fieldhand.task.nodes.if_else import If
 from fieldhand.task.nodes.in_order import InOrder
 from fieldhand.task.nodes.optional_step import OptionalStep
 from fieldhand.task.nodes.pace import Pace
+from fieldhand.task.nodes.recharge import Recharge
 from fieldhand.task.nodes.repeat import Repeat
 from fieldhand.task.nodes.stop_mission import StopMission
 from fieldhand.task.nodes.try_otherwise import Try
@@ -40,6 +41,7 @@ __all__ = [
     "Node",
     "OptionalStep",
     "Pace",
+    "Recharge",
     "Repeat",
     "Span",
     "StopMission",
@@ -52,7 +54,20 @@ __all__ = [
 ]
 
 Node = (
-    InOrder | AnyOrder | ForEach | Repeat | If | Try | OptionalStep | GoTo | Act | WorkAlong | StopMission | Wait | Pace
+    InOrder
+    | AnyOrder
+    | ForEach
+    | Repeat
+    | If
+    | Try
+    | OptionalStep
+    | GoTo
+    | Act
+    | WorkAlong
+    | Recharge
+    | StopMission
+    | Wait
+    | Pace
 )
 
 

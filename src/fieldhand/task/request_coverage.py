@@ -113,6 +113,7 @@ def _ranges(task: Task) -> Iterator[tuple[Span, WordRole]]:
         yield from ((span, "limit") for span in only.said)
     for watch in task.composition.watches:
         yield from ((span, "condition") for span in watch.said)
+    yield from ((span, "limit") for span in (*task.constraints.reserve_said, *task.constraints.energy_said))
     yield from ((span, "end") for span in task.composition.nominal_said)
     if task.timing is not None:
         yield from ((span, "time") for span in task.timing.said)

@@ -189,6 +189,42 @@ class InDoubt:
 
 
 @dataclass(frozen=True, kw_only=True)
+class ChargeBegun:
+    """The robot has docked and charges up to ``until_percent``, which is expected to take ``seconds``.
+
+    Without ``node`` the robot interrupted the plan, which it continues afterwards; ``why`` is the reason.
+    """
+
+    event: ClassVar[str] = "charge"
+    t: float
+    node: str
+    kind: str
+    place: str
+    lat: float
+    lon: float
+    charge_percent: float
+    until_percent: float
+    seconds: float
+    why: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ChargeEnded:
+    """Charging is over: charge in percent, by how much it rose, and the seconds that it took."""
+
+    event: ClassVar[str] = "charged"
+    t: float
+    node: str
+    kind: str
+    place: str
+    lat: float
+    lon: float
+    charge_percent: float
+    gained_percent: float
+    seconds: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class Resumed:
     """The mission continues after a power failure from the robot's present position. The time without power does not
     count.
@@ -442,6 +478,8 @@ Event = (
     | Working
     | Worked
     | InDoubt
+    | ChargeBegun
+    | ChargeEnded
     | Resumed
     | Paused
     | Continued

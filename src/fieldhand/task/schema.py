@@ -135,8 +135,8 @@ def vocabulary(capabilities: Capabilities, *, draft: bool = False) -> Vocabulary
 
 
 def _head_attributes(shape: Shape, head: str, capabilities: Capabilities) -> list[str]:
-    """Return the attributes of the element of an action or a quantity."""
-    if shape.head is None or shape.head.of != "quantity":
+    """Return the attributes of the element of an action, a quantity or an event."""
+    if shape.head is None or shape.head.of in ("action", "implement"):
         return list(capabilities.actions[head].parameters)
     return [a.name for a in shape.head.attributes]
 

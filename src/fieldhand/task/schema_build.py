@@ -41,6 +41,13 @@ _FACETS: dict[str, dict[str, str]] = {
     "limit": {"minExclusive": "0"},
     "failure_probability": {"minExclusive": "0", "maxExclusive": "1"},
     "reserve_percent": {"minInclusive": "0", "maxExclusive": "100"},
+    "return_percent": {"minExclusive": "0", "maxExclusive": "100"},
+    "recharge_below_percent": {"minExclusive": "0", "maxExclusive": "100"},
+    "recharge_until_percent": {"minExclusive": "0", "maxInclusive": "100"},
+    "recharge_at_most": {"minInclusive": "1", "maxInclusive": "1000"},
+    "until_percent": {"minExclusive": "0", "maxInclusive": "100"},
+    "BatteryBelow.percent": {"minExclusive": "0", "maxExclusive": "100"},
+    "duration_s": {"minExclusive": "0", "maxInclusive": "604800"},
     "reward": {"minInclusive": "0"},
     "every_min": {"minInclusive": "0", "maxInclusive": "1440"},
     "every_days": {"minInclusive": "1", "maxInclusive": "366"},
@@ -227,7 +234,8 @@ class SchemaBuilder:
         words = words or attribute.choices
         if attribute.field == "action":
             words = tuple(self.capabilities.actions)
-        facets = _FACETS.get(attribute.field, {}) if attribute.kind in ("integer", "number") else {}
+        bounds = _FACETS.get(f"{cls.__name__}.{attribute.field}", _FACETS.get(attribute.field, {}))
+        facets = bounds if attribute.kind in ("integer", "number") else {}
         if words and attribute.kind != "choices":
             _enumeration(_xs(made, "attribute", name=attribute.name, **use), words)
         elif attribute.kind == "choices":

@@ -11,8 +11,10 @@ from fieldhand.places.filters.attribute_words import say_of_tree, say_with_artic
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task import conditions as c
 from fieldhand.task.aggregates import Aggregate, CompareSeries, CountReadings, MeanKnown, SeriesCondition
+from fieldhand.task.battery_condition import BatteryBelow
 from fieldhand.task.plan import Act
 from fieldhand.terms import Test
+from fieldhand.wording.recharging import say_battery
 from fieldhand.wording.series_conditions import say_other_series, say_series_condition
 
 Names = Mapping[str, str]
@@ -43,6 +45,8 @@ def say_condition(
         case c.TreeHas():
             clause = say_of_tree(condition.attribute, condition.test, condition.value)
             return message("it is not the case that {clause}", clause=clause) if negated else clause
+        case BatteryBelow(percent=percent):
+            return say_battery(percent, negated=negated)
         case c.AllOf() | c.AnyOf():
             whole = _joined(condition, places, robot, all_of)
             return message("it is not the case that {clause}", clause=whole) if negated else whole

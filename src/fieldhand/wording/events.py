@@ -13,6 +13,8 @@ from fieldhand.task.frames import Task
 from fieldhand.task.results import (
     Acted,
     Arrived,
+    ChargeBegun,
+    ChargeEnded,
     ClockSet,
     Continued,
     Decided,
@@ -38,6 +40,7 @@ from fieldhand.task.results import (
     Working,
 )
 from fieldhand.wording.limits import say_crossing
+from fieldhand.wording.recharging import say_charge_begun, say_charge_ended
 from fieldhand.wording.watches import say_began
 
 #: A list of places longer than this is counted, not named.
@@ -97,6 +100,10 @@ class EventText:
                 if event.then == "repeat":
                     return message("{capture} in doubt: {what}; it is taken again", **fills)
                 return message("{capture} in doubt: {what}; it is not taken again", **fills)
+            case ChargeBegun():
+                return say_charge_begun(event)
+            case ChargeEnded():
+                return say_charge_ended(event)
             case Resumed():
                 charge = f"{event.charge_percent:.0f}"
                 return message("continues after a power cut, battery at {charge} %", charge=charge)

@@ -33,6 +33,7 @@ from fieldhand.task.plan import (
     Node,
     OptionalStep,
     Pace,
+    Recharge,
     Repeat,
     StopMission,
     Try,
@@ -40,6 +41,7 @@ from fieldhand.task.plan import (
     WorkAlong,
 )
 from fieldhand.wording.conditions import say_act, say_condition
+from fieldhand.wording.recharging import say_recharge
 from fieldhand.wording.resolved_places import ResolvedPlaces
 from fieldhand.wording.step_places import in_order, say_expected, say_expected_visits, say_ids
 from fieldhand.wording.watches import say_watch
@@ -191,6 +193,9 @@ class _LineWriter:
                 self.node(body, indent + 1)
             case WorkAlong():
                 self._work(node, indent)
+            case Recharge():
+                self.step(node.id, indent, say_recharge(node, self._robot))
+                self._arrived("", node.id, self._number)
             case StopMission(exit=taken):
                 failed = message("End the mission here, which counts as failed.")
                 self.step(node.id, indent, message("End the mission here.") if taken == "nominal" else failed)

@@ -8,7 +8,8 @@ from fieldhand.places import selectors as s
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
 from fieldhand.task.aggregates import Aggregate, CompareSeries, CountReadings, MeanKnown
-from fieldhand.task.frames import Task
+from fieldhand.task.battery_condition import BatteryBelow
+from fieldhand.task.frames import Constraints, Task
 from fieldhand.task.timing import DayTime, Schedule, StartTime
 from fieldhand.task.watches import EventBeyond, EventHolds, ReadingBeyond, Watch
 
@@ -27,6 +28,8 @@ def outline(task: Task) -> str:
     for avoid in task.constraints.avoid:
         limits += f" | avoid {selector(avoid.places)}" + (f" {avoid.distance_m:g} m" if avoid.distance_m else "")
     limits += "".join(f" | only {only.gate}" for only in task.constraints.only_gates)
+    if task.constraints.recharge:
+        limits += f" | recharge{_charge(task.constraints)}"
     exit_ = "" if task.composition.nominal == "return_to_end" else f" | {task.composition.nominal}"
     times = "" if task.timing is None else " | " + " ".join(timing(task.timing))
     watches = "".join(f" | at any time {watch(one)}" for one in task.composition.watches)
@@ -67,6 +70,12 @@ def watch(one: Watch) -> str:
     return f"{what}: wait{most}, then {one.fallback}"
 
 
+def _charge(limits: Constraints) -> str:
+    below, until, most = limits.recharge_below_percent, limits.recharge_until_percent, limits.recharge_at_most
+    said = ("" if below is None else f" below {below:g}") + ("" if until is None else f" to {until:g}")
+    return said + ("" if most is None else f" at most {most}")
+
+
 def node(n: p.Node) -> str:
     """One node with all inside it."""
     match n:
@@ -97,6 +106,9 @@ def node(n: p.Node) -> str:
             return f"maybe [{node(n.body)}]"
         case p.InOrder():
             return "; ".join(node(step) for step in n.steps)
+        case p.Recharge():
+            to = "" if n.until_percent is None else f" to {n.until_percent:g}"
+            return f"recharge{to}" + ("" if n.duration_s is None else f" for {n.duration_s:g} s")
         case p.StopMission():
             return "stop"
         case p.Wait():
@@ -143,6 +155,8 @@ def condition(x: c.Condition) -> str:
             return f"{x.low:g} <= {x.reading} <= {x.high:g} {x.unit}"
         case c.Level():
             return f"{x.reading} {x.level}"
+        case BatteryBelow():
+            return f"battery <= {x.percent:g}"
         case c.TreeHas():
             value = f"{x.value:g}" if isinstance(x.value, float) else x.value
             return f"{x.attribute} {SIGNS[x.test]} {value}"

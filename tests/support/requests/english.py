@@ -1104,7 +1104,7 @@ REFUSED = [
     (
         "husky",
         "If the battery is below 30 %, return.",
-        "'If the battery is below 30 %' asks for a condition on the battery: not possible yet",
+        "'If the battery is below 30 %' asks for a condition on the battery that has no place in the plan",
     ),
     (
         "husky",

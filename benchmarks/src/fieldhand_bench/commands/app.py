@@ -10,6 +10,7 @@ from fieldhand_bench.commands.guard import bench_guard
 from fieldhand_bench.commands.missions import bench_missions
 from fieldhand_bench.commands.orienteering import bench_orienteering
 from fieldhand_bench.commands.planning import bench_planning
+from fieldhand_bench.commands.recharge import bench_recharge
 from fieldhand_bench.commands.site import bench_site
 
 bench = typer.Typer(
@@ -19,6 +20,7 @@ bench.command("site")(bench_site)
 bench.command("orienteering")(bench_orienteering)
 bench.command("guard")(bench_guard)
 bench.command("forecast")(bench_forecast)
+bench.command("recharge")(bench_recharge)
 bench.command("missions")(bench_missions)
 bench.command("planning")(bench_planning)
 bench.command("coverage")(bench_coverage)

@@ -16,6 +16,7 @@ from fieldhand.exchange.btcpp.vocabulary import (
     IF_UNKNOWN,
     LIMIT,
     ORDER,
+    RECHARGE,
     RESOLVE,
     TEST_SERIES,
     WAIT,
@@ -93,6 +94,8 @@ class NodeReader:
             case str() if tag.kind == WORK:
                 work: p.WorkAlong = self.elements.parts(tag, "work", (p.WorkAlong,))
                 return replace(work, **beside, along_said=self.elements.spans(tag, "_at_said"))
+            case str() if tag.kind == RECHARGE:
+                return p.Recharge(**beside, **self.elements.fields(tag, p.Recharge))
             case str() if tag.kind in self.elements.capabilities.actions:
                 return self._act(tag, beside | {"at_said": self.elements.spans(tag, "_at_said")})
         raise self.elements.error(

@@ -9,18 +9,19 @@ from __future__ import annotations
 from dataclasses import MISSING, dataclass
 from typing import TYPE_CHECKING, Literal
 
+from fieldhand.task.battery_condition import BatteryBelow
 from fieldhand.task.capabilities import Capabilities, ChoiceParameter, NumberParameter
 from fieldhand.task.codec_shapes import Attribute, shape_of
 from fieldhand.task.codec_text import attribute_text, number_text
 from fieldhand.task.conditions import Between, Compare, Level, TreeHas
-from fieldhand.task.plan import Act, ForEach, OptionalStep, Pace
+from fieldhand.task.plan import Act, ForEach, OptionalStep, Pace, Recharge
 
 if TYPE_CHECKING:
     from lxml.etree import _Element
 
-BEGIN, GO_TO, RESOLVE, ORDER, ALLOWS, EXIT, FAULT, LIMIT, WORK = (
+BEGIN, GO_TO, RESOLVE, ORDER, ALLOWS, EXIT, FAULT, LIMIT, WORK, RECHARGE = (
     "BeginMission", "GoToPlace", "ResolvePlaces", "OrderSteps", "BudgetAllows", "TakeExit", "HandleFault", "LimitSpeed",
-    "WorkAlong",
+    "WorkAlong", "RechargeBattery",
 )  # fmt: skip
 #: The wait of Nav2, which waits for the seconds of its port.
 WAIT, WAIT_PORT = "Wait", "wait_duration"
@@ -32,6 +33,7 @@ CONDITIONS: dict[type, str] = {
     Between: "ReadingBetween",
     Level: "ReadingIs",
     TreeHas: "TreeHas",
+    BatteryBelow: "BatteryBelow",
 }
 #: Port with the result of a condition whose reading was never taken, derived from the leaf's position.
 IF_UNKNOWN = "if_unknown"
@@ -101,6 +103,7 @@ def leaves(capabilities: Capabilities) -> tuple[Leaf, ...]:
         Leaf(id=ORDER, kind="Action", ports=(first, order)),
         Leaf(id=BEGIN_SERIES, kind="Action", ports=(series,)),
         Leaf(id=EXIT, kind="Action", ports=(then,)),
+        Leaf(id=RECHARGE, kind="Action", ports=_ports(Recharge)),
         Leaf(id=FAULT, kind="Action", ports=(exits,)),
         Leaf(id=WAIT, kind="Action", ports=(Port(name=WAIT_PORT, type="double", about="Seconds to stand still"),)),
         Leaf(id=LIMIT, kind="Decorator", ports=_ports(Pace)),

@@ -26,6 +26,7 @@ from fieldhand.exchange.btcpp.vocabulary import (
     IF_UNKNOWN,
     LIMIT,
     ORDER,
+    RECHARGE,
     RESOLVE,
     TEST_SERIES,
     WAIT,
@@ -39,6 +40,7 @@ from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import Here
 from fieldhand.task import plan as p
 from fieldhand.task.aggregates import Aggregate, CompareSeries, CountReadings, MeanKnown
+from fieldhand.task.battery_condition import BatteryBelow
 from fieldhand.task.capabilities import Capabilities
 from fieldhand.task.codec import encode_parts
 from fieldhand.task.codec_shapes import Attribute
@@ -158,6 +160,8 @@ class _TreeWriter:
                 return _element(LIMIT, self.node(body), **_ports(node, node.id))
             case p.WorkAlong():
                 return _element(WORK, work=encode_parts([replace(node, said=(), along_said=())]))
+            case p.Recharge():
+                return _element(RECHARGE, **_ports(node, node.id))
             case p.StopMission(exit=taken):
                 # No script after the node: it would also run if a fallback skips the node.
                 return _element("Sequence", _script(f"{EXIT_ENTRY} := '{taken}'"), _element("AlwaysFailure"))
@@ -237,7 +241,7 @@ class _TreeWriter:
                 return _element(TEST_SERIES, condition=encode_parts([condition]), **unknown)
             case _:
                 ports = _ports(condition, where)
-                if not isinstance(condition, TreeHas):
+                if not isinstance(condition, TreeHas | BatteryBelow):
                     ports |= {"reading": _reading(condition.reading, where), "quantity": condition.quantity}
                 unknown = {IF_UNKNOWN: "true"} if negated else {}
                 return _element(CONDITIONS[type(condition)], **ports, **unknown)

@@ -365,6 +365,29 @@ class LimitClause:
     back: bool = False
 
 
+#: Quantity of a test of the battery's charge.
+BATTERY_TEST = "the battery"
+
+
+@dataclass(frozen=True, slots=True)
+class RechargeClause:
+    """A charge of the battery: a step of the plan, or with ``always`` whenever it is needed.
+
+    Attributes:
+        below: Charge in percent below which it charges although more work would fit.
+        until: Charge in percent at which charging ends.
+        at_most: Maximum number of charges.
+        seconds: Time at the charger.
+    """
+
+    used: int
+    always: bool = False
+    below: float | None = None
+    until: float | None = None
+    at_most: int | None = None
+    seconds: float | None = None
+
+
 @dataclass(frozen=True, slots=True)
 class WayRule:
     """Where the robot must not drive, and the only gates that it may pass.
@@ -751,6 +774,7 @@ Command = (
     | StopCommand
     | LimitClause
     | WayRule
+    | RechargeClause
     | When
     | CaptureWhere
     | Otherwise

@@ -14,6 +14,7 @@ from fieldhand.places.resolution import Resolution, resolve
 from fieldhand.places.sources.gate_is import GateIs
 from fieldhand.places.wording import say_selector
 from fieldhand.planning.foreseen import foreseeable
+from fieldhand.planning.grammar.dialogue.energy import MeantRecharging
 from fieldhand.planning.grammar.dialogue.watching import with_visits
 from fieldhand.planning.grammar.meaning import WayRule
 from fieldhand.planning.homeward import faulted_exits, usual_exit, with_assumed_exit
@@ -24,7 +25,8 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task import plan as p
 from fieldhand.task.build import make_task
-from fieldhand.task.frames import Budget, BudgetKind, Constraints, Resource, Then
+from fieldhand.task.frames import Budget, BudgetKind, Constraints, Resource, Task, Then
+from fieldhand.task.recharging import recharges
 from fieldhand.task.timing import Timing
 from fieldhand.task.watches import Watch
 from fieldhand.task.ways import Avoid, OnlyGate
@@ -60,6 +62,7 @@ class Meant:
         speed_m_s: Highest driving speed of the mission; None for the robot's.
         speed_said: Spans of the request that say it.
         ways: Rules of where the robot drives, each with the spans of the request that say it.
+        recharging: How the mission recharges; None if it does not.
         nominal: How the mission ends; None if the request does not say so.
         nominal_said: Spans of the request that say it.
         no_part: Spans of the request that ask for nothing.
@@ -74,6 +77,7 @@ class Meant:
     speed_m_s: float | None = None
     speed_said: tuple[p.Span, ...] = ()
     ways: tuple[tuple[WayRule, tuple[p.Span, ...]], ...] = ()
+    recharging: MeantRecharging | None = None
     nominal: Then | None = None
     nominal_said: tuple[p.Span, ...] = ()
     no_part: tuple[p.Span, ...] = ()
@@ -99,7 +103,7 @@ def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> O
             Resource(kind="robot", name=robot.name, sha256=robot.sha256),
             Resource(kind="site", name=site.name, sha256=site.sha256),
         ),
-        constraints=_with_speed(_constraints(meant), meant),
+        constraints=_with_recharging(_with_speed(_constraints(meant), meant), meant.recharging),
         nominal=nominal,
         nominal_said=meant.nominal_said,
         no_part=tuple((start, end) for start, end in meant.no_part if re.search(r"\w", request[start:end])),
@@ -109,7 +113,11 @@ def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> O
         timing=meant.timing,
         watches=meant.watches,
     )
-    problems = (*_impossible(task.composition.plan, site), *_impossible_ways(meant, site))
+    problems = (
+        *_unable(task, robot, site),
+        *_impossible(task.composition.plan, site),
+        *_impossible_ways(meant, site),
+    )
     if problems:
         return Refused(reasons=problems, planner=NAME)
     if meant.nominal is None:
@@ -152,6 +160,34 @@ def _with_speed(constraints: Constraints, meant: Meant) -> Constraints:
         return constraints
     said = (*constraints.reserve_said, *meant.speed_said)
     return replace(constraints, speed_m_s=meant.speed_m_s, reserve_said=said)
+
+
+def _with_recharging(constraints: Constraints, meant: MeantRecharging | None) -> Constraints:
+    if meant is None:
+        return constraints
+    return replace(
+        constraints,
+        recharge=True,
+        recharge_below_percent=meant.below_percent,
+        recharge_until_percent=meant.until_percent,
+        recharge_at_most=meant.at_most,
+        energy_said=meant.said,
+    )
+
+
+def _unable(task: Task, robot: RobotProfile, site: Site) -> Iterable[Reason]:
+    """Yield what the robot or the site lacks for recharging."""
+    if not recharges(task):
+        return
+    steps = [span for node in p.walk(task.composition.plan) if node.recharge is not None for span in node.said]
+    said = (*task.constraints.energy_said, *steps)
+    if robot.energy.charging is None:
+        what = message("{robot} cannot recharge: its profile has no charging", robot=robot.name)
+        advice = message("describe its charger under energy: charging in its profile, or ask for less")
+        yield Reason(what=what, said=said, advice=advice, final=True)
+    elif "charger" not in site.markers:
+        advice = message('add a point of "kind": "charger" to its file')
+        yield Reason(what=message("the site has no charger"), said=said, advice=advice, final=True)
 
 
 def _impossible_limits(limits: Iterable[LimitPhrase]) -> Iterable[Reason]:

@@ -23,6 +23,7 @@ from fieldhand.planning.grammar.dialogue import (
     read_in_each_way,
     whole_plan,
 )
+from fieldhand.planning.grammar.dialogue.energy import MeantRecharging, recharging_of
 from fieldhand.planning.grammar.english import ENGLISH
 from fieldhand.planning.grammar.language import GrammarLanguage, Respelling
 from fieldhand.planning.grammar.planned import NAME, LimitPhrase, Meant, planned_as
@@ -511,6 +512,7 @@ def _meant(reading: RequestReading, request: str) -> Meant:
         speed_m_s=None if state.speed is None else state.speed.pace.speed,
         speed_said=() if state.speed is None else state.speed.said,
         ways=state.ways,
+        recharging=recharging_of(state),
         nominal=state.nominal,
         nominal_said=state.nominal_said,
         no_part=tuple(no_part),
@@ -540,7 +542,12 @@ def _same(one: Meant, other: Meant) -> bool:
         == [(limit.amount, limit.unit, limit.keep) for limit in other.limits]
         and [(rule.avoid, rule.gates) for rule, _ in one.ways] == [(rule.avoid, rule.gates) for rule, _ in other.ways]
         and [replace(watch, said=()) for watch in one.watches] == [replace(watch, said=()) for watch in other.watches]
+        and _without_said(one.recharging) == _without_said(other.recharging)
     )
+
+
+def _without_said(recharging: MeantRecharging | None) -> MeantRecharging | None:
+    return None if recharging is None else replace(recharging, said=())
 
 
 def _unsaid(node: p.Node) -> p.Node:

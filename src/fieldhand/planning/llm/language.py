@@ -30,7 +30,18 @@ LETTERS = {"node": "N", "condition": "C", "selector": "S", "watched": "W"}
 
 #: Attributes that only the program writes.
 DERIVED = frozenset(
-    {"id", "said", "at-said", "along-said", "reserve-said", "nominal-said", "no-part", "seed", "time-zone"}
+    {
+        "id",
+        "said",
+        "at-said",
+        "along-said",
+        "reserve-said",
+        "energy-said",
+        "nominal-said",
+        "no-part",
+        "seed",
+        "time-zone",
+    }
 )
 
 _KINDS = {"text": "name", "integer": "int", "number": "number", "flag": "true", "value": "value"}

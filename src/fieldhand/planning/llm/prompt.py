@@ -128,7 +128,7 @@ def fenced(name: str, lines: Iterable[str], most: int = MOST_DATA) -> str:
 
 
 def robot_lines(robot: RobotProfile) -> list[str]:
-    """Return the robot's capabilities: actions as elements, measured quantities, and their synonyms."""
+    """Return the robot's capabilities: actions as elements, measured quantities, and their synonyms; recharging."""
     return [
         f"{robot.name}: {robot.description}",
         "actions:",
@@ -137,6 +137,7 @@ def robot_lines(robot: RobotProfile) -> list[str]:
         *(_quantity(quantity) for quantity in robot.quantities),
         *(["events, detected all the time:"] if robot.events else ()),
         *(_event(event) for event in robot.events),
+        *(["it recharges at the charger"] if robot.energy.charging is not None else []),
     ]
 
 

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from fieldhand.task.conditions import Condition
     from fieldhand.task.instructions import Instruction
     from fieldhand.task.nodes.act import Act
+    from fieldhand.task.nodes.recharge import Recharge
     from fieldhand.task.nodes.stop_mission import StopMission
     from fieldhand.task.nodes.work_along import WorkAlong
     from fieldhand.task.plan import Node
@@ -204,6 +205,11 @@ class PlanNode(ABC):
     @property
     def work(self) -> WorkAlong | None:
         """The node itself, if it is work along a path."""
+        return None
+
+    @property
+    def recharge(self) -> Recharge | None:
+        """The node itself, if it charges the battery."""
         return None
 
     @property

@@ -92,6 +92,9 @@ _BY_FIELD: dict[str, st.SearchStrategy[Any]] = {
     "done_by_min": st.integers(0, 10080),
     "offset_min": st.floats(-1440, 1440),
     "at_most_s": st.floats(1, 86_400),
+    "percent": st.floats(0, 100, exclude_min=True, exclude_max=True),
+    "until_percent": st.floats(0, 100, exclude_min=True),
+    "duration_s": st.floats(1, 604_800),
 }
 _spans = st.lists(st.tuples(st.integers(0, 999), st.integers(0, 999)), max_size=2).map(tuple)
 
@@ -122,6 +125,7 @@ class Parts:
     def one_of(self, options: tuple[type, ...], depth: int) -> st.SearchStrategy[Any]:
         """Return a strategy for any of some classes; at depth 0 only for those without nested parts."""
         usable = [o for o in options if depth > 0 or not _needs_parts(o)]
+        usable = [o for o in usable if o not in (EventHolds, EventBeyond) or self._events(o)]
         return st.one_of(*(self._deferred(o, depth) for o in usable))
 
     def _deferred(self, cls: type, depth: int) -> st.SearchStrategy[Any]:
@@ -151,7 +155,7 @@ class Parts:
             return st.one_of(st.none(), self.of_hint(name, rest, depth))
         if name == "reward" and hint is float:
             return st.floats(0, 1e6)
-        if name in _BY_FIELD:
+        if name in _BY_FIELD and hint is not bool:
             return _BY_FIELD[name]
         if hint == Value:
             return values
@@ -179,15 +183,21 @@ class Parts:
         if cls is Act:
             return st.builds(_with_action, made, self.actions())
         if cls is WorkAlong:
-            return st.builds(_with_action, made, st.one_of(st.just(("", ())), self.actions(implements=True)))
+            works = any(action.is_implement for action in self.capabilities.actions.values())
+            chosen = [st.just(("", ())), *([self.actions(implements=True)] if works else [])]
+            return st.builds(_with_action, made, st.one_of(chosen))
         if cls in (EventHolds, EventBeyond):
-            events = self.capabilities.events
-            known = sorted(n for n, e in events.items() if (e.holds if cls is EventHolds else e.unit))
-            return st.builds(_with_event, made, st.sampled_from(known), st.just(events))
+            known = self._events(cls)
+            return st.builds(_with_event, made, st.sampled_from(known), st.just(self.capabilities.events))
         if "quantity" in {one.name for one in fields(cls)}:
             able = {n: q for n, q in self.capabilities.quantities.items() if q.levels or cls is not Level}
             return st.builds(_with_quantity, made, st.sampled_from(sorted(able)), st.just(able), st.integers(0, 9))
         return made
+
+    def _events(self, cls: type) -> list[str]:
+        """Return the events of the robot that a condition of a class can test."""
+        events = self.capabilities.events
+        return sorted(n for n, e in events.items() if (e.holds if cls is EventHolds else e.unit))
 
     def actions(
         self, *, implements: bool = False
@@ -225,6 +235,12 @@ class Parts:
                 speed_m_s=st.none() | _BY_FIELD["speed_m_s"],
                 avoid=st.lists(self.instance(Avoid), max_size=2).map(tuple),
                 only_gates=st.lists(self.instance(OnlyGate), max_size=2).map(tuple),
+                return_percent=st.none() | _BY_FIELD["percent"],
+                recharge=st.booleans(),
+                recharge_below_percent=st.none() | _BY_FIELD["percent"],
+                recharge_until_percent=st.none() | _BY_FIELD["until_percent"],
+                recharge_at_most=st.none() | st.integers(1, 1000),
+                energy_said=_spans,
             ),
             nominal=st.sampled_from(("return_to_end", "return_to_start", "stay")),
             faulted=st.lists(self.instance(FaultedExit), max_size=3).map(tuple),

@@ -179,7 +179,7 @@ class _Bindings:
         for name, action in ros2.actions.items():
             part = f"actions: {name}"
             if action.call is not None:
-                wrong = tuple(self._wrong_call(action.call, self._profile.action[name]))
+                wrong = tuple(self._wrong_call(action.call, self._profile.doable[name]))
                 yield self._call(part, action.call.kind, action.call.name, action.call.type, wrong)
             if action.switch is not None:
                 yield self._switch(part, action.switch, self._profile.action[name])

@@ -21,7 +21,8 @@ from fieldhand.robot.bindings import Ros2Bindings
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import acts, works
+from fieldhand.task.plan import acts
+from fieldhand.task.recharging import recharges
 from fieldhand.task.watches import watched_events
 
 
@@ -83,10 +84,7 @@ def connected_robot(
             replace(robot, ros2=bindings),
             clock=clock,
             within_s=within_s,
-            actions={
-                *(act.action for act in acts(task.composition.plan)),
-                *(work.action for work in works(task.composition.plan) if work.action),
-            },
+            actions=needed_actions(task, robot),
             events=watched_events(task.composition.watches),
         )
         yield Vehicle(
@@ -102,6 +100,13 @@ def connected_robot(
         if driver is not None:
             driver.leave()
         transport.close()
+
+
+def needed_actions(task: Task, robot: RobotProfile) -> set[str]:
+    """Return the names of everything that the robot has to do in one place."""
+    charging = robot.energy.charging if recharges(task) else None
+    docking = set() if charging is None else {action.name for action in charging.maneuvers}
+    return {act.action for act in acts(task.composition.plan)} | docking
 
 
 class RobotPresence:

@@ -24,6 +24,7 @@ from fieldhand.execution.drivers.simulation.state import SimulationState
 from fieldhand.execution.drivers.simulation.world import World
 from fieldhand.forecast.visit_order import drives_for, start_place
 from fieldhand.language import message
+from fieldhand.robot.charging import DOCK, UNDOCK
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.site.working.stretch import total_m
@@ -44,6 +45,7 @@ class _Course:
         reach: Fraction of the path covered by its end, 0 to 1.
         action_j: Energy of the action in joules, spread evenly over its duration.
         meets: Hindrance that ends it.
+        docks: Connected to the charger after it succeeded; None for no change.
     """
 
     start_s: float
@@ -57,6 +59,7 @@ class _Course:
     what: str = ""
     fault: GoalFault = "none"
     meets: Hindrance | None = None
+    docks: bool | None = None
 
     def cut(self, part: float) -> _Course:
         """Return the course, failed after this fraction of it."""
@@ -69,6 +72,7 @@ class _Course:
             action_j=part * self.action_j,
             readings={},
             meets=None,
+            docks=None,
         )
 
     def done_at(self, now: float) -> float:
@@ -115,6 +119,7 @@ class SimulatedDriver:
         #: Power in watts of implements that are on without being part of a goal, by action, and since when.
         self._loads: dict[str, float] = {}
         self._loaded_s, self._load_j = self._begun_s, 0.0
+        self._docked = False
 
     @property
     def seed(self) -> int | None:
@@ -122,6 +127,7 @@ class SimulatedDriver:
 
     def start_drive(self, goal: DriveGoal) -> None:
         self._begin()
+        self._docked = False
         alpha = self._robot.leg_cost.alpha if goal.work is None else 1.0  # a given path is followed exactly
         cost = goal.length_m * (alpha + self._rng.exponential(1.0 - alpha) if alpha < 1.0 else 1.0)
         pace = cost / goal.speed_m_s / goal.length_m if goal.length_m > 0 else 0.0  # seconds per metre of the path
@@ -159,7 +165,7 @@ class SimulatedDriver:
 
     def start_action(self, goal: ActionGoal) -> None:
         self._begin()
-        action = self._robot.action[goal.action]
+        action = self._robot.doable[goal.action]
         # A lost robot makes no capture, so none is counted.
         readings, what = ({}, "") if self.lost() else self._truth.capture(goal.action, goal.place)
         self._set_out(
@@ -171,6 +177,7 @@ class SimulatedDriver:
                 action_j=action.energy_j,
                 readings=readings,
                 what=what,
+                docks={DOCK: True, UNDOCK: False}.get(goal.action) if not what else None,
             )
         )
 
@@ -253,6 +260,9 @@ class SimulatedDriver:
         left = self._charge
         if self._course is not None:
             left -= self._used(self._course, self._course.done_at(self._clock.now()))
+        elif self._docked and (charging := self._robot.energy.charging) is not None:
+            seconds = max(0.0, self._clock.now() - self._charged_s)
+            return float(charging.percent_after(left, seconds, self._robot.energy.capacity_j))
         else:
             idle = self._robot.percent(0.0, self._clock.now() - self._charged_s)
             left -= self._drained(idle, self._charged_s, self._clock.now())
@@ -285,6 +295,7 @@ class SimulatedDriver:
             struck=struck,
             lost=tuple(self._lost),
             met=self._truth.events.met,
+            docked=self._docked,
         )
 
     def restore(self, state: SimulationState) -> None:
@@ -300,7 +311,7 @@ class SimulatedDriver:
         self._begun_s = self._clock.now() - state.seconds
         self._charge, self._charged_s = state.charge_percent, self._clock.now()
         self._xy, self._course, self._result = (state.x, state.y), None, Progress(state="idle")
-        self._lost = list(state.lost)
+        self._lost, self._docked = list(state.lost), state.docked
         self._truth.restore(state.values_seed, state.captures, state.struck)
         self._truth.events.restore(state.met)
 
@@ -339,6 +350,8 @@ class SimulatedDriver:
         self._charged_s = course.start_s + done * course.lasts_s
         if course.path:
             self._xy = _along(course.path, course.reach * done)
+        if course.docks is not None and state == "succeeded":
+            self._docked = course.docks
         self._course = None
         self._result = Progress(
             state=state,

@@ -107,7 +107,7 @@ class GroundTruth:
             if isinstance(fault, ActionFails) and fault.action == action and self._strikes(number, place, counted):
                 return {}, message("{action} gave an error", context="log", action=action)
         readings: dict[str, float] = {}
-        for name in self._robot.action[action].measures:
+        for name in self._robot.doable[action].measures:
             value = self._sensed(self._robot.quantity[name], place, counted)
             if value is not None:
                 readings[name] = value
@@ -269,7 +269,7 @@ class GroundTruth:
         where = f"faults[{number}]"
         match fault:
             case ActionFails(action=action):
-                self._known([action], self._robot.action, where, "action")
+                self._known([action], self._robot.doable, where, "action")
             case SensorSilent(quantity=quantity) | SensorAbsurd(quantity=quantity):
                 self._known([quantity], self._robot.quantity, where, "quantity")
             case _:

@@ -20,6 +20,7 @@ class SimulationState:
         struck: Number of occurrences per fault of its world: (number, count).
         lost: Until when, in seconds, its position is lost, and why.
         met: When, in seconds, the robot came to events of its world that last for a while: (number, time).
+        docked: True if it is connected to its charger.
     """
 
     seconds: float
@@ -32,3 +33,4 @@ class SimulationState:
     struck: tuple[tuple[int, int], ...] = ()
     lost: tuple[tuple[float, str], ...] = ()
     met: tuple[tuple[int, float], ...] = ()
+    docked: bool = False

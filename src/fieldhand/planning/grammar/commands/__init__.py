@@ -10,6 +10,7 @@ from fieldhand.planning.grammar.commands import (
     clauses,
     conditions,
     driving,
+    energy,
     events,
     exclusions,
     limits,
@@ -28,8 +29,8 @@ from fieldhand.planning.grammar.commands import (
 #: The constructions of all themes. Of readings that cost the same, the one composed first is kept, so the order counts.
 GRAMMAR = Grammar()
 _THEMES = (
-    things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, events, requests, exclusions,
-    ways, sampling, waits, pace, sides, aggregates, working,
+    things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, energy, events, requests,
+    exclusions, ways, sampling, waits, pace, sides, aggregates, working,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)

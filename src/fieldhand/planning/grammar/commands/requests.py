@@ -67,6 +67,7 @@ _LEADS_ON = (
     "command: one=otherwise",
     "command: one=pass_on",
     "command: one=limit",
+    "command: one=recharging",
     "command: one=allow",
     "command: one=until",
     "command: one=visit_limit",

@@ -29,6 +29,7 @@ from fieldhand.planning.grammar.dialogue.driving import (
     with_order_kept,
     without_home,
 )
+from fieldhand.planning.grammar.dialogue.energy import recharged, reserve_in_percent
 from fieldhand.planning.grammar.dialogue.faults import Fork
 from fieldhand.planning.grammar.dialogue.fitting import in_area, is_spoken_of
 from fieldhand.planning.grammar.dialogue.fragments import assembled
@@ -80,6 +81,7 @@ from fieldhand.planning.grammar.meaning import (
     PlaceMeaning,
     RankCommand,
     ReadingQuestion,
+    RechargeClause,
     Reordered,
     Said,
     SettleClause,
@@ -286,7 +288,9 @@ def _read(
         case DriveCommand():
             if command.picks and not any(isinstance(one.command, CaptureCommand | CaptureWhere) for one in following):
                 raise NotComposed(message("it does not say what to do with them", context="fault"))
-            if command.ends and any(not isinstance(one.command, LimitClause | WayRule) for one in following):
+            if command.ends and any(
+                not isinstance(one.command, LimitClause | RechargeClause | WayRule) for one in following
+            ):
                 raise NotComposed(message("something follows the end of the mission", context="fault"))
             driven = drive(setting, state, command)
             if command.pace is not None:
@@ -323,6 +327,8 @@ def _read(
             return replace(state, settles=(*state.settles, command))
         case WayRule():
             return replace(state, ways=(*state.ways, (command, setting.spans_of(command.used))))
+        case RechargeClause():
+            return recharged(setting, state, command)
         case Allowed():
             return allowed(setting, state, command, _rest_of_sentence(following), joint)
         case UntilCondition():
@@ -443,7 +449,7 @@ def _rest_of_sentence(following: Sequence[LinkedCommand]) -> list[LinkedCommand]
     for clause in following:
         if clause.before is not None and clause.before.full:
             break
-        if not isinstance(clause.command, LimitClause | WayRule | Home):
+        if not isinstance(clause.command, LimitClause | RechargeClause | WayRule | Home):
             found.append(clause)
     return found
 
@@ -514,6 +520,7 @@ def _require_other_places(state: DialogueState, place: PlaceMeaning) -> None:
 def _limit(setting: Setting, state: DialogueState, command: LimitClause) -> DialogueState:
     """Return the state after a limit."""
     said = setting.spans_of(command.used)
+    state, command = reserve_in_percent(setting, state, command)
     state = replace(state, limits=(*state.limits, command), limits_said=(*state.limits_said, said))
     return replace(state, nominal="return_to_start") if command.back and state.nominal is None else state
 

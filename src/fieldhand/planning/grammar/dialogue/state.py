@@ -19,6 +19,7 @@ from fieldhand.planning.grammar.meaning import (
     PaceClause,
     PlaceMeaning,
     RankCommand,
+    RechargeClause,
     SettleClause,
     Thing,
     WayRule,
@@ -158,6 +159,7 @@ class DialogueState:
     limits: tuple[LimitClause, ...] = ()
     limits_said: tuple[Spans, ...] = ()
     ways: tuple[tuple[WayRule, Spans], ...] = ()
+    recharging: tuple[tuple[RechargeClause, Spans], ...] = ()
     nominal: Then | None = None
     nominal_said: Spans = ()
     open: bool = False

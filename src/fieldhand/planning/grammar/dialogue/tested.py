@@ -12,6 +12,7 @@ from fieldhand.language.words import say_name
 from fieldhand.places import selectors as s
 from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve
+from fieldhand.planning.grammar.dialogue.energy import battery_condition
 from fieldhand.planning.grammar.dialogue.plans import (
     Path,
     as_for_each,
@@ -25,7 +26,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
     with_selector,
 )
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, OpenQuestion, Setting
-from fieldhand.planning.grammar.meaning import NTH_READING, AllTests, Check, PlaceMeaning, Test
+from fieldhand.planning.grammar.meaning import BATTERY_TEST, NTH_READING, AllTests, Check, PlaceMeaning, Test
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.selections import as_in_row, named_places
@@ -52,6 +53,8 @@ def condition_of(setting: Setting, state: DialogueState, tests: AllTests) -> tup
     for test in tests.tests:
         if test.attribute:
             made.append(_of_tree(state, test))
+        elif test.quantity == BATTERY_TEST:
+            made.append(battery_condition(state, test))
         else:
             if test.place is not None and len(tests.tests) > 1:
                 state, taken = readings_at(setting, state, test)

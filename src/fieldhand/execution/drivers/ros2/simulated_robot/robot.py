@@ -167,7 +167,7 @@ class SimulatedRobot:
             if bound.call is not None:
                 full_name = bindings.whole_name(bound.call.name)
                 capture_call = CaptureCall(
-                    profile.action[name], bound.call, interfaces, self.platform, self._places, self._captured(full_name)
+                    profile.doable[name], bound.call, interfaces, self.platform, self._places, self._captured(full_name)
                 )
                 self._servers.append(
                     capture_server(

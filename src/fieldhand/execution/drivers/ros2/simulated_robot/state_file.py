@@ -53,6 +53,7 @@ class _Document(BaseModel):
     struck: tuple[tuple[Count, Count], ...]
     lost: tuple[tuple[Finite | None, str], ...]
     met: tuple[tuple[Count, Finite], ...] = ()
+    docked: bool = False
 
 
 def write_state(path: Path, state: SimulationState, identity: Identity) -> None:

@@ -1,0 +1,238 @@
+"""Constructions of recharging: as often as needed, below a charge, as a step; and of batteries that are tested."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.meaning import (
+    BATTERY_TEST,
+    Amount,
+    DriveCommand,
+    LimitClause,
+    RechargeClause,
+    Test,
+)
+from fieldhand.planning.grammar.words import Lex
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+_FULL = 100.0
+
+
+@construction("charge_it: RECHARGE", "charge_it: RECHARGE [DET] BATTERY", cost=0.1)
+def charge_it() -> str:
+    """Compose "recharge" and "charge the battery"."""
+    return "charge"
+
+
+@construction("charge_it: inner=charge_it AT [DET] CHARGER", cost=0.1)
+def charge_there(inner: str) -> str:
+    """Compose "recharge at the charger"."""
+    return inner
+
+
+@construction("charge_far: CHARGETO level=amount", "charge_far: CHARGETO [AT] level=amount of_what", cost=0.1)
+def charge_to(level: Amount) -> float | None:
+    """Compose "to 80 %" and "until it is at 90 % charge"."""
+    return level.number if level.unit == "percent" else None
+
+
+@construction("charge_far: CHARGEFULL", cost=0.1)
+def charge_fully() -> float:
+    """Compose "fully" and "until it is full"."""
+    return _FULL
+
+
+@construction("go_on: [COMMA] [AND] GOONAFTER", "go_on: [COMMA] [then] GOONAFTER", cost=0.1)
+def go_on() -> str:
+    """Compose "and go on"."""
+    return "go on"
+
+
+@construction("charged: charge_it", "charged: charge_it far=charge_far", cost=0.0)
+def charged(used: int, far: float | None = None) -> RechargeClause:
+    """Compose "recharge to 80 %", which is a step of the plan unless more is said."""
+    return RechargeClause(used, until=far)
+
+
+@construction("recharging: one=charged [go_on]", cost=0.4)
+def charge_now(one: RechargeClause, used: int) -> RechargeClause:
+    """Compose "charge to 80 % and go on"."""
+    return replace(one, used=used)
+
+
+@construction(
+    "recharging: one=charged FOR time=amount [go_on]",
+    "recharging: charge_it FOR time=amount far=charge_far [go_on]",
+    cost=0.3,
+)
+def charge_for(
+    time: Amount, used: int, one: RechargeClause | None = None, far: float | None = None
+) -> RechargeClause | None:
+    """Compose "charge for 20 minutes"."""
+    until = far if one is None else one.until
+    return RechargeClause(used, until=until, seconds=time.number) if time.unit == "seconds" else None
+
+
+@construction(
+    "recharging: one=charged ASNEEDED [go_on]",
+    "recharging: charge_it ASNEEDED far=charge_far [go_on]",
+    "recharging: ASNEEDED [COMMA] one=charged [go_on]",
+    "recharging: MAYCHARGE [ASNEEDED] [go_on]",
+    "recharging: MAYCHARGE far=charge_far [go_on]",
+    cost=0.2,
+)
+def as_often_as_needed(used: int, one: RechargeClause | None = None, far: float | None = None) -> RechargeClause:
+    """Compose "recharge as often as needed" and "you may recharge"."""
+    return RechargeClause(used, always=True, until=far if one is None else one.until)
+
+
+@construction(
+    "recharging: one=charged in_case below=low_battery [go_on]",
+    "recharging: charge_it in_case below=low_battery [COMMA] [AND] far=charge_far [go_on]",
+    "recharging: one=charged BEFORE below=low_battery [go_on]",
+    "recharging: one=charged at=AT below=reserve [go_on]",
+    "recharging: one=charged below=below_charge [go_on]",
+    "recharging: in_case below=low_battery [COMMA] [then] one=charged [go_on]",
+    "recharging: MAYCHARGE in_case below=low_battery [go_on]",
+    cost=0.2,
+)
+def charge_below(
+    below: Amount,
+    used: int,
+    one: RechargeClause | None = None,
+    far: float | None = None,
+    at: Lex | None = None,
+) -> RechargeClause | None:
+    """Compose "recharge when the battery is below 30 %"."""
+    if below.unit != "percent" or (at is not None and at.text != "at"):
+        return None
+    return RechargeClause(used, always=True, below=below.number, until=one.until if one is not None else far)
+
+
+@construction("below_charge: check=CMP least=amount [of_what]", cost=0.2)
+def below_charge(check: Lex, least: Amount) -> Amount | None:
+    """Compose "below 30 %"."""
+    return least if least.unit == "percent" and check.value[0] in ("lt", "le") else None
+
+
+@construction("each_time: WHERE", "each_time: ASSOONAS", cost=0.0)
+def each_time() -> str:
+    """Compose "whenever" before a state of the battery; "if" may be a test made once."""
+    return "whenever"
+
+
+@construction(
+    "recharging: go=drive each_time below=low_battery [go_on]",
+    "recharging: each_time below=low_battery [COMMA] [then] go=drive [go_on]",
+    "recharging: go=drive in_case below=low_battery [AND] [then] one=charged [go_on]",
+    "recharging: in_case below=low_battery [COMMA] [then] go=drive [COMMA] [AND] [then] one=charged [go_on]",
+    cost=0.2,
+)
+def to_the_charger_below(
+    go: DriveCommand, below: Amount, used: int, one: RechargeClause | None = None
+) -> RechargeClause | None:
+    """Compose "if the battery is below 30 %, drive to the charger and recharge"."""
+    if go.place.selector.named_marker != "charger" or below.unit != "percent":
+        return None
+    return RechargeClause(used, always=True, below=below.number, until=None if one is None else one.until)
+
+
+@construction(
+    "recharging: go=drive ASNEEDED [go_on]",
+    "recharging: ASNEEDED [COMMA] go=drive [go_on]",
+    "recharging: ASNEEDED [COMMA] go=drive AND one=charged [go_on]",
+    "recharging: go=drive ASNEEDED [AND] one=charged [go_on]",
+    "recharging: go=drive [AND] one=charged ASNEEDED [go_on]",
+    cost=0.2,
+)
+def to_the_charger_as_needed(go: DriveCommand, used: int, one: RechargeClause | None = None) -> RechargeClause | None:
+    """Compose "go back to the charger whenever necessary"."""
+    if go.place.selector.named_marker != "charger":
+        return None
+    return RechargeClause(used, always=True, until=None if one is None else one.until)
+
+
+@construction(
+    "recharging: one=charged check=CMP n=often [go_on]",
+    "recharging: MAYCHARGE [check=CMP] n=often [go_on]",
+    "recharging: WITH [check=CMP] n=count CHARGES",
+    "recharging: check=CMP n=count CHARGES",
+    "recharging: n=count CHARGES TOPS",
+    cost=0.2,
+)
+def charge_at_most(
+    n: int, used: int, one: RechargeClause | None = None, check: Lex | None = None
+) -> RechargeClause | None:
+    """Compose "recharge at most twice" and "with up to three charges"."""
+    if n < 1 or (check is not None and check.value[0] not in ("le", "lt")):
+        return None
+    most = n - 1 if check is not None and check.value[0] == "lt" else n
+    return RechargeClause(used, always=True, until=None if one is None else one.until, at_most=most) if most else None
+
+
+@construction(
+    "recharging: first=recharging COMMA rest=recharge_detail",
+    "recharging: first=recharging AND rest=recharge_detail",
+    cost=0.2,
+)
+@construction("recharging: first=recharging rest=recharge_detail", cost=0.2)
+def recharge_in_detail(first: RechargeClause, rest: RechargeClause, used: int) -> RechargeClause | None:
+    """Compose "recharge as often as needed, up to 90 %"."""
+    if not first.always or (first.until is not None and rest.until is not None):
+        return None
+    return replace(
+        first,
+        used=used,
+        until=first.until if rest.until is None else rest.until,
+        at_most=first.at_most if rest.at_most is None else rest.at_most,
+    )
+
+
+@construction("recharge_detail: far=charge_far", cost=0.1)
+def charged_so_far(far: float, used: int) -> RechargeClause:
+    """Compose "up to 90 %" behind a recharging."""
+    return RechargeClause(used, always=True, until=far)
+
+
+@construction("recharge_detail: check=CMP n=often", cost=0.1)
+def so_often(check: Lex, n: int, used: int) -> RechargeClause | None:
+    """Compose "at most twice" behind a recharging."""
+    if check.value[0] != "le":
+        return None
+    return RechargeClause(used, always=True, at_most=n)
+
+
+@construction(
+    "limit: KEEP time=amount [OF] [DET] BATTERY [LEFT]",
+    "limit: WITH time=amount [OF] [DET] BATTERY LEFT",
+    "limit: KEEP [check=CMP] time=amount [OF] [DET] BATTERY [LEFT]",
+    "limit: KEEP [DET] BATTERY FOR time=amount",
+    cost=0.2,
+)
+def battery_for(time: Amount, used: int, check: Lex | None = None) -> LimitClause | None:
+    """Compose "keep 30 minutes of battery"."""
+    if time.unit != "seconds" or (check is not None and check.value[0] not in ("ge", "gt")):
+        return None
+    return LimitClause(time, True, used)
+
+
+@construction(
+    "test: [DET] BATTERY [IS] check=CMP level=amount",
+    "test: [DET] BATTERY [IS] check=CMP level=amount of_what",
+    cost=1.0,
+)
+def battery_test(check: Lex, level: Amount) -> Test | None:
+    """Compose "the battery is above 60 %"."""
+    kind = check.value[0]
+    if level.unit != "percent" or kind not in ("lt", "le", "gt", "ge"):
+        return None
+    return Test(BATTERY_TEST, kind, level.number, "percent")
+
+
+@construction("test: [DET] BATTERY GOUNDER level=amount", "test: [DET] BATTERY REACHES level=amount", cost=1.0)
+def battery_falls(level: Amount) -> Test | None:
+    """Compose "the battery falls below 40 %"."""
+    return Test(BATTERY_TEST, "le", level.number, "percent") if level.unit == "percent" else None
