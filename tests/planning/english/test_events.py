@@ -151,7 +151,7 @@ REFUSED = [
     ("Come home if it snows.", "condition on the weather"),
     ("Photograph tree 4 when it rains.", "decides about no single step"),
     ("If someone is near, honk.", "honk"),
-    ("If someone is near, drive slowly.", "slowly"),
+    ("If someone is near, drive slowly.", "decides about no single step"),
     ("If the wind is over 20 degrees, stop.", ""),
     ("If an obstacle is in the way, stop.", "no such event"),
 ]
