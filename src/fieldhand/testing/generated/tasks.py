@@ -163,6 +163,8 @@ class Parts:
             return st.builds(_with_action, made, st.one_of(st.just(("", ())), self.actions(implements=True)))
         if cls in (Compare, Between, Level):
             able = {n: q for n, q in self.capabilities.quantities.items() if q.levels or cls is not Level}
+            if not able:
+                return st.nothing()
             return st.builds(_with_quantity, made, st.sampled_from(sorted(able)), st.just(able), st.integers(0, 9))
         return made
 
