@@ -191,6 +191,8 @@ class Parts:
             return st.builds(_with_event, made, st.sampled_from(known), st.just(self.capabilities.events))
         if "quantity" in {one.name for one in fields(cls)}:
             able = {n: q for n, q in self.capabilities.quantities.items() if q.levels or cls is not Level}
+            if not able:
+                return st.nothing()
             return st.builds(_with_quantity, made, st.sampled_from(sorted(able)), st.just(able), st.integers(0, 9))
         return made
 
