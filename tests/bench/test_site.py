@@ -10,6 +10,7 @@ import shapely
 
 from fieldhand.errors import InputError
 from fieldhand.places.context import Context
+from fieldhand.places.reading_series import EXAMPLE_QUANTITY, EXAMPLE_READING, ReadingSeries, TakenReading
 from fieldhand.places.resolution import resolve
 from fieldhand.places.selectors import SELECTORS
 from fieldhand.places.sources.bound import EXAMPLE_LABEL
@@ -61,7 +62,12 @@ def test_every_kind_of_selector_is_measured():
 def test_every_measured_selector_finds_places(trees):
     site = parse_site(benchmark_orchard(trees, 1), name="orchard")
     here = site.trees[trees // 3].place
-    context = Context(here=here, visited=("1", "2"), bound={EXAMPLE_LABEL: (here,)})
+    context = Context(
+        here=here,
+        visited=("1", "2"),
+        bound={EXAMPLE_LABEL: (here,)},
+        series={EXAMPLE_READING: ReadingSeries((TakenReading(place=here, values={EXAMPLE_QUANTITY: 30.0}),))},
+    )
     for name, selector in samples(site).items():
         assert resolve(selector, site, context), name
 

@@ -40,6 +40,7 @@ COMMANDS: dict[str, tuple[str, ...]] = {
         "--graphs",
         "none",
     ),
+    "bench coverage": ("--blocks", "1"),
     "bench missions": ("none",),
     "bench planning": (),
 }

@@ -127,7 +127,15 @@ def test_commands_take_effect_during_a_wait(tmp_path: Path, wanted: str, then: s
 def test_a_pause_during_a_wait_does_not_prolong_it(tmp_path: Path) -> None:
     field = Field(tmp_path)
     pause = OperatorCommand(wanted="pause", reason="lunch", number=1)
-    result = field.fly(WAITING, orders=lambda: pause if 100.0 < field.clock.now() < 300.0 else None)
+    asked = 0
+
+    def orders() -> OperatorCommand | None:
+        """Pause at some time of the wait, until the robot has asked a few times whether it is over."""
+        nonlocal asked
+        asked += field.clock.now() > 100.0
+        return pause if 0 < asked < 4 else None
+
+    result = field.fly(WAITING, orders=orders)
     assert result.status == "completed"
     assert of_type(result.events, Dwelt)[0].seconds == pytest.approx(600.0)
 

@@ -72,5 +72,7 @@ class ReadingSeries(Sequence[TakenReading]):
         return f"ReadingSeries({tuple(self)!r})"
 
 
+#: Name and quantity of the readings in the examples of selectors.
+EXAMPLE_READING, EXAMPLE_QUANTITY = "seen_temperature", "canopy_temperature"
 #: Series by the name of their readings.
 SeriesByName = Mapping[str, ReadingSeries]

@@ -88,6 +88,8 @@ def read_log(lines: Iterable[str], site: CaseSite) -> Log:
             match event.get("event"), event.get("status"):
                 case "drive", _:
                     left_s = now_s
+                    if event.get("path"):
+                        paths.append(site.metres(np.array(event["path"], dtype=np.float64).reshape(-1, 2)))
                 case "arrive", _:
                     stood = _at(event, site)
                     if now_s > left_s:
@@ -100,8 +102,6 @@ def read_log(lines: Iterable[str], site: CaseSite) -> Log:
                     _add(done, str(event["action"]), int(event.get("count", 1)), *site.nearest(at))
                     if not stops or math.dist(at, stops[-1]) > _ONE_STOP_M:
                         stops.append(at)
-                case "drive", _ if event.get("path"):
-                    paths.append(site.metres(np.array(event["path"], dtype=np.float64).reshape(-1, 2)))
                 case "worked", _:
                     parts = (np.array(path, dtype=np.float64).reshape(-1, 2) for path in event["paths"])
                     worked += [(str(event["action"]), site.metres(path)) for path in parts if len(path) > 1]

@@ -16,6 +16,7 @@ import numpy as np
 
 from fieldhand.errors import DriveFault, PlaceError
 from fieldhand.places.context import Context
+from fieldhand.places.reading_series import EXAMPLE_QUANTITY, EXAMPLE_READING, ReadingSeries, TakenReading
 from fieldhand.places.resolution import resolve
 from fieldhand.places.sources.bound import EXAMPLE_LABEL
 from fieldhand.site.drives import Drives
@@ -174,7 +175,12 @@ def _steps(data: bytes, repeats: int, clearance_m: float, standoff_m: float, clo
 def _selectors(site: Site, repeats: int, clock: Stopwatch) -> tuple[Timing, ...]:
     middle = site.trees[len(site.trees) // 3].place
     visited = tuple(t.place.id for t in site.trees[:_VISITED])
-    context = Context(here=middle, visited=visited, bound={EXAMPLE_LABEL: (middle,)})
+    context = Context(
+        here=middle,
+        visited=visited,
+        bound={EXAMPLE_LABEL: (middle,)},
+        series={EXAMPLE_READING: ReadingSeries((TakenReading(place=middle, values={EXAMPLE_QUANTITY: 30.0}),))},
+    )
     timings = []
     for name, selector in samples(site).items():
         taken, places = [], 0

@@ -11,6 +11,7 @@ from fieldhand.language import counted, message
 from fieldhand.language.words import say_name
 from fieldhand.places.count_range import CountRange
 from fieldhand.places.noun_phrase import NounPhrase, many, one
+from fieldhand.places.reading_series import EXAMPLE_QUANTITY, EXAMPLE_READING
 from fieldhand.places.selector import DependsOn, Selector
 
 if TYPE_CHECKING:
@@ -35,7 +36,7 @@ class ByReading(Selector):
 
     @classmethod
     def example(cls, site: Site) -> ByReading:
-        return cls(reading="seen_temperature", quantity="canopy_temperature")
+        return cls(reading=EXAMPLE_READING, quantity=EXAMPLE_QUANTITY)
 
     def resolve(self, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         """Return the places in the order of their readings; in a forecast, which has no values, the farthest."""

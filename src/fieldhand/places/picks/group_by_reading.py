@@ -10,6 +10,7 @@ import numpy as np
 from fieldhand.language import message
 from fieldhand.language.words import say_name
 from fieldhand.places.noun_phrase import NounPhrase
+from fieldhand.places.reading_series import EXAMPLE_QUANTITY, EXAMPLE_READING
 from fieldhand.places.selector import DependsOn, FromGroup, Selector
 from fieldhand.places.series_statistics import Statistic, statistic
 from fieldhand.places.sources.trees import Trees
@@ -37,7 +38,7 @@ class GroupByReading(FromGroup):
 
     @classmethod
     def example(cls, site: Site) -> GroupByReading:
-        return cls(group="row", reading="seen_temperature", quantity="canopy_temperature")
+        return cls(group="row", reading=EXAMPLE_READING, quantity=EXAMPLE_QUANTITY)
 
     def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         """Return the trees of that row or block; in a forecast, which has no values, of the one with the most trees."""
