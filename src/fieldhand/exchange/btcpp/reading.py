@@ -20,6 +20,7 @@ from fieldhand.task.capabilities import Capabilities
 from fieldhand.task.codec import decode_parts
 from fieldhand.task.codec_xml import at_line, parse_xml, require_visible
 from fieldhand.task.frames import Command, Constraints, Fault, FaultedExit, Resource, Task, Then
+from fieldhand.task.timing import Timing
 from fieldhand.task.watches import Watch
 
 if TYPE_CHECKING:
@@ -38,6 +39,7 @@ class _Frames:
     nominal_said: tuple[p.Span, ...] = ()
     faulted: tuple[FaultedExit, ...] = FAULTED_EXITS
     watches: tuple[Watch, ...] = ()
+    timing: Timing | None = None
 
 
 def read_tree(
@@ -87,6 +89,7 @@ def read_tree(
         read_as=frames.command.read_as,
         warnings=frames.command.warnings,
         watches=frames.watches,
+        timing=frames.timing,
     )
     if not frames.id or not _fits(frames.command, plan):
         return made
@@ -141,7 +144,7 @@ def _mission(tree: _Element, reader: NodeReader, frames: _Frames) -> tuple[_Fram
     if tag.kind != "Sequence" or not inside or inside[0].kind != BEGIN:
         return frames, reader.node(top)
     begin = inside[0]
-    elements.ports(begin, ("task", "command", "constraints", "resources", "watches"))
+    elements.ports(begin, ("task", "command", "constraints", "resources", "watches", "timing"))
     frames = _begun(begin, elements, frames)
     rest = inside[1:]
     if rest and rest[0].kind == "Script":
@@ -155,15 +158,16 @@ def _mission(tree: _Element, reader: NodeReader, frames: _Frames) -> tuple[_Fram
 
 
 def _begun(begin: Tag, elements: Elements, frames: _Frames) -> _Frames:
-    def parts(port: str, cls: type, least: int, most: int) -> tuple[Any, ...]:
+    def parts(port: str, cls: type | tuple[type, ...], least: int, most: int) -> tuple[Any, ...]:
         where = f"{at_line(elements.source, begin.line, begin.kind)}, {port}"
-        found = decode_parts(begin.ports.get(port, ""), (cls,), source=where)
+        found = decode_parts(begin.ports.get(port, ""), cls if isinstance(cls, tuple) else (cls,), source=where)
         if not least <= len(found) <= most:
             raise TaskError(f"contains {len(found)} of <{port}>", where=where, advice="take it from an exported tree")
         return found
 
     command = parts("command", Command, 0, 1)
     constraints = parts("constraints", Constraints, 0, 1)
+    timing = parts("timing", get_args(Timing), 0, 1) if begin.ports.get("timing") else ()
     return replace(
         frames,
         id=begin.ports.get("task", ""),
@@ -171,6 +175,7 @@ def _begun(begin: Tag, elements: Elements, frames: _Frames) -> _Frames:
         constraints=constraints[0] if constraints else frames.constraints,
         resources=parts("resources", Resource, 0, 9) if "resources" in begin.ports else (),
         watches=parts("watches", Watch, 0, 999) if "watches" in begin.ports else (),
+        timing=timing[0] if timing else None,
         faulted=(),
     )
 

@@ -100,6 +100,7 @@ class _TreeWriter:
             command=encode_parts([task.command]),
             constraints=encode_parts([task.constraints]),
             watches=encode_parts(composition.watches),
+            timing=encode_parts([] if task.timing is None else [task.timing]),
             resources=encode_parts(task.resources),
         )
         stopped = _element(EXIT, then=composition.nominal)
