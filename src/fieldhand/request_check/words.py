@@ -77,6 +77,7 @@ SPEEDS = {
 }  # fmt: skip
 AGES = words_in("""
     year years yr yrs month months kg kilo kilos kilogram kilograms lb lbs pound pounds g t ton tons
+    l litre litres liter liters
     """)
 DEGREES = words_in("c f celsius fahrenheit centigrade degree degrees deg °")
 PERCENT = frozenset(["%", "percent", "pct"])

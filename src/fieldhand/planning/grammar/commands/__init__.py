@@ -23,6 +23,7 @@ from fieldhand.planning.grammar.commands import (
     things,
     waits,
     ways,
+    work_wanted,
     working,
 )
 
@@ -31,6 +32,7 @@ GRAMMAR = Grammar()
 _THEMES = (
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, energy, events, requests,
     exclusions, ways, sampling, waits, pace, sides, aggregates, working,
+    work_wanted,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)

@@ -222,6 +222,8 @@ def work(
     if where is None:
         return [command]
     mode = where.mode or ("area" if covers else "rows")
+    if "cuts" in verb.features and mode == "rows":
+        return None  # "cut row 4" may be to prune it
     command = replace(command, along=where.selector, mode=mode, sides=where.sides, every=where.every)
     command = replace(command, optional=where.optional)
     if covers and mode == "rows" and not where.along and where.sides == "one" and not is_one_row(where.selector):
