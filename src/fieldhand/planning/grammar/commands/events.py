@@ -129,7 +129,7 @@ def skips_on(first: WatchResponse, second: WatchResponse) -> WatchResponse | Non
     return first if first.response == second.response == "skip" else None
 
 
-@construction("reacts: ENDALL", cost=0.0)
+@construction("reacts: ENDALL", cost=0.3)
 def ends() -> WatchResponse:
     """Compose "end the mission"."""
     return WatchResponse("end")
@@ -188,6 +188,9 @@ def for_so_long(first: WatchResponse, most: Amount) -> WatchResponse | None:
     "reacts: first=reacts [COMMA] [AND] then [COMMA] GOON",
     "reacts: first=reacts [COMMA] AND GOON",
     "reacts: first=reacts COMMA GOON",
+    "reacts: first=reacts [COMMA] [AND] [then] GOON ONCEOVER",
+    "reacts: first=reacts [COMMA] [AND] ONCEOVER [COMMA] GOON",
+    "reacts: first=reacts FULLSTOP GOON ONCEOVER",
     cost=0.1,
 )
 def goes_on(first: WatchResponse) -> WatchResponse | None:
@@ -226,6 +229,12 @@ def then_reacts(first: WatchResponse, second: WatchResponse) -> WatchResponse | 
 def watch(on: Conditions, reaction: WatchResponse, used: int) -> WatchCommand:
     """Compose "if it rains, come home"."""
     return WatchCommand(on, reaction, used)
+
+
+@construction("command: on=happens ends=FULLSTOP reaction=reacts", cost=0.3)
+def asked_event(on: Conditions, ends: Lex, reaction: WatchResponse, used: int) -> WatchCommand | None:
+    """Compose "anyone nearby? wait until they are gone"."""
+    return WatchCommand(on, reaction, used) if "question" in ends.features else None
 
 
 @construction(
