@@ -53,7 +53,7 @@ def mismatches(task: Task, site: Site, robot: RobotProfile) -> tuple[PlanMismatc
         *threshold_mismatches(facts, plan, robot),
         *limit_mismatches(facts, plan),
         *place_mismatches(facts, plan, site),
-        *unsupported_words(facts),
+        *unsupported_words(facts, frozenset(node.dwell_s for node in plan.nodes if node.dwell_s)),
     ]
     return tuple(dict.fromkeys(found))
 

@@ -168,7 +168,10 @@ def _areas(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMis
     pointed = _pointed(plan)
     held = {_name_text(name) for _, name in plan.areas}
     rows = {t for _, x in plan.having(s.Rows) if isinstance(x, s.Rows) for t in (x.first.lower(), x.last.lower())}
-    if any(one.mode == "perimeter" and one.along == s.Trees() for one in plan.works):
+    around = any(one.mode == "perimeter" and one.along == s.Trees() for one in plan.works)
+    if around or any(
+        isinstance(x, s.Transect) and x.shape == "edge" and not x.zone for _, x in plan.having(s.Transect)
+    ):
         held |= {_name_text(zone.name) for zone in site.zones if zone.kind == "boundary"}
     for name in sorted(facts.zones - held - rows):
         if name in w.COMPASS and w.COMPASS[name] <= pointed:

@@ -60,8 +60,13 @@ _REASON = _pattern((r"because", r"since (?:we|i|it|they|he|she|the|my|our|row|tr
 _REMARKS = _KINDS[1][0]
 
 
-def unsupported_words(facts: RequestFacts) -> Iterator[PlanMismatch]:
-    """Yield a contradiction for each part of the request that no plan can express, and for times that it lacks."""
+def unsupported_words(facts: RequestFacts, waits: frozenset[float] = frozenset()) -> Iterator[PlanMismatch]:
+    """Yield a contradiction for each part of the request that no plan can express, and for times that it lacks.
+
+    Args:
+        facts: Facts of the request.
+        waits: Seconds of the waits of the plan, by which it may repeat something ("every ten minutes, six times").
+    """
     starts: dict[int, int] = {}
     at = 0
     for k, token in enumerate(facts.tokens):
@@ -76,6 +81,11 @@ def unsupported_words(facts: RequestFacts) -> Iterator[PlanMismatch]:
             told = _is_told(
                 match, facts, sentence, first, last := first + len(match[0].split()), past=pattern is _REMARKS
             )
+            rests = any(
+                first <= one.index < last and one.kind == "time" and waits & {*one.values} for one in facts.amounts
+            )
+            if rests:
+                continue
             if not told and not remark and not speed and facts.named.isdisjoint(range(first, last)):
                 words = w.quoted(facts.tokens[first:last])
                 yield PlanMismatch(

@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from shapely.geometry import LineString
+from shapely.geometry import LineString, Polygon
+from shapely.geometry.polygon import orient
+from shapely.ops import unary_union
 
 from fieldhand import language
 from fieldhand.errors import PlaceError
@@ -18,6 +20,7 @@ from fieldhand.places.place_errors import too_few
 from fieldhand.places.place_group import PlaceGroup
 from fieldhand.places.points.free_ground import MOST_POINTS, area_called, free_part, free_points, segments
 from fieldhand.places.resolution_notes import ResolutionNotes
+from fieldhand.site.feature_kinds import phrase
 from fieldhand.site.model import Site
 from fieldhand.site.rectangle import named_corners, smallest_rectangle
 
@@ -25,6 +28,9 @@ if TYPE_CHECKING:
     from fieldhand.places.points.transect import Transect
 
 Floats = NDArray[np.float64]
+
+#: Distance in metres of points along an edge from it.
+_OFF_EDGE_M = 1.5
 
 #: Maximum number of legs of a zigzag.
 MOST_LEGS = 200
@@ -68,11 +74,13 @@ def points_on_path(site: Site, selector: Transect, notes: ResolutionNotes) -> Pl
     Raises:
         PlaceError: There is no such zone, no space in it, or the number of points or legs is not possible.
     """
-    area = area_called(site, selector.zone)
-    free = free_part(site, area)
-    path = [
-        piece for line in _path(shapely.get_coordinates(area), selector) for piece in segments(line.intersection(free))
-    ]
+    if selector.shape == "edge":
+        path = _edge(site, selector.zone)
+    else:
+        area = area_called(site, selector.zone)
+        free = free_part(site, area)
+        lines = _path(shapely.get_coordinates(area), selector)
+        path = [piece for line in lines for piece in segments(line.intersection(free))]
     if not path:
         raise PlaceError(
             message("there is no free ground along that path"),
@@ -90,6 +98,29 @@ def points_on_path(site: Site, selector: Transect, notes: ResolutionNotes) -> Pl
     else:
         names = [message("point {number} of {count}", number=k, count=count) for k in range(1, count + 1)]
     return free_points(site, xy, names)
+
+
+def _edge(site: Site, zone: str) -> list[LineString]:
+    """Return the pieces of the edge of a zone or the site, inside of it, clockwise from its north-west.
+
+    Around a keep-out they lie outside of it.
+
+    Raises:
+        PlaceError: There is no such zone.
+    """
+    outs = [z.polygon for z in site.zones_of("keep_out") if zone and phrase(z.name) == phrase(zone)]
+    inside = free_part(site, area_called(site, zone).buffer(-_OFF_EDGE_M)) if not outs else Polygon()
+    rings = [orient(part, sign=-1.0).exterior for part in shapely.get_parts(inside) if isinstance(part, Polygon)]
+    if outs:
+        around = unary_union(outs).buffer(_OFF_EDGE_M)
+        rings = [orient(part, sign=-1.0).exterior for part in shapely.get_parts(around)]
+    found: list[LineString] = []
+    for ring in rings:
+        at = list(ring.coords)[:-1]
+        first = int(np.argmin(np.asarray(at) @ np.array([1.0, -1.0])))
+        turned = LineString([*at[first:], *at[: first + 1]])
+        found += segments(turned.intersection(free_part(site, turned)) if outs else turned)
+    return found
 
 
 def _path(xy: Floats, selector: Transect) -> list[LineString]:

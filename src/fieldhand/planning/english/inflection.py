@@ -23,7 +23,6 @@ _PAST = {
     "spend": "spent",
     "burn": "burnt",
     "mow": "mown",
-    "give": "gave given",
 }
 _DOUBLED = frozenset({"get", "grab", "run", "stop", "snap", "quit", "begin", "travel", "scan", "clip", "dig", "cut"})
 _VOWELS = "aeiou"

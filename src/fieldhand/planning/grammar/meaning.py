@@ -293,6 +293,7 @@ class WorkCommand:
         mode: How it is worked.
         used: Tokens of the phrase.
         sides, every, laps, optional, parameters: As of the plan node.
+        rest_s: Seconds of rest between laps.
     """
 
     action: str
@@ -304,6 +305,7 @@ class WorkCommand:
     laps: int = 1
     optional: bool = False
     parameters: tuple[tuple[str, str | float], ...] = ()
+    rest_s: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -177,7 +177,13 @@ def once_more_at(word: str, place: PlaceMeaning, used: int) -> CaptureCommand | 
     return CaptureCommand((Thing(LAST_THING),), place, used, relation=word) if place.shape == "one" else None
 
 
-@construction("capture: MEASURE IT place=here", "capture: MEASURE IT AT place=place", cost=0.4)
+@construction("capture: MEASURE IT AGAIN", "capture: TAKE IT AGAIN", "capture: MEASURE IT AGAIN place=here", cost=0.4)
+def measure_it_again(used: int, place: PlaceMeaning | None = None) -> CaptureCommand:
+    """Compose "(wait 10 minutes and) read it again"."""
+    return CaptureCommand((Thing(LAST_THING, count=1),), place, used)
+
+
+@construction("capture: MEASURE IT place=here", "capture: MEASURE IT relation place=place", cost=0.4)
 def measure_it(place: PlaceMeaning, used: int) -> CaptureCommand | None:
     """Compose "measure it there" and "measure it at tree 4"."""
     return CaptureCommand((Thing(LAST_THING),), place, used) if place.shape != "area" else None

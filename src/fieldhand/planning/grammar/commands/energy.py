@@ -46,7 +46,10 @@ def charge_fully() -> float:
 
 
 @construction(
-    "go_on: [COMMA] [AND] GOONAFTER", "go_on: [COMMA] [AND] [then] GOONAFTER", "go_on: FULLSTOP [then] GOONAFTER", cost=0.1
+    "go_on: [COMMA] [AND] GOONAFTER",
+    "go_on: [COMMA] [AND] [then] GOONAFTER",
+    "go_on: FULLSTOP [then] GOONAFTER",
+    cost=0.1,
 )
 def go_on() -> str:
     """Compose "and go on"."""

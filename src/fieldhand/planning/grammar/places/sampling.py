@@ -9,6 +9,7 @@ from fieldhand.places import selectors as s
 from fieldhand.places.points.transect import PathShape
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Amount, Nominal, PlaceMeaning
+from fieldhand.planning.grammar.places.areas import edges
 from fieldhand.planning.grammar.places.chosen import Choice
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.words import Lex
@@ -31,6 +32,9 @@ class SamplingPath:
 
     def over(self, area: s.Selector | None, site: Site, *, count: int = 0, apart_m: float = 0.0) -> s.Selector:
         """Return so many places, or places so far apart, along the path across an area, or across the site."""
+        if self.shape == "edge":
+            known = None if area is None else as_zone(area)
+            return s.Transect(count=count, apart_m=apart_m, shape="edge", zone="" if known is None else known.zone)
         zone = "" if area is None else bare_zone(area, site)
         made = self.among(s.Trees() if area is None or zone else area, count)
         return replace(made, apart_m=apart_m, zone=zone)
@@ -46,6 +50,13 @@ def bare_zone(area: s.Selector, site: Site) -> str:
     if zone is None or zone.outside or zone.margin_m or zone.of != s.Trees():
         return ""
     return "" if site.trees and ids_of(zone, site) else zone.zone
+
+
+def is_keep_out(area: s.Selector, site: Site) -> bool:
+    """Return True for something that the robot can only drive along or around: a fence, a pond, a building."""
+    zone = as_zone(area)
+    named = [one for one in site.zones if zone is not None and one.name == zone.zone]
+    return bool(named) and all(one.kind == "keep_out" for one in named)
 
 
 # Shares.
@@ -153,6 +164,46 @@ def in_path(path: SamplingPath) -> SamplingPath:
 def path_over(path: SamplingPath, where: s.Selector) -> tuple[SamplingPath, s.Selector | None]:
     """Compose "in a W through the north block"."""
     return path, where
+
+
+@construction(
+    "path_over: ALONG line=edge_line",
+    "path_over: EVENLYALONG line=edge_line",
+    "path_over: AROUND line=edge_line",
+    "path_over: AROUND ALONG line=edge_line",
+    "path_over: AROUND where=region",
+    "path_over: AROUND site",
+    "path_over: GO [one=ONCE] line=edge_line",
+    "path_over: GO [one=ONCE] ALONG line=edge_line",
+    "path_over: GO [one=ONCE] AROUND line=edge_line",
+    "path_over: GO [one=ONCE] AROUND ALONG line=edge_line",
+    "path_over: GO [one=ONCE] AROUND where=region",
+    "path_over: GO [one=ONCE] AROUND site",
+    "path_over: ALONG fence=region",
+    "path_over: GO [one=ONCE] ALONG fence=region",
+    "path_over: GO [one=ONCE] AROUND ALONG fence=region",
+    "path_over: GO [one=ONCE] fence=region",
+    cost=0.2,
+    given=("site",),
+)
+def along_edge(
+    site: Site,
+    line: s.Selector | None = None,
+    where: s.Selector | None = None,
+    fence: s.Selector | None = None,
+    one: Lex | None = None,
+) -> tuple[SamplingPath, s.Selector | None] | None:
+    """Compose "along the fence" and "once round the pond", of captures on the way."""
+    del one
+    if fence is not None and not is_keep_out(fence, site):
+        return None
+    area = line if where is None else where
+    area = area if fence is None else fence
+    if area is None or area == s.Trees() or area == edges():
+        return SamplingPath("edge", 1), None
+    zone = as_zone(area)
+    whole = zone is not None and not zone.outside and not zone.margin_m and zone.of == s.Trees()
+    return (SamplingPath("edge", 1), area) if whole else None
 
 
 @construction(

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from fieldhand.language import message
 from fieldhand.planning.english.tokens import Word
+from fieldhand.planning.english.vocabulary import vocabulary
 from fieldhand.planning.grammar.chart import Chart, PhraseEdge
 from fieldhand.planning.grammar.times.constructions import GRAMMAR
 from fieldhand.planning.grammar.times.lexicon import time_edges
@@ -58,6 +59,8 @@ def without_times(words: Sequence[Word]) -> RequestTimes | None:
         part = None if part is None else part & phrase.meaning
     if part is None or not phrases:
         return None
+    if part.every_min and not part.last_day and _says_how_often(words):
+        return None  # "every ten minutes, six times" is one mission
     taken = frozenset(token for phrase in phrases for token in range(phrase.start, phrase.end))
     single = not part.repeats and len(part.weekdays) < 2
     if single and not all(_is_of_beginning(one, words, taken) for one in phrases):
@@ -68,6 +71,16 @@ def without_times(words: Sequence[Word]) -> RequestTimes | None:
         said=tuple((words[one.start].start, words[one.end - 1].end) for one in phrases),
         part=part,
         beside=tuple(span for phrase in phrases for span in _beside(phrase, words)),
+    )
+
+
+def _says_how_often(words: Sequence[Word]) -> bool:
+    """Return True if words say how often something is done: "six times", "twice"."""
+    texts = [word.norm for word in words]
+    counts = {"twice", "thrice"} & {*texts}
+    return bool(counts) or any(
+        texts[k + 1] == "times" and (texts[k] in vocabulary()["numbers"] or texts[k].isdecimal())
+        for k in range(len(texts) - 1)
     )
 
 
