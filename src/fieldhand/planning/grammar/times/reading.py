@@ -93,6 +93,14 @@ def asked_time(part: TimePart) -> tuple[str, tuple[str, ...]] | None:
     return message("At what time of the day?", context="question"), choices
 
 
+def assumed_times(part: TimePart) -> tuple[str, ...]:
+    """Return what is assumed of an hour of which nothing says whether it is in the morning or later, as sentences."""
+    at = part.assumed_half
+    if at is None:
+        return ()
+    return (message("The hour is taken as {time}.", context="assumption", time=say_day_time(at)),)
+
+
 def with_answer(part: TimePart, answers: Sequence[Answer]) -> tuple[TimePart, Answer] | None:
     """Return the part with the time that an answer names, and the answer; None without an answer that names one."""
     asked = asked_time(part)
@@ -103,12 +111,11 @@ def with_answer(part: TimePart, answers: Sequence[Answer]) -> tuple[TimePart, An
         if answer.question != question:
             continue
         if answer.answer in choices:
-            at = part.asks[choices.index(answer.answer)]
-            return replace(part, at=(at,), choices=()), answer
+            return part.answered(part.asks[choices.index(answer.answer)]), answer
         from fieldhand.planning.english.tokens import words_of
 
         given = list(_phrases(words_of(answer.answer)))
-        joined = replace(part, choices=()) & given[0].meaning if len(given) == 1 else None
+        joined = replace(part, choices=(), half="") & given[0].meaning if len(given) == 1 else None
         if joined is not None and not joined.asks:
             return joined, answer
     return None
@@ -165,7 +172,8 @@ def _marks_of(phrase: PhraseEdge, words: Sequence[Word]) -> Iterator[int]:
     """Yield the commas, and the end of a sentence, that only set a time apart."""
     first = phrase.start == 0 or words[phrase.start - 1].kind == "stop"
     last = phrase.end == len(words) or words[phrase.end].kind == "stop"
-    if first and phrase.end < len(words) and words[phrase.end].kind in ("comma", "stop"):
+    joined = first and phrase.end < len(words) and words[phrase.end].norm == "and"  # "start at 6 am and ..."
+    if joined or (first and phrase.end < len(words) and words[phrase.end].kind in ("comma", "stop")):
         yield phrase.end
     if not first and words[phrase.start - 1].kind == "comma" and (last or words[phrase.end].kind == "comma"):
         yield phrase.start - 1
