@@ -129,7 +129,7 @@ def skips_on(first: WatchResponse, second: WatchResponse) -> WatchResponse | Non
     return first if first.response == second.response == "skip" else None
 
 
-@construction("reacts: ENDALL", cost=0.3)
+@construction("reacts: ENDALL", cost=0.0)
 def ends() -> WatchResponse:
     """Compose "end the mission"."""
     return WatchResponse("end")

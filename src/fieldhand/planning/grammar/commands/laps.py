@@ -8,7 +8,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.clauses import Adjunct
 from fieldhand.planning.grammar.commands.waits import LONGEST_WAIT_S
-from fieldhand.planning.grammar.commands.working import Tract, patrol
+from fieldhand.planning.grammar.commands.working import Tract
 from fieldhand.planning.grammar.meaning import Amount, CaptureCommand, Thing, WorkCommand, wait_thing
 from fieldhand.planning.grammar.places.areas import edges
 from fieldhand.planning.grammar.places.sampling import is_keep_out
@@ -26,8 +26,8 @@ _MOST_LAPS, _MOST_RESTED = 100, 50
 # --- laps -------------------------------------------------------------------------------------------------------------
 
 
-@construction("laps: n=count ROUND", "laps: [word=DET] noun=ROUND", cost=0.1)
-def laps(n: int = 1, word: Lex | None = None, noun: Lex | None = None) -> int | None:
+@construction("laps: n=count ROUND", "laps: [DET] noun=ROUND", cost=0.1)
+def laps(n: int = 1, noun: Lex | None = None) -> int | None:
     """Compose "two laps" and "a lap"."""
     return None if noun is not None and noun.plural else n
 
@@ -54,10 +54,7 @@ def along_fence(fence: s.Selector, site: Site) -> Tract | None:
     return Tract(fence, "perimeter") if is_keep_out(fence, site) else None
 
 
-@construction(
-    "work: [TAKE] times=laps where=lapped", "work: GO times=laps where=lapped", "work: GO [FOR] times=laps where=lapped",
-    cost=0.2,
-)  # fmt: skip
+@construction("work: [TAKE] times=laps where=lapped", "work: GO [FOR] times=laps where=lapped", cost=0.2)
 def so_many_laps(times: int, where: s.Selector, used: int) -> WorkCommand | None:
     """Compose "do two laps of the boundary" and "three laps around the pond"."""
     return _driven(where, times, used)

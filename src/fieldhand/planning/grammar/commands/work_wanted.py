@@ -41,7 +41,7 @@ def work_name(verb: Lex) -> Lex:
     given=("robot",),
 )
 def wanted_work(verb: Lex, where: Tract, used: int, robot: RobotProfile) -> list[WorkCommand] | None:
-    """Compose "row 4 needs spraying", "have row 4 sprayed", "give row 4 a spray" and "run the mower over the meadow"."""
+    """Compose "row 4 needs spraying", "give row 4 a spray" and "run the mower over the meadow"."""
     return work(verb, used, robot, where)
 
 

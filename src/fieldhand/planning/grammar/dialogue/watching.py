@@ -30,7 +30,9 @@ def watched(setting: Setting, state: DialogueState, command: WatchCommand) -> Di
             fallback=fallback if reaction.response == "wait" else Watch.fallback,
             said=setting.spans_of(command.used),
         )
-        state = replace(state, watches=(*state.watches, one), after_watch=one.at_most_s is not None)
+        state = replace(
+            state, watches=(*state.watches, one), after_watch=one.at_most_s is not None or one.response == "end"
+        )
     if reaction.response == "wait" and reaction.stands and not reaction.over and reaction.at_most_s is None:
         return with_assumption(
             state,

@@ -49,10 +49,7 @@ def work_along(setting: Setting, state: DialogueState, command: WorkCommand) -> 
         optional=command.optional,
         said=said,
     )
-    if command.rest_s:
-        state = _with_rests(state, replace(node, laps=1), command, said)
-    else:
-        state = with_step(state, node)
+    state = _with_rests(state, replace(node, laps=1), command, said) if command.rest_s else with_step(state, node)
     return replace(state, loop=None, captured=None, where=None, commands_in_sentence=state.commands_in_sentence + 1)
 
 

@@ -143,7 +143,6 @@ def _behind_hours() -> frozenset[str]:
         "second",
         "other",
         "past",
-        "past",
     }
     return frozenset(commands | times | _COMMANDS)
 
