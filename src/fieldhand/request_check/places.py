@@ -205,6 +205,12 @@ def _pointed(plan: PlanFacts) -> set[Side]:
     return {side for side in _SIDES if side in held}
 
 
+def _runs_along(heading: str, side: Side) -> bool:
+    """Return True if a direction of work is that of a side of the compass, or its opposite."""
+    axis = ("north", "south") if side in ("north", "south") else ("east", "west")
+    return any(one in heading for one in axis)
+
+
 def _stands_in(plan: PlanFacts, name: str, site: Site) -> bool:
     """Return True if a tree that the plan names by its id is in the zone or block of that name."""
     from fieldhand.errors import PlaceError
@@ -263,6 +269,8 @@ def _sides(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
     held = (
         set(plan.sides) | counted | {side for side in spoken if side[0] in corners or any(side in by for by in orders)}
     )
+    headings = [work.heading for work in plan.works if work.heading != "any"]
+    held |= {side for side in spoken if any(_runs_along(heading, side) for heading in headings)}
     if not any(x.counts_from_a_side for _, x in plan.selectors):
         for side in sorted(spoken - held):
             yield PlanMismatch(

@@ -122,6 +122,7 @@ def node(n: p.Node) -> str:
             )
             how += f", {n.sides}" if n.sides != "one" else ""
             how += f", every {n.every}" if n.every != 1 else ""
+            how += f", heading {n.heading}" if n.heading != "any" else ""
             how += f", {n.laps} laps" if n.laps != 1 else ""
             how += ", optional" if n.optional else ""
             return f"{n.action or 'drive'} {n.mode} {selector(n.along)}{how}"

@@ -7,7 +7,7 @@ from typing import Any, Literal
 
 from fieldhand.places import selectors as s
 from fieldhand.places.series_statistics import Statistic
-from fieldhand.task.nodes.work_along import RowSides, WorkMode
+from fieldhand.task.nodes.work_along import RowSides, WorkHeading, WorkMode
 from fieldhand.task.watches import Fallback, Response, WatchCondition
 
 #: What a place phrase means: one place, several places, an area whose trees are meant, places just spoken of (``here``,
@@ -292,7 +292,7 @@ class WorkCommand:
         along: Rows or area; None if the phrase names none.
         mode: How it is worked.
         used: Tokens of the phrase.
-        sides, every, laps, optional, parameters: As of the plan node.
+        sides, every, heading, laps, optional, parameters: As of the plan node.
         rest_s: Seconds of rest between laps.
     """
 
@@ -302,6 +302,7 @@ class WorkCommand:
     used: int
     sides: RowSides = "one"
     every: int = 1
+    heading: WorkHeading = "any"
     laps: int = 1
     optional: bool = False
     parameters: tuple[tuple[str, str | float], ...] = ()

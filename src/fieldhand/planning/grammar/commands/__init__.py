@@ -13,6 +13,7 @@ from fieldhand.planning.grammar.commands import (
     energy,
     events,
     exclusions,
+    headings,
     laps,
     limits,
     pace,
@@ -33,7 +34,7 @@ GRAMMAR = Grammar()
 _THEMES = (
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, energy, events, requests,
     exclusions, ways, sampling, waits, pace, sides, aggregates, working,
-    work_wanted, laps,
+    work_wanted, laps, headings,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)

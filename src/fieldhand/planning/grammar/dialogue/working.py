@@ -45,6 +45,7 @@ def work_along(setting: Setting, state: DialogueState, command: WorkCommand) -> 
         mode=mode,
         sides=command.sides,
         every=command.every,
+        heading=command.heading,
         laps=command.laps,
         optional=command.optional,
         said=said,
