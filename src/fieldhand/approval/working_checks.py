@@ -38,7 +38,8 @@ def implement_problems(task: Task, robot: RobotProfile) -> Iterator[PlanProblem]
                 where=message("plan"),
                 what=message("this work has no such direction"),
                 advice=message(
-                    "lanes of an area run north_south or east_west; rows and aisles are driven north, east, south or west"
+                    "lanes of an area run north_south or east_west; rows and aisles are driven north, east, south or"
+                    " west"
                 ),
             )
         action = robot.action.get(node.action)

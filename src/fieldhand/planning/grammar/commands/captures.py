@@ -206,6 +206,14 @@ def check_place(place: PlaceMeaning, used: int) -> CaptureCommand | None:
     return CaptureCommand((Thing(UNSAID_THING, plural=place.shape == "area"),), place, used)
 
 
+@construction("capture: verb=TAKE place=place", cost=1.2)
+def do_the_rest(verb: Lex, place: PlaceMeaning, used: int) -> CaptureCommand | None:
+    """Compose "do the rest", where the same is captured."""
+    rest = place.like is not None and place.like.kind == "rest"
+    known = rest and "performs" in verb.features
+    return CaptureCommand((Thing(LAST_THING),), place, used) if known else None
+
+
 @construction(
     "capture: verb things=things OF site",
     "capture: verb things=things OVER site",

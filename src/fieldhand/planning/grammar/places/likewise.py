@@ -84,6 +84,20 @@ def rest_of_area(where: s.Selector, noun: Lex | None = None) -> PlaceMeaning | N
     return PlaceMeaning(where, "several", like=Likewise("rest"))
 
 
+@construction("place: OTHERS OF DET ROW", "place: OTHERS OF DET PLOT", "place: OTHERS OFTHEM", cost=0.3)
+def rest_of_those() -> PlaceMeaning:
+    """Compose "the rest of the row", of the one some of whose trees were named before."""
+    return PlaceMeaning(s.Trees(), "several", like=Likewise("rest"))
+
+
+@construction("place: OTHERS OF [DET] inner=nominal", cost=0.5)
+def rest_of_kind(inner: Nominal) -> PlaceMeaning | None:
+    """Compose "the rest of the yellow trees"."""
+    if inner.single or inner.complete or inner.pronoun:
+        return None
+    return PlaceMeaning(inner.selector, "several", like=Likewise("rest"))
+
+
 @construction(
     "place: word=DET rank=ORD noun=ONE",
     "place: word=DET last=LAST noun=ONE",

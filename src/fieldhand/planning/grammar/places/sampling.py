@@ -30,14 +30,22 @@ class SamplingPath:
     shape: PathShape
     legs: int
 
-    def over(self, area: s.Selector | None, site: Site, *, count: int = 0, apart_m: float = 0.0) -> s.Selector:
-        """Return so many places, or places so far apart, along the path across an area, or across the site."""
+    def over(self, area: s.Selector | None, site: Site, *, count: int = 0, apart_m: float = 0.0) -> s.Selector | None:
+        """Return so many places, or places so far apart, along the path across an area, or across the site.
+
+        None if the area is ground without trees that has no name.
+        """
         if self.shape == "edge":
             known = None if area is None else as_zone(area)
             return s.Transect(count=count, apart_m=apart_m, shape="edge", zone="" if known is None else known.zone)
-        zone = "" if area is None else bare_zone(area, site)
-        made = self.among(s.Trees() if area is None or zone else area, count)
-        return replace(made, apart_m=apart_m, zone=zone)
+        ground = bare_ground(area, site)
+        if ground is not None:
+            if ground.left_out and not apart_m:
+                return None  # so many in all, of which some would be left out
+            return ground.without(replace(self.among(s.Trees(), count), apart_m=apart_m, zone=ground.zone))
+        if not site.trees:
+            return None
+        return replace(self.among(s.Trees() if area is None else area, count), apart_m=apart_m)
 
     def among(self, of: s.Selector, count: int) -> s.Transect:
         """Return so many trees of a group along the path across it."""
@@ -50,6 +58,46 @@ def bare_zone(area: s.Selector, site: Site) -> str:
     if zone is None or zone.outside or zone.margin_m or zone.of != s.Trees():
         return ""
     return "" if site.trees and ids_of(zone, site) else zone.zone
+
+
+@dataclass(frozen=True, slots=True)
+class BareGround:
+    """Ground without trees.
+
+    Attributes:
+        zone: Name of the zone; empty for the whole site.
+        left_out: Names of the zones that are left out of it.
+    """
+
+    zone: str
+    left_out: tuple[str, ...] = ()
+
+    def without(self, points: s.Selector) -> s.Selector:
+        """Return points but those in the zones that are left out."""
+        for name in self.left_out:
+            points = s.InZone(zone=name, outside=True, of=points)
+        return points
+
+
+def bare_ground(area: s.Selector | None, site: Site) -> BareGround | None:
+    """Return the ground that an area is, if no trees grow in it and it has a name; None otherwise."""
+    if area is None or area == s.Trees():
+        return None if site.trees else BareGround("")
+    if isinstance(area, s.Excluding):
+        inner = bare_ground(area.of, site)
+        outs = [as_zone(part) for part in area.places.members]
+        plain = [one.zone for one in outs if one is not None and not one.outside and not one.margin_m]
+        return replace(inner, left_out=(*inner.left_out, *plain)) if inner and len(plain) == len(outs) else None
+    zone = bare_zone(area, site)
+    return BareGround(zone) if zone else None
+
+
+def is_on_bare_ground(points: s.Selector, site: Site) -> bool:
+    """Return True for a grid or a path over ground without trees, some of whose points may be left out."""
+    zone = as_zone(points)
+    points = zone.of if zone is not None and zone.outside else points
+    named = isinstance(points, s.Grid | s.Transect) and bool(points.zone)
+    return named or (isinstance(points, s.Grid | s.Transect) and not site.trees)
 
 
 def is_keep_out(area: s.Selector, site: Site) -> bool:
@@ -231,10 +279,11 @@ def chosen_along_path(along: tuple[SamplingPath, s.Selector | None]) -> Choice:
     cost=0.2,
     given=("site",),
 )
-def points_on_path(n: int, along: tuple[SamplingPath, s.Selector | None], site: Site) -> PlaceMeaning:
+def points_on_path(n: int, along: tuple[SamplingPath, s.Selector | None], site: Site) -> PlaceMeaning | None:
     """Compose "20 points in a W through the meadow"."""
     route, where = along
-    return PlaceMeaning(route.over(where, site, count=n), "several", count=n)
+    points = route.over(where, site, count=n)
+    return None if points is None else PlaceMeaning(points, "several", count=n)
 
 
 # Grids.
@@ -289,10 +338,12 @@ def grid_over(every: float, where: s.Selector | None = None) -> tuple[float, s.S
     return every, where
 
 
-def grid_selector(every: float, area: s.Selector | None, site: Site) -> s.Selector:
-    """Return the places of a grid over an area, or over the site."""
-    zone = "" if area is None else bare_zone(area, site)
-    return s.Grid(every_m=every, zone=zone, of=s.Trees() if area is None or zone else area)
+def grid_selector(every: float, area: s.Selector | None, site: Site) -> s.Selector | None:
+    """Return the places of a grid over an area, or over the site; None for ground without trees that has no name."""
+    ground = bare_ground(area, site)
+    if ground is not None:
+        return ground.without(s.Grid(every_m=every, zone=ground.zone))
+    return s.Grid(every_m=every, of=s.Trees() if area is None else area) if site.trees else None
 
 
 @construction("place: [DET] inner=nominal on=grid_over", "place: [DET] POINT on=grid_over", cost=0.2, given=("site",))
@@ -302,11 +353,13 @@ def places_on_grid(
     """Compose "the vines on a 20 m grid" and "points on a 20 m grid over the meadow"."""
     every, where = on
     if inner is None:
-        return PlaceMeaning(grid_selector(every, where, site), "several", each=True)
+        points = grid_selector(every, where, site)
+        return None if points is None else PlaceMeaning(points, "several", each=True)
     if inner.single or inner.complete or not inner.plural or not chooses_from_trees(inner.selector):
         return None
     of = inner.selector if where is None else over(inner.selector, where)
-    return PlaceMeaning(grid_selector(every, of, site), "several", each=True)
+    trees = grid_selector(every, of, site)
+    return None if trees is None else PlaceMeaning(trees, "several", each=True)
 
 
 # Points at random.
