@@ -90,6 +90,16 @@ def moves_on(selector: s.Selector) -> bool:
     )
 
 
+def is_open_draw(selector: s.Selector) -> bool:
+    """Return True for places drawn at random of which nothing has said yet how many."""
+    return isinstance(selector, s.RandomSample | s.PointsIn) and selector.count == 0
+
+
+def drawn_so_many(selector: s.Selector, count: int) -> s.Selector:
+    """Return so many places drawn at random."""
+    return replace(selector, count=count) if isinstance(selector, s.RandomSample | s.PointsIn) else selector
+
+
 def as_random(selector: s.Selector) -> s.RandomSample | None:
     """Return the selector if it draws at random, None otherwise."""
     return selector if isinstance(selector, s.RandomSample) else None

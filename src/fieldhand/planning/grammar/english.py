@@ -106,6 +106,10 @@ class EnglishPhrases:
             same = None if meant is None else self.lexicon.entry(split(meant))
             if same is not None:
                 yield same
+        asked_how = _asked_how().get(phrase)
+        told_by = None if asked_how is None else self.lexicon.entry(asked_how)
+        if told_by is not None and told_by.kind == "NOUN":
+            yield replace(told_by, kind="ASKHOW")
         medium = _own()["media"].get(" ".join(phrase))
         reading = None if medium is None else self.lexicon.entry(split(medium))
         if reading is not None:
@@ -142,6 +146,13 @@ def _asked_by_adjective() -> Mapping[Phrase, Phrase]:
             found[split(f"how {adjective} is {thing}")] = split(reading)
             found[split(f"how {adjective} {thing} is")] = split(reading)
     return found
+
+
+@cache
+def _asked_how() -> Mapping[Phrase, Phrase]:
+    """Return the names of readings by the questions for them, asked of an area: "how wet"."""
+    table = _own()["asked_of_area"]
+    return {split(f"how {adjective}"): split(reading) for reading, said in table.items() for adjective in said}
 
 
 @cache

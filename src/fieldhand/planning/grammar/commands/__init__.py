@@ -6,6 +6,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands import (
     adjuncts,
     aggregates,
+    asked,
     captures,
     clauses,
     conditions,
@@ -34,7 +35,7 @@ GRAMMAR = Grammar()
 _THEMES = (
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, energy, events, requests,
     exclusions, ways, sampling, waits, pace, sides, aggregates, working,
-    work_wanted, laps, headings,
+    work_wanted, laps, headings, asked,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)

@@ -378,6 +378,33 @@ def random_points(n: int, zone: Lex) -> PlaceMeaning:
     return PlaceMeaning(s.PointsIn(zone=zone.value, count=n, random=True), "one" if n == 1 else "several", count=n)
 
 
+@construction(
+    "place: RANDOM POINT in_ [DET] zone=ZONE",
+    "place: RANDOM POINT OVER [DET] zone=ZONE",
+    "place: RANDOM POINT OF [DET] zone=ZONE",
+    "place: POINT RANDOM in_ [DET] zone=ZONE",
+    "place: POINT in_ [DET] zone=ZONE [COMMA] RANDOM",
+    cost=0.3,
+)
+def open_random_points(zone: Lex) -> PlaceMeaning:
+    """Compose "random places in the meadow", of which something else says how many at most."""
+    return PlaceMeaning(s.PointsIn(zone=zone.value, count=0, random=True), "several")
+
+
+@construction(
+    "place: RANDOM inner=nominal",
+    "place: RANDOM inner=nominal OF where=region",
+    "place: RANDOM inner=nominal in_ where=region",
+    cost=0.6,
+)
+def open_random_trees(inner: Nominal, where: s.Selector | None = None) -> PlaceMeaning | None:
+    """Compose "random vines of the north block", of which something else says how many at most."""
+    if inner.single or inner.complete or not inner.plural or inner.pronoun or as_some(inner.selector) is not None:
+        return None
+    of = inner.selector if where is None else over(inner.selector, where)
+    return PlaceMeaning(s.RandomSample(count=0, of=of), "several") if chooses_from_trees(of) else None
+
+
 # Gaps.
 
 
