@@ -33,7 +33,7 @@ _OTHER_PART = re.compile(r"\bother (?:half|side|end|edge|corner|quarter)\b")
 #: Pattern of rows without a number for each.
 _SOME_ROWS = re.compile(
     r"\b(?:each|every|all|per|other|last|final|next|odd|even|alternate|middle|cent(?:er|re|ral)|\w+most|by)"
-    r"(?: \w+){0,3} rows?\b"
+    r"(?: \w+){0,3} (?:rows?|beds?|bench(?:es)?)\b"
 )
 
 #: Words that continue a series of numbers: "5, 15, 25 and so on".
@@ -49,7 +49,7 @@ def place_mismatches(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterat
     yield from _areas(facts, plan, site)
     yield from _gates(facts, plan, site)
     yield from _sides(facts, plan)
-    yield from _attributes(facts, plan)
+    yield from _attributes(facts, plan, site)
     yield from _ends(facts, plan, site)
     yield from _faults(facts, plan, site)
     yield from _order(facts, plan)
@@ -126,12 +126,39 @@ def _rows(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMism
         return
     for node, row in rows:
         for name in dict.fromkeys((row.first, row.last)):
-            if int(name) > 1 and int(name) not in facts.whole_numbers:
+            if int(name) > 1 and int(name) not in facts.whole_numbers and not _is_named_by_plants(name, facts, site):
                 yield PlanMismatch(
                     kind="place",
                     what=message("the plan names row {name}, but the request does not", name=name),
                     node=node,
                 )
+
+
+def _is_named_by_plants(name: str, facts: RequestFacts, site: Site) -> bool:
+    """Return True if the request names a row by what its plants are: "the pumpkin bed"."""
+    spoken = {w.singular(word) for word in facts.words} | facts.words
+    return any(set(value.split()) & spoken for value in _values_in_row(name, site, shared=False))
+
+
+def _values_in_row(name: str, site: Site, *, shared: bool) -> set[str]:
+    """Return what the attributes say of the plants of a row: values, and the names of those that are only yes or no.
+
+    Args:
+        name: Name of the row.
+        site: The site.
+        shared: True for those that all its plants have in common.
+    """
+    plants = [
+        {
+            _name_text(text)
+            for attribute, value in site.trees[tree].properties.items()
+            for text in ((attribute, f"un{attribute}") if isinstance(value, bool) else (str(value),))
+        }
+        for row in site.planting.rows
+        if row.name == name
+        for tree in row.trees
+    ]
+    return (set.intersection(*plants) if shared else set.union(*plants)) if plants else set()
 
 
 def _is_row(facts: RequestFacts, amount: StatedAmount) -> bool:
@@ -170,7 +197,8 @@ def _areas(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMis
     rows = {t for _, x in plan.having(s.Rows) if isinstance(x, s.Rows) for t in (x.first.lower(), x.last.lower())}
     if any(one.mode == "perimeter" and one.along == s.Trees() for one in plan.works):
         held |= {_name_text(zone.name) for zone in site.zones if zone.kind == "boundary"}
-    for name in sorted(facts.zones - held - rows):
+    beds = {name for name in facts.zones if _is_a_row_of(name, plan)}
+    for name in sorted(facts.zones - held - rows - beds):
         if name in w.COMPASS and w.COMPASS[name] <= pointed:
             continue  # "from the north" or "the northernmost" does not mean a block called "North"
         if not any(name in other for other in held) and not _stands_in(plan, name, site):
@@ -189,6 +217,16 @@ def _areas(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMis
         )
     if facts.words & _CHARGER and "charger" not in plan.markers and not facts.words & {"recharge", "recharging"}:
         yield PlanMismatch(kind="place", what=message("the request names the charger, but the plan does not"))
+
+
+def _is_a_row_of(name: str, plan: PlanFacts) -> bool:
+    """Return True if an area that is named by its number may be one of the rows of a plan: "bed 4", which is row 4."""
+    number = name.rpartition(" ")[2]
+    rows = [x for _, x in plan.having(s.Rows) if isinstance(x, s.Rows)]
+    if not number.isdecimal():
+        return False
+    bounds = [(row.first, row.last) for row in rows if row.first.isdecimal() and row.last.isdecimal()]
+    return any(int(first) <= int(number) <= int(last) for first, last in bounds)
 
 
 def _pointed(plan: PlanFacts) -> set[Side]:
@@ -287,9 +325,11 @@ def _sides(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
             )
 
 
-def _attributes(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
+def _attributes(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
     """Yield attribute values of the request that the plan lacks, and the reverse."""
     held = {" ".join(t.text for t in _tokens(str(value))) for _, _, value in plan.values}
+    for name in {x.first for _, x in plan.having(s.Rows) if isinstance(x, s.Rows) and x.first}:
+        held |= _values_in_row(name, site, shared=True)
     for word in facts.attributes:
         if not any(word in other or other in word for other in held):
             yield PlanMismatch(

@@ -403,6 +403,14 @@ def of_the_farm(where: s.Selector) -> s.Selector:
 @construction("place: [DET] zone=ZONEPOSS inner=nominal", cost=0.2)
 def of_the_zone(zone: Lex, inner: Nominal) -> PlaceMeaning | None:
     """Compose "the wet corner's northernmost tree"."""
-    if not inner.single or not chooses_from_trees(inner.selector):
+    if not (inner.single or inner.plural) or inner.complete or not chooses_from_trees(inner.selector):
         return None
-    return PlaceMeaning(over(inner.selector, s.InZone(zone=zone.value)), "one")
+    return PlaceMeaning(over(inner.selector, s.InZone(zone=zone.value)), "one" if inner.single else "several")
+
+
+@construction("nominal: zone=ZONE inner=nominal", cost=0.4)
+def plants_of_zone(zone: Lex, inner: Nominal) -> Nominal | None:
+    """Compose "warm section tomatoes"."""
+    if inner.single or inner.complete or inner.pronoun or inner.tested or not chooses_from_trees(inner.selector):
+        return None
+    return replace(inner, selector=over(inner.selector, s.InZone(zone=zone.value)))

@@ -688,8 +688,8 @@ def _numbers(chosen: Chosen, *, definite: bool) -> Sequence[int | None]:
     if chosen.group:
         return (chosen.count or 1,) if chosen.preceded and choice is not None and choice.by != "of every" else ()
     if chosen.count is not None:
-        return (chosen.count,) if inner.plural == (chosen.count > 1) else ()
-    if not inner.plural:
+        return (chosen.count,) if inner.counts(chosen.count) else ()
+    if not inner.plural or inner.unmarked:
         return (1,)
     if choice is None:
         return ()

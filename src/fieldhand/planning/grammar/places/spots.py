@@ -119,7 +119,9 @@ def middle_of(where: s.Selector, noun: Lex | None = None) -> PlaceMeaning | list
     return PlaceMeaning(s.Middle(of=where), "one")
 
 
-@construction("halfway: HALFWAY where=rows", cost=0.0)
+@construction(
+    "halfway: HALFWAY where=rows", "halfway: HALFWAY where=each_row", "halfway: HALFWAY where=all_rows", cost=0.0
+)
 def halfway(where: s.Selector) -> PlaceMeaning:
     """Compose "halfway along row 4", which needs no word before it."""
     if is_one_row(where):
