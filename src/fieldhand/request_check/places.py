@@ -48,7 +48,7 @@ def place_mismatches(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterat
     yield from _rows(facts, plan, site)
     yield from _areas(facts, plan, site)
     yield from _gates(facts, plan, site)
-    yield from _sides(facts, plan)
+    yield from _sides(facts, plan, site)
     yield from _attributes(facts, plan, site)
     yield from _ends(facts, plan, site)
     yield from _faults(facts, plan, site)
@@ -195,10 +195,12 @@ def _areas(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMis
     pointed = _pointed(plan)
     held = {_name_text(name) for _, name in plan.areas}
     rows = {t for _, x in plan.having(s.Rows) if isinstance(x, s.Rows) for t in (x.first.lower(), x.last.lower())}
-    if any(one.mode == "perimeter" and one.along == s.Trees() for one in plan.works):
+    whole = any(one.along == s.Trees() for one in plan.works) or any(x == s.Trees() for _, x in plan.selectors)
+    if whole or not plan.areas:
         held |= {_name_text(zone.name) for zone in site.zones if zone.kind == "boundary"}
     beds = {name for name in facts.zones if _is_a_row_of(name, plan)}
-    for name in sorted(facts.zones - held - rows - beds):
+    in_names = {name for name in facts.zones if any(name in one.split() for one in _marks_named(facts, site))}
+    for name in sorted(facts.zones - held - rows - beds - in_names):
         if name in w.COMPASS and w.COMPASS[name] <= pointed:
             continue  # "from the north" or "the northernmost" does not mean a block called "North"
         if not any(name in other for other in held) and not _stands_in(plan, name, site):
@@ -288,9 +290,16 @@ def _tokens(name: str) -> tuple[w.Token, ...]:
     return w.tokens(name.replace("_", " "))
 
 
-def _sides(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
+def _marks_named(facts: RequestFacts, site: Site) -> set[str]:
+    """Return the names of markers and gates in the request: "south door"."""
+    names = {_name_text(one) for _, one in site.marker_names} | {_name_text(gate.place.id) for gate in site.gates}
+    return {name for name in names if name and f" {name} " in f" {facts.text} "}
+
+
+def _sides(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
     """Yield sides of the compass of the request that the plan lacks, and the reverse."""
-    by_name = {word for name in facts.zones for word in name.split()} | set(facts.attributes)
+    by_name = {word for name in (*facts.zones, *_marks_named(facts, site)) for word in name.split()}
+    by_name |= set(facts.attributes)
     spoken = {side for side in facts.sides if not any(side in name for name in by_name)}
     corners = {letter for _, x in plan.having(s.Corners) if isinstance(x, s.Corners) for c in x.which for letter in c}
     orders = {x.by for _, x in plan.having(s.Ordered) if isinstance(x, s.Ordered)}

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from fieldhand.planning.english.naming import NameEntry, Phrase, parameter_entries, robot_entries, site_entries, split
+from fieldhand.planning.english.place_words import short_names
 from fieldhand.planning.english.plant_words import beds_that_are_rows, plant_entries, priced
 from fieldhand.planning.english.shared import shared_vocabulary
 from fieldhand.robot.model import RobotProfile
@@ -131,7 +132,7 @@ def _lexicon_of(robot: RobotProfile, site: Site) -> Lexicon:
     }
     own |= {phrase: NameEntry(kind="ATTRVAL", value=(value,)) for phrase, value in short.items()}
     beside: dict[Phrase, tuple[NameEntry, ...]] = {}
-    for phrase, entry in plant_entries(site, rows_too):
+    for phrase, entry in (*plant_entries(site, rows_too), *short_names(site)):
         shared = shared_vocabulary().get(phrase)
         is_plant = shared is not None and shared.kind == "TREE"  # a file that says of each vine that it is one
         if not is_plant and entry != own.get(phrase) and entry not in beside.get(phrase, ()):

@@ -117,6 +117,7 @@ class Adjunct:
         of_place: True if it stands behind the place.
         may_lead: True if it may stand before the clause.
         is_sentence: True if it may be a sentence by itself behind the clause.
+        lays_out: True for points that are laid out, at which the clause behind it captures.
     """
 
     change: Change
@@ -125,6 +126,7 @@ class Adjunct:
     of_place: bool = False
     may_lead: bool = False
     is_sentence: bool = False
+    lays_out: bool = False
 
 
 def _part(kind: Kind, **meaning: Any) -> Clause:

@@ -21,6 +21,7 @@ from fieldhand.planning.grammar.meaning import (
 from fieldhand.planning.grammar.places.exceptions import except_for, except_positions
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.places.planted_rows import rows_out_of
+from fieldhand.planning.grammar.places.points import outside_zones
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_rows, chooses_from_trees, named_places, over, swapped
 from fieldhand.site.model import Site
@@ -218,6 +219,8 @@ def _without(
     if whole.per is not None and (rows := rows_out_of(out.place.selector, site)) is not None:
         per = s.Excluding(places=rows, of=whole.per)  # "a reading in each bed. Leave out the covered ones."
         return replace(command, place=replace(whole, per=per), used=used)
+    if (points := outside_zones(whole, out.place.selector)) is not None:
+        return replace(command, place=points, used=used)
     among, left_out = ids_of(whole.selector, site), ids_of(out.place.selector, site)
     if among is None or left_out is None or (some and not among & left_out):
         return None

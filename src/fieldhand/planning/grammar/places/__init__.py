@@ -17,6 +17,7 @@ from fieldhand.planning.grammar.places import (
     numbered_zones,
     numbers,
     planted_rows,
+    points,
     positions,
     quantities,
     rounds,
@@ -48,6 +49,7 @@ for _part in (
     exceptions,
     sets,
     sampling,
+    points,
     by_reading,
     numbered_zones,
 ):

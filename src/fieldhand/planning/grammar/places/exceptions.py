@@ -14,6 +14,7 @@ from fieldhand.planning.grammar.places.compass import CORNERS
 from fieldhand.planning.grammar.places.counted import BOTH_ENDS, Span, rows_within
 from fieldhand.planning.grammar.places.numbered import all_of, elsewhere, ids_of, numbered
 from fieldhand.planning.grammar.places.planted_rows import rows_out_of
+from fieldhand.planning.grammar.places.points import outside_zones
 from fieldhand.planning.grammar.places.rows import rows_at
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
@@ -308,6 +309,8 @@ def except_for(whole: PlaceMeaning, part: PlaceMeaning, site: Site) -> PlaceMean
         if not set(named_places(part.selector) or (part.selector,)) < set(named_places(whole.selector)):
             return None
         whole = replace(whole, count=None)
+    if (points := outside_zones(whole, part.selector)) is not None:
+        return points
     part = replace(part, like=None) if part.like is not None and part.like.kind == "those" else part
     if centre_of(whole.selector) == part.selector:
         return whole  # "the trees within 12 m of tree 40, but not tree 40 itself"

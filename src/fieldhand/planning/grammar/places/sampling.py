@@ -10,7 +10,9 @@ from fieldhand.places.points.transect import PathShape
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Amount, Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.chosen import Choice
+from fieldhand.planning.grammar.places.exceptions import Omission
 from fieldhand.planning.grammar.places.numbered import ids_of
+from fieldhand.planning.grammar.places.points import outside_zones
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_some, as_zone, chooses_from_trees, over, rows_of
 from fieldhand.site.model import Site
@@ -46,6 +48,19 @@ def bare_zone(area: s.Selector, site: Site) -> str:
     if zone is None or zone.outside or zone.margin_m or zone.of != s.Trees():
         return ""
     return "" if site.trees and ids_of(zone, site) else zone.zone
+
+
+def bare_points(area: s.Selector, site: Site, count: int, *, random: bool = False) -> s.PointsIn | None:
+    """Return so many free points of ground without plants: a zone, a half or a quarter of one; None for other areas."""
+    match area:
+        case s.Half(side=part, of=of) | s.Quarter(quarter=part, of=of):
+            whole = bare_points(of, site, count, random=random)
+            return replace(whole, part=part) if whole is not None and whole.part == "all" else None
+        case s.Trees() if not site.trees:
+            return s.PointsIn(count=count, random=random)
+        case _:
+            zone = bare_zone(area, site)
+            return s.PointsIn(zone=zone, count=count, random=random) if zone else None
 
 
 # Shares.
@@ -148,6 +163,7 @@ def in_path(path: SamplingPath) -> SamplingPath:
     "path_over: GO OVER where=region path=in_path",
     "path_over: GO in_ where=region path=in_path",
     "path_over: GO where=region path=in_path",
+    "path_over: CROSSV where=region path=in_path",
     cost=0.1,
 )
 def path_over(path: SamplingPath, where: s.Selector) -> tuple[SamplingPath, s.Selector | None]:
@@ -216,6 +232,8 @@ def grid(far: Amount, far2: Amount | None = None, number: Lex | None = None) -> 
     "on_grid: WITH every=cells",
     "on_grid: INPATH every=cells",
     "on_grid: NEXTONE every=cells",
+    "on_grid: LAYOUT every=cells",
+    "on_grid: OF every=cells",
     "on_grid: ALONG every=cells",
     cost=0.0,
 )
@@ -238,8 +256,20 @@ def grid_over(every: float, where: s.Selector | None = None) -> tuple[float, s.S
     return every, where
 
 
+@construction("grid_over: on=grid_over out=but_out", cost=0.1)
+def grid_but(on: tuple[float, s.Selector | None], out: Omission) -> tuple[float, s.Selector | None] | None:
+    """Compose "on a 20 m grid over the meadow except in the wet corner"."""
+    if on[1] is None or out.place is None or any(as_zone(one) is None for one in out.place.selector.members):
+        return None
+    return on[0], s.Excluding(places=out.place.selector, of=on[1])
+
+
 def grid_selector(every: float, area: s.Selector | None, site: Site) -> s.Selector:
     """Return the places of a grid over an area, or over the site."""
+    if isinstance(area, s.Excluding):  # "over the meadow except the wet corner"
+        whole = PlaceMeaning(grid_selector(every, area.of, site), "several")
+        kept = outside_zones(whole, area.places)
+        return whole.selector if kept is None else kept.selector
     zone = "" if area is None else bare_zone(area, site)
     return s.Grid(every_m=every, zone=zone, of=s.Trees() if area is None or zone else area)
 

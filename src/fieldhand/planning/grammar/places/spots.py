@@ -216,6 +216,22 @@ def gate(gate: Lex) -> PlaceMeaning:
     return PlaceMeaning(s.GateIs(gate=gate.value), "one")
 
 
+@construction(
+    "place: EACH noun=GATES", "place: EACH DET noun=GATES", "place: EACH OF DET noun=GATES", "place: [DET] gates=GATES",
+    "place: [DET] n=count noun=GATES", "place: EACH n=count noun=GATES",
+    cost=0.2,
+)  # fmt: skip
+def every_gate(noun: Lex | None = None, gates: Lex | None = None, n: int | None = None) -> PlaceMeaning | None:
+    """Compose "every gate", "the gates" and "the two gates"."""
+    named = gates or noun
+    if named is None or (gates is not None and not gates.plural) or n not in (None, len(named.value)):
+        return None
+    parts = tuple(s.GateIs(gate=name) for name in named.value)
+    if len(parts) < 2:
+        return None
+    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=len(parts), each=gates is None)
+
+
 @construction("corner_list: [DET] side=DIR", cost=0.0)
 def corner_list(side: Lex) -> tuple[tuple[CornerName, ...], bool] | None:
     """Compose "the north-west", the beginning of "the north-west and the south-east corner"."""
