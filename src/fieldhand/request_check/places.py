@@ -36,6 +36,8 @@ _SOME_ROWS = re.compile(
     r"(?: \w+){0,3} (?:rows?|beds?|bench(?:es)?)\b"
 )
 
+#: Pattern of the neighbours of several trees.
+_BESIDE_THEM = re.compile(r"\b(?:either|each|both) sides? of (?:them|these|those|each)\b|\btheir (?:\w+ )?neighbou?rs\b")
 #: Words that continue a series of numbers: "5, 15, 25 and so on".
 _SERIES = re.compile(r"\b(?:and so (?:on|forth)|etc|like that)\b|\bevery \S+ (?:after|until|up|to)\b")
 #: Range of ids that differ by their number: "n300 through n310".
@@ -69,8 +71,8 @@ def _trees(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
         yield PlanMismatch(
             kind="place", what=message("the request names tree {number}, but the plan does not", number=n)
         )
-    if facts.spaced:
-        return  # the trees at that distance depend on the site
+    if facts.spaced or _BESIDE_THEM.search(facts.text):
+        return  # the trees at that distance, and those beside others, depend on the site
     spoken = facts.text.replace(" ", "")
     numbers = {str(n) for n in facts.whole_numbers}
     for node, tree in plan.trees:

@@ -42,7 +42,7 @@ def _so_often(command: CaptureCommand, times: int) -> CaptureCommand | None:
 
 
 def _again(command: CaptureCommand, _: None) -> CaptureCommand | None:
-    known = command.place is None or command.place.shape in ("here", "one")
+    known = command.place is None or command.place.shape in ("here", "one", "those")
     return command if known and command.relation in ("at", "of", "along") else None
 
 

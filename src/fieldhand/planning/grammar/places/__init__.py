@@ -5,6 +5,7 @@ from __future__ import annotations
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.places import (
     areas,
+    beside_them,
     by_reading,
     choices,
     chosen,
@@ -52,5 +53,6 @@ for _part in (
     points,
     by_reading,
     numbered_zones,
+    beside_them,
 ):
     GRAMMAR.include(_part.GRAMMAR)
