@@ -434,3 +434,11 @@ def is_description(selector: s.Selector) -> bool:
 def as_where(selector: s.Selector) -> s.Where | None:
     """Return the selector if it tests an attribute, None otherwise."""
     return selector if isinstance(selector, s.Where) else None
+
+
+def chosen_from(selector: s.Selector, group: s.Selector) -> bool:
+    """Return True if some of a group described by an attribute are selected: six basil plants, of the basil."""
+    kind = as_where(group)
+    inside = [where for part in selector.walk() if (where := as_where(part)) is not None]
+    same = [w for w in inside if kind is not None and replace(w, of=s.Trees()) == replace(kind, of=s.Trees())]
+    return bool(same) and as_where(selector) is None

@@ -37,7 +37,9 @@ _SOME_ROWS = re.compile(
 )
 
 #: Pattern of the neighbours of several trees.
-_BESIDE_THEM = re.compile(r"\b(?:either|each|both) sides? of (?:them|these|those|each)\b|\btheir (?:\w+ )?neighbou?rs\b")
+_BESIDE_THEM = re.compile(
+    r"\b(?:either|each|both) sides? of (?:them|these|those|each)\b|\btheir (?:\w+ )?neighbou?rs\b"
+)
 #: Words that continue a series of numbers: "5, 15, 25 and so on".
 _SERIES = re.compile(r"\b(?:and so (?:on|forth)|etc|like that)\b|\bevery \S+ (?:after|until|up|to)\b")
 #: Range of ids that differ by their number: "n300 through n310".

@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Any, Literal, cast
 
 from fieldhand.places import selectors as s
+from fieldhand.planning.english.naming import split
 from fieldhand.planning.english.plant_words import is_kind_attribute, is_unmarked
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Amount, Likewise, Nominal, PlaceMeaning
@@ -14,6 +15,7 @@ from fieldhand.planning.grammar.places.attribute_units import attributes_in, in_
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.words import Lex, hinted_attributes
 from fieldhand.planning.selections import chooses_from_trees
+from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.terms import Test
 
@@ -70,9 +72,11 @@ def extreme_of_those(side: Lex) -> PlaceMeaning | None:
     return PlaceMeaning(s.Extreme(side=side.value), "one", like=Likewise("extreme", side=side.value))
 
 
-@construction("place: DET rank=ranking", cost=1.0)
-def best_one(rank: tuple[str, bool]) -> PlaceMeaning | None:
-    """Compose "the oldest"."""
+@construction("place: DET rank=ranking", cost=1.0, given=("robot",))
+def best_one(rank: tuple[str, bool], robot: RobotProfile) -> PlaceMeaning | None:
+    """Compose "the oldest"; "the driest" is rather that of the places whose moisture was read."""
+    if any(word in split(quantity.name) for word in split(rank[0]) for quantity in robot.quantities):
+        return None
     return PlaceMeaning(s.Top(attribute=rank[0], count=1, lowest=rank[1]), "one") if rank[0] else None
 
 

@@ -105,8 +105,9 @@ def at_random(points: Points) -> Points | None:
 
 
 @construction(
-    "points: EVENLYSPACED points=points", "points: FARAPART points=points", "points: points=points [COMMA] EVENLYSPACED",
-    "points: points=points [COMMA] FARAPART", "points: points=points [COMMA] SPREADOUT",
+    "points: EVENLYSPACED points=points", "points: FARAPART points=points",
+    "points: points=points [COMMA] EVENLYSPACED", "points: points=points [COMMA] FARAPART",
+    "points: points=points [COMMA] SPREADOUT",
     cost=0.0,
 )  # fmt: skip
 def spread_out(points: Points) -> Points | None:
