@@ -20,6 +20,8 @@ _NESTING: dict[type[s.Selector], int] = {
     s.Rows: 2,
     s.InZone: 3,
 }
+#: Number of free points of which something else says how many there are.
+OPEN_NUMBER = 0
 #: Selectors of areas.
 AREAS = tuple(_NESTING)
 
@@ -442,3 +444,15 @@ def chosen_from(selector: s.Selector, group: s.Selector) -> bool:
     inside = [where for part in selector.walk() if (where := as_where(part)) is not None]
     same = [w for w in inside if kind is not None and replace(w, of=s.Trees()) == replace(kind, of=s.Trees())]
     return bool(same) and as_where(selector) is None
+
+
+def has_open_number(selector: s.Selector) -> bool:
+    """Return True for free points of which it is not said how many there are."""
+    return any(isinstance(part, s.PointsIn) and part.count == OPEN_NUMBER for part in selector.walk())
+
+
+def with_number(selector: s.Selector, count: int) -> s.Selector:
+    """Return free points with their number, where it was open."""
+    if isinstance(selector, s.PointsIn) and selector.count == OPEN_NUMBER:
+        return replace(selector, count=count)
+    return selector

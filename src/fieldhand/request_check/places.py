@@ -40,6 +40,11 @@ _SOME_ROWS = re.compile(
 _BESIDE_THEM = re.compile(
     r"\b(?:either|each|both) sides? of (?:them|these|those|each)\b|\btheir (?:\w+ )?neighbou?rs\b"
 )
+#: Pattern of a half that is named by a place near it, or by words that no map explains.
+_SOME_HALF = re.compile(
+    r"\bhalf (?:of (?:\w+ ){1,4})?(?:nearest|closest|next)\b"
+    r"|\b(?:foot|head|lowest|highest|far|near|low) (?:end |side |part |point )?of\b"
+)
 #: Words that continue a series of numbers: "5, 15, 25 and so on".
 _SERIES = re.compile(r"\b(?:and so (?:on|forth)|etc|like that)\b|\bevery \S+ (?:after|until|up|to)\b")
 #: Range of ids that differ by their number: "n300 through n310".
@@ -273,7 +278,8 @@ def _gates(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMis
     held = {_name_text(x.gate): node for node, x in plan.having(s.GateIs) if isinstance(x, s.GateIs)}
     held |= {_name_text(only.gate): plan.task.composition.plan.id for only in plan.task.constraints.only_gates}
     for name in dict.fromkeys(_name_text(gate.place.id) for gate in site.gates):
-        if f" {name} " in f" {facts.text} " and not held and name not in facts.zones:
+        near_it = _SOME_HALF.search(facts.text) is not None
+        if f" {name} " in f" {facts.text} " and not held and name not in facts.zones and not near_it:
             yield PlanMismatch(
                 kind="place", what=message("the request names '{name}', but the plan does not", name=name)
             )
@@ -317,7 +323,7 @@ def _sides(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMis
                 kind="side",
                 what=message("the request says '{side}', but no place of the plan is there", side=side),
             )
-    if facts.unknown or facts.words & w.VAGUE_SIDES or _OTHER_PART.search(facts.text):
+    if facts.unknown or facts.words & w.VAGUE_SIDES or _OTHER_PART.search(facts.text) or _SOME_HALF.search(facts.text):
         return
     around = len(plan.sides) == 4 and not spoken  # each quarter, or the whole edge
     ends = frozenset() if facts.sides else plan.ends_driven

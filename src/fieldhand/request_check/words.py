@@ -223,6 +223,7 @@ def singular(word: str) -> str:
         ("sses", "ss"),
         ("xes", "x"),
         ("ches", "ch"),
+        ("shes", "sh"),
     ):
         if word.endswith(ending):
             return word.removesuffix(ending) + instead

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldhand.language import message
-from fieldhand.language.words import SIDES
+from fieldhand.language.words import SIDES, say_zone
 from fieldhand.places.areas.area_words import in_area, of_reference
 from fieldhand.places.count_range import CountRange, at_most
 from fieldhand.places.noun_phrase import NounPhrase
@@ -52,6 +52,11 @@ class Half(FromGroup):
         return in_area(
             self.of, message("in the {northern} half {of_trees}", northern=SIDES[self.side], of_trees=of), wording
         )
+
+    def as_origin(self, wording: SelectorWording) -> str:
+        if not self.of.whole_zone:
+            return super().as_origin(wording)
+        return message("the {northern} half of {zone}", northern=SIDES[self.side], zone=say_zone(self.of.whole_zone))
 
     def ground(self, resolution: Resolution) -> BaseGeometry:
         """Return that part of the ground of a zone or of a site without plants, else the outline of the trees."""

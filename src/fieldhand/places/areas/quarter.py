@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldhand.language import message
-from fieldhand.language.words import CORNERS
+from fieldhand.language.words import CORNERS, say_zone
 from fieldhand.places.areas.area_words import in_area, of_reference, sides_of_corners
 from fieldhand.places.count_range import CountRange, at_most
 from fieldhand.places.noun_phrase import NounPhrase
@@ -49,6 +49,13 @@ class Quarter(FromGroup):
             self.of,
             message("in the {north_west} quarter {of_trees}", north_west=CORNERS[self.quarter], of_trees=of),
             wording,
+        )
+
+    def as_origin(self, wording: SelectorWording) -> str:
+        if not self.of.whole_zone:
+            return super().as_origin(wording)
+        return message(
+            "the {north_west} quarter of {zone}", north_west=CORNERS[self.quarter], zone=say_zone(self.of.whole_zone)
         )
 
     def ground(self, resolution: Resolution) -> BaseGeometry:

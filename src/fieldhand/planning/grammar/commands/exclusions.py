@@ -54,6 +54,12 @@ def place_kept_out(place: PlaceMeaning) -> Excluded | None:
     return Excluded(place) if known and (place.like is None or place.like.kind == "those") else None
 
 
+@construction("kept_out: in_ where=region", cost=0.2)
+def area_kept_out(where: s.Selector) -> Excluded:
+    """Compose "in the wet corner" of "..., except in the wet corner"."""
+    return Excluded(PlaceMeaning(where, "area"))
+
+
 @construction("kept_out: [DET] value=ATTRVAL ONE", cost=0.2)
 def kind_kept_out(value: Lex) -> list[Excluded]:
     """Compose "the yellow ones" of "skip the yellow ones"."""

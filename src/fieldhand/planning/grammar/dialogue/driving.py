@@ -44,6 +44,7 @@ from fieldhand.planning.selections import (
     measures_distance,
     starts_here,
     swapped,
+    with_number,
 )
 from fieldhand.site.model import Site
 from fieldhand.task import plan as p
@@ -420,5 +421,6 @@ def limit_visits(setting: Setting, state: DialogueState, command: VisitLimit) ->
     if loop.optional or loop.at_most is not None or counted:
         raise NotComposed(message("it is not clear whether so many are meant, or at most so many", context="fault"))
     said = (*loop.said, *setting.spans_of(command.used))
-    limited = replace(loop, at_most=command.count, optional=command.count is None, said=said)
+    select = loop.select if command.count is None else with_number(loop.select, command.count)
+    limited = replace(loop, select=select, at_most=command.count, optional=command.count is None, said=said)
     return replace(state, plan=with_node(state.plan, path, limited))

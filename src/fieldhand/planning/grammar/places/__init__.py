@@ -17,6 +17,7 @@ from fieldhand.planning.grammar.places import (
     nouns,
     numbered_zones,
     numbers,
+    open_parts,
     planted_rows,
     points,
     positions,
@@ -54,5 +55,6 @@ for _part in (
     by_reading,
     numbered_zones,
     beside_them,
+    open_parts,
 ):
     GRAMMAR.include(_part.GRAMMAR)

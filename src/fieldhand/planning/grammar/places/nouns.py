@@ -13,6 +13,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Amount, Likewise, Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.attribute_units import attributes_in, in_unit_of_attribute
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
+from fieldhand.planning.grammar.places.numbers import amount
 from fieldhand.planning.grammar.words import Lex, hinted_attributes
 from fieldhand.planning.selections import chooses_from_trees
 from fieldhand.robot.model import RobotProfile
@@ -339,11 +340,19 @@ def those_so_old(old: Amount, site: Site) -> list[Nominal] | None:
 
 
 @construction(
+    "value_range: BETWEEN low=NUM AND high=NUM [DASH] unit=UNIT",
+    "value_range: [FROM] low=NUM range_to high=NUM [DASH] unit=UNIT",
+    cost=0.5,
+)
+def value_range_of_unit(low: Lex, high: Lex, unit: Lex) -> tuple[float, float, str] | None:
+    """Compose "between 50 and 60 cm"."""
+    return value_range(amount(low, unit), amount(high, unit))
+
+
+@construction(
     "value_range: BETWEEN low=NUM AND high=NUM",
-    "value_range: BETWEEN low=NUM AND high=amount",
     "value_range: BETWEEN low=amount AND high=amount",
     "value_range: [FROM] low=NUM range_to high=NUM",
-    "value_range: [FROM] low=NUM range_to high=amount",
     "value_range: [FROM] low=amount range_to high=amount",
     cost=0.1,
 )

@@ -12,7 +12,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import PlaceMeaning
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import as_zone
+from fieldhand.planning.selections import OPEN_NUMBER, as_zone
 from fieldhand.site.model import Site
 from fieldhand.terms import AreaPart
 
@@ -37,12 +37,14 @@ class Points:
         random: True if they are drawn at random.
         even: True if they are spread evenly.
         where: Where they are, if it is said.
+        plural: True for a noun in the plural.
     """
 
     count: int | None = None
     random: bool = False
     even: bool = False
     where: Ground | None = None
+    plural: bool = True
 
 
 # Where they are.
@@ -80,10 +82,10 @@ def part_of_site(side: Lex, site: Site) -> Ground | None:
 # The words around the noun.
 
 
-@construction("points: POINT", "points: SAMPLINGPOINT", cost=0.0)
-def points() -> Points:
+@construction("points: noun=POINT", "points: noun=SAMPLINGPOINT", cost=0.0)
+def points(noun: Lex) -> Points:
     """Compose "spots"."""
-    return Points()
+    return Points(plural=noun.text.endswith("s"))
 
 
 @construction("points: n=count points=points", cost=0.0)
@@ -132,8 +134,11 @@ def somewhere(points: Points, where: Ground) -> Points | None:
 @construction("place: points=points", cost=0.3)
 def as_places(points: Points) -> PlaceMeaning | None:
     """Compose "twelve random spots in the paddock"."""
-    if points.where is None or points.count is None:
+    if points.where is None:
         return None
+    if points.count is None:  # "at random places on the slope until ...": something else says how many
+        made = s.PointsIn(zone=points.where.zone, count=OPEN_NUMBER, random=points.random, part=points.where.part)
+        return PlaceMeaning(made, "several") if points.plural else None
     return points_on(points.where, points.count, random=points.random)
 
 
