@@ -217,7 +217,15 @@ def is_number(text: str) -> bool:
 
 def singular(word: str) -> str:
     """Return a noun without its plural ending, accurately enough to compare nouns."""
-    for ending, instead in (("leaves", "leaf"), ("ies", "y"), ("sses", "ss"), ("xes", "x"), ("ches", "ch")):
+    for ending, instead in (
+        ("leaves", "leaf"),
+        ("ies", "y"),
+        ("atoes", "ato"),
+        ("sses", "ss"),
+        ("xes", "x"),
+        ("ches", "ch"),
+        ("shes", "sh"),
+    ):
         if word.endswith(ending):
             return word.removesuffix(ending) + instead
     return word.removesuffix("s") if word.endswith("s") and not word.endswith(("ss", "us")) and len(word) > 3 else word

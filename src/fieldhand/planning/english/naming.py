@@ -27,11 +27,16 @@ _WATERS = frozenset({"pond", "lake", "reservoir", "pool", "basin", "dam", "lagoo
 
 @dataclass(frozen=True, kw_only=True)
 class NameEntry:
-    """The meaning of a phrase: a terminal of the grammar, its value, and whether it is a noun in the plural."""
+    """The meaning of a phrase: a terminal of the grammar, its value, and whether it is a noun in the plural.
+
+    Attributes:
+        cost: Price of the meaning, higher for one that is less likely than another of the same words.
+    """
 
     kind: str
     value: Any = None
     plural: bool = False
+    cost: float = 1.0
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -90,6 +90,7 @@ class EnglishPhrases:
         own = more_words().get(phrase) or more_words().get(in_full, ())
         if known is not None and known.kind == "FILLER" and any(one.kind in _SAY_SOMETHING for one in own):
             known = None
+        yield from self.lexicon.beside.get(phrase, ())
         if known is not None and known.kind == "WORKV":
             yield known  # "film row 3" is a recording, not a picture, where the robot records
             return
@@ -179,6 +180,9 @@ def more_words() -> Mapping[Phrase, tuple[NameEntry, ...]]:
             found[split(phrase)].append(NameEntry(kind=kind, value=tuple(route)))
     for phrase, value in own["bounds"].items():
         found[split(phrase)].append(NameEntry(kind="BOUND", value=tuple(value)))
+    for hint, phrases in own["dimensions"].items():
+        for phrase in phrases:
+            found[split(phrase)].append(NameEntry(kind="DIMENSION", value=hint))
     for of, phrases in own["statistics"].items():
         for phrase in phrases:
             found[split(phrase)].append(NameEntry(kind="STATISTIC", value=of))

@@ -78,6 +78,7 @@ class Nominal:
         of_side: True if an adjective before it names the side on which it stands ("northern tree").
         pronoun: True for "one", which stands for a noun before it.
         tested: True if a clause behind the noun describes it ("that are older than 8 years").
+        unmarked: True for a noun that has one form for one and for several ("basil", "Sungold").
     """
 
     selector: s.Selector
@@ -88,6 +89,11 @@ class Nominal:
     tested: bool = False
     pronoun: bool = False
     of_side: bool = False
+    unmarked: bool = False
+
+    def counts(self, number: int) -> bool:
+        """Return True if its noun can name so many places: "three trees" and "one tree", but not "three tree"."""
+        return self.unmarked or self.plural == (number != 1)
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,6 +9,7 @@ from functools import cache
 from fieldhand.language import message
 from fieldhand.planning.english.tokens import Word, words_of
 from fieldhand.planning.english.wishes import says_start
+from fieldhand.planning.grammar.alike import different_on_site
 from fieldhand.planning.grammar.ambiguity import PlanQuestion, chosen_answer, not_an_answer, question_between
 from fieldhand.planning.grammar.answer_places import different_places
 from fieldhand.planning.grammar.assumptions import assumed_hands, assumed_ways, assumed_wholes
@@ -289,6 +290,7 @@ def composed(
         if (plan := candidate.plan) is not None
         and (candidate.reading.cost == likely[0].reading.cost or _is_whole(plan, remarks, site, robot))
     ]
+    plans = different_on_site(plans, site)
     return (
         _chosen(plans, likely[0].reading.edits, remarks, request, site, robot, answers) if plans else likely[0].outcome
     )

@@ -10,7 +10,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.clauses import Adjunct, Clause, once
 from fieldhand.planning.grammar.meaning import LAST_THING, UNSAID_THING, CaptureCommand, PlaceMeaning, Thing
 from fieldhand.planning.grammar.places.groups import of_each_kind
-from fieldhand.planning.grammar.places.sampling import bare_zone
+from fieldhand.planning.grammar.places.sampling import bare_points
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import are_rows, as_quota, as_some, as_zone, chooses_from_trees, is_one_row, over
 from fieldhand.site.model import Site
@@ -42,7 +42,7 @@ def _so_often(command: CaptureCommand, times: int) -> CaptureCommand | None:
 
 
 def _again(command: CaptureCommand, _: None) -> CaptureCommand | None:
-    known = command.place is None or command.place.shape in ("here", "one")
+    known = command.place is None or command.place.shape in ("here", "one", "those")
     return command if known and command.relation in ("at", "of", "along") else None
 
 
@@ -146,11 +146,8 @@ class _Drawing:
 def _at_random(command: CaptureCommand, drawing: _Drawing) -> CaptureCommand | None:
     place, count = command.place, _only_count(command)
     if place is not None and place.shape == "area" and place.per is None and count is not None:
-        zone = bare_zone(place.selector, drawing.site)
-        free = s.PointsIn(zone=zone, count=count, random=True)
-        drawn_there = PlaceMeaning(
-            free if zone else s.RandomSample(count=count, of=place.selector), "several", count=count
-        )
+        free = bare_points(place.selector, drawing.site, count, random=True)
+        drawn_there = PlaceMeaning(free or s.RandomSample(count=count, of=place.selector), "several", count=count)
         return replace(command, things=once(command.things), place=drawn_there)
     if place is None or place.shape not in ("one", "several") or place.per is not None:
         return None
@@ -381,10 +378,9 @@ def _spread(command: CaptureCommand, over_what: _Spreading) -> CaptureCommand | 
     count, zone = _only_count(command), as_zone(where)
     if count is None or command.place is not None or (zone is not None and zone.outside):
         return None
-    if zone is None and over_what.site.trees:
-        over_it: s.Selector = s.Spread(count=count, of=where)
-    else:
-        over_it = s.PointsIn(zone="" if zone is None else zone.zone, count=count)
+    over_it: s.Selector | None = bare_points(where, over_what.site, count)
+    if over_it is None:
+        over_it = s.Spread(count=count, of=where) if zone is None else s.PointsIn(zone=zone.zone, count=count)
     return replace(
         command, things=once(command.things), place=PlaceMeaning(over_it, "several", count=count), relation="at"
     )

@@ -18,6 +18,7 @@ from fieldhand.planning.grammar.meaning import (
     Thing,
 )
 from fieldhand.planning.grammar.places.numbers import named_trees
+from fieldhand.planning.grammar.places.points import Points
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
     specifies_part,
@@ -88,6 +89,40 @@ def adjunct_before(
     if act.place is not None and act.place.shape in ("those", "here"):
         act = replace(act, place=None)
     changed = adjunct.change(act, adjunct.value)
+    return replace(changed, used=used) if isinstance(changed, CaptureCommand) else None
+
+
+@construction(
+    "capture: adjunct=adjunct [COMMA] AND act=capture", "capture: adjunct=adjunct COMMA act=capture",
+    cost=0.5,
+)  # fmt: skip
+def at_each_point_of(adjunct: Adjunct, act: CaptureCommand, used: int) -> CaptureCommand | None:
+    """Compose "lay a 20 m grid over the slope and take soil moisture at every point"."""
+    if not adjunct.lays_out or act.spacing is not None or act.within is not None or act.times != 1:
+        return None
+    if act.place is None or act.place.shape != "those":
+        return None
+    changed = adjunct.change(replace(act, place=None), adjunct.value)
+    return replace(changed, used=used) if isinstance(changed, CaptureCommand) else None
+
+
+@construction(
+    "capture: adjunct=adjunct [COMMA] [AND] [verb] things=things relation points=points",
+    "capture: adjunct=adjunct [COMMA] [AND] [verb] things=things relation points=points ONTHEWAY",
+    "capture: adjunct=adjunct WITH things=things", "capture: adjunct=adjunct WITH things=things ONTHEWAY",
+    cost=0.4,
+)  # fmt: skip
+def at_points_of(
+    adjunct: Adjunct, things: tuple[Thing, ...], used: int, points: Points | None = None
+) -> CaptureCommand | None:
+    """Compose "walk the slope in a W and take nitrate at fifteen stops" and "a W with fifteen nitrate readings"."""
+    if not adjunct.lays_out or (points is not None and (points.where is not None or points.count is None)):
+        return None
+    if points is not None:
+        if any(one.count not in (None, 1) for one in things):
+            return None
+        things = tuple(replace(one, count=points.count) for one in things)
+    changed = adjunct.change(CaptureCommand(things, None, used), adjunct.value)
     return replace(changed, used=used) if isinstance(changed, CaptureCommand) else None
 
 

@@ -118,6 +118,7 @@ class Adjunct:
         may_lead: True if it may stand before the clause.
         is_sentence: True if it may be a sentence by itself behind the clause.
         late: True if it changes what the others have made of the command.
+        lays_out: True for points that are laid out, at which the clause behind it captures.
     """
 
     change: Change
@@ -127,6 +128,7 @@ class Adjunct:
     may_lead: bool = False
     is_sentence: bool = False
     late: bool = False
+    lays_out: bool = False
 
 
 def _part(kind: Kind, **meaning: Any) -> Clause:

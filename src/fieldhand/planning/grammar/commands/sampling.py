@@ -88,13 +88,13 @@ def _at(command: CaptureCommand, selector: s.Selector | None, count: int | None)
 @construction("adjunct: along=path_over", cost=0.2, given=("site",))
 def along_path(along: tuple[SamplingPath, s.Selector | None], site: Site) -> Adjunct:
     """Compose "in a W through the north block", of so many samples."""
-    return Adjunct(_along, _Route(*along, site), may_lead=True, late=True)
+    return Adjunct(_along, _Route(*along, site), may_lead=True, late=True, lays_out=True)
 
 
 @construction("adjunct: on=grid_over", cost=0.2, given=("site",))
 def on_grid(on: tuple[float, s.Selector | None], site: Site) -> Adjunct:
     """Compose "on a 20 m grid over the meadow"."""
-    return Adjunct(_on_grid, _Cells(*on, site), may_lead=True)
+    return Adjunct(_on_grid, _Cells(*on, site), may_lead=True, lays_out=True)
 
 
 # Paths and grids that are laid first, and what is done there.

@@ -122,7 +122,16 @@ def ground(where: s.Selector) -> Tract | None:
     return None if are_rows(where) or where == edges() else Tract(where, None)
 
 
-@construction("tract: EVERYTHING", "tract: EVERYTHING BUT out=region", "tract: EACH OF site", "tract: site", cost=0.3)
+@construction(
+    "tract: EVERYTHING",
+    "tract: EVERYTHING BUT out=region",
+    "tract: EVERYTHING except out=region",
+    "tract: EACH OF site",
+    "tract: site",
+    "tract: site except out=region",
+    "tract: site BUT [NOT] out=region",
+    cost=0.3,
+)
 def whole_site(out: s.Selector | None = None) -> Tract:
     """Compose "everything but the wet corner"."""
     return Tract(s.Trees() if out is None else s.Excluding(places=out), None)

@@ -47,7 +47,6 @@ from fieldhand.planning.grammar.dialogue.series import is_by_reading, with_read_
 from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
     NotComposed,
-    OpenQuestion,
     Setting,
     with_assumption,
     with_joints,
@@ -101,9 +100,9 @@ from fieldhand.planning.selections import (
     AREAS,
     are_rows,
     are_unvisited,
+    has_open_number,
     is_block,
     is_in_block,
-    is_open_draw,
     over,
     specifies_part,
 )
@@ -176,10 +175,11 @@ def _ended(setting: Setting, state: DialogueState) -> DialogueState:
     if all(step.ends_plan for step in state.plan.steps):
         raise NotComposed(message("it asks for nothing to be done", context="fault"))
     for _, node in walk(state.plan):
-        if node.selector is not None and any(is_open_draw(part) for part in node.selector.walk()):
-            raise OpenQuestion(message("At most at how many places?", context="question"))
         if (loop := as_for_each(node)) is not None and _visits_open_number(loop):
             raise NotComposed(message("how many of the others?", context="fault"))
+        if loop is not None and has_open_number(loop.select):
+            said = setting.request.rstrip(" .")
+            raise OpenQuestion(message("'{said}': at how many places?", context="question", said=said))
         if node.is_series and any(step.ends_plan for step in node.children[:-1]):
             raise NotComposed(message("something follows the end of the mission", context="fault"))
         if node.is_choice and EMPTY in node.children:

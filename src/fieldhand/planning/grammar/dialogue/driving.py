@@ -39,13 +39,12 @@ from fieldhand.planning.selections import (
     as_some,
     blocks_of,
     chooses_from_trees,
-    drawn_so_many,
     is_next_to_here,
     is_one_row,
-    is_open_draw,
     measures_distance,
     starts_here,
     swapped,
+    with_number,
 )
 from fieldhand.site.model import Site
 from fieldhand.task import plan as p
@@ -422,10 +421,6 @@ def limit_visits(setting: Setting, state: DialogueState, command: VisitLimit) ->
     if loop.optional or loop.at_most is not None or counted:
         raise NotComposed(message("it is not clear whether so many are meant, or at most so many", context="fault"))
     said = (*loop.said, *setting.spans_of(command.used))
-    if is_open_draw(loop.select):
-        if command.count is None:
-            raise OpenQuestion(message("At most at how many places?", context="question"), command.used)
-        drawn = replace(loop, select=drawn_so_many(loop.select, command.count), said=said)
-        return replace(state, plan=with_node(state.plan, path, drawn))
-    limited = replace(loop, at_most=command.count, optional=command.count is None, said=said)
+    select = loop.select if command.count is None else with_number(loop.select, command.count)
+    limited = replace(loop, select=select, at_most=command.count, optional=command.count is None, said=said)
     return replace(state, plan=with_node(state.plan, path, limited))

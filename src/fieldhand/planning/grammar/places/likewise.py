@@ -9,7 +9,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Likewise, Nominal, PlaceMeaning
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import chooses_from_trees
+from fieldhand.planning.selections import chooses_from_trees, is_by_attribute
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -60,6 +60,14 @@ def those_of_another_value(value: Lex, noun: Lex, each: Lex | None = None) -> li
     return [
         PlaceMeaning(s.Where(attribute=name, test="eq", value=text), "several", like=like) for name, text in value.value
     ]
+
+
+@construction("place: DET OTHER inner=nominal", cost=0.6)
+def other_ones_of_a_kind(inner: Nominal) -> PlaceMeaning | None:
+    """Compose "the other basil plants", of which some were named before."""
+    if not inner.plural or inner.single or inner.complete or not is_by_attribute(inner.selector):
+        return None
+    return PlaceMeaning(inner.selector, "several", like=Likewise("rest"))
 
 
 @construction("place: OTHERS", cost=4.0)

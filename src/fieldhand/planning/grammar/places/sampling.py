@@ -11,9 +11,11 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Amount, Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.areas import edges
 from fieldhand.planning.grammar.places.chosen import Choice
+from fieldhand.planning.grammar.places.exceptions import Omission
 from fieldhand.planning.grammar.places.numbered import ids_of
+from fieldhand.planning.grammar.places.points import outside_zones
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import as_some, as_zone, chooses_from_trees, over, rows_of
+from fieldhand.planning.selections import OPEN_NUMBER, as_some, as_zone, chooses_from_trees, over, rows_of
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -105,6 +107,19 @@ def is_keep_out(area: s.Selector, site: Site) -> bool:
     zone = as_zone(area)
     named = [one for one in site.zones if zone is not None and one.name == zone.zone]
     return bool(named) and all(one.kind == "keep_out" for one in named)
+
+
+def bare_points(area: s.Selector, site: Site, count: int, *, random: bool = False) -> s.PointsIn | None:
+    """Return so many free points of ground without plants: a zone, a half or a quarter of one; None for other areas."""
+    match area:
+        case s.Half(side=part, of=of) | s.Quarter(quarter=part, of=of):
+            whole = bare_points(of, site, count, random=random)
+            return replace(whole, part=part) if whole is not None and whole.part == "all" else None
+        case s.Trees() if not site.trees:
+            return s.PointsIn(count=count, random=random)
+        case _:
+            zone = bare_zone(area, site)
+            return s.PointsIn(zone=zone, count=count, random=random) if zone else None
 
 
 # Shares.
@@ -207,6 +222,7 @@ def in_path(path: SamplingPath) -> SamplingPath:
     "path_over: GO OVER where=region path=in_path",
     "path_over: GO in_ where=region path=in_path",
     "path_over: GO where=region path=in_path",
+    "path_over: CROSSV where=region path=in_path",
     cost=0.1,
 )
 def path_over(path: SamplingPath, where: s.Selector) -> tuple[SamplingPath, s.Selector | None]:
@@ -316,6 +332,8 @@ def grid(far: Amount, far2: Amount | None = None, number: Lex | None = None) -> 
     "on_grid: WITH every=cells",
     "on_grid: INPATH every=cells",
     "on_grid: NEXTONE every=cells",
+    "on_grid: LAYOUT every=cells",
+    "on_grid: OF every=cells",
     "on_grid: ALONG every=cells",
     cost=0.0,
 )
@@ -338,8 +356,21 @@ def grid_over(every: float, where: s.Selector | None = None) -> tuple[float, s.S
     return every, where
 
 
+@construction("grid_over: on=grid_over out=but_out", cost=0.1)
+def grid_but(on: tuple[float, s.Selector | None], out: Omission) -> tuple[float, s.Selector | None] | None:
+    """Compose "on a 20 m grid over the meadow except in the wet corner"."""
+    if on[1] is None or out.place is None or any(as_zone(one) is None for one in out.place.selector.members):
+        return None
+    return on[0], s.Excluding(places=out.place.selector, of=on[1])
+
+
 def grid_selector(every: float, area: s.Selector | None, site: Site) -> s.Selector | None:
     """Return the places of a grid over an area, or over the site; None for ground without trees that has no name."""
+    if isinstance(area, s.Excluding):  # "over the meadow except the wet corner"
+        inner = grid_selector(every, area.of, site)
+        kept = None if inner is None else outside_zones(PlaceMeaning(inner, "several"), area.places)
+        if kept is not None:
+            return kept.selector
     ground = bare_ground(area, site)
     if ground is not None:
         return ground.without(s.Grid(every_m=every, zone=ground.zone))
@@ -379,19 +410,6 @@ def random_points(n: int, zone: Lex) -> PlaceMeaning:
 
 
 @construction(
-    "place: RANDOM POINT in_ [DET] zone=ZONE",
-    "place: RANDOM POINT OVER [DET] zone=ZONE",
-    "place: RANDOM POINT OF [DET] zone=ZONE",
-    "place: POINT RANDOM in_ [DET] zone=ZONE",
-    "place: POINT in_ [DET] zone=ZONE [COMMA] RANDOM",
-    cost=0.3,
-)
-def open_random_points(zone: Lex) -> PlaceMeaning:
-    """Compose "random places in the meadow", of which something else says how many at most."""
-    return PlaceMeaning(s.PointsIn(zone=zone.value, count=0, random=True), "several")
-
-
-@construction(
     "place: RANDOM inner=nominal",
     "place: RANDOM inner=nominal OF where=region",
     "place: RANDOM inner=nominal in_ where=region",
@@ -402,7 +420,7 @@ def open_random_trees(inner: Nominal, where: s.Selector | None = None) -> PlaceM
     if inner.single or inner.complete or not inner.plural or inner.pronoun or as_some(inner.selector) is not None:
         return None
     of = inner.selector if where is None else over(inner.selector, where)
-    return PlaceMeaning(s.RandomSample(count=0, of=of), "several") if chooses_from_trees(of) else None
+    return PlaceMeaning(s.RandomSample(count=OPEN_NUMBER, of=of), "several") if chooses_from_trees(of) else None
 
 
 # Gaps.
