@@ -47,6 +47,7 @@ from fieldhand.planning.grammar.dialogue.series import is_by_reading, with_read_
 from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
     NotComposed,
+    OpenQuestion,
     Setting,
     with_assumption,
     with_joints,
