@@ -104,6 +104,8 @@ def node(n: p.Node) -> str:
             return f"try [{node(n.body)}] or [{node(n.otherwise)}]"
         case p.OptionalStep():
             return f"maybe [{node(n.body)}]"
+        case p.AnyOrder():
+            return "any order: [" + "; ".join(node(step) for step in n.steps) + "]"
         case p.InOrder():
             return "; ".join(node(step) for step in n.steps)
         case p.Recharge():

@@ -486,7 +486,7 @@ def _meant(reading: RequestReading, request: str) -> Meant:
     plan, no_part = whole_plan(state.plan), [*reading.skipped, *reading.remarks]
     joints = (*reading.labels, *state.joints)
     if plan.is_series:
-        plan = replace(plan, said=joints)
+        plan = replace(plan, said=(*plan.said, *joints))
     else:
         no_part += joints
     limits = tuple(
