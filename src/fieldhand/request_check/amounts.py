@@ -162,7 +162,7 @@ def _name(before: Sequence[Token]) -> AmountKind | None:
     head = texts[-1] if texts else ""
     if head in w.ROWS:
         return "row"
-    if head in ("block", "blocks", "plot", "parcel", "zone", "section"):
+    if head in ("bed", "beds", "bench", "block", "blocks", "plot", "parcel", "zone", "section"):
         return "name"
     if head in ("tree", "trees", "vine", "vines", "plant", "plants") or marked:
         return "id"

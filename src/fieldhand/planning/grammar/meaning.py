@@ -300,6 +300,7 @@ class WorkCommand:
         used: Tokens of the phrase.
         sides, every, heading, laps, optional, parameters: As of the plan node.
         rest_s: Seconds of rest between laps.
+        rests_last: True if it rests after the last lap as well.
     """
 
     action: str
@@ -313,6 +314,7 @@ class WorkCommand:
     optional: bool = False
     parameters: tuple[tuple[str, str | float], ...] = ()
     rest_s: float = 0.0
+    rests_last: bool = False
 
 
 @dataclass(frozen=True, slots=True)

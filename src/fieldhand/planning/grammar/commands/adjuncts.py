@@ -91,6 +91,8 @@ def once_more() -> Adjunct:
     "adjunct: times=count EACH",
     "adjunct: number=things EACH",
     "adjunct: number=things INEACH",
+    "adjunct: times=count PER TREE",
+    "adjunct: number=things PER TREE",
     cost=0.2,
 )
 def of_each(times: int | None = None, number: tuple[Thing, ...] | None = None) -> Adjunct:
@@ -436,6 +438,34 @@ def spread_over(site: Site, where: s.Selector | None = None, along: Lex | None =
     if along is not None and where is not None and are_rows(where):
         return None
     return Adjunct(_spread, _Spreading(where or s.Trees(), site))
+
+
+@construction(
+    "adjunct: [SCATTERED] RANDOM OVER where=region",
+    "adjunct: SCATTERED RANDOM in_ where=region",
+    cost=0.2,
+    given=("site",),
+)
+def scattered_over(where: s.Selector, site: Site) -> Adjunct:
+    """Compose "scattered at random over the slope"."""
+    return Adjunct(_scattered, _Spreading(where, site))
+
+
+@construction("adjunct: SCATTERED OVER where=region", cost=0.2, given=("site",))
+def dotted_over(where: s.Selector, site: Site) -> Adjunct:
+    """Compose "dotted about the slope"."""
+    return Adjunct(_spread, _Spreading(where, site))
+
+
+def _scattered(command: CaptureCommand, over_what: _Spreading) -> CaptureCommand | None:
+    """Return a command at places of an area drawn at random, as many as there are captures."""
+    where = over_what.where
+    count, zone = _only_count(command), as_zone(where)
+    if count is None or command.place is not None or (zone is not None and zone.outside):
+        return None
+    drawn = bare_points(where, over_what.site, count, random=True) or s.RandomSample(count=count, of=where)
+    there = PlaceMeaning(drawn, "several", count=count)
+    return replace(command, things=once(command.things), place=there, relation="at")
 
 
 @construction(

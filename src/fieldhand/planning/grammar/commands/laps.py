@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
@@ -11,7 +11,7 @@ from fieldhand.planning.grammar.commands.waits import LONGEST_WAIT_S
 from fieldhand.planning.grammar.commands.working import Tract
 from fieldhand.planning.grammar.meaning import Amount, CaptureCommand, Thing, WorkCommand, wait_thing
 from fieldhand.planning.grammar.places.areas import edges
-from fieldhand.planning.grammar.places.sampling import is_keep_out
+from fieldhand.planning.grammar.places.sampling import bare_zone, is_keep_out
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import are_rows
 from fieldhand.site.model import Site
@@ -147,7 +147,26 @@ def rests_between_laps(one: WorkCommand, time: float, used: int) -> WorkCommand 
     return replace(one, rest_s=time, used=used) if one.laps > 1 and not one.rest_s and not one.optional else None
 
 
-def _rested(command: CaptureCommand, seconds: float) -> CaptureCommand | None:
+@construction(
+    "work: one=work [COMMA] [WITH] time=wait AFTEREACH",
+    "work: one=work [COMMA] [and_or_but] time=wait AFTEREACH",
+    cost=0.1,
+)
+def rests_after_each_lap(one: WorkCommand, time: float, used: int) -> WorkCommand | None:
+    """Compose "patrol the boundary three times with a ten-minute rest after each"."""
+    made = rests_between_laps(one, time, used)
+    return None if made is None else replace(made, rests_last=True)
+
+
+@dataclass(frozen=True, slots=True)
+class _Rest:
+    """A wait between captures, on a site."""
+
+    seconds: float
+    site: Site = field(compare=False)
+
+
+def _rested(command: CaptureCommand, rest: _Rest) -> CaptureCommand | None:
     """Return captures at one place, or at each of several, with a wait between one and the next."""
     counts = {one.count for one in command.things}
     place = command.place
@@ -157,16 +176,17 @@ def _rested(command: CaptureCommand, seconds: float) -> CaptureCommand | None:
     times = command.times if count == 1 else count if command.times == 1 else 0
     if not 2 <= times <= _MOST_RESTED:
         return None
-    if place is not None and place.shape != "one" and not (place.shape == "several" and place.each):
+    single = place is None or place.shape == "one" or bool(bare_zone(place.selector, rest.site))
+    if place is not None and not single and not (place.shape == "several" and place.each):
         return None
-    once = replace(command.things[0], count=1 if count > 1 else command.things[0].count)
+    once = replace(command.things[0], count=1)
     made: list[Thing] = [once]
     for _ in range(times - 1):
-        made += [wait_thing(seconds), once]
+        made += [wait_thing(rest.seconds), once]
     return replace(command, things=tuple(made), times=1)
 
 
-@construction("adjunct: [and_or_but] time=rest", cost=0.2)
-def rests_between_captures(time: float) -> Adjunct:
+@construction("adjunct: [and_or_but] time=rest", cost=0.2, given=("site",))
+def rests_between_captures(time: float, site: Site) -> Adjunct:
     """Compose "three times, ten minutes apart"."""
-    return Adjunct(_rested, time, late=True)
+    return Adjunct(_rested, _Rest(time, site), late=True)

@@ -58,6 +58,8 @@ def _with_rests(state: DialogueState, once: p.WorkAlong, command: WorkCommand, s
     """Return the state after work in laps with a rest between one and the next."""
     rest = p.Wait(id="", seconds=command.rest_s, said=said)
     rounds: p.Node = p.InOrder(id="", steps=(once, rest))
+    if command.rests_last:
+        return with_step(state, p.Repeat(id="", times=command.laps, body=rounds, said=said))
     if command.laps > 2:
         rounds = p.Repeat(id="", times=command.laps - 1, body=rounds, said=said)
         return with_step(with_step(state, rounds), once)

@@ -217,6 +217,7 @@ def in_path(path: SamplingPath) -> SamplingPath:
 
 @construction(
     "path_over: path=in_path OVER where=region",
+    "path_over: path=path OVER where=region",
     "path_over: path=in_path OPPOSITE where=region",
     "path_over: path=in_path in_ where=region",
     "path_over: GO OVER where=region path=in_path",
@@ -240,11 +241,15 @@ def path_over(path: SamplingPath, where: s.Selector) -> tuple[SamplingPath, s.Se
     "path_over: GO [one=ONCE] line=edge_line",
     "path_over: GO [one=ONCE] ALONG line=edge_line",
     "path_over: GO [one=ONCE] AROUND line=edge_line",
+    "path_over: GO AROUND line=edge_line one=ONCE",
     "path_over: GO [one=ONCE] AROUND ALONG line=edge_line",
     "path_over: GO [one=ONCE] AROUND where=region",
+    "path_over: GO AROUND where=region one=ONCE",
     "path_over: GO [one=ONCE] AROUND site",
+    "path_over: GO AROUND site one=ONCE",
     "path_over: ALONG fence=region",
     "path_over: GO [one=ONCE] ALONG fence=region",
+    "path_over: GO ALONG fence=region one=ONCE",
     "path_over: GO [one=ONCE] AROUND ALONG fence=region",
     "path_over: GO [one=ONCE] fence=region",
     cost=0.2,
