@@ -115,7 +115,7 @@ def _nouns_of(event: MonitoredEvent) -> Iterator[tuple[str, re.Pattern[str]]]:
         for kind in _TESTS:
             yield kind, _pattern(said[kind], event)
     elif event.can_hold and not event.states:
-        yield "holds", _pattern(["{det}{noun}(?: {where})?"], event)
+        yield "holds", _pattern(["{det}{noun}(?: (?:who|that|which) {be})?(?: {where})?"], event)
     if event.can_hold and event.states:
         yield "holds", _pattern(["{det}{state} {noun}"], event)
     if event.can_hold and event.verbs:

@@ -226,8 +226,8 @@ def as_can_of_many() -> Adjunct:
 
 @construction("adjunct: ONTHEWAY", cost=0.3)
 def on_the_way() -> Adjunct:
-    """Compose "on the way back" behind a capture, which comes last anyway."""
-    return Adjunct(_unchanged)
+    """Compose "on the way back" behind a capture at a place, which comes last anyway."""
+    return Adjunct(_unchanged, of_place=True)
 
 
 def _unchanged(command: CaptureCommand, _: None) -> CaptureCommand:

@@ -8,12 +8,14 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.clauses import Adjunct
+from fieldhand.planning.grammar.commands.parameters import with_parameter
 from fieldhand.planning.grammar.meaning import (
     LAST_THING,
     UNSAID_THING,
     Amount,
     CaptureCommand,
     Nominal,
+    ParameterValue,
     PlaceMeaning,
     Thing,
 )
@@ -23,6 +25,7 @@ from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
     specifies_part,
 )
+from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -324,3 +327,23 @@ def _act_on(verb: Lex, place: PlaceMeaning, used: int) -> CaptureCommand:
     """Return the capture of an action's verb at a place."""
     naming: Naming = verb.value
     return CaptureCommand((Thing(naming.actions[0]),), place, used, relation="of")
+
+
+@construction(
+    "capture: MEASURE DET ground=GROUND relation place=place",
+    "capture: MEASURE DET ground=GROUND how=parameter relation place=place",
+    "capture: MEASURE DET ground=GROUND relation place=place how=parameter",
+    cost=1.5,
+    given=("robot",),
+)
+def ground_measured(
+    ground: Lex, place: PlaceMeaning, used: int, robot: RobotProfile, how: ParameterValue | None = None
+) -> list[CaptureCommand] | None:
+    """Compose "test the soil at tree 4", which does not say what for."""
+    if "of_soil" not in ground.features:
+        return None
+    names = {quantity.name for quantity in robot.quantities if "soil" in quantity.name}
+    things = [Thing(action.name, plural=True) for action in robot.actions if names & {*action.measures}]
+    if how is not None:
+        things = [made for one in things if (made := with_parameter(one, how, robot)) is not None]
+    return [CaptureCommand((one,), place, used) for one in things] or None

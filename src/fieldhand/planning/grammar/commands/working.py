@@ -10,13 +10,15 @@ from dataclasses import dataclass, replace
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.parameters import with_parameter
-from fieldhand.planning.grammar.meaning import Amount, ParameterValue, Thing, WorkCommand
+from fieldhand.planning.grammar.meaning import Amount, Nominal, ParameterValue, Thing, WorkCommand
 from fieldhand.planning.grammar.places.areas import edges
 from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.places.numbers import name_of
+from fieldhand.planning.grammar.places.planted_rows import rows_out_of
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import are_rows, is_one_row, over
 from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
 from fieldhand.task.nodes.work_along import RowSides, WorkMode
 
 GRAMMAR = Grammar()
@@ -135,6 +137,14 @@ def ground(where: s.Selector) -> Tract | None:
 def whole_site(out: s.Selector | None = None) -> Tract:
     """Compose "everything but the wet corner"."""
     return Tract(s.Trees() if out is None else s.Excluding(places=out), None)
+
+
+@construction("tract: EACH [DET] inner=nominal", cost=0.6, given=("site",))
+def every_plant(inner: Nominal, site: Site) -> Tract | None:
+    """Compose "all tomatoes", where their rows have no other plants."""
+    if inner.single or inner.complete or inner.pronoun or are_rows(inner.selector):
+        return None
+    return Tract(inner.selector, "rows") if rows_out_of(inner.selector, site) is not None else None
 
 
 @construction("tract: ASMANY part=tract as_can", "tract: ASMANY noun=ROW as_can", cost=0.0)

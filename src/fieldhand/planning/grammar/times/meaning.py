@@ -74,7 +74,7 @@ class TimePart:
     @property
     def asks(self) -> tuple[DayTime, ...]:
         """The times of day to choose from, if it says no time."""
-        if (hours := self._hours) and not (self.half or _usual_half(hours[0])):
+        if (hours := self._hours) and not (self.half or self._usual_half):
             return (_clock(hours[0], "am"), _clock(hours[0], "pm"))
         if hours or self.at or self.not_before or self.done_by or self.every_min:
             return ()
@@ -91,7 +91,15 @@ class TimePart:
     def assumed_half(self) -> DayTime | None:
         """The time that is assumed for the first hour of 12 if nothing says which half of the day it is in."""
         hours = self._hours
-        return _clock(hours[0], _usual_half(hours[0])) if hours and not self.half and _usual_half(hours[0]) else None
+        return _clock(hours[0], self._usual_half) if hours and not self.half and self._usual_half else None
+
+    @property
+    def _usual_half(self) -> Literal["", "am", "pm"]:
+        """The half of the day of the first hour that is usual; that of a range from 6 to 8 on is the morning."""
+        hours = self._hours
+        if len(hours) > 1 and 6.0 <= hours[0] < 9.0:
+            return "am"
+        return _usual_half(hours[0]) if hours else ""
 
     @property
     def provisional(self) -> TimePart:
@@ -109,7 +117,7 @@ class TimePart:
         hours = self._hours
         if not hours:
             return None if self.needs_hour and not (self.at or self.not_before or self.done_by) else self
-        half = self.half or _usual_half(hours[0])
+        half = self.half or self._usual_half
         if (
             not half
             or (self.hour_at and self.at)
