@@ -82,7 +82,7 @@ def unsupported_words(facts: RequestFacts, waits: frozenset[float] = frozenset()
                 match, facts, sentence, first, last := first + len(match[0].split()), past=pattern is _REMARKS
             )
             rests = any(
-                first <= one.index < last and one.kind == "time" and waits & {*one.values} for one in facts.amounts
+                first - 1 <= one.index < last and one.kind == "time" and waits & {*one.values} for one in facts.amounts
             )
             if rests:
                 continue

@@ -32,6 +32,9 @@ Floats = NDArray[np.float64]
 #: Distance in metres of points along an edge from it.
 _OFF_EDGE_M = 1.5
 
+#: Distance in metres within which a point of an edge is moved to free ground.
+_NEAR_M = 100.0
+
 #: Maximum number of legs of a zigzag.
 MOST_LEGS = 200
 
@@ -88,6 +91,8 @@ def points_on_path(site: Site, selector: Transect, notes: ResolutionNotes) -> Pl
             advice=message("all of it is inside keep-outs or outside the boundary"),
         )
     xy = _along(path, selector)
+    if selector.shape == "edge":
+        xy = _beside_edge(site, xy, selector)
     notes.rule = message("the path is {metres} m long", metres=say_rounded(sum(piece.length for piece in path)))
     count = len(xy)
     if selector.zone:
@@ -100,6 +105,20 @@ def points_on_path(site: Site, selector: Transect, notes: ResolutionNotes) -> Pl
     return free_points(site, xy, names)
 
 
+def _beside_edge(site: Site, xy: Floats, selector: Transect) -> Floats:
+    """Return points along an edge, those that are not free moved to the nearest free ground.
+
+    At a spacing, those that would move by more than half of it are left out: an edge outside of the boundary has none.
+    """
+    west, south, east, north = *xy.min(axis=0).tolist(), *xy.max(axis=0).tolist()
+    free = free_part(site, shapely.box(west - _NEAR_M, south - _NEAR_M, east + _NEAR_M, north + _NEAR_M))
+    points = shapely.points(xy)
+    ends = shapely.get_coordinates(shapely.shortest_line(points, free)).reshape(-1, 2, 2)
+    moved = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
+    near = moved <= selector.apart_m / 2.0 if selector.apart_m else np.ones(len(xy), dtype=bool)
+    return ends[near, 1]
+
+
 def _edge(site: Site, zone: str) -> list[LineString]:
     """Return the pieces of the edge of a zone or the site, inside of it, clockwise from its north-west.
 
@@ -109,17 +128,13 @@ def _edge(site: Site, zone: str) -> list[LineString]:
         PlaceError: There is no such zone.
     """
     outs = [z.polygon for z in site.zones_of("keep_out") if zone and phrase(z.name) == phrase(zone)]
-    inside = free_part(site, area_called(site, zone).buffer(-_OFF_EDGE_M)) if not outs else Polygon()
-    rings = [orient(part, sign=-1.0).exterior for part in shapely.get_parts(inside) if isinstance(part, Polygon)]
-    if outs:
-        around = unary_union(outs).buffer(_OFF_EDGE_M)
-        rings = [orient(part, sign=-1.0).exterior for part in shapely.get_parts(around)]
+    area = unary_union(outs).buffer(_OFF_EDGE_M) if outs else area_called(site, zone).buffer(-_OFF_EDGE_M)
     found: list[LineString] = []
-    for ring in rings:
-        at = list(ring.coords)[:-1]
-        first = int(np.argmin(np.asarray(at) @ np.array([1.0, -1.0])))
-        turned = LineString([*at[first:], *at[: first + 1]])
-        found += segments(turned.intersection(free_part(site, turned)) if outs else turned)
+    for part in shapely.get_parts(area):
+        at = list(orient(part, sign=-1.0).exterior.coords)[:-1] if isinstance(part, Polygon) else []
+        if at:
+            first = int(np.argmin(np.asarray(at) @ np.array([1.0, -1.0])))
+            found.append(LineString([*at[first:], *at[: first + 1]]))
     return found
 
 

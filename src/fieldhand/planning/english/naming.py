@@ -123,9 +123,7 @@ def rate_words(unit: str) -> Iterator[tuple[Phrase, float]]:
     per = rate.area_m2 or rate.length_m
     for size in words["areas" if rate.area_m2 else "lengths"]:
         for amount, joint, of in product(amounts, words["joints"], size["words"]):
-            said = split(f"{amount} {joint} {of}")
-            if "/".join(said[::2]) != unit:
-                yield said, round(per / size["size"], 9)
+            yield split(f"{amount} {joint} {of}"), round(per / size["size"], 9)
 
 
 def site_entries(site: Site) -> Iterator[tuple[Phrase, NameEntry]]:

@@ -95,6 +95,8 @@ def work_east_to_west(one: WorkCommand, axis: WorkHeading, used: int) -> list[Wo
 )  # fmt: skip
 def work_towards(one: WorkCommand, order: tuple[str, str, bool], used: int, site: Site) -> WorkCommand | None:
     """Compose "film row 4 from its south end to its north end"."""
+    if order[0] == "rows" and one.mode == "rows":
+        return replace(one, used=used)  # "row by row", as rows are worked anyway
     first, _, last = order[0].partition("_to_")
     if one.mode not in ("rows", "aisles") or one.heading != "any" or first not in SIDES or last not in SIDES:
         return None

@@ -163,10 +163,16 @@ def headlands(noun: Lex) -> Tract:
 
 
 @construction(
-    "edge_line: [DET] EDGE", "edge_line: [DET] EDGE OF where=region", "edge_line: [DET] EDGE OF site", cost=0.0
+    "edge_line: [DET] EDGE",
+    "edge_line: [DET] EDGE OF where=region",
+    "edge_line: [DET] EDGE OF site",
+    "edge_line: [DET] zone=ZONEPOSS EDGE",
+    cost=0.0,
 )
-def edge_line(where: s.Selector | None = None) -> s.Selector | None:
-    """Compose "the edge of the north block"."""
+def edge_line(where: s.Selector | None = None, zone: Lex | None = None) -> s.Selector | None:
+    """Compose "the edge of the north block" and "the pond's edge"."""
+    if zone is not None:
+        return s.InZone(zone=zone.value)
     return None if where is not None and are_rows(where) else where or s.Trees()
 
 

@@ -433,6 +433,20 @@ def twice_daily() -> TimePart:
     return TimePart(repeats=True, times_a_day=2)
 
 
+@construction("part: EVERY n=ORD when=DAYPART", "part: EVERY n=NUM when=DAYPARTS", cost=0.0)
+def every_third_morning(n: Lex, when: Lex) -> TimePart | None:
+    """Compose "every third morning"."""
+    if n.value != int(n.value) or not 1 < n.value <= 366:
+        return None
+    return TimePart(repeats=True, every_days=int(n.value), choices=_times(when.value), half=_half(when))
+
+
+@construction("part: FIRSTTHING", cost=0.1)
+def first_thing() -> TimePart:
+    """Compose "first thing" beside a day."""
+    return TimePart(choices=_times(("06:00", "08:00", "sunrise")), half="am", needs_day=True)
+
+
 @construction("part: HOURLY", cost=0.0)
 def hourly() -> TimePart:
     """Compose "every hour"."""

@@ -32,6 +32,7 @@ class TimePart:
             and before which it is done; 0 if not said.
         half: Half of the day of these hours, if the phrase says it.
         needs_hour: True if it is no time without one of them ("this evening").
+        needs_day: True if it is no time without a day ("first thing").
         times_a_day: Number of times of the day that must be said ("twice a day"); 0 if not said.
     """
 
@@ -53,6 +54,7 @@ class TimePart:
     half: Literal["", "am", "pm"] = ""
     needs_hour: bool = False
     times_a_day: int = 0
+    needs_day: bool = False
 
     def __and__(self, other: TimePart) -> TimePart | None:
         """Return both parts together; None if they contradict each other."""
@@ -157,7 +159,7 @@ class TimePart:
         return None if timed is None else timed._on_days()
 
     def _on_days(self) -> TimePart | None:
-        if self.times_a_day not in (0, len(self.at)):
+        if self.times_a_day not in (0, len(self.at)) or (self.needs_day and not (self.day or self.weekdays)):
             return None
         if not self.repeats and self.weekdays:
             if len(self.weekdays) > 1:
