@@ -116,7 +116,9 @@ def without_rows(part: Tract, out: s.Selector) -> Tract | None:
     return replace(part, selector=s.Excluding(places=out, of=part.selector))
 
 
-@construction("tract: where=region", "tract: in_ where=region", cost=0.4)
+@construction(
+    "tract: where=region", "tract: in_ where=region", "tract: where=crop_area", "tract: ALONG where=crop_area", cost=0.4
+)
 def ground(where: s.Selector) -> Tract | None:
     """Compose "the meadow" and "the north block"."""
     return None if are_rows(where) or where == edges() else Tract(where, None)

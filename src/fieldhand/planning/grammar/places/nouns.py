@@ -159,9 +159,9 @@ def where_a_variety_grows(word: Lex, value: Lex) -> list[s.Selector] | None:
     ]
 
 
-@construction("region: [word=DET] value=ATTRVAL", cost=1.4)
+@construction("crop_area: [word=DET] value=ATTRVAL", "crop_area: EACH [OF] [word=DET] value=ATTRVAL", cost=0.4)
 def where_a_crop_grows(value: Lex, word: Lex | None = None) -> list[s.Selector] | None:
-    """Compose "the carrots" as an area."""
+    """Compose "the carrots" as ground that is worked or crossed."""
     if word is not None and "indefinite" in word.features:
         return None
     kinds = [(name, text) for name, text in value.value if is_kind_attribute(name)]
@@ -170,6 +170,16 @@ def where_a_crop_grows(value: Lex, word: Lex | None = None) -> list[s.Selector] 
         for name, text in kinds
         if value.plural or is_unmarked(name, text)
     ]
+
+
+@construction(
+    "crop_area: first=crop_area AND second=crop_area", "crop_area: first=crop_area COMMA second=crop_area",
+    "crop_area: first=crop_area COMMA AND second=crop_area",
+    cost=0.1,
+)  # fmt: skip
+def where_crops_grow(first: s.Selector, second: s.Selector) -> s.Selector | None:
+    """Compose "the leeks and the onions" as ground."""
+    return None if first == second else s.UnionOf(parts=(*first.members, *second.members))
 
 
 @construction("nominal: value=ATTRVAL", cost=0.8)

@@ -159,6 +159,10 @@ def in_path(path: SamplingPath) -> SamplingPath:
 @construction(
     "path_over: path=in_path OVER where=region",
     "path_over: path=in_path OPPOSITE where=region",
+    "path_over: path=in_path OVER where=crop_area",
+    "path_over: path=in_path in_ where=crop_area",
+    "path_over: GO OVER where=crop_area path=in_path",
+    "path_over: GO where=crop_area path=in_path",
     "path_over: path=in_path in_ where=region",
     "path_over: GO OVER where=region path=in_path",
     "path_over: GO in_ where=region path=in_path",
