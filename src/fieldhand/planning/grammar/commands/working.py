@@ -15,7 +15,7 @@ from fieldhand.planning.grammar.places.areas import edges
 from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.places.numbers import name_of
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import are_rows, is_one_row, over
+from fieldhand.planning.selections import are_rows, is_one_row, over, rows_kept
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.nodes.work_along import RowSides, WorkMode
 
@@ -52,7 +52,8 @@ class Tract:
 )  # fmt: skip
 def rows_tract(rows: s.Selector, way: Lex | None = None) -> Tract | None:
     """Compose "along rows 3 to 8"."""
-    return Tract(rows, "rows", along=way is not None) if are_rows(rows) or rows == s.Rows() else None
+    known = are_rows(rows) or rows_kept(rows) is not None
+    return Tract(rows, "rows", along=way is not None) if known else None
 
 
 @construction(

@@ -142,12 +142,19 @@ def listed_places(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | l
 )
 def both(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | list[PlaceMeaning] | None:
     """Compose "tree 12 and the charger"."""
-    if first.per is not None or second.per is not None or first.like is not None:
+    named = first.like is None or first.like.kind == "ranked"
+    if first.per is not None or second.per is not None or not named:
         return None
     if second.like is not None and second.like.kind == "those":
         second = replace(second, selector=kind_in_area(first.selector, second.selector), like=None)
+    if first.like is not None and first.like.kind == "ranked":
+        first = replace(first, like=None)
     if second.like is not None and second.like.kind == "extreme":
         second = replace(second, like=None)
+    if second.like is not None and second.like.kind == "ranked" and (best := as_top(second.selector)) is not None:
+        known = as_top(first.selector)  # "the oldest Carmel and the youngest": of these
+        of = known.of if known is not None and best.attribute == known.attribute else best.of
+        second = replace(second, selector=replace(best, of=of), like=None)
     if second.like is not None:
         if (opposite := _other_end(first.selector, second.selector)) is None:
             return None

@@ -30,6 +30,8 @@ AttributeTest = tuple[str, AttributeCheck, Any]
 
 #: Test, value, unit, and the attribute if the words name it ("older than").
 Comparison = tuple[Test | Literal["between"], Any, str, str]
+#: Words in the names of attributes that are sizes of plants.
+_SIZES = ("size", "height", "diameter", "width", "spread", "girth", "weight")
 #: Word in the name of the attribute that a verb or an adjective is about, by its unit.
 _ATTRIBUTE_BY_UNIT = {"years": "age", "kg": "yield"}
 
@@ -78,7 +80,11 @@ def best_one(rank: tuple[str, bool], robot: RobotProfile) -> PlaceMeaning | None
     """Compose "the oldest"; "the driest" is rather that of the places whose moisture was read."""
     if any(word in split(quantity.name) for word in split(rank[0]) for quantity in robot.quantities):
         return None
-    return PlaceMeaning(s.Top(attribute=rank[0], count=1, lowest=rank[1]), "one") if rank[0] else None
+    return (
+        PlaceMeaning(s.Top(attribute=rank[0], count=1, lowest=rank[1]), "one", like=Likewise("ranked"))
+        if rank[0]
+        else None
+    )
 
 
 @construction("nominal: noun=ONE", cost=0.4)
@@ -463,10 +469,12 @@ def last_of_site(inner: Nominal) -> Nominal | None:
     return replace(inner, selector=s.Last(), single=True)
 
 
-@construction("ranking: attribute=SUPER", cost=0.0)
-def ranking_word(attribute: Lex) -> tuple[str, bool]:
-    """Compose "oldest"."""
-    return cast("tuple[str, bool]", attribute.value)
+@construction("ranking: attribute=SUPER", cost=0.0, given=("site",))
+def ranking_word(attribute: Lex, site: Site) -> list[tuple[str, bool]]:
+    """Compose "oldest"; "biggest" may be about each size that the site records."""
+    name, lowest = cast("tuple[str, bool]", attribute.value)
+    sizes = [one for hint in _SIZES for one in hinted_attributes(hint, site)] if "of_size" in attribute.features else []
+    return [(name, lowest), *((one, lowest) for one in sizes)]
 
 
 @construction("ranking: rank=ranking [DASH] attribute=ATTR", cost=0.0)
