@@ -28,7 +28,7 @@ construction = GRAMMAR.construction
 
 @dataclass(frozen=True, slots=True)
 class AskedArea:
-    """What is asked about an area: the captures that tell it."""
+    """A question about an area, and the captures that answer it."""
 
     things: tuple[Thing, ...]
     where: s.Selector
