@@ -18,6 +18,7 @@ from fieldhand.language import message
 from fieldhand.language.words import say_rounded
 from fieldhand.robot.model import RobotProfile
 from fieldhand.short_repr import short_repr
+from fieldhand.site.earlier_missions import EarlierMissions
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import InOrder, Node
@@ -96,7 +97,7 @@ class _CachedBranches:
     """Cache of the branches last explored on a site: approval needs those that were shown with the plan."""
 
     robot: RobotProfile
-    asked: tuple[Task, int, float, int]
+    asked: tuple[Task, int, float, int, EarlierMissions | None]
     explored: Branches
     leg_costs: LegCostSamples
     estimate: Estimate | None = None
@@ -112,7 +113,7 @@ def explore(
 def _explored(
     task: Task, site: Site, robot: RobotProfile, seed: int, charge_percent: float, draws: int
 ) -> _CachedBranches:
-    asked = (task, seed, charge_percent, draws)
+    asked = (task, seed, charge_percent, draws, site.earlier)
     kept = site.cache.get("estimate")
     if isinstance(kept, _CachedBranches) and kept.robot is robot and kept.asked == asked:
         return kept

@@ -158,7 +158,7 @@ def stretches_of(
     ids = tuple(place.id for place in places)
     kept = drives.site.cache.setdefault("stretches", {})
     assert isinstance(kept, dict)  # noqa: S101  nobody else keeps anything there
-    key = (node, ids, robot.sha256, here, end, id(drives))
+    key = (node, ids, robot.sha256, here, end, id(drives), None if by_rows else site.earlier)
     if key not in kept:
         while len(kept) >= _KEPT:
             del kept[next(iter(kept))]

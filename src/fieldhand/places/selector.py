@@ -135,6 +135,11 @@ class Selector(ABC):
         return None
 
     @property
+    def uses_records(self) -> bool:
+        """True if its places, apart from its nested selectors, depend on what earlier missions did on the site."""
+        return False
+
+    @property
     def decided_by_readings(self) -> bool:
         """True if the values that the mission reads determine the places."""
         return any(part.depends_on == "readings" for part in self.walk())
@@ -211,6 +216,10 @@ class Selector(ABC):
     def as_origin(self, wording: SelectorWording) -> str:
         """Return the origin of a distance in words: a zone itself instead of its trees."""
         return say_zone(self.whole_zone) if self.whole_zone else self.it(wording)
+
+    def left_out(self, wording: SelectorWording) -> str:
+        """Return the clause of a group without its places: "other than the yellow trees"."""
+        return message("other than {place}", place=self.it(wording))
 
     def aside(self, phrase: str) -> str:
         """Return the addition in brackets after the name of the single place; empty if the name is complete.

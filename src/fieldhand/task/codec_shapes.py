@@ -85,7 +85,11 @@ class ConstraintsElement:
 QUOTES = "words"
 QUOTED = {"command": "no-part", "exits": "nominal-said", "constraints": "reserve-said"}
 #: Elements not named after their field.
-_NAMES: dict[tuple[type, str], str] = {(Task, "composition"): "task-composition", (Command, "variables"): "state"}
+_NAMES: dict[tuple[type, str], str] = {
+    (Task, "composition"): "task-composition",
+    (Command, "variables"): "state",
+    (Task, "earlier"): "earlier-missions",
+}
 #: Elements that are not named after their class: their names are part of the file format.
 _ELEMENT_NAMES: dict[type, str] = {
     FaultedExit: "faulted",

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Literal
 
 from fieldhand.short_repr import short_repr
+from fieldhand.site.earlier_missions import EarlierMissions
 from fieldhand.task.plan import Node, Span
 from fieldhand.task.timing import Timing
 from fieldhand.task.watches import Watch
@@ -197,6 +198,7 @@ class Task:
         constraints: Budgets, reserve and maximum speed.
         resources: Site and robot for which the Task was planned.
         timing: Time at which it begins, or schedule of a standing mission; None to begin when it is started.
+        earlier: What earlier missions did on the site, as far as the plan depends on it; None if it does not.
     """
 
     id: str
@@ -205,6 +207,7 @@ class Task:
     constraints: Constraints = Constraints()
     resources: tuple[Resource, ...] = ()
     timing: Timing | None = None
+    earlier: EarlierMissions | None = None
 
     __repr__ = short_repr
 
