@@ -12,9 +12,11 @@ from fieldhand.errors import TaskError
 from fieldhand.language import message
 from fieldhand.places.earlier.from_records import FromRecords
 from fieldhand.places.selector import Selector
-from fieldhand.site.earlier_missions import EarlierMission, EarlierMissions
+from fieldhand.site.earlier_missions import EarlierMissions
+from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import walk
+from fieldhand.task.timing import Schedule
 
 #: Largest number of captures that a Task contains.
 MOST_CAPTURES = 10_000
@@ -52,6 +54,16 @@ def with_earlier(task: Task, records: EarlierMissions | None) -> Task:
     return replace(task, id=f"{plain}-{_digest(needed)}", earlier=needed)
 
 
+def site_of(task: Task, site: Site) -> Site:
+    """Return the site with the earlier missions that a Task contains; as it is, if the Task contains none."""
+    return site if task.earlier is None else site.with_earlier(task.earlier)
+
+
+def may_have_none(task: Task, selector: Selector) -> bool:
+    """Return True if a selector may select nothing: a run of a standing mission may find that all was done before."""
+    return isinstance(task.timing, Schedule) and any(part.uses_records for part in selector.walk())
+
+
 def relevant(records: EarlierMissions, selectors: tuple[FromRecords, ...]) -> EarlierMissions:
     """Return only those captures that the places of some selectors depend on; missions are kept even without any.
 
@@ -70,11 +82,7 @@ def relevant(records: EarlierMissions, selectors: tuple[FromRecords, ...]) -> Ea
             advice=message("choose a shorter period"),
         )
     missions = tuple(
-        EarlierMission(
-            id=mission.id,
-            begun=mission.begun,
-            captures=tuple(capture for capture in mission.captures if id(capture) in kept),
-        )
+        replace(mission, captures=tuple(capture for capture in mission.captures if id(capture) in kept))
         for mission in records.missions
     )
     return replace(records, missions=tuple(mission for mission in missions if mission.captures) or missions[-1:])

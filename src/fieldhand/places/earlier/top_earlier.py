@@ -69,16 +69,18 @@ class TopEarlier(FromRecords):
         notes.candidates = len(group)
         if not len(group):
             return group
-        if len(group) < self.count:
-            notes.remark(
-                message("{count} were asked for, but only {known} were read", count=self.count, known=len(group))
-            )
         return rank(group, values if self.lowest else -values, min(self.count, len(group)), notes, self._most())
 
     def used(self, records: EarlierMissions) -> tuple[Work, ...]:
         from fieldhand.places.earlier.recorded_work import readings_used
 
         return readings_used(records, self.quantity, self.period, self.statistic)
+
+    def doubt(self, found: int, site: Site) -> str:
+        del site
+        if not 0 < found < self.count:
+            return ""
+        return message("{count} were asked for, but only {known} were read", count=self.count, known=found)
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:
         most = message("with {extreme} read {period}", extreme=self._most(), period=say_period(self.period))
