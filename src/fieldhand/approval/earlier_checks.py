@@ -36,6 +36,16 @@ def records_problems(task: Task) -> Iterator[PlanProblem]:
             ),
             message("leave out --count-simulated to count only what a robot did"),
         )
+    open_ones = sum(not mission.ended for mission in records.missions)
+    if open_ones:
+        yield _doubt(
+            counted(
+                "{count} of the earlier missions has not ended, and counts with what it did so far",
+                "{count} of the earlier missions have not ended, and count with what they did so far",
+                open_ones,
+            ),
+            message("wait until it ends, or resume it with fieldhand resume, and count again with --recount"),
+        )
     if records.damaged:
         yield _doubt(
             counted(

@@ -11,7 +11,8 @@ import shapely
 
 from fieldhand.site.earlier_missions import EarlierCapture, EarlierMission, EarlierOutcome, EarlierValue
 from fieldhand.site.model import Site
-from fieldhand.task.results import Acted, Event, InDoubt, Started, Visiting, Worked
+from fieldhand.site.names import short
+from fieldhand.task.results import Acted, Ended, Event, InDoubt, Started, Visiting, Worked
 
 #: A tree counts as the same one up to this distance in metres, or this part of the spacing of the trees.
 SAME_TREE_M, SAME_TREE_SPACINGS = 1.0, 0.4
@@ -19,6 +20,8 @@ SAME_TREE_M, SAME_TREE_SPACINGS = 1.0, 0.4
 WORKED_WITHIN_ROWS = 0.55
 #: Distance between rows in metres where the site has none.
 _NO_ROWS_M = 5.0
+#: Longest name of a mission, place, action, quantity or unit that is taken from a log.
+_LONGEST = 200
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,11 +32,13 @@ class LoggedWork:
         mission: The mission with its captures.
         key: Task and time of the begin, by which two logs of one mission are recognized.
         moved: Number of captures whose tree the site no longer has at that position.
+        elsewhere: True if it worked, and nowhere on the site.
     """
 
     mission: EarlierMission
     key: tuple[str, str]
     moved: int
+    elsewhere: bool
 
 
 def work_of(
@@ -45,7 +50,7 @@ def work_of(
     times: Sequence[datetime | None] = (),
     ended: datetime | None = None,
 ) -> LoggedWork | None:
-    """Return the work of a mission at places of a site; None if it worked nowhere on it, or its log has no date.
+    """Return the work of a mission at places of a site; None if its log has no begin or no date.
 
     A tree is the same if its id is, and its position up to :data:`SAME_TREE_M`, less where trees stand closer. Other
     places count by their position on the ground of the site. The name and the other contents of the site do not matter.
@@ -83,16 +88,23 @@ def work_of(
                 captures.append(capture)
         elif isinstance(event, Worked) and event.action:
             captures += places.worked(event, when)
-    if not captures and not (moved and started.site == site.name):
-        return None
-    left_out = places.left_out(events, captures, local(begun).isoformat(timespec="seconds"))
+    ended = any(isinstance(event, Ended) for event in events)
+    # A mission without an end may still reach the places that it has not reached.
+    left_out = places.left_out(events, captures, local(begun).isoformat(timespec="seconds")) if ended else ()
+    elsewhere = not captures and moved > 0 and started.site != site.name
     mission = EarlierMission(
-        id=name or f"{started.task} of {begun:%Y-%m-%d %H:%M:%S}",
+        id=short(name or f"{started.task} of {begun:%Y-%m-%d %H:%M:%S}", _LONGEST),
         begun=local(begun).isoformat(timespec="seconds"),
         simulated=started.seed is not None,
+        ended=ended,
         captures=(*_final(captures), *left_out),
     )
-    return LoggedWork(mission=mission, key=(started.task, begun.isoformat()), moved=moved)
+    return LoggedWork(
+        mission=mission,
+        key=(started.task, begun.isoformat(timespec="seconds")),
+        moved=0 if elsewhere else moved,
+        elsewhere=elsewhere,
+    )
 
 
 class _Places:
@@ -114,23 +126,26 @@ class _Places:
         x, y = self._site.projection.metres([event.lat], [event.lon])[0].tolist()
         done = event.status == "success"
         values = tuple(
-            EarlierValue(name=quantity, value=value, unit=event.units.get(quantity, ""))
+            EarlierValue(
+                name=short(quantity, _LONGEST), value=value, unit=short(event.units.get(quantity, ""), _LONGEST)
+            )
             for quantity, value in sorted(event.readings.items())
             if done and np.isfinite(value)
         )
         outcome: EarlierOutcome = "done" if done else "failed"
+        action = short(event.action, _LONGEST)
         if event.kind == "tree":
             tree = self._site.by_id.get(event.place)
             if tree is None or float(np.hypot(tree.place.x - x, tree.place.y - y)) > self._within:
                 return None
-            return EarlierCapture(place=event.place, action=event.action, at=when, outcome=outcome, values=values)
+            return EarlierCapture(place=event.place, action=action, at=when, outcome=outcome, values=values)
         west, south, east, north = self._ground
         if not (west <= x <= east and south <= y <= north):
             return None
         kind = event.kind if event.kind in ("marker", "point", "gap") else "point"
         return EarlierCapture(
-            place=event.place,
-            action=event.action,
+            place=short(event.place, _LONGEST),
+            action=action,
             at=when,
             outcome=outcome,
             kind=kind,  # type: ignore[arg-type]
@@ -152,7 +167,7 @@ class _Places:
         apart = min((s for block in site.planting.blocks if (s := block.row_spacing_m) > 0), default=_NO_ROWS_M)
         near = shapely.distance(shapely.points(site.xy), shapely.union_all(lines)) <= WORKED_WITHIN_ROWS * apart
         for index in np.flatnonzero(near).tolist():
-            yield EarlierCapture(place=site.trees[index].place.id, action=event.action, at=when)
+            yield EarlierCapture(place=site.trees[index].place.id, action=short(event.action, _LONGEST), at=when)
 
     def left_out(
         self, events: Iterable[Event], captures: Iterable[EarlierCapture], when: str

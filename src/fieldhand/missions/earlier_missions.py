@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -12,19 +13,21 @@ from fieldhand.errors import FieldhandError, InputError
 from fieldhand.evaluation.earlier_work import LoggedWork, work_of
 from fieldhand.language import message
 from fieldhand.missions.find_mission import all_missions, missions_folder
-from fieldhand.missions.folder import JOURNAL
+from fieldhand.missions.folder import JOURNAL, read_about
 from fieldhand.site.earlier_missions import EarlierMissions
 from fieldhand.site.model import Site
 from fieldhand.task.event_lines import from_json
-from fieldhand.task.results import Acted, Event, InDoubt, Started, Visiting, Worked
+from fieldhand.task.results import Acted, Ended, Event, InDoubt, Started, Visiting, Worked
 from fieldhand.timetable.day_times import local_zone
 
 #: Largest number of missions that are read, the latest ones; largest log file in bytes; largest number of captures.
 MOST_MISSIONS, MOST_LOG_BYTES, MOST_CAPTURES = 1_000, 100_000_000, 500_000
+#: Largest journal in bytes, which contains every input of its mission, too.
+MOST_JOURNAL_BYTES = 2_000_000_000
 
 _LOGS = (".jsonl", ".mcap")
 #: Beginnings of the log lines that are parsed.
-_LINES = tuple(f'{{"event": "{kind.event}"' for kind in (Started, Visiting, Acted, InDoubt, Worked))
+_LINES = tuple(f'{{"event": "{kind.event}"' for kind in (Started, Visiting, Acted, InDoubt, Worked, Ended))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,8 +59,9 @@ def earlier_missions(
 ) -> EarlierMissions:
     """Return what the missions in a folder did on a site.
 
-    A mission counts with what it did, even if it was interrupted or failed. Logs that cannot be read are left out. The
-    log of a simulation without a date counts as ended when its file was written, or else ``now``.
+    A mission counts with what it did, even if it was interrupted or failed; of one without an end, places that it has
+    not reached are not ``left_out``. Logs that cannot be read or were changed are left out. The log of a simulation
+    without a date counts as ended when its file was written, or else ``now``.
 
     Args:
         site: The site.
@@ -104,14 +108,16 @@ def earlier_missions(
             continue
         if work is not None:
             found.setdefault(work.key, work)
-    every = sorted(found.values(), key=lambda work: (work.mission.begun, work.mission.id))
-    counting = [work for work in every if simulated or not work.mission.simulated]
+    every = sorted(found.values(), key=lambda work: (datetime.fromisoformat(work.mission.begun), work.mission.id))
+    here = [work for work in every if work.mission.captures or work.moved]
+    counting = [work for work in here if simulated or not work.mission.simulated]
     return EarlierMissions(
         as_of=moment.astimezone(local).isoformat(timespec="seconds"),
         missions=tuple(work.mission for work in _latest(counting)),
         moved=sum(work.moved for work in counting),
         damaged=len(damaged),
-        simulations=len(every) - len(counting),
+        simulations=len(here) - len(counting),
+        elsewhere=sum(work.elsewhere for work in every),
     )
 
 
@@ -154,10 +160,16 @@ def _journal(folder: Path) -> _Log:
 
     Raises:
         JournalError, TaskError: The journal cannot be read.
+        InputError: It is too large, or of another mission.
         ValueError: A time in it is none.
     """
-    from fieldhand.execution.journal.store import read_summary
+    from fieldhand.execution.journal.store import mission_of, read_summary
 
+    if (folder / JOURNAL).stat().st_size > MOST_JOURNAL_BYTES:
+        raise InputError(message("is larger than {most} bytes", most=MOST_JOURNAL_BYTES))
+    whole = read_about(folder)[1]
+    if mission_of(folder / JOURNAL) != hashlib.sha256(whole).hexdigest():
+        raise InputError(message("its mission.json and its journal are not of the same mission"))
     lines = [(at, line) for at, line in read_summary(folder / JOURNAL)[1] if line.startswith(_LINES)]
     events = [(at, event) for at, line in lines if (event := from_json(line, where=folder.name)) is not None]
     return _Log(

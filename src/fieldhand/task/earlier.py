@@ -6,6 +6,7 @@ import hashlib
 import re
 from collections.abc import Iterator
 from dataclasses import replace
+from datetime import datetime
 from typing import cast
 
 from fieldhand.errors import TaskError
@@ -57,6 +58,29 @@ def with_earlier(task: Task, records: EarlierMissions | None) -> Task:
 def site_of(task: Task, site: Site) -> Site:
     """Return the site with the earlier missions that a Task contains; as it is, if the Task contains none."""
     return site if task.earlier is None else site.with_earlier(task.earlier)
+
+
+def site_of_run(task: Task, site: Site) -> Site:
+    """Return the site with the earlier missions by which a run chooses its places.
+
+    Those of a Task were approved with it. Each run of a standing mission counts anew: then the site comes with them.
+    """
+    return site if isinstance(task.timing, Schedule) and site.earlier is not None else site_of(task, site)
+
+
+def together(signed: EarlierMissions | None, own: EarlierMissions) -> EarlierMissions:
+    """Return the missions that a robot did itself and those that a Task contains, each mission once.
+
+    Args:
+        signed: Missions in the Task; None for none.
+        own: Missions that the robot did, counted now.
+    """
+    if signed is None:
+        return own
+    known = {datetime.fromisoformat(mission.begun) for mission in own.missions}
+    others = [mission for mission in signed.missions if datetime.fromisoformat(mission.begun) not in known]
+    missions = sorted((*others, *own.missions), key=lambda mission: (datetime.fromisoformat(mission.begun), mission.id))
+    return replace(own, missions=tuple(missions))
 
 
 def may_have_none(task: Task, selector: Selector) -> bool:

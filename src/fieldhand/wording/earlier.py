@@ -28,11 +28,18 @@ def say_earlier(task: Task, site: Site) -> tuple[str, ...]:
         return ()
     seen = site.with_earlier(task.earlier)
     counts = tuple(_say_count(task, seen))
-    known = say_known(task.earlier)
+    more = []
+    if task.earlier.elsewhere:
+        more.append(
+            counted(
+                "{count} mission that worked elsewhere does not count.",
+                "{count} missions that worked elsewhere do not count.",
+                task.earlier.elsewhere,
+            )
+        )
     if isinstance(task.timing, Schedule):
-        again = message("Each run counts the missions that the robot itself did before it.")
-        return (*counts, known, again)
-    return (*counts, known)
+        more.append(message("Each run counts anew, with the missions that the robot itself did before it."))
+    return (*counts, say_known(task.earlier), *more)
 
 
 def say_known(records: EarlierMissions) -> str:
