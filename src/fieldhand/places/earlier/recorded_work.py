@@ -74,7 +74,7 @@ def records_of(resolution: Resolution) -> EarlierMissions:
                 "the plan needs what earlier missions did on '{site}', and it is not given", site=resolution.site.name
             ),
             where=resolution.site.name,
-            advice=message("give the folder of finished missions with --missions, or in Python records=..."),
+            advice=message("give the folder of finished missions with --missions, or in Python earlier=fh.earlier_missions(site)"),
         )
     return records
 
