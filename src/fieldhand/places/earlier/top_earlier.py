@@ -83,7 +83,11 @@ class TopEarlier(FromRecords):
         return message("{count} were asked for, but only {known} were read", count=self.count, known=found)
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:
-        most = message("with {extreme} read {period}", extreme=self._most(), period=say_period(self.period))
+        name, when = say_statistic_of(self.statistic, self.quantity), say_period(self.period)
+        if self.lowest:
+            most = message("with the lowest {name} read {period}", name=name, period=when)
+        else:
+            most = message("with the highest {name} read {period}", name=name, period=when)
         return picked_phrase(wording.phrase(self.of), self.count, most, that_is=False)
 
     @property
