@@ -88,5 +88,16 @@ def choice_problems(task: Task, site: Site) -> Iterator[PlanProblem]:
             yield _doubt(what, message("choose another period if that is wrong"))
 
 
+def none_now(error: NoPlaceError, node: str) -> PlanProblem:
+    """Return the warning that a run of a standing mission, if it began now, would visit no place at a node."""
+    return PlanProblem(
+        node=node,
+        where=message("earlier missions"),
+        what=message("a run that began now would visit no place: {why}", why=error.what),
+        advice=message("go on if it is meant for later runs, which choose anew"),
+        severity="warning",
+    )
+
+
 def _doubt(what: str, advice: str) -> PlanProblem:
     return PlanProblem(where=message("earlier missions"), what=what, advice=advice, severity="warning")

@@ -74,7 +74,9 @@ def records_of(resolution: Resolution) -> EarlierMissions:
                 "the plan needs what earlier missions did on '{site}', and it is not given", site=resolution.site.name
             ),
             where=resolution.site.name,
-            advice=message("give the folder of finished missions with --missions, or in Python earlier=fh.earlier_missions(site)"),
+            advice=message(
+                "give the folder of finished missions with --missions, or in Python earlier=fh.earlier_missions(site)"
+            ),
         )
     return records
 
@@ -241,19 +243,14 @@ def nothing_done(site: Site, selector: DoneEarlier, records: EarlierMissions) ->
     )
 
 
-def no_reading_on_record(resolution: Resolution, records: EarlierMissions, quantity: str, period: Period) -> PlaceError:
+def no_reading_on_record(
+    resolution: Resolution, records: EarlierMissions, quantity: str, period: Period
+) -> NoPlaceError:
     """Return the error for a quantity without readings on record."""
-    from fieldhand.places.earlier.wording import say_no_mission, say_period
+    from fieldhand.places.earlier.wording import say_no_reading
 
-    site = resolution.site.name
-    if not records.missions:
-        what = say_no_mission(records, resolution.site)
-    else:
-        what = message(
-            "no earlier reading of {name} is on record ({period})", name=say_name(quantity), period=say_period(period)
-        )
-    return PlaceError(
-        what,
-        where=site,
+    return NoPlaceError(
+        say_no_reading(records, resolution.site, quantity, period),
+        where=resolution.site.name,
         advice=message("choose another period, or give the folder of finished missions with --missions"),
     )

@@ -12,7 +12,7 @@ from fieldhand.places.count_range import CountRange
 from fieldhand.places.earlier.from_records import FromRecords
 from fieldhand.places.earlier.period import EVER, Period
 from fieldhand.places.earlier.recorded_work import EarlierStatistic
-from fieldhand.places.earlier.wording import say_period, say_statistic_of
+from fieldhand.places.earlier.wording import doubt_without_reading, say_period, say_statistic_of
 from fieldhand.places.noun_phrase import NounPhrase
 from fieldhand.places.reading_series import EXAMPLE_QUANTITY
 from fieldhand.places.selection_phrase import picked_phrase
@@ -77,9 +77,10 @@ class TopEarlier(FromRecords):
         return readings_used(records, self.quantity, self.period, self.statistic)
 
     def doubt(self, found: int, site: Site) -> str:
-        del site
-        if not 0 < found < self.count:
+        if found >= self.count:
             return ""
+        if not found:
+            return doubt_without_reading(self, self.quantity, self.period, site)
         return message("{count} were asked for, but only {known} were read", count=self.count, known=found)
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:

@@ -12,6 +12,7 @@ from fieldhand.places.wording import say_selector
 
 if TYPE_CHECKING:
     from fieldhand.places.earlier.done_earlier import DoneEarlier
+    from fieldhand.places.earlier.from_records import FromRecords
     from fieldhand.places.earlier.period import Period
     from fieldhand.places.earlier.recorded_work import EarlierStatistic
     from fieldhand.places.earlier.where_earlier import WhereEarlier
@@ -137,6 +138,22 @@ def say_no_mission(records: EarlierMissions, site: Site) -> str:
             site=site.name,
         )
     return message("no earlier mission on '{site}' is on record", site=site.name)
+
+
+def doubt_without_reading(selector: FromRecords, quantity: str, period: Period, site: Site) -> str:
+    """Return that a selector has no reading to choose by; empty if it has."""
+    if site.earlier is None or selector.used(site.earlier):
+        return ""
+    return say_no_reading(site.earlier, site, quantity, period)
+
+
+def say_no_reading(records: EarlierMissions, site: Site, quantity: str, period: Period) -> str:
+    """Return that no reading of a quantity is on record in a period."""
+    if not records.missions:
+        return say_no_mission(records, site)
+    return message(
+        "no earlier reading of {name} is on record ({period})", name=say_name(quantity), period=say_period(period)
+    )
 
 
 def _purpose(selector: DoneEarlier) -> str:
