@@ -234,28 +234,3 @@ def test_the_draft_of_a_case_is_driven_and_judged_too(
     assert [trial["id"] for trial in trials] == ["given", "given/task"]
     assert trials[1]["as_asked"] is right
     assert trials[1]["answer"] == "planned"
-
-
-REMEMBERED = """
-site: builtin:demo
-robot: husky
-cases:
-- id: remembered
-  request: take a picture of the hottest tree of yesterday
-  earlier:
-  - {{days_ago: 0.5, do: read_co2, trees: [4, 9], readings: {{co2: [410, {most}]}}}}
-  - {{days_ago: 2, do: read_co2, trees: [4], readings: {{co2: [900]}}}}
-  task: <task><task-composition><plan><for-each words="the hottest tree of yesterday"><select><top-earlier count="1">
-    <co2/><period calendar="yesterday"/></top-earlier></select><body><act words="take a picture">
-    <take_thermal_picture/></act></body></for-each></plan></task-composition></task>
-  worlds:
-  - expect: {{steps: [{{do: take_thermal_picture, at: {{attribute: {{id: 9}}}}}}]}}
-"""
-
-
-@pytest.mark.parametrize(("most", "right"), [(420, True), (400, False)])
-def test_a_case_lists_what_earlier_missions_did(bench: Bench, tmp_path: Path, most: float, right: bool) -> None:
-    file = tmp_path / "remembered.yaml"
-    file.write_text(REMEMBERED.format(most=most))
-    trial = json.loads(bench("missions", str(file), "--json").out)["cases"][1]
-    assert (trial["answer"], trial["as_asked"]) == ("planned", right)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import difflib
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from datetime import timedelta
 from functools import cache
 from importlib import resources
 from pathlib import Path
@@ -19,13 +18,11 @@ from fieldhand.execution.drivers.simulation.world_file import parse_world
 from fieldhand.files import FileFault, read_file
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
-from fieldhand.site.earlier_missions import EarlierCapture, EarlierMission, EarlierMissions, EarlierValue
 from fieldhand.site.loader import BUILT_IN_SITES, built_in_path
 from fieldhand.strict_yaml import YamlFault, read_yaml
 from fieldhand_bench.missions.case_form import (
     BookForm,
     CaseForm,
-    EarlierForm,
     EndForm,
     ExpectForm,
     Form,
@@ -35,7 +32,7 @@ from fieldhand_bench.missions.case_form import (
     WorldForm,
 )
 from fieldhand_bench.missions.case_site import CaseSite, load_case_site
-from fieldhand_bench.missions.cases import APPROVED_AT, Case, CaseWorld, Expected
+from fieldhand_bench.missions.cases import Case, CaseWorld, Expected
 from fieldhand_bench.missions.places import Attributes, CasePlace, Positions
 
 BUILTIN = "builtin"
@@ -133,41 +130,7 @@ def _case(form: CaseForm, book: BookForm, path: Path, loaders: _Loaders) -> Case
         runs=form.runs,
         source=str(path),
         task=form.task or "",
-        earlier=_earlier(form.earlier, robot, where),
     )
-
-
-def _earlier(forms: Sequence[EarlierForm], robot: RobotProfile, where: str) -> EarlierMissions | None:
-    """Return the earlier missions of a case; None if it has none.
-
-    Raises:
-        CaseError: The robot does not measure a quantity.
-    """
-    missions = []
-    units = {quantity.name: quantity.unit for quantity in robot.quantities}
-    for number, form in enumerate(forms):
-        unknown = sorted(set(form.readings) - set(units))
-        if unknown:
-            raise CaseError(
-                f"{robot.name} has no quantity {unknown[0]!r}",
-                where=f"{where}: earlier[{number}]",
-                advice=f"it has {', '.join(units)}",
-            )
-        at = (APPROVED_AT - timedelta(days=form.days_ago)).isoformat()
-        captures = tuple(
-            EarlierCapture(
-                place=str(tree),
-                at=at,
-                action=form.do,
-                values=tuple(
-                    EarlierValue(name=name, value=values[k], unit=units[name]) for name, values in form.readings.items()
-                ),
-            )
-            for k, tree in enumerate(form.trees)
-        )
-        missions.append(EarlierMission(id=f"earlier {number + 1}", begun=at, captures=captures))
-    missions.sort(key=lambda mission: mission.begun)
-    return EarlierMissions(as_of=APPROVED_AT.isoformat(), missions=tuple(missions)) if missions else None
 
 
 def _site(named: str, path: Path, where: str) -> Path:

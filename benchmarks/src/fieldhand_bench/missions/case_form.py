@@ -321,22 +321,6 @@ class WorldForm(Form):
         return {"readings": self.readings, "events": list(self.events), "charge_percent": self.charge_percent}
 
 
-class EarlierForm(Form):
-    """An earlier mission, so many days before the approval, and what it read at each tree."""
-
-    days_ago: Above0
-    do: Text
-    trees: Annotated[tuple[Text | int, ...], Field(min_length=1)]
-    readings: dict[Text, tuple[float, ...]] = {}
-
-    @model_validator(mode="after")
-    def _one_for_each(self) -> EarlierForm:
-        for quantity, values in self.readings.items():
-            if len(values) != len(self.trees):
-                raise ValueError(f"{quantity}: give one value for each of the {len(self.trees)} trees")
-        return self
-
-
 class CaseForm(Form):
     """A request with its expected outcomes."""
 
@@ -348,7 +332,6 @@ class CaseForm(Form):
     runs: tuple[AwareDatetime, ...] = ()
     worlds: Annotated[tuple[WorldForm, ...], Field(min_length=1)] | None = None
     task: Text | None = None
-    earlier: tuple[EarlierForm, ...] = ()
 
     @model_validator(mode="after")
     def _one_way(self) -> CaseForm:

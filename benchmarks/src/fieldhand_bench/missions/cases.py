@@ -4,20 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from datetime import UTC, datetime
+from datetime import datetime
 from pathlib import Path
 from typing import Literal
 
 from fieldhand.execution.drivers.simulation.world import World
-from fieldhand.site.earlier_missions import EarlierMissions
 from fieldhand_bench.missions.places import ANYWHERE, CasePlace
 
 MarkerName = Literal["start", "end"]
 #: Minimum and maximum, both included.
 Bounds = tuple[float, float]
-
-#: Time at which the mission of a case is approved.
-APPROVED_AT = datetime(2026, 1, 1, tzinfo=UTC)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -139,7 +135,6 @@ class Case:
         runs: First instants at which the mission is due, for a robot whose clock shows UTC, if it is approved on
             1 January 2026 at 00:00 UTC; none for a mission that begins when it is started.
         task: The same mission as the draft of a Task (XML), as a language model would write it; empty for none.
-        earlier: What earlier missions did on the site; None if the case does not depend on them.
     """
 
     id: str
@@ -151,4 +146,3 @@ class Case:
     runs: tuple[datetime, ...] = ()
     source: str = ""
     task: str = ""
-    earlier: EarlierMissions | None = None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from datetime import UTC, timedelta
+from datetime import UTC, datetime, timedelta
 from itertools import islice
 from pathlib import Path
 from typing import Literal
@@ -26,7 +26,7 @@ from fieldhand.task.frames import Task
 from fieldhand.task.plan import walk
 from fieldhand.timetable.runs import Calendar
 from fieldhand_bench.missions.case_site import CaseSite, load_case_site
-from fieldhand_bench.missions.cases import APPROVED_AT, Case, CaseWorld
+from fieldhand_bench.missions.cases import Case, CaseWorld
 from fieldhand_bench.missions.judge import judge
 from fieldhand_bench.missions.log import read_log
 
@@ -34,6 +34,7 @@ from fieldhand_bench.missions.log import read_log
 #: answer of the model; ``not approved`` because a check forbids the Task.
 TrialAnswer = Literal["planned", "asked", "refused", "failed", "not approved"]
 
+_APPROVED_AT = datetime(2026, 1, 1, tzinfo=UTC)
 #: Tolerance of the times of the sun.
 _SAME_TIME = timedelta(minutes=3)
 _FIRST = "go to the first tree"
@@ -210,13 +211,13 @@ def _other_runs(case: Case, task: Task, site: Site) -> str:
     if not case.runs:
         return "it begins at a time that nobody asked for"
     calendar = Calendar(
-        approved=APPROVED_AT,
-        expires=APPROVED_AT + timedelta(days=90),
+        approved=_APPROVED_AT,
+        expires=_APPROVED_AT + timedelta(days=90),
         zone=UTC,
         lat=site.start.lat,
         lon=site.start.lon,
     )
-    found = list(islice(calendar.runs(task.timing, APPROVED_AT), len(case.runs) + 1))
+    found = list(islice(calendar.runs(task.timing, _APPROVED_AT), len(case.runs) + 1))
     if any(abs(run.due - wanted) > _SAME_TIME for run, wanted in zip(found, case.runs, strict=False)) or len(
         found
     ) < len(case.runs):
@@ -227,7 +228,7 @@ def _other_runs(case: Case, task: Task, site: Site) -> str:
 def _plan(case: Case, site: Site, robot: RobotProfile, planner: Planner) -> Outcome | ModelError:
     """Plan the request of a case; return a ModelError, so that it fails this case and not the others."""
     try:
-        return mission.plan(case.request, site, robot, planner, earlier=case.earlier)
+        return mission.plan(case.request, site, robot, planner)
     except ModelError as error:
         return error
 
@@ -257,7 +258,7 @@ def _approve(task: Task, site: Site, robot: RobotProfile) -> mission.ApprovedMis
         NotApprovedError: A check fails.
     """
     return mission.authorize(
-        mission.review(task, site, robot), by="the experiment", at=APPROVED_AT, confirmed=EveryWarning()
+        mission.review(task, site, robot), by="the experiment", at=_APPROVED_AT, confirmed=EveryWarning()
     )
 
 
