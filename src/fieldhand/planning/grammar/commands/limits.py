@@ -18,6 +18,7 @@ from fieldhand.planning.grammar.meaning import (
     Total,
     VisitLimit,
 )
+from fieldhand.planning.grammar.places.vague import as_many_ranked
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import are_unvisited
 
@@ -325,6 +326,6 @@ def as_many_of(whole: PlaceMeaning) -> PlaceMeaning | None:
         return None
     if are_unvisited(whole.selector):
         return None
-    if whole.count is not None and not all(one.named_tree for one in whole.selector.members):
+    if whole.count is not None and not whole.vague and not all(one.named_tree for one in whole.selector.members):
         return None
-    return replace(whole, shape="several", optional=True, count=None)
+    return as_many_ranked(replace(whole, shape="several", optional=True, count=None))
