@@ -73,36 +73,16 @@ PLANNED = [
         "photograph the worst vine in row 3 of the north block",
         "picture @ Top(vigor, 1, True, of Rows(3, 3, of InBlock(North)))",
     ),
+    (
+        "husky",
+        "photograph as many as you can of the 40 weakest vines in 15 minutes",
+        "for Top(vigor, 40, True) optional: [picture] | duration_s 900",
+    ),
     ("husky", "measure CO2 at the 5 best Merlot vines", "for Top(vigor, 5, of Where(variety, eq, Merlot)): [co2]"),
     (
         "husky",
         "photograph the poorest vine of each of rows 2 and 3 of the north block",
         "for UnionOf(Top(vigor, 1, True, of Rows(2, 2, of InBlock(North)))+Top(vigor, 1, True, of Rows(3, 3, of InBlock(North)))): [picture]",
-    ),
-    (
-        "husky",
-        "photograph as many weak vines as possible in 15 minutes",
-        "for Ordered(attribute, vigor) given optional: [picture] | duration_s 900",
-    ),
-    (
-        "husky",
-        "in 10 minutes take as many pictures of weak Syrah vines as you can",
-        "for Ordered(attribute, vigor, of Where(variety, eq, Syrah)) given optional: [picture] | duration_s 600",
-    ),
-    (
-        "husky",
-        "measure CO2 at the weakest vines, as many as you can within 12 minutes",
-        "for Ordered(attribute, vigor) given optional: [co2] | duration_s 720",
-    ),
-    (
-        "husky",
-        "photograph as many of the vines with the highest vigor in the south block as you can without driving more than 300 m",
-        "for Ordered(attribute, vigor, True, of InBlock(South)) given optional: [picture] | distance_m 300",
-    ),
-    (
-        "husky",
-        "take CO2 readings at the most vigorous vines of the north block, as many as possible in half an hour",
-        "for Ordered(attribute, vigor, True, of InBlock(North)) given optional: [co2] | duration_s 1800",
     ),
     (
         "husky",
@@ -125,6 +105,19 @@ PLANNED = [
 
 #: Robot, request, and the number of answers to choose from.
 ASKED = [
+    ("husky", "photograph as many weak vines as possible in 15 minutes", 3),
+    ("husky", "in 10 minutes take as many pictures of weak Syrah vines as you can", 3),
+    ("husky", "measure CO2 at the weakest vines, as many as you can within 12 minutes", 3),
+    (
+        "husky",
+        "photograph as many of the vines with the highest vigor in the south block as you can without driving more than 300 m",
+        3,
+    ),
+    (
+        "husky",
+        "take CO2 readings at the most vigorous vines of the north block, as many as possible in half an hour",
+        3,
+    ),
     ("husky", "photograph the weak vines of row 3 of the south block", 3),
     ("husky", "photograph vines with a low vigor", 3),
     ("husky", "measure CO2 at high-vigor vines of the north block", 3),

@@ -1178,7 +1178,7 @@ REFUSED = [
     (
         "husky",
         "measure soil moisture at tree 4",
-        "'measure soil moisture' asks for something that husky does not record",
+        "husky cannot read the soil moisture: no action 'read_soil_moisture'",
     ),
     (
         "husky",

@@ -10,7 +10,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.places.numbers import VAGUE_NUMBERS
-from fieldhand.planning.grammar.places.vague import as_many_ranked
+from fieldhand.planning.grammar.places.vague import as_many_of_best
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import is_by_attribute, is_description
 from fieldhand.site.model import Site
@@ -151,7 +151,7 @@ def as_many(inner: Nominal) -> PlaceMeaning | None:
     """Compose "as many trees as you can"."""
     if inner.single or not inner.plural:
         return None
-    return as_many_ranked(PlaceMeaning(inner.selector, "several", optional=True, vague=inner.vague))
+    return as_many_of_best(PlaceMeaning(inner.selector, "several", optional=True, vague=inner.vague))
 
 
 @construction("place: UPTO n=count inner=nominal", "place: check=CMP n=count inner=nominal", cost=0.2)

@@ -1,4 +1,4 @@
-"""Constructions of trees that are described without a value: "weak vines", "the worst trees", "as many as you can".
+"""Constructions of trees that are described without a value: "weak vines", "the worst trees".
 
 Numbers that a person would ask for become readings of their own, so that the plans differ in them and the person is
 asked: from which value on a vine is weak, and by which attribute a tree is bad.
@@ -14,8 +14,9 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.chosen import Choice
 from fieldhand.planning.grammar.places.compass import CORNERS
+from fieldhand.planning.grammar.places.numbers import VAGUE_NUMBERS
 from fieldhand.planning.grammar.words import Lex, hinted_attributes
-from fieldhand.planning.selections import chooses_from_trees, rank_of, swapped
+from fieldhand.planning.selections import as_top, chooses_from_trees, swapped
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -40,6 +41,8 @@ _SHARES = (0.05, 0.10, 0.25)
 #: Words in the names of attributes that say how high a place lies.
 _HEIGHTS = ("elevation", "altitude", "elev")
 _ANYWHERE = s.Trees()
+#: Number of the best trees of which as many as possible are visited, by the number offered if all of them are.
+_AMONG = dict(zip(VAGUE_NUMBERS, (10, 30, 100), strict=True))
 #: Minimum number of different values of an attribute by which trees are ranked.
 _FEWEST_VALUES = 3
 
@@ -98,19 +101,16 @@ def from_some_value_on(said: tuple[Nominal, tuple[str, bool], str], site: Site) 
     return found or None
 
 
-def as_many_ranked(place: PlaceMeaning) -> PlaceMeaning:
-    """Return places of which as many as possible are visited: in the order of their rank, if they have one.
+def as_many_of_best(place: PlaceMeaning) -> PlaceMeaning:
+    """Return places of which as many as possible are visited: among more of the best ones if no number was given.
 
-    "As many of the weakest vines as you can" begins with the weakest one, and so does "as many weak vines".
+    "As many of the weakest vines as you can" leaves open among how many of them; each number is a reading of its own.
     """
-    if not place.vague:
-        return place
     for part in place.selector.walk():
-        rank = rank_of(part)
-        if rank is not None and rank[0] == place.vague:
-            of = swapped(place.selector, part, part.of)  # type: ignore[attr-defined]
-            ranked = s.Ordered(by="attribute", attribute=rank[0], descending=not rank[1], of=of)
-            return replace(place, selector=ranked, count=None, in_order=True, vague="")
+        top = as_top(part)
+        if place.vague and top is not None and top.attribute == place.vague and top.count in _AMONG:
+            among = replace(top, count=_AMONG[top.count])
+            return replace(place, selector=swapped(place.selector, top, among), count=None)
     return place
 
 
