@@ -63,6 +63,8 @@ def lacked_actions(words: Sequence[Word], among: frozenset[int], robot: RobotPro
             action = None if qualified or phrase in own else known.get(phrase)
             if action is None or action.name in robot.action or among.isdisjoint(range(at, end)):
                 continue
+            if split(action.name)[1:] in own:
+                continue  # "a colour picture", asked of a robot that takes other pictures
             yield LackedAction(first=at, last=end, does=say_action(action.name), name=action.name)
             at = end - 1
             break
