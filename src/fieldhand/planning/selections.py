@@ -359,6 +359,17 @@ def as_apart(selector: s.Selector) -> s.Apart | None:
     return selector if isinstance(selector, s.Apart) else None
 
 
+def rank_of(selector: s.Selector) -> tuple[str, bool] | None:
+    """Return the attribute by which trees are ranked or bounded, and True for its low values; None for others."""
+    match selector:
+        case s.Top():
+            return selector.attribute, selector.lowest
+        case s.Where(test="lt" | "gt"):
+            return selector.attribute, selector.test == "lt"
+        case _:
+            return None
+
+
 def as_top(selector: s.Selector) -> s.Top | None:
     """Return the selector if it takes the best by an attribute, None otherwise."""
     return selector if isinstance(selector, s.Top) else None

@@ -14,7 +14,7 @@ from typing import Any
 
 from fieldhand.planning.english.inflection import forms_of, plural_of
 from fieldhand.planning.english.lexicon import Lexicon, lexicon_for
-from fieldhand.planning.english.naming import NameEntry, Naming, Phrase, split
+from fieldhand.planning.english.naming import NameEntry, Naming, Phrase, split, takes_pictures
 from fieldhand.planning.english.spelling import respelt
 from fieldhand.planning.english.tokens import Word, ranges_of, words_of
 from fieldhand.planning.english.vocabulary import vocabulary
@@ -25,8 +25,6 @@ from fieldhand.planning.grammar.words import FeatureTable
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 
-#: Words of an action that takes pictures.
-_PICTURES = frozenset({"picture", "photo", "image", "thermal picture"})
 #: Number of words of the longest phrase of english.toml that is read as a word.
 _LONGEST = 6
 #: What stands before the first word of a clause.
@@ -161,6 +159,8 @@ def more_words() -> Mapping[Phrase, tuple[NameEntry, ...]]:
             found[split(plural_of(phrase))].append(NameEntry(kind=kind, plural=True))
     for phrase, value in own["derived"].items():
         found[split(phrase)].append(NameEntry(kind="SUPER", value=tuple(value)))
+    for phrase, value in own["vague"].items():
+        found[split(phrase)].append(NameEntry(kind="VAGUEADJ", value=tuple(value)))
     for phrase, part in own["parts"].items():
         found[split(phrase)].append(NameEntry(kind="PART", value=part))
     for kind, routes in own["routes"].items():
@@ -193,7 +193,7 @@ def phrases_for(robot: RobotProfile, site: Site) -> EnglishPhrases:
 
 def camera_of(robot: RobotProfile) -> Naming | None:
     """Return the action that takes pictures, if the robot has just one."""
-    cameras = [action.name for action in robot.actions if _PICTURES & set(action.words)]
+    cameras = [action.name for action in robot.actions if takes_pictures(action)]
     return Naming(actions=(cameras[0],)) if len(cameras) == 1 else None
 
 

@@ -78,6 +78,7 @@ class Nominal:
         of_side: True if an adjective before it names the side on which it stands ("northern tree").
         pronoun: True for "one", which stands for a noun before it.
         tested: True if a clause behind the noun describes it ("that are older than 8 years").
+        vague: Attribute by which trees are described without a value ("weak vines").
     """
 
     selector: s.Selector
@@ -88,6 +89,7 @@ class Nominal:
     tested: bool = False
     pronoun: bool = False
     of_side: bool = False
+    vague: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,6 +133,7 @@ class PlaceMeaning:
         there: True if the phrase says that they are in the area spoken of ("every tree there").
         per: Rows of each of which the selector says something by itself ("the oldest tree of each row").
         fault: Why the site cannot have it, for ``nowhere``.
+        vague: Attribute by which they are chosen if neither a number nor a value was given ("the oldest trees").
         tokens: Tokens of the phrase, as a bit mask; they do not tell two meanings apart.
     """
 
@@ -148,6 +151,7 @@ class PlaceMeaning:
     like: Likewise | None = None
     per: s.Selector | None = None
     fault: str = ""
+    vague: str = ""
     tokens: int = field(default=0, compare=False)
 
     def with_tokens(self, used: int) -> PlaceMeaning:
@@ -180,6 +184,7 @@ class Thing:
         plural: True for a noun in the plural.
         parameters: Parameters that the phrase gives.
         more: True for "another" and "two more", which are taken besides those before.
+        verb: Verb of a capture that is not named: ``look`` ("check tree 4") or ``sample``; empty for another one.
     """
 
     action: str
@@ -187,6 +192,7 @@ class Thing:
     plural: bool = False
     parameters: tuple[tuple[str, str | float], ...] = ()
     more: bool = False
+    verb: Literal["", "look", "sample"] = ""
 
 
 #: Beginning of the action of a wait, which is read as a capture and becomes a wait when the plan is complete.

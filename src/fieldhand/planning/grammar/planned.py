@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from fieldhand.errors import PlaceError, TaskError
@@ -114,6 +114,7 @@ def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> O
     )
     problems = (
         *_unable(task, robot, site),
+        *_ordered_choices(task.composition.plan),
         *_impossible(task.composition.plan, site),
         *_impossible_ways(meant, site),
     )
@@ -127,6 +128,18 @@ def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> O
 def _skips(watch: Watch) -> bool:
     """Return True if a watch may leave out a visit."""
     return watch.response in ("skip", "skip_row") or (watch.response == "wait" and watch.fallback == "skip")
+
+
+def _ordered_choices(plan: p.Node) -> Iterator[Reason]:
+    """Yield a reason for visits in a fixed order of which only as many are made as fit."""
+    for node in p.walk(plan):
+        if node.is_optional and node.visits_each and not node.in_any_order:
+            yield Reason(
+                what=message("an order of places cannot be combined with a choice of how many", context="fault"),
+                said=node.said,
+                advice=message("say among how many: 'as many as you can of the 30 oldest trees'"),
+                final=True,
+            )
 
 
 def _constraints(meant: Meant) -> Constraints:

@@ -11,8 +11,13 @@ from fieldhand.planning.english.tokens import Word, words_of
 from fieldhand.planning.english.wishes import says_start
 from fieldhand.planning.grammar.ambiguity import PlanQuestion, chosen_answer, not_an_answer, question_between
 from fieldhand.planning.grammar.answer_places import different_places
-from fieldhand.planning.grammar.assumptions import assumed_hands, assumed_ways, assumed_wholes
-from fieldhand.planning.grammar.blocks import in_each_block, leaves_block_open, rules_in_each_block
+from fieldhand.planning.grammar.assumptions import assumed_hands, assumed_qualities, assumed_ways, assumed_wholes
+from fieldhand.planning.grammar.blocks import (
+    exceptions_leave_out,
+    in_each_block,
+    leaves_block_open,
+    rules_in_each_block,
+)
 from fieldhand.planning.grammar.chart import Chart, Grammar, PhraseEdge, tokens_of
 from fieldhand.planning.grammar.dialogue import (
     DialogueState,
@@ -191,6 +196,7 @@ def _read_words(
                         *assumed_ways(state.plan, request, sides, site),
                         *assumed_wholes(state.plan, request),
                         *assumed_hands(state.plan, request),
+                        *assumed_qualities(state.plan, request),
                     ),
                 )
                 for state in states
@@ -201,7 +207,7 @@ def _read_words(
     unread: tuple[Reason, ...] = ()
     if not found:
         chart = _parsed(_with_impossible(language), words, edges, phrases, site, robot)
-        unread = unread_reasons(request, words, edges, chart, faults, site)
+        unread = unread_reasons(request, words, edges, chart, faults, site, robot)
     return ReadRequest(readings=found, faults=faults, unread=unread)
 
 
@@ -330,6 +336,8 @@ def _candidates(
         for block, plan in plans.items()
     }
     planned = [block for block, outcome in outcomes.items() if isinstance(outcome, Planned)]
+    if len(planned) > 1:
+        planned = [block for block in planned if exceptions_leave_out(plans[block], site)] or planned
     if len(plans) > 1 and len(planned) == 1:  # "five Syrah vines in row 30", where only one block has Syrah
         (block,) = planned
         outcomes = {

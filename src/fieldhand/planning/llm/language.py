@@ -126,6 +126,9 @@ def _child(child: Child) -> str:
     part = letter or between.join(f"<{element_name(option)}/>" for option in child.options)
     many = f"{part}..." if child.kind == "many" else part
     whole = many if child.direct else f"<{child.name}>{many}</{child.name}>"
+    if child.kind == "inline":  # the element itself has the attributes of that class
+        (option,) = child.options
+        whole = f"<{child.name} {element_name(option).upper()}/>"
     if child.name == "of" and not child.direct:
         whole = "OF"
     return whole if child.default is MISSING else f"[{whole}]"

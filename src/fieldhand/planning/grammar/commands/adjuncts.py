@@ -11,6 +11,7 @@ from fieldhand.planning.grammar.commands.clauses import Adjunct, Clause, once
 from fieldhand.planning.grammar.meaning import LAST_THING, UNSAID_THING, CaptureCommand, PlaceMeaning, Thing
 from fieldhand.planning.grammar.places.groups import of_each_kind
 from fieldhand.planning.grammar.places.sampling import bare_zone
+from fieldhand.planning.grammar.places.vague import as_many_of_best
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import are_rows, as_quota, as_some, as_zone, chooses_from_trees, is_one_row, over
 from fieldhand.site.model import Site
@@ -167,9 +168,11 @@ def _at_random(command: CaptureCommand, drawing: _Drawing) -> CaptureCommand | N
 
 def _as_many(command: CaptureCommand, _: None) -> CaptureCommand | None:
     place = command.place
-    if place is None or place.shape != "several" or place.count is not None or place.per is not None:
+    if place is None or place.shape != "several" or place.per is not None:
         return None
-    return replace(command, place=replace(place, optional=True))
+    if place.count is not None and not place.vague:
+        return None
+    return replace(command, place=as_many_of_best(replace(place, optional=True)))
 
 
 @construction(

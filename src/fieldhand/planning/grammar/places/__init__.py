@@ -23,6 +23,7 @@ from fieldhand.planning.grammar.places import (
     sets,
     spots,
     steps,
+    vague,
 )
 
 GRAMMAR = Grammar()
@@ -46,5 +47,6 @@ for _part in (
     sampling,
     by_reading,
     numbered_zones,
+    vague,
 ):
     GRAMMAR.include(_part.GRAMMAR)

@@ -732,7 +732,9 @@ def _place(chosen: Chosen, choice: Choice, n: int | None) -> PlaceMeaning | None
     if choice.by == "of every" and n == 1:
         return PlaceMeaning(selector, "several", each=True)
     beside = chosen.neighbours if choice.to is None else choice.to.shape == "here"
-    return PlaceMeaning(selector, "one" if n == 1 else "several", count=n if n > 1 else None, beside=beside)
+    vague = choice.value[0] if choice.by == "best" and n > 1 and chosen.count is None else ""
+    shape: Literal["one", "several"] = "one" if n == 1 else "several"
+    return PlaceMeaning(selector, shape, count=n if n > 1 else None, beside=beside, vague=vague)
 
 
 def _measurable(choice: Choice) -> bool:
