@@ -11,7 +11,7 @@ from fieldhand.task.build import make_task
 from fieldhand.task.frames import Budget, Constraints, Resource, Task, Then
 from fieldhand.task.plan import Node
 from fieldhand.task.watches import Watch
-from fieldhand.task.ways import Avoid, OnlyGate
+from fieldhand.task.ways import Avoid, OnlyGate, SlowNear
 
 
 def build_task(
@@ -26,6 +26,7 @@ def build_task(
     avoid: Sequence[Avoid] = (),
     only_gates: Sequence[str] = (),
     watches: Sequence[Watch] = (),
+    slow: Sequence[SlowNear] = (),
 ) -> Task:
     """Build a Task for a site and a robot; :func:`review` checks it as it checks every Task.
 
@@ -40,6 +41,7 @@ def build_task(
         avoid: Places that the robot keeps away from.
         only_gates: Names of the gates that it may pass; empty for all gates.
         watches: Conditions checked throughout the mission, each with its response.
+        slow: Places at which the robot drives slowly.
     """
     return make_task(
         request=request,
@@ -54,6 +56,7 @@ def build_task(
             reserve_percent=reserve_percent,
             avoid=tuple(avoid),
             only_gates=tuple(OnlyGate(gate=gate) for gate in only_gates),
+            slow=tuple(slow),
         ),
         nominal=then,
         watches=tuple(watches),
