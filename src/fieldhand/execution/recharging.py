@@ -22,6 +22,8 @@ from fieldhand.task.run import Steps
 #: Charge in percent below the wanted one at which charging counts as done, unless its time is set: meters show steps.
 SLACK_PERCENT = 0.5
 
+#: Seconds within which two times are equal: clocks add floating-point numbers.
+_SAME_S = 1e-6
 #: Charging may take this many times as long as the profile says, and so many seconds more, before it has failed.
 _PATIENCE, _PATIENCE_S = 2.0, 300.0
 
@@ -118,7 +120,7 @@ def _charged(
     def full() -> bool:
         return mission.charge_percent() >= enough_percent
 
-    while not full() and (left_s := limit_s - (mission.clock.now() - begun_s)) > 0.0:
+    while not full() and (left_s := limit_s - (mission.clock.now() - begun_s)) > _SAME_S:
         soon_s = float(charging.seconds(mission.charge_percent(), until_percent, capacity_j))
         with mission.looking_every(soon_s / 2.0):
             yield from wait(mission, min(left_s, max(1.0, soon_s)), over=full)

@@ -124,6 +124,8 @@ def _inside(points: np.ndarray, ends: np.ndarray, shape: BaseGeometry) -> list[t
     found: list[tuple[float, float]] = []
     for k in touched.tolist():
         for part in shapely.get_parts(shapely.intersection(lines[k], shape)):
+            if part.is_empty:
+                continue  # two corners at the same point
             away = np.hypot(*(shapely.get_coordinates(part) - points[k]).T)
             found.append((float(ends[k] + away.min()), float(ends[k] + away.max())))
     return found

@@ -11,7 +11,7 @@ from fieldhand.task.frames import Constraints
 from fieldhand.task.ways import Avoid
 
 
-def say_ways(constraints: Constraints, robot: RobotProfile) -> tuple[str, ...]:
+def say_ways(constraints: Constraints, robot: RobotProfile | None = None) -> tuple[str, ...]:
     """Return a sentence for each place that the mission keeps away from or drives slowly at, and one for its gates."""
     found: list[str] = []
     for avoid in constraints.avoid:
@@ -24,8 +24,11 @@ def say_ways(constraints: Constraints, robot: RobotProfile) -> tuple[str, ...]:
         gates = listed(tuple(say_gate(only.gate) for only in constraints.only_gates))
         found.append(message("of the gates, the robot passes only {gates}.", gates=gates))
     for slow in constraints.slow:
-        speed = say_number(slow_speed(slow.speed_m_s, robot), 3)
-        found.append(message("at most {speed} m/s {where}.", speed=speed, where=say_slow_ground(slow)))
+        if robot is None and slow.speed_m_s is None:
+            found.append(message("slowly {where}.", where=say_slow_ground(slow)))
+            continue
+        speed = (slow.speed_m_s or 0.0) if robot is None else slow_speed(slow.speed_m_s, robot)
+        found.append(message("at most {speed} m/s {where}.", speed=say_number(speed, 3), where=say_slow_ground(slow)))
     return tuple(found)
 
 
