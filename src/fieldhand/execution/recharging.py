@@ -12,7 +12,7 @@ from fieldhand.errors import ActionFault, DriveFault
 from fieldhand.execution.active_mission import ActiveMission
 from fieldhand.execution.docking import leave_charger, maneuver, tries_of
 from fieldhand.execution.goals import drive
-from fieldhand.execution.waiting import wait
+from fieldhand.execution.waiting import SAME_S, wait
 from fieldhand.language import message
 from fieldhand.robot.charging import Charging
 from fieldhand.task.plan import Recharge
@@ -22,8 +22,6 @@ from fieldhand.task.run import Steps
 #: Charge in percent below the wanted one at which charging counts as done, unless its time is set: meters show steps.
 SLACK_PERCENT = 0.5
 
-#: Seconds within which two times are equal: clocks add floating-point numbers.
-_SAME_S = 1e-6
 #: Charging may take this many times as long as the profile says, and so many seconds more, before it has failed.
 _PATIENCE, _PATIENCE_S = 2.0, 300.0
 
@@ -120,7 +118,7 @@ def _charged(
     def full() -> bool:
         return mission.charge_percent() >= enough_percent
 
-    while not full() and (left_s := limit_s - (mission.clock.now() - begun_s)) > _SAME_S:
+    while not full() and (left_s := limit_s - (mission.clock.now() - begun_s)) > SAME_S:
         soon_s = float(charging.seconds(mission.charge_percent(), until_percent, capacity_j))
         with mission.looking_every(soon_s / 2.0):
             yield from wait(mission, min(left_s, max(1.0, soon_s)), over=full)
