@@ -111,6 +111,8 @@ def _ranges(task: Task) -> Iterator[tuple[Span, WordRole]]:
         yield from ((span, "limit") for span in avoid.said)
     for only in task.constraints.only_gates:
         yield from ((span, "limit") for span in only.said)
+    for slow in task.constraints.slow:
+        yield from ((span, "limit") for span in slow.said)
     for watch in task.composition.watches:
         yield from ((span, "condition") for span in watch.said)
     yield from ((span, "limit") for span in (*task.constraints.reserve_said, *task.constraints.energy_said))

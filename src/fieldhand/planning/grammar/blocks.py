@@ -68,7 +68,7 @@ def rules_in_each_block(ways: Ways, plan: p.Node, site: Site) -> Sequence[Ways]:
     named = [
         rows
         for rule, _ in ways
-        for places, _ in rule.avoid
+        for places in (*(places for places, _ in rule.avoid), *(one.places for one in rule.slow))
         for rows in rows_of(places)
         if rows.first and not is_in_block(rows.of)
     ]
@@ -83,7 +83,9 @@ def rules_in_each_block(ways: Ways, plan: p.Node, site: Site) -> Sequence[Ways]:
 
 
 def _rule_of_block(rule: WayRule, block: Block) -> WayRule:
-    return replace(rule, avoid=tuple((_rows_of_block(places, block), metres) for places, metres in rule.avoid))
+    avoid = tuple((_rows_of_block(places, block), metres) for places, metres in rule.avoid)
+    slow = tuple(replace(one, places=_rows_of_block(one.places, block)) for one in rule.slow)
+    return replace(rule, avoid=avoid, slow=slow)
 
 
 def leaves_block_open(selector: s.Selector, site: Site) -> bool:

@@ -77,7 +77,8 @@ class EnglishPhrases:
         """Yield the events that words mention, and with them the words of responses."""
         found = list(self.events.mentions(words))
         for one in found:
-            yield "EVENTNOUN" if one.is_noun else "EVENT", one.start, one.end, one.condition
+            kind = "EVENTNOUN" if one.is_noun else "NOEVENT" if one.clear else "EVENT"
+            yield kind, one.start, one.end, one.condition
         if found or says_any_time(words):
             yield from ((category, start, end, None) for category, start, end in response_words(words))
 

@@ -397,6 +397,21 @@ class RechargeClause:
 
 
 @dataclass(frozen=True, slots=True)
+class SlowPlace:
+    """A place at which the robot drives slowly.
+
+    Attributes:
+        places: The place.
+        metres: Distance from it in metres, 0 for the place itself; None if the phrase says only "near".
+        pace: Speed.
+    """
+
+    places: s.Selector
+    metres: float | None
+    pace: PaceClause | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class WayRule:
     """Where the robot must not drive, and the only gates that it may pass.
 
@@ -406,12 +421,14 @@ class WayRule:
         left_out: Those of the places whose trees are left out as well ("stay out of"), not only driven past ("not
             through").
         used: Tokens of the phrase.
+        slow: Places at which it drives slowly.
     """
 
     avoid: tuple[tuple[s.Selector, float], ...] = ()
     gates: tuple[str, ...] = ()
     left_out: tuple[s.Selector, ...] = ()
     used: int = 0
+    slow: tuple[SlowPlace, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -748,6 +765,7 @@ class WatchResponse:
         at_most_s: Maximum of a wait in seconds; None if it is not said.
         fallback: What follows the maximum; empty if it is not said.
         over: True if the phrase says that the robot goes on when it is over.
+        pace: Speed of a robot that drives slowly.
         stands: True for "stop", after which the robot stays where it is if it does not end.
     """
 
@@ -756,6 +774,7 @@ class WatchResponse:
     fallback: Fallback | None = None
     over: bool = False
     stands: bool = False
+    pace: PaceClause | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -766,11 +785,13 @@ class WatchCommand:
         conditions: Conditions; none for a sentence about the response to those before.
         reaction: Response.
         used: Tokens of the phrase.
+        during: Actions during which they are checked; empty for the whole mission.
     """
 
     conditions: Conditions
     reaction: WatchResponse
     used: int
+    during: tuple[str, ...] = ()
 
 
 Command = (

@@ -28,7 +28,7 @@ from fieldhand.task.frames import Budget, BudgetKind, Constraints, Resource, Tas
 from fieldhand.task.recharging import recharges
 from fieldhand.task.timing import Timing
 from fieldhand.task.watches import Watch
-from fieldhand.task.ways import Avoid, OnlyGate
+from fieldhand.task.ways import Avoid, OnlyGate, SlowNear
 
 NAME = "english"
 KINDS: dict[str, BudgetKind] = {"metres": "distance_m", "seconds": "duration_s", "percent": "energy_percent"}
@@ -164,6 +164,16 @@ def _constraints(meant: Meant) -> Constraints:
             for places, metres in rule.avoid
         ),
         only_gates=tuple(OnlyGate(gate=gate, said=said) for rule, said in meant.ways for gate in rule.gates),
+        slow=tuple(
+            SlowNear(
+                places=one.places,
+                distance_m=one.metres or 0.0,
+                speed_m_s=None if one.pace is None else one.pace.speed,
+                said=said,
+            )
+            for rule, said in meant.ways
+            for one in rule.slow
+        ),
     )
 
 
@@ -219,7 +229,7 @@ def _impossible_limits(limits: Iterable[LimitPhrase]) -> Iterable[Reason]:
 def _impossible_ways(meant: Meant, site: Site) -> Iterable[Reason]:
     """Yield a reason for each place to keep away from that the site lacks, or of which no distance is said."""
     for rule, said in meant.ways:
-        for places, metres in rule.avoid:
+        for places, metres in (*rule.avoid, *((one.places, one.metres) for one in rule.slow)):
             if as_zone(places) is not None:
                 continue  # a zone without trees is one, too
             try:

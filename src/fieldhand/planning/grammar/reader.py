@@ -548,10 +548,17 @@ def _same(one: Meant, other: Meant) -> bool:
         and (one.nominal, one.speed_m_s) == (other.nominal, other.speed_m_s)
         and [(limit.amount, limit.unit, limit.keep) for limit in one.limits]
         == [(limit.amount, limit.unit, limit.keep) for limit in other.limits]
-        and [(rule.avoid, rule.gates) for rule, _ in one.ways] == [(rule.avoid, rule.gates) for rule, _ in other.ways]
+        and _rules(one) == _rules(other)
         and [replace(watch, said=()) for watch in one.watches] == [replace(watch, said=()) for watch in other.watches]
         and _without_said(one.recharging) == _without_said(other.recharging)
     )
+
+
+def _rules(meant: Meant) -> list[object]:
+    return [
+        (rule.avoid, rule.gates, [(x.places, x.metres, x.pace and x.pace.speed) for x in rule.slow])
+        for rule, _ in meant.ways
+    ]
 
 
 def _without_said(recharging: MeantRecharging | None) -> MeantRecharging | None:

@@ -23,7 +23,7 @@ from fieldhand.task.frames import Budget, Constraints, FaultedExit
 from fieldhand.task.plan import Node
 from fieldhand.task.timing import DayTime, Timing
 from fieldhand.task.watches import Watch, WatchCondition
-from fieldhand.task.ways import Avoid, OnlyGate
+from fieldhand.task.ways import Avoid, OnlyGate, SlowNear
 
 #: Letters that stand for any element of a family in the forms.
 LETTERS = {"node": "N", "condition": "C", "selector": "S", "watched": "W"}
@@ -67,7 +67,7 @@ def describe_language() -> str:
         ("Nodes (N), what is done", get_args(Node)),
         ("Conditions (C), what an if or an until tests", get_args(Condition)),
         ("Selectors (S), how places are named", SELECTORS),
-        ("Constraints", (Constraints, Budget, Avoid, OnlyGate, FaultedExit)),
+        ("Constraints", (Constraints, Budget, Avoid, OnlyGate, SlowNear, FaultedExit)),
         ("Times, when the whole mission runs", (*get_args(Timing), DayTime)),
     )
     rendered = [

@@ -19,6 +19,7 @@ from fieldhand.planning.grammar.commands import (
     requests,
     sampling,
     sides,
+    slow,
     spacing,
     things,
     waits,
@@ -30,7 +31,7 @@ from fieldhand.planning.grammar.commands import (
 GRAMMAR = Grammar()
 _THEMES = (
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, energy, events, requests,
-    exclusions, ways, sampling, waits, pace, sides, aggregates, working,
+    exclusions, ways, slow, sampling, waits, pace, sides, aggregates, working,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)

@@ -44,6 +44,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
     without_idle_cases,
 )
 from fieldhand.planning.grammar.dialogue.series import is_by_reading, with_read_place
+from fieldhand.planning.grammar.dialogue.slow import ruled
 from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
     NotComposed,
@@ -328,7 +329,7 @@ def _read(
         case SettleClause():
             return replace(state, settles=(*state.settles, command))
         case WayRule():
-            return replace(state, ways=(*state.ways, (command, setting.spans_of(command.used))))
+            return ruled(setting, state, command)
         case RechargeClause():
             return recharged(setting, state, command)
         case Allowed():
