@@ -59,6 +59,7 @@ from fieldhand.site.drives import Drives
 from fieldhand.site.earlier_missions import EarlierCapture, EarlierMission, EarlierMissions, EarlierValue
 from fieldhand.site.model import Place, Site
 from fieldhand.task.aggregates import Aggregate, CompareSeries, CountReadings, MeanKnown, SeriesCondition
+from fieldhand.task.build import make_task
 from fieldhand.task.codec import decode_parts
 from fieldhand.task.conditions import AllOf, AnyOf, Compare, Condition, Not
 from fieldhand.task.conditions import walk as condition_parts
@@ -527,7 +528,15 @@ def simulated(seed: int) -> Simulated:
     robot, site = husky(), orchard()
     for attempt in range(100):
         rng = np.random.default_rng([18, seed, attempt])
-        task = task_for(Drawn(rng).plan(), nominal=str(rng.choice(["return_to_start", "return_to_end", "stay"])))  # type: ignore[arg-type]
+        drawn = Drawn(rng)
+        task = make_task(
+            request="a test",
+            plan=drawn.plan(),
+            measures={},
+            nominal=str(rng.choice(["return_to_start", "return_to_end", "stay"])),  # type: ignore[arg-type]
+            constraints=drawn.constraints(),
+            watches=drawn.watches(),
+        )
         task = with_earlier(task, earlier())
         bad = rng.permutation([t.place.id for t in site.trees])[:7].tolist()
         faults = tuple(ActionFails(action=FAILING, at=TreeRef(id=tree)) for tree in bad)
