@@ -29,6 +29,13 @@ SAID = [
     (TREE, None, "tree 81"),
     (s.Marker(name="charger"), None, "the charger"),
     (s.GateIs(gate="gate"), None, "the gate"),
+    (s.Beside(side="both", of=s.TreeIs(tree="4")), None, "both sides of tree 4"),
+    (s.ByReading(reading="r1", quantity="co2"), None, "the place where the CO₂ read was highest"),
+    (
+        s.GroupByReading(group="row", reading="r1", quantity="co2"),
+        None,
+        "the trees in the row with the highest mean CO₂",
+    ),
     (s.GateIs(gate="north gate"), None, "the gate “north gate”"),
     (HERE, None, "the place reached before"),
     (s.Bound(label="a"), None, "the place called “a”"),

@@ -19,7 +19,7 @@ from fieldhand.task.plan import Recharge
 from fieldhand.task.results import ChargeBegun, ChargeEnded, Faulted
 from fieldhand.task.run import Steps
 
-#: Charge in percent below the wanted one at which charging counts as done: meters show steps.
+#: Charge in percent below the wanted one at which charging counts as done, unless its time is set: meters show steps.
 SLACK_PERCENT = 0.5
 
 #: Charging may take this many times as long as the profile says, and so many seconds more, before it has failed.
@@ -113,8 +113,10 @@ def _charged(
     )
     limit_s = _PATIENCE * takes_s + _PATIENCE_S if most_s is None else most_s
 
+    enough_percent = until_percent - (SLACK_PERCENT if most_s is None else 0.0)
+
     def full() -> bool:
-        return mission.charge_percent() >= until_percent - SLACK_PERCENT
+        return mission.charge_percent() >= enough_percent
 
     while not full() and (left_s := limit_s - (mission.clock.now() - begun_s)) > 0.0:
         soon_s = float(charging.seconds(mission.charge_percent(), until_percent, capacity_j))

@@ -37,7 +37,7 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Stretch:
+class GuardedStep:
     """A step of a walk as the guard sees it: a drive, an action, a wait, work along a path, or a charge.
 
     Attributes:
@@ -63,9 +63,11 @@ class Stretch:
         return self.step.node.recharge if self.step is not None and self.step.kind == "charge" else None
 
 
-def stretches(steps: Iterable[WalkStep | SampledVisits], rules: RechargeRules, drives: Drives) -> tuple[Stretch, ...]:
+def stretches(
+    steps: Iterable[WalkStep | SampledVisits], rules: RechargeRules, drives: Drives
+) -> tuple[GuardedStep, ...]:
     """Return the steps of a walk that drive, act or charge."""
-    found: list[Stretch] = []
+    found: list[GuardedStep] = []
     metres: dict[tuple[float, float], float] = {}
     covered: str | None = None
     for step in steps:
@@ -100,7 +102,7 @@ def stretches(steps: Iterable[WalkStep | SampledVisits], rules: RechargeRules, d
         if step.node.recharge is not None:
             asked = None
         found.append(
-            Stretch(
+            GuardedStep(
                 step=step,
                 leg_m=leg_m,
                 work=work,
@@ -112,10 +114,10 @@ def stretches(steps: Iterable[WalkStep | SampledVisits], rules: RechargeRules, d
     return tuple(found)
 
 
-def _of_visits(visits: SampledVisits) -> Stretch:
+def _of_visits(visits: SampledVisits) -> GuardedStep:
     """Return the optional visits as a stretch with the mean of all missions."""
     metres, seconds, joules = visits.work
-    return Stretch(
+    return GuardedStep(
         step=None,
         leg_m=float((visits.preview.legs + metres).mean()),
         work=Work(seconds=float(seconds.mean()), joules=float(joules.mean())),
@@ -147,7 +149,7 @@ class ChargesNeeded:
     rest: Floats
 
 
-def charges_needed(some: Sequence[Stretch], rules: RechargeRules) -> ChargesNeeded:
+def charges_needed(some: Sequence[GuardedStep], rules: RechargeRules) -> ChargesNeeded:
     """Return the charge that suffices for each stretch. Up to a charge of the plan, what follows it is not counted."""
     here, from_charger = np.zeros(len(some)), np.zeros(len(some))
     leg, back, begin = (
@@ -202,7 +204,7 @@ def charged_use(
     """
     some = stretches(steps, rules, drives)
     needed = charges_needed(some, rules)
-    missions, leaving = _Missions(rules, task, samples, charge_percent), None
+    missions, leaving = _ChargingMissions(rules, task, samples, charge_percent), None
     for number, stretch in enumerate(some):
         if stretch.charges is not None:
             missions.charge_as_planned(stretch.charges)
@@ -228,7 +230,7 @@ def charged_use(
     return missions.used
 
 
-class _Missions:
+class _ChargingMissions:
     """Many missions at once, each with its own charge.
 
     Attributes:

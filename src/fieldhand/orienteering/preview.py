@@ -73,7 +73,7 @@ def preview(policy: Policy, state: State, rng: np.random.Generator, used: Floats
         used: Amount that each mission has used in excess of that state, shape (missions,); negative if it has used
             less.
     """
-    missions = _Missions(policy, state, used)
+    missions = _SampledMissions(policy, state, used)
     fewest = max(1, int(len(used) * _SMALLEST))
     waiting = [_Group(policy=policy, vertex=state.vertex, stops=(), members=np.arange(len(used)))]
     while waiting:
@@ -140,7 +140,7 @@ class _Group:
         ]
 
 
-class _Missions:
+class _SampledMissions:
     """Missions under way."""
 
     def __init__(self, policy: Policy, state: State, used: Floats) -> None:

@@ -24,6 +24,11 @@ _NESTING: dict[type[s.Selector], int] = {
 AREAS = tuple(_NESTING)
 
 
+def is_gate(selector: s.Selector) -> bool:
+    """Return True for a gate by its name."""
+    return isinstance(selector, s.GateIs)
+
+
 def over(selector: s.Selector, base: s.Selector) -> s.Selector:
     """Return a selector that chooses from ``base`` instead of from every tree of the site.
 

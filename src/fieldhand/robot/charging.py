@@ -21,7 +21,7 @@ _STEP_PERCENT = 0.25
 
 @dataclass(frozen=True, kw_only=True)
 class Charging:
-    """How a robot recharges.
+    """Charging properties of a robot.
 
     Attributes:
         dock: Action that connects it to the charger.

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from fieldhand.forecast.recharge_rules import charge_target
 from fieldhand.language import counted, joined, kept_in_log, message
 from fieldhand.language.words import say_duration, say_number, say_place, say_times
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.frames import Constraints
 from fieldhand.task.plan import Recharge
-from fieldhand.task.results import ChargeBegun, ChargeEnded
+
+if TYPE_CHECKING:
+    from fieldhand.task.results import ChargeBegun, ChargeEnded
 
 
 def say_recharge(node: Recharge, robot: RobotProfile) -> str:

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from fieldhand.language import Message, kept_in_log, labelled, message, named
 from fieldhand.language.words import capitalised, say_duration, say_name, say_number, say_quantity, say_unit
 from fieldhand.robot.model import RobotProfile
-from fieldhand.task.results import EventBegan
 from fieldhand.task.watches import EventBeyond, EventHolds, Fallback, ReadingBeyond, Watch
 from fieldhand.terms import Test
+
+if TYPE_CHECKING:
+    from fieldhand.task.results import EventBegan
 
 
 def say_event(name: str, robot: RobotProfile) -> str:

@@ -53,11 +53,11 @@ PLANNED = [
     ("For trees 10 to 15 of row 3 I need one thermal picture each. At tree 12 of that row also measure CO2.", "for InRow(10, 15, of Rows(3, 3)): [picture]; go InRow(12, 12, of Rows(3, 3)); co2"),
     ("Photograph every tree of row 2 from north to south, and at the last tree measure CO2.", "for Ordered(north_to_south, of Rows(2, 2)) given: [picture]; go InRow(-1, -1, of Rows(2, 2)); co2"),
     ("If any tree in row 4 has a canopy temperature above 36 degrees, photograph its two neighbours.", "for Rows(4, 4): [picture = r1; if r1 > 36 degC: [for Nearest(Here, 2, True): [picture]]]"),
-    ("Take a picture of every tree in row 3. If one of them reads over 39 °C, go home.", "for Rows(3, 3): [picture = r1; if r1 > 39 degC: [stop]] | return_to_start"),
     ("At tree 5 and at tree 9, take a picture.", "for UnionOf(TreeIs(5)+TreeIs(9)) given: [picture]"),
 ]  # fmt: skip
 #: What may mean something else, and is asked or refused.
 OPEN = [
+    "Take a picture of every tree in row 3. If one of them reads over 39 °C, go home.",
     "Measure CO2 at tree 4 and at tree 9. If it is low at either one, read the air temperature there as well.",
     "Photograph trees 4 and 9, then its four nearest neighbours.",
     "Photograph the trees in the south-west corner.",

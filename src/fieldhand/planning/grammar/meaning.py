@@ -47,6 +47,8 @@ UNSAID_THING = "?"
 UNKNOWN_THINGS = frozenset({LAST_THING, LAST_THINGS, UNSAID_THING})
 #: Value of a parameter that is the one it had before ("at the same depth").
 SAME_VALUE = "="
+#: Rows that were named before ("these rows"), until the dialogue knows which.
+THOSE_ROWS = s.Rows(first="those rows", last="the last of those rows")
 #: Value of a parameter that is the profile's own ("at the standard depth").
 DEFAULT_VALUE = ""
 #: Quantity of a test of a reading of the request by its number: "^1" is the first, "^-1" the last.

@@ -11,7 +11,6 @@ from fieldhand.errors import PlaceError, TaskError
 from fieldhand.language import Number, message, named
 from fieldhand.places.context import Context
 from fieldhand.places.resolution import Resolution, resolve
-from fieldhand.places.sources.gate_is import GateIs
 from fieldhand.places.wording import say_selector
 from fieldhand.planning.foreseen import foreseeable
 from fieldhand.planning.grammar.dialogue.energy import MeantRecharging
@@ -19,7 +18,7 @@ from fieldhand.planning.grammar.dialogue.watching import with_visits
 from fieldhand.planning.grammar.meaning import WayRule
 from fieldhand.planning.homeward import faulted_exits, usual_exit, with_assumed_exit
 from fieldhand.planning.planner import Outcome, Planned, Reason, Refused
-from fieldhand.planning.selections import as_zone
+from fieldhand.planning.selections import as_zone, is_gate
 from fieldhand.robot.capabilities import measures_of
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -214,7 +213,7 @@ def _impossible_ways(meant: Meant, site: Site) -> Iterable[Reason]:
                 resolve(places, site, Context(here=site.start))
             except (PlaceError, TaskError) as error:
                 yield Reason(what=error.what, said=said, advice=error.advice, final=True)
-            if not metres and places.single and not places.named_tree and not isinstance(places, GateIs):
+            if not metres and places.single and not places.named_tree and not is_gate(places):
                 what = message("it is not said how far to keep from {place}", place=say_selector(places))
                 yield Reason(what=what, said=said, advice=message("give a distance: 'keep 5 m from it'"), final=True)
 

@@ -12,7 +12,7 @@ from fieldhand.planning.grammar.meaning import CaptureCommand, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import are_rows
+from fieldhand.planning.selections import are_rows, is_gate
 from fieldhand.site.model import Site
 from fieldhand.terms import TreeSide
 
@@ -47,9 +47,7 @@ def beside(place: PlaceMeaning, side: TreeSide) -> PlaceMeaning | None:
         return None
     if place.optional or place.at_most is not None or place.selector.named_marker:
         return None
-    if side == "both" and s.Trees() in (place.selector, *place.selector.members):
-        return None  # "the trees on either side" are those beside another place
-    if any(isinstance(part, s.Beside | s.Spaced | s.PointsIn | s.GateIs) for part in place.selector.walk()):
+    if any(isinstance(part, s.Beside | s.Spaced | s.PointsIn) or is_gate(part) for part in place.selector.walk()):
         return None
     sided = s.Beside(side=side, of=place.selector)
     if side != "both":
@@ -157,7 +155,11 @@ def _across_rows(selector: s.Selector, site: Site) -> set[TreeSide]:
 
 def _on_side(command: CaptureCommand, side: TreeSide) -> CaptureCommand | None:
     place = command.place
-    sided = None if place is None or command.spacing is not None else beside(place, side)
+    if place is None or command.spacing is not None:
+        return None
+    if side == "both" and s.Trees() in (place.selector, *place.selector.members):
+        return None  # "the trees on either side" are those beside another place
+    sided = beside(place, side)
     return None if sided is None else replace(command, place=sided)
 
 

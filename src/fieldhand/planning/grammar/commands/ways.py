@@ -21,7 +21,7 @@ from fieldhand.planning.grammar.meaning import (
 )
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import is_drawn, named_places, swapped
+from fieldhand.planning.selections import is_drawn, is_gate, named_places, swapped
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -167,7 +167,7 @@ def _kept_from(place: PlaceMeaning, metres: float = 0.0) -> tuple[s.Selector, ..
 
 def _has_no_trees(place: s.Selector) -> bool:
     """Return True for a gate or a marker."""
-    return isinstance(place, s.GateIs | s.Marker)
+    return is_gate(place) or bool(place.named_marker)
 
 
 def _keeping(said: Said, rule: WayRule, site: Site) -> tuple[LinkedCommand, ...]:

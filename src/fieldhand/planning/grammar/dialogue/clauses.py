@@ -52,6 +52,7 @@ from fieldhand.planning.grammar.dialogue.state import (
     with_joints,
     with_step,
 )
+from fieldhand.planning.grammar.dialogue.those_rows import with_those_rows
 from fieldhand.planning.grammar.dialogue.totals import with_total
 from fieldhand.planning.grammar.dialogue.turns import as_meant
 from fieldhand.planning.grammar.dialogue.waits import waited, with_settling
@@ -225,6 +226,7 @@ def _read(
     setting: Setting, state: DialogueState, clause: LinkedCommand, following: Sequence[LinkedCommand]
 ) -> DialogueState:
     """Return the state after a clause."""
+    clause = replace(clause, command=with_those_rows(state, clause.command))
     if isinstance(clause.command, WatchCommand):
         joined = () if clause.before is None else setting.spans_of(clause.before.used)
         return watched(setting, with_joints(state, joined), clause.command)

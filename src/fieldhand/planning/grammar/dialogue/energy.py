@@ -77,7 +77,7 @@ def battery_condition(state: DialogueState, test: Test) -> c.Condition:
 
 @dataclass(frozen=True, kw_only=True)
 class MeantRecharging:
-    """How a mission recharges, from everything that is said of it.
+    """Rules of recharging of a mission, from everything that is said of it.
 
     Attributes:
         below_percent, until_percent, at_most: As in :class:`~fieldhand.task.frames.Constraints`.

@@ -7,7 +7,7 @@ from dataclasses import replace
 from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
+from fieldhand.planning.grammar.meaning import THOSE_ROWS, Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.places.counted import Positions, size_of
 from fieldhand.planning.grammar.places.numbered import all_of, ids_of
@@ -105,6 +105,20 @@ def row_from_side(rank: Lex, side: Lex) -> s.Selector | None:
     return s.Rows(first=str(rank.value), last=str(rank.value), counted_from=side.value)
 
 
+@construction("rows: word=DET noun=ROW", cost=0.1)
+def those_rows(word: Lex, noun: Lex) -> s.Selector | None:
+    """Compose "these rows"."""
+    return THOSE_ROWS if noun.plural and "spoken_of" in word.features else None
+
+
+@construction("each_row: each=EACH OF word=DET noun=ROW", "each_row: each=EACH word=DET noun=ROW", cost=0.1)
+def each_of_the_rows(each: Lex, word: Lex, noun: Lex) -> s.Selector | None:
+    """Compose "each of the rows" and "each of these rows"."""
+    if "of_each" not in each.features or not noun.plural:
+        return None
+    return THOSE_ROWS if "spoken_of" in word.features else s.Rows()
+
+
 @construction("rows: word=DET noun=ROW", cost=0.6)
 def this_row(word: Lex, noun: Lex) -> s.Selector | None:
     """Compose "this row"."""
@@ -165,10 +179,10 @@ def listed_rows(rows: tuple[s.Rows, ...]) -> s.Selector | None:
     return s.UnionOf(parts=rows) if len(rows) > 1 else None
 
 
-@construction("rows: DET SAME ROW", "rows: THATWORD ROW", cost=0.1)
-def same_row() -> s.Selector:
-    """Compose "the same row"."""
-    return s.RowOf()
+@construction("rows: DET SAME noun=ROW", "rows: THATWORD noun=ROW", cost=0.1)
+def same_row(noun: Lex) -> s.Selector:
+    """Compose "the same row" and "the same rows"."""
+    return THOSE_ROWS if noun.plural else s.RowOf()
 
 
 @construction(
@@ -401,12 +415,21 @@ def each_row_of_area(rows: s.Selector, where: s.Selector) -> s.Selector | None:
 
 
 @construction(
-    "all_rows: DET noun=ROW", "all_rows: EACH [DET] noun=ROW", "all_rows: EACH [DET] n=count noun=ROW",
-    cost=0.0, given=("site",),
-)  # fmt: skip
-def every_row(noun: Lex, site: Site, n: int | None = None) -> s.Selector | None:
-    """Compose "all rows" and "all ten rows" of a site that has ten."""
-    return s.Rows() if noun.plural and n in (None, len(site.planting.rows)) else None
+    "all_rows: word=DET noun=ROW",
+    "all_rows: each=EACH [word=DET] noun=ROW",
+    "all_rows: each=EACH [word=DET] n=count noun=ROW",
+    cost=0.0,
+    given=("site",),
+)
+def every_row(
+    noun: Lex, site: Site, n: int | None = None, word: Lex | None = None, each: Lex | None = None
+) -> s.Selector | None:
+    """Compose "all rows", and "all ten rows" of a site that has ten."""
+    if not noun.plural or n not in (None, len(site.planting.rows)):
+        return None
+    if word is not None and ("spoken_of" in word.features or (each is not None and "of_each" in each.features)):
+        return None
+    return s.Rows()
 
 
 @construction("region: rows=all_rows", cost=0.5)
