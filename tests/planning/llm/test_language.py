@@ -31,7 +31,9 @@ HUSKY, AMIGA = capabilities_of(load_robot("husky")), capabilities_of(load_robot(
 TRACTOR = capabilities_of(load_robot("tractor"))
 #: Parts of a draft that the program writes.
 UNSHOWN = {"resources", "resource", "state", "variable", "goals", "goal", "warnings", "warning", "read-as", "request"}
+UNSHOWN |= {"earlier-missions", "earlier-mission", "earlier-capture", "earlier-value"}
 UNWRITTEN = DERIVED | {"expected", "node", "conditional", "value-as", "sha256", "action"}
+UNWRITTEN |= {"as-of", "at", "begun", "damaged", "lat", "lon", "moved", "place"}  # of records
 EVERY = [*get_args(Node), *get_args(Condition), *SELECTORS]
 
 

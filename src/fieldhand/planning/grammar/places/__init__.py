@@ -9,6 +9,7 @@ from fieldhand.planning.grammar.places import (
     choices,
     chosen,
     clauses,
+    earlier,
     exceptions,
     groups,
     likewise,
@@ -45,6 +46,7 @@ for _part in (
     sets,
     sampling,
     by_reading,
+    earlier,
     numbered_zones,
 ):
     GRAMMAR.include(_part.GRAMMAR)
