@@ -9,7 +9,7 @@ READY := $(VENV)/.ready
 WORKERS := $(shell echo $$(( $$(nproc 2>/dev/null || echo 2) + 1 )))
 
 help:
-	@echo "make demo    set up, then a whole mission on the built-in orchard (results in out/)"
+	@echo "make demo    set up, then two whole missions on built-in sites (results in out/)"
 	@echo "make test    set up, then every test"
 	@echo "make check   set up, then lint, types, import rules"
 	@echo "make docs    set up, then these pages as one site with search (build/docs)"
@@ -23,6 +23,7 @@ $(READY): pyproject.toml benchmarks/pyproject.toml constraints.txt scripts/setup
 
 demo: $(READY)
 	@$(BIN)/fieldhand demo
+	@$(BIN)/fieldhand demo mowing -o out/mowing
 
 # The rewritten assertions of the tests are kept for the next run, also where Python is told to keep no bytecode.
 test: $(READY)

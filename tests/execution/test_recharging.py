@@ -15,7 +15,7 @@ from fieldhand.places.selectors import Rows, TreeIs
 from fieldhand.site.model import Site
 from fieldhand.task.battery_condition import BatteryBelow
 from fieldhand.task.frames import Budget
-from fieldhand.task.plan import Act, ForEach, If, InOrder, Node, Recharge
+from fieldhand.task.plan import Act, ForEach, If, InOrder, Node, Recharge, Wait
 from fieldhand.task.results import (
     Acted,
     Arrived,
@@ -98,6 +98,15 @@ def test_a_charge_by_time_lasts_that_long(site: Site) -> None:
     plan = InOrder(steps=(ForEach(select=Rows(first="2", last="2"), body=PICTURE), Recharge(duration_s=60.0)))
     (charged,) = of_type(run(plan, site).events, ChargeEnded)
     assert charged.seconds == pytest.approx(60.0, abs=0.1)
+
+
+@settings(max_examples=examples(30, thorough=300), deadline=None)
+@given(waited=st.floats(1.0, 60.0), seconds=st.floats(1.0, 60.0))
+def test_charges_by_time_end_whatever_the_clock_shows(waited: float, seconds: float, site: Site) -> None:
+    pictures = ForEach(select=Rows(first="2", last="2"), body=PICTURE)
+    plan = InOrder(steps=(pictures, Wait(seconds=waited), Recharge(duration_s=seconds)))
+    (charged,) = of_type(run(plan, site).events, ChargeEnded)
+    assert charged.seconds == pytest.approx(seconds, abs=0.1)
 
 
 def test_charges_below_the_charge_that_the_task_names(site: Site) -> None:

@@ -12,7 +12,7 @@ from fieldhand.errors import ActionFault, DriveFault
 from fieldhand.execution.active_mission import ActiveMission
 from fieldhand.execution.docking import leave_charger, maneuver, tries_of
 from fieldhand.execution.goals import drive
-from fieldhand.execution.waiting import wait
+from fieldhand.execution.waiting import SAME_S, wait
 from fieldhand.language import message
 from fieldhand.robot.charging import Charging
 from fieldhand.task.plan import Recharge
@@ -118,7 +118,7 @@ def _charged(
     def full() -> bool:
         return mission.charge_percent() >= enough_percent
 
-    while not full() and (left_s := limit_s - (mission.clock.now() - begun_s)) > 0.0:
+    while not full() and (left_s := limit_s - (mission.clock.now() - begun_s)) > SAME_S:
         soon_s = float(charging.seconds(mission.charge_percent(), until_percent, capacity_j))
         with mission.looking_every(soon_s / 2.0):
             yield from wait(mission, min(left_s, max(1.0, soon_s)), over=full)

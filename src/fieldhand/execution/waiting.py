@@ -11,7 +11,7 @@ from fieldhand.task.results import Dwelling, Dwelt, Faulted, Waited
 from fieldhand.task.run import Steps
 
 #: Seconds within which two times are equal: clocks add floating-point numbers.
-_SAME_S = 1e-6
+SAME_S = 1e-6
 
 
 def wait(mission: ActiveMission, seconds: float, over: Callable[[], bool] = lambda: False) -> Steps:
@@ -19,7 +19,7 @@ def wait(mission: ActiveMission, seconds: float, over: Callable[[], bool] = lamb
     until_s = mission.clock.now() + seconds
     mission.wait_until(until_s)
     try:
-        while mission.clock.now() < until_s - _SAME_S and not over():
+        while mission.clock.now() < until_s - SAME_S and not over():
             yield
     finally:
         mission.wait_until(None)
@@ -46,7 +46,7 @@ def dwell(mission: ActiveMission, node: str, seconds: float, charge: Callable[[]
         finally:
             mission.dwells_until_s = None
         waited_s += mission.clock.now() - begun_s
-        if waited_s >= seconds - _SAME_S:
+        if waited_s >= seconds - SAME_S:
             break
         yield from charge()
     mission.emit(Dwelt(t=mission.t, node=node, seconds=waited_s))

@@ -61,6 +61,13 @@ def _rank(selector: s.Selector) -> int | None:
     return _NESTING.get(type(selector))
 
 
+def parts(selector: s.Selector) -> tuple[s.Selector, ...]:
+    """Return the selectors that a selector is directly made of, in the order of its fields."""
+    values = (getattr(selector, name) for name in selector.__dataclass_fields__)
+    inner = (part for value in values for part in (value if isinstance(value, tuple) else (value,)))
+    return tuple(part for part in inner if isinstance(part, s.Selector))
+
+
 def swapped(selector: s.Selector, old: s.Selector, new: s.Selector) -> s.Selector:
     """Return a selector with one part in the place of another."""
     if selector == old:

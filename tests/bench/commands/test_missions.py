@@ -208,3 +208,29 @@ def test_the_table_of_planning_names_the_slowest_requests_and_the_machine(bench:
     assert run.status == 0, run.err
     for words in ("60 trees", "median", "at most 50 ms", "first request of the process", "numpy"):
         assert words in run.out
+
+
+GIVEN = """
+site: builtin:demo
+robot: tractor
+cases:
+- id: given
+  request: take a picture of tree 7, and charge the battery
+  task: <task><task-composition><plan><act words="take a picture of tree 7"><take_picture/><at><tree-is
+    tree="{tree}"/></at></act></plan></task-composition></task>
+  worlds:
+  - events: [{{event: person_near, from_s: 1, until_s: 30}}]
+    expect: {{steps: [{{do: take_picture, at: {{attribute: {{id: 7}}}}}}], charges: [{charges}, 1], waited_s: [0, 0]}}
+"""
+
+
+@pytest.mark.parametrize(("tree", "charges", "right"), [(7, 0, True), (8, 0, False), (7, 1, False)])
+def test_the_draft_of_a_case_is_driven_and_judged_too(
+    bench: Bench, tmp_path: Path, tree: int, charges: int, right: bool
+) -> None:
+    file = tmp_path / "given.yaml"
+    file.write_text(GIVEN.format(tree=tree, charges=charges))
+    trials = json.loads(bench("missions", str(file), "--json").out)["cases"]
+    assert [trial["id"] for trial in trials] == ["given", "given/task"]
+    assert trials[1]["as_asked"] is right
+    assert trials[1]["answer"] == "planned"

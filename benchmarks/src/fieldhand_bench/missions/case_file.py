@@ -118,7 +118,7 @@ def _case(form: CaseForm, book: BookForm, path: Path, loaders: _Loaders) -> Case
         _require_actions(world.expect.actions, robot, at)
         expected = world.expect.expected()
         _fits(expected, case_site, at)
-        read = parse_world({"readings": world.readings}, source=at)
+        read = parse_world(world.world(), source=at)
         worlds.append(CaseWorld(world=read, expected=expected))
     return Case(
         id=form.id,
@@ -129,6 +129,7 @@ def _case(form: CaseForm, book: BookForm, path: Path, loaders: _Loaders) -> Case
         asks=form.ask,
         runs=form.runs,
         source=str(path),
+        task=form.task or "",
     )
 
 

@@ -237,6 +237,8 @@ class ExpectForm(Form):
     max_speed_m_s: Above0 | None = None
     stands: Least1 | None = None
     min_steps: Least1 | None = None
+    charges: BoundsPair | None = None
+    waited_s: BoundsPair | None = None
     status: Literal["completed", "returned", "faulted", "aborted"] = "completed"
     end: EndForm | None = None
     keeps_from: tuple[KeptFromForm, ...] = ()
@@ -294,6 +296,8 @@ class ExpectForm(Form):
             most_speed_m_s=self.max_speed_m_s,
             stands=self.stands,
             least_stops=self.min_steps or 0,
+            charges=self.charges,
+            waited_s=self.waited_s,
             status=self.status,
             end=None if self.end is None else self.end.marker or self.end.place(),
             keeps_from=tuple(one.kept() for one in self.keeps_from),
@@ -301,11 +305,20 @@ class ExpectForm(Form):
 
 
 class WorldForm(Form):
-    """Sensor readings and the outcome expected with them. ``context`` is a note for readers of the case."""
+    """A world and the outcome expected in it. ``context`` is a note for readers of the case.
+
+    The other keys are those of a world file.
+    """
 
     readings: dict[str, Any] = {}
+    events: tuple[dict[str, Any], ...] = ()
+    charge_percent: Above0 = 100.0
     expect: ExpectForm
     context: Any = None
+
+    def world(self) -> dict[str, Any]:
+        """Return the content of a world file."""
+        return {"readings": self.readings, "events": list(self.events), "charge_percent": self.charge_percent}
 
 
 class CaseForm(Form):
@@ -318,6 +331,7 @@ class CaseForm(Form):
     ask: StrictBool = False
     runs: tuple[AwareDatetime, ...] = ()
     worlds: Annotated[tuple[WorldForm, ...], Field(min_length=1)] | None = None
+    task: Text | None = None
 
     @model_validator(mode="after")
     def _one_way(self) -> CaseForm:
@@ -325,6 +339,8 @@ class CaseForm(Form):
             raise ValueError("a request that has to be asked about is driven in no world: leave out ask or worlds")
         if not self.ask and self.worlds is None:
             raise ValueError("the key 'worlds' is missing (or 'ask: true' where a question is right)")
+        if self.ask and self.task is not None:
+            raise ValueError("a request that has to be asked about has no Task: leave out ask or task")
         return self
 
 

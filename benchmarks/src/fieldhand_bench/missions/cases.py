@@ -84,6 +84,8 @@ class Expected:
         most_speed_m_s: Maximum speed of a leg on average, m/s.
         stands: Number of positions from which each tree was worked on.
         least_stops: Minimum number of actions done.
+        charges: Number of charges.
+        waited_s: Time for which it stands still because of events, seconds.
         status: Final status of the mission.
         keeps_from: What every drive keeps away from.
         end: Final position: a marker, or a place that the nearest tree must match. None for anywhere.
@@ -103,6 +105,8 @@ class Expected:
     most_speed_m_s: float | None = None
     stands: int | None = None
     least_stops: int = 0
+    charges: Bounds | None = None
+    waited_s: Bounds | None = None
     status: str = "completed"
     end: CasePlace | MarkerName | None = None
     keeps_from: tuple[KeptFrom, ...] = ()
@@ -130,6 +134,7 @@ class Case:
         source: File of the case, for messages.
         runs: First instants at which the mission is due, for a robot whose clock shows UTC, if it is approved on
             1 January 2026 at 00:00 UTC; none for a mission that begins when it is started.
+        task: The same mission as the draft of a Task (XML), as a language model would write it; empty for none.
     """
 
     id: str
@@ -140,3 +145,4 @@ class Case:
     asks: bool = False
     runs: tuple[datetime, ...] = ()
     source: str = ""
+    task: str = ""

@@ -33,6 +33,7 @@ def judge(site: CaseSite, expected: Expected, log: Log) -> tuple[str, ...]:
         *_elsewhere(site, expected, log),
         *_works(site, expected, log),
         *_distances(expected, log),
+        *_pauses(expected, log),
         *_too_near(site, expected, log),
         *_end(site, expected, log),
     )
@@ -117,6 +118,13 @@ def _distances(expected: Expected, log: Log) -> Iterator[str]:
         for tree in sorted({one.tree for one in log.done}):
             if log.stands.get(tree, 0) != expected.stands:
                 yield f"tree {tree} was worked on from {log.stands.get(tree, 0)} positions, wanted {expected.stands}"
+
+
+def _pauses(expected: Expected, log: Log) -> Iterator[str]:
+    if expected.charges is not None and not _within(log.charges, expected.charges):
+        yield f"the battery was charged {log.charges} times, wanted {_bounds_text(expected.charges)}"
+    if expected.waited_s is not None and not _within(log.waited_s, expected.waited_s):
+        yield f"it stood still {log.waited_s:.0f} s for events, wanted {_bounds_text(expected.waited_s)} s"
 
 
 def _too_near(site: CaseSite, expected: Expected, log: Log) -> Iterator[str]:

@@ -49,6 +49,8 @@ class Log:
         lasts_s: Duration of the mission, seconds.
         fastest_m_s: Speed of the fastest leg on average, m/s.
         stands: Number of positions of the robot from which each tree was worked on.
+        charges: Number of charges.
+        waited_s: Time for which it stood still because of an event, seconds.
     """
 
     done: tuple[Done, ...]
@@ -61,6 +63,8 @@ class Log:
     fastest_m_s: float = 0.0
     stands: Mapping[int, int] = field(default_factory=dict)
     paths: tuple[Points, ...] = ()
+    charges: int = 0
+    waited_s: float = 0.0
 
 
 def read_log(lines: Iterable[str], site: CaseSite) -> Log:
@@ -74,7 +78,8 @@ def read_log(lines: Iterable[str], site: CaseSite) -> Log:
     paths: list[Points] = []
     worked: list[tuple[str, Points]] = []
     travelled, status, end = 0.0, None, None
-    lasts_s = fastest = left_s = 0.0
+    lasts_s = fastest = left_s = waited_s = 0.0
+    charges = 0
     stood: Points | None = None
     stands: dict[int, list[Points]] = {}
     for number, line in enumerate(lines, start=1):
@@ -105,6 +110,10 @@ def read_log(lines: Iterable[str], site: CaseSite) -> Log:
                 case "worked", _:
                     parts = (np.array(path, dtype=np.float64).reshape(-1, 2) for path in event["paths"])
                     worked += [(str(event["action"]), site.metres(path)) for path in parts if len(path) > 1]
+                case "charged", _:
+                    charges += 1
+                case "wait", _ if event["wanted"] == "event":
+                    waited_s += float(event["seconds"])
                 case "mission", ended:
                     status, end = str(ended), _at(event, site)
         except (ValueError, KeyError, TypeError, AttributeError) as error:
@@ -124,6 +133,8 @@ def read_log(lines: Iterable[str], site: CaseSite) -> Log:
         stands={tree: len(known) for tree, known in stands.items()},
         paths=tuple(paths),
         worked=tuple(worked),
+        charges=charges,
+        waited_s=waited_s,
     )
 
 

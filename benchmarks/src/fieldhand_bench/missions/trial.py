@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime, timedelta
 from itertools import islice
 from pathlib import Path
@@ -14,6 +14,8 @@ from fieldhand.approval.authorize import EveryWarning
 from fieldhand.errors import ModelError, NotApprovedError
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.llm.chat import Chat, ChatMessage, Reply
+from fieldhand.planning.llm.planner import LlmPlanner
+from fieldhand.planning.llm.settings import LlmSettings
 from fieldhand.planning.planner import Clarify, Outcome, Planned, Planner, Refused
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
@@ -58,12 +60,23 @@ class Metered:
         return reply
 
 
+@dataclass(frozen=True)
+class _Given:
+    """A model that answers with a given document."""
+
+    document: str
+
+    def ask(self, messages: Sequence[ChatMessage]) -> Reply:
+        del messages  # it answers whatever it is asked
+        return Reply(text=self.document)
+
+
 @dataclass(frozen=True, kw_only=True)
 class CaseTrial:
     """The result of a case.
 
     Attributes:
-        id, request, source: As in the case.
+        id, request, source: As in the case; the id of a trial of its Task ends in ``/task``.
         answer: Result of planning.
         as_asked: True if the case was fulfilled in every world, or a question or refusal was right.
         why: Question, reasons of a refusal, or other reason why the mission was not simulated; empty if it was.
@@ -144,6 +157,15 @@ def try_all(cases: Sequence[Case], setup: TrialSetup) -> Iterator[CaseTrial]:
         EnglishPlanner().plan(_FIRST, setup.site(case.site), robots[case.robot])
     for case in cases:
         yield _try(case, robots[case.robot], setup)
+        if case.task:
+            yield _try_task(case, robots[case.robot], setup)
+
+
+def _try_task(case: Case, robot: RobotProfile, setup: TrialSetup) -> CaseTrial:
+    """Return the trial of a case whose plan is given, checked as a model's answer is."""
+    settings = LlmSettings(provider="openai-compatible", model="the case", repairs=0)
+    given = replace(setup, planner=LlmPlanner(settings, chat=_Given(case.task)), model=None)
+    return _try(replace(case, id=f"{case.id}/task"), robot, given)
 
 
 def _try(case: Case, robot: RobotProfile, setup: TrialSetup) -> CaseTrial:

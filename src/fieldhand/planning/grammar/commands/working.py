@@ -100,9 +100,9 @@ def one_side(side: Lex, rows: s.Selector) -> Tract | None:
     return Tract(rows, "rows", sides=side.value) if side.value in SIDES else None
 
 
-@construction("tract: EACHSIDE OF rows=rows", "tract: part=tract EACHSIDE", cost=0.0)
+@construction("tract: EACHSIDE OF rows=rows", "tract: part=tract [FROM] EACHSIDE", cost=0.0)
 def both_sides(rows: s.Selector | None = None, part: Tract | None = None) -> Tract | None:
-    """Compose "both sides of row 4" and "rows 3 to 8 on both sides"."""
+    """Compose "both sides of row 4" and "rows 3 to 8 from both sides"."""
     if part is not None:
         return replace(part, sides="both") if part.mode == "rows" and part.sides == "one" else None
     return None if rows is None else Tract(rows, "rows", sides="both")
@@ -262,16 +262,18 @@ def as_much(one: WorkCommand, used: int) -> WorkCommand | None:
     return None if one.along is None or one.optional else replace(one, optional=True, used=used)
 
 
-@construction("work: one=work [COMMA] [AT] [DET] side=DIR SIDE", cost=0.1)
+@construction(
+    "work: one=work [COMMA] [AT] [DET] side=DIR SIDE", "work: one=work [COMMA] FROM [DET] side=DIR SIDE", cost=0.1
+)
 def on_one_side(one: WorkCommand, side: Lex, used: int) -> WorkCommand | None:
-    """Compose "spray rows 3 to 8 at 300 l/ha on the west side"."""
+    """Compose "spray rows 3 to 8 at 300 l/ha on the west side" and "film row 3 from the west side"."""
     fits = one.mode == "rows" and one.sides == "one" and one.along is not None and side.value in SIDES
     return replace(one, sides=side.value, used=used) if fits else None
 
 
-@construction("work: one=work [COMMA] EACHSIDE", cost=0.1)
+@construction("work: one=work [COMMA] [FROM] EACHSIDE", cost=0.1)
 def on_both_sides(one: WorkCommand, used: int) -> WorkCommand | None:
-    """Compose "spray rows 3 to 8 at 300 l/ha on both sides"."""
+    """Compose "spray rows 3 to 8 at 300 l/ha from both sides"."""
     return replace(one, sides="both", used=used) if one.mode == "rows" and one.sides == "one" else None
 
 

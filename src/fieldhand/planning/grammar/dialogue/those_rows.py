@@ -11,7 +11,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.faults import NotComposed
 from fieldhand.planning.grammar.dialogue.state import DialogueState
 from fieldhand.planning.grammar.meaning import THOSE_ROWS
-from fieldhand.planning.selections import are_rows, as_rows
+from fieldhand.planning.selections import are_rows, as_rows, parts
 from fieldhand.task import plan as p
 
 T = TypeVar("T")
@@ -38,7 +38,7 @@ def with_those_rows(state: DialogueState, command: T) -> T:
 
 
 def _changed(value: Any, known: Callable[[s.Rows], s.Selector]) -> Any:
-    if isinstance(value, s.Selector) and (rows := as_rows(value)) is not None and rows.first == THOSE_ROWS.first:
+    if (rows := as_rows(value)) is not None and rows.first == THOSE_ROWS.first:
         return known(rows)
     if isinstance(value, tuple):
         return tuple(_changed(item, known) for item in value)
@@ -70,8 +70,5 @@ def _rows_in(selector: s.Selector) -> Iterator[s.Selector]:
         if as_rows(selector) != s.Rows():
             yield selector
         return
-    for name in selector.__dataclass_fields__:
-        value = getattr(selector, name)
-        for part in value if isinstance(value, tuple) else (value,):
-            if isinstance(part, s.Selector):
-                yield from _rows_in(part)
+    for part in parts(selector):
+        yield from _rows_in(part)
