@@ -157,7 +157,7 @@ def reacting_otherwise() -> Impossible:
     )
 
 
-@construction("hottest read_noun when=PERIOD", "read_noun most=with_most when=PERIOD")
+@construction("hottest read_noun when=PERIOD", "read_noun with_most when=PERIOD")
 def hottest_without_a_number(when: Lex) -> Impossible | None:
     """Compose "the hottest trees of last week"."""
     if when.value.unsaid:
@@ -165,7 +165,7 @@ def hottest_without_a_number(when: Lex) -> Impossible | None:
     return Impossible(message("it does not say how many"), message("say how many: 'the 10 hottest trees of last week'"))
 
 
-@construction("work=WORKSAID")
+@construction("nominal work=WORKSAID", "DET work=WORKSAID")
 def done_without_a_period(work: Lex) -> Impossible | None:
     """Compose "the trees that we visited"."""
     said: EarlierWork = work.value

@@ -69,7 +69,8 @@ def _settled(node: p.Node, robot: RobotProfile) -> p.Node:
         settled = swapped(settled, part, _named(part, measured, robot))
     holders = [field.name for field in fields(made) if getattr(made, field.name) == selector]
     outer: Any = made
-    return replace(outer, **dict.fromkeys(holders, settled))
+    changed: p.Node = replace(outer, **dict.fromkeys(holders, settled))
+    return changed
 
 
 def _named(selector: s.Selector, measured: set[str], robot: RobotProfile) -> s.Selector:

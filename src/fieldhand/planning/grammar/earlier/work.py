@@ -150,7 +150,7 @@ def _work(
         case "active":
             return _active(said, named, verbs)
         case "not":
-            return _not_done(said, named)
+            return _not_done(said, named, verbs)
         case "where":
             made = EarlierWork(named, unsaid=_says_before(said))
             negated = _negated(said)
@@ -224,7 +224,7 @@ def _active(said: Mapping[str, str], named: tuple[Way, ...], verbs: Mapping[str,
     return EarlierWork(ways, negated=negated, at_least=_at_least(said), unsaid=unsaid)
 
 
-def _not_done(said: Mapping[str, str], named: tuple[Way, ...]) -> EarlierWork | None:
+def _not_done(said: Mapping[str, str], named: tuple[Way, ...], verbs: Mapping[str, Any]) -> EarlierWork | None:
     known = tables()["bases"]
     verb, how = said["verb"], said["not"]
     tried = not how.startswith(("did", "never", "forgot", "had no time", "have", "haven't", "hadn't", "had not"))
@@ -234,7 +234,9 @@ def _not_done(said: Mapping[str, str], named: tuple[Way, ...]) -> EarlierWork | 
         return EarlierWork((ANY_WORK,), outcomes=("left_out",))
     ways: tuple[Way, ...] = named or ((MEASURED_WORK,) if verb in known["measured"] else ())
     if verb in known["picture"]:
-        return None
+        ways = () if named else verbs.get("photographed", ())
+        if not ways:
+            return None
     if tried:
         return (
             EarlierWork(ways, outcomes=("failed",))

@@ -20,6 +20,7 @@ _TIMES = (
 )
 _REL = r"(?:(?:that|which|who|where) )?"
 _ROVER = r"(?:{rover}|you've|we've|they've|i've|it's|you'd|we'd|they'd)"
+_US = r"(?:you|us|me|it|them|the robot|the rover|the tractor|the machine)"
 _AT = r"(?: (?:of|at|from|on|for|in))?"
 _READINGS = r"(?: (?:readings?|measurements?|values?|samples?|data))?"
 _NOT_ABLE = (
@@ -56,7 +57,7 @@ def work_patterns(nouns: tuple[str, ...], verbs: tuple[str, ...]) -> tuple[tuple
     base = _any([verb for of in known["bases"].values() for verb in of])
     made = r"(?:taken|measured|read|made|recorded|collected|sampled|shot|gathered)"
     patterns = (
-        ("passive", rf"{_REL}{_LEAD}(?P<verb>{part})(?: for {what})?{_TIMES}{_TAIL}"),
+        ("passive", rf"{_REL}{_LEAD}(?P<verb>{part})(?: by {_US})?(?: for {what})?{_TIMES}{_TAIL}"),
         ("active", rf"{_REL}{_ROVER} {_LEAD}(?P<verb>{active})(?: {what}{_AT})?{_TIMES}{_TAIL}"),
         ("active", rf"{_REL}{_ROVER} {_LEAD}(?P<verb>took|made|got|taken|collected|recorded) {what}{_AT}{_TAIL}"),
         (

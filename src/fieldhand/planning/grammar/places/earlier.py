@@ -280,6 +280,15 @@ def where_hottest(most: s.TopEarlier) -> s.TopEarlier:
     return most
 
 
+@construction("with_most: WHERE IT WAS [DET] most=STATISTIC", cost=0.0, given=("robot",))
+def where_highest(most: Lex, robot: RobotProfile) -> list[s.TopEarlier] | None:
+    """Compose "where it was highest", of what the step measures."""
+    if most.value not in ("minimum", "maximum"):
+        return None
+    lowest = most.value == "minimum"
+    return [s.TopEarlier(quantity=unsaid(one.name, unit_said=False), lowest=lowest) for one in robot.quantities]
+
+
 @construction("of_most: [DET] most=STATISTIC noun=NOUN", cost=0.0)
 def highest_reading(most: Lex, noun: Lex) -> list[s.TopEarlier] | None:
     """Compose "highest CO2" before "trees"."""
@@ -297,7 +306,7 @@ def highest_reading(most: Lex, noun: Lex) -> list[s.TopEarlier] | None:
     "place: [DET] when=PERIODPOSS n=count most=hottest [several=read_noun]",
     "place: [DET] when=PERIODPOSS most=hottest n=count [several=read_noun]",
     "place: [DET] n=count when=PERIODPOSS most=hottest [several=read_noun]",
-    "place: most=with_most when=PERIOD",
+    "place_where: most=with_most when=PERIOD",
     cost=0.3,
 )
 def most_read_earlier(most: s.TopEarlier, when: Lex, n: int = 1, several: bool | None = None) -> PlaceMeaning | None:
