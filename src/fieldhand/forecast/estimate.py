@@ -20,6 +20,7 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.short_repr import short_repr
 from fieldhand.site.earlier_missions import EarlierMissions
 from fieldhand.site.model import Site
+from fieldhand.task.earlier import site_of_run
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import InOrder, Node
 
@@ -148,6 +149,7 @@ def estimate(
         DriveFault: A place cannot be reached.
         TaskError: A branch exceeds the maximum number of nodes.
     """
+    site = site_of_run(task, site)
     kept = _explored(task, site, robot, seed, charge_percent, draws)
     if kept.estimate is not None:
         return kept.estimate

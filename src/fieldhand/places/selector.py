@@ -309,6 +309,19 @@ class Counted(FromGroup):
     def keeps_order(self) -> bool:
         return True
 
+    def enough(self, candidates: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> int:
+        """Return the number of places to pick: fewer than ``count`` only of a group that earlier missions determine.
+
+        Raises:
+            PlaceError: There are too few candidates.
+        """
+        left = len(candidates)
+        if not 0 < left < self.count or not any(part.uses_records for part in self.of.walk()):
+            self.need(candidates, resolution)
+            return self.count
+        notes.remark(message("{count} were asked for, but only {known} are left", count=self.count, known=left))
+        return left
+
     def need(self, candidates: PlaceGroup, resolution: Resolution) -> None:
         """Check that there are enough candidates.
 

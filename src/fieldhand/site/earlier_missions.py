@@ -23,11 +23,11 @@ EarlierOutcome = Literal["done", "failed", "left_out"]
 
 @dataclass(frozen=True, kw_only=True)
 class EarlierValue:
-    """A measured value of an earlier mission: ``name`` of the quantity, ``value``, and its ``unit``."""
+    """A measured value of an earlier mission: name of the quantity, value, and unit, empty if the log lacks it."""
 
     name: str
     value: float
-    unit: str
+    unit: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,11 +73,15 @@ class EarlierMission:
     Attributes:
         id: Name of the mission in its store; else the id of its Task with the time at which it began.
         begun: Time at which it began, as in :attr:`EarlierCapture.at`.
+        simulated: True if it was a simulation.
+        ended: False if its log has no end: it was under way or interrupted, and more may follow.
         captures: Its work in the order of time.
     """
 
     id: str
     begun: str
+    simulated: bool = False
+    ended: bool = True
     captures: tuple[EarlierCapture, ...] = ()
 
     def __post_init__(self) -> None:
@@ -94,12 +98,16 @@ class EarlierMissions:
         missions: Missions in the order in which they began.
         moved: Number of captures that are left out because the site no longer has their tree at that position.
         damaged: Number of logs that could not be read.
+        simulations: Number of simulated missions on the site that do not count.
+        elsewhere: Number of missions that worked elsewhere.
     """
 
     as_of: str
     missions: tuple[EarlierMission, ...] = ()
     moved: int = 0
     damaged: int = 0
+    simulations: int = 0
+    elsewhere: int = 0
 
     def __post_init__(self) -> None:
         _require_time(self.as_of)

@@ -6,15 +6,18 @@ import hashlib
 import re
 from collections.abc import Iterator
 from dataclasses import replace
+from datetime import datetime
 from typing import cast
 
 from fieldhand.errors import TaskError
 from fieldhand.language import message
 from fieldhand.places.earlier.from_records import FromRecords
 from fieldhand.places.selector import Selector
-from fieldhand.site.earlier_missions import EarlierMission, EarlierMissions
+from fieldhand.site.earlier_missions import EarlierMissions
+from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import walk
+from fieldhand.task.timing import Schedule
 
 #: Largest number of captures that a Task contains.
 MOST_CAPTURES = 10_000
@@ -52,6 +55,39 @@ def with_earlier(task: Task, records: EarlierMissions | None) -> Task:
     return replace(task, id=f"{plain}-{_digest(needed)}", earlier=needed)
 
 
+def site_of(task: Task, site: Site) -> Site:
+    """Return the site with the earlier missions that a Task contains; as it is, if the Task contains none."""
+    return site if task.earlier is None else site.with_earlier(task.earlier)
+
+
+def site_of_run(task: Task, site: Site) -> Site:
+    """Return the site with the earlier missions by which a run chooses its places.
+
+    Those of a Task were approved with it. Each run of a standing mission counts anew: then the site comes with them.
+    """
+    return site if isinstance(task.timing, Schedule) and site.earlier is not None else site_of(task, site)
+
+
+def together(signed: EarlierMissions | None, own: EarlierMissions) -> EarlierMissions:
+    """Return the missions that a robot did itself and those that a Task contains, each mission once.
+
+    Args:
+        signed: Missions in the Task; None for none.
+        own: Missions that the robot did, counted now.
+    """
+    if signed is None:
+        return own
+    known = {datetime.fromisoformat(mission.begun) for mission in own.missions}
+    others = [mission for mission in signed.missions if datetime.fromisoformat(mission.begun) not in known]
+    missions = sorted((*others, *own.missions), key=lambda mission: (datetime.fromisoformat(mission.begun), mission.id))
+    return replace(own, missions=tuple(missions))
+
+
+def may_have_none(task: Task, selector: Selector) -> bool:
+    """Return True if a selector may select nothing: a run of a standing mission may find that all was done before."""
+    return isinstance(task.timing, Schedule) and any(part.uses_records for part in selector.walk())
+
+
 def relevant(records: EarlierMissions, selectors: tuple[FromRecords, ...]) -> EarlierMissions:
     """Return only those captures that the places of some selectors depend on; missions are kept even without any.
 
@@ -70,11 +106,7 @@ def relevant(records: EarlierMissions, selectors: tuple[FromRecords, ...]) -> Ea
             advice=message("choose a shorter period"),
         )
     missions = tuple(
-        EarlierMission(
-            id=mission.id,
-            begun=mission.begun,
-            captures=tuple(capture for capture in mission.captures if id(capture) in kept),
-        )
+        replace(mission, captures=tuple(capture for capture in mission.captures if id(capture) in kept))
         for mission in records.missions
     )
     return replace(records, missions=tuple(mission for mission in missions if mission.captures) or missions[-1:])

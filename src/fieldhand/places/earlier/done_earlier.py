@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from fieldhand.places.count_range import CountRange, at_most
 from fieldhand.places.earlier.from_records import FromRecords
 from fieldhand.places.earlier.period import EVER, Period
-from fieldhand.places.earlier.wording import say_done, say_not_done
+from fieldhand.places.earlier.wording import say_done, say_not_done, say_nothing_done
 from fieldhand.places.noun_phrase import NounPhrase
 from fieldhand.places.selector import Selector
 from fieldhand.places.sources.trees import Trees
@@ -46,7 +46,12 @@ class DoneEarlier(FromRecords):
         return cls(action="take_thermal_picture", period=Period(calendar="this_month"))
 
     def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
-        from fieldhand.places.earlier.recorded_work import WorkByPlace, records_of, require_at_least
+        from fieldhand.places.earlier.recorded_work import (
+            WorkByPlace,
+            nothing_done,
+            records_of,
+            require_at_least,
+        )
 
         require_at_least(self.at_least)
         records = records_of(resolution)
@@ -56,6 +61,8 @@ class DoneEarlier(FromRecords):
             len({mission.id for mission, _ in some}) >= self.at_least and not done
             for some, done in zip(by_place, later_done, strict=True)
         ]
+        if not any(enough):
+            raise nothing_done(resolution.site, self, records)
         return of.keep(enough)
 
     def used(self, records: EarlierMissions) -> tuple[Work, ...]:
@@ -65,6 +72,9 @@ class DoneEarlier(FromRecords):
         if self.outcome != "done":
             return (*work, *self._done(records))
         return work if self.at_least > 1 else latest_of_each(work, self.period)
+
+    def doubt(self, found: int, site: Site) -> str:
+        return "" if found or site.earlier is None else say_nothing_done(self, site.earlier, site)
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:
         return wording.phrase(self.of).keeping(after=say_done(self))

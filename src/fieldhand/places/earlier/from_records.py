@@ -11,6 +11,7 @@ from fieldhand.places.selector import FromGroup
 if TYPE_CHECKING:
     from fieldhand.places.earlier.recorded_work import Work
     from fieldhand.site.earlier_missions import EarlierMissions
+    from fieldhand.site.model import Site
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -24,6 +25,16 @@ class FromRecords(FromGroup):
         Raises:
             PlaceError: Its period is not a possible one.
         """
+
+    def doubt(self, found: int, site: Site) -> str:
+        """Return a sentence to confirm if fewer places were found than a person expects; empty if there is none.
+
+        Args:
+            found: Number of places found.
+            site: The site, with the earlier missions.
+        """
+        del found, site
+        return ""
 
     @property
     def uses_records(self) -> bool:

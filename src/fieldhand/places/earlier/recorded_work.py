@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from fieldhand.errors import PlaceError
+from fieldhand.errors import NoPlaceError, PlaceError
 from fieldhand.language import counted, message
 from fieldhand.language.words import say_name
 from fieldhand.site.earlier_missions import EarlierCapture, EarlierMission, EarlierMissions
@@ -19,10 +19,12 @@ from fieldhand.site.names import short
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from fieldhand.places.earlier.done_earlier import DoneEarlier
     from fieldhand.places.earlier.period import Period
     from fieldhand.places.place_group import PlaceGroup
     from fieldhand.places.resolution import Resolution
     from fieldhand.places.resolution_notes import ResolutionNotes
+    from fieldhand.site.model import Site
 
 #: One value for several earlier readings of a place.
 EarlierStatistic = Literal["latest", "mean", "median", "minimum", "maximum"]
@@ -72,7 +74,9 @@ def records_of(resolution: Resolution) -> EarlierMissions:
                 "the plan needs what earlier missions did on '{site}', and it is not given", site=resolution.site.name
             ),
             where=resolution.site.name,
-            advice=message("give the folder of finished missions with --missions, or in Python records=..."),
+            advice=message(
+                "give the folder of finished missions with --missions, or in Python earlier=fh.earlier_missions(site)"
+            ),
         )
     return records
 
@@ -228,19 +232,25 @@ def note_without_reading(count: int, quantity: str, notes: ResolutionNotes) -> N
         )
 
 
-def no_reading_on_record(resolution: Resolution, records: EarlierMissions, quantity: str, period: Period) -> PlaceError:
-    """Return the error for a quantity without readings on record."""
-    from fieldhand.places.earlier.wording import say_period
+def nothing_done(site: Site, selector: DoneEarlier, records: EarlierMissions) -> NoPlaceError:
+    """Return the error for a selector of places where nothing was done."""
+    from fieldhand.places.earlier.wording import say_nothing_done
 
-    site = resolution.site.name
-    if not records.missions:
-        what = message("no earlier mission on '{site}' is on record", site=site)
-    else:
-        what = message(
-            "no earlier reading of {name} is on record ({period})", name=say_name(quantity), period=say_period(period)
-        )
-    return PlaceError(
-        what,
-        where=site,
+    return NoPlaceError(
+        say_nothing_done(selector, records, site),
+        where=site.name,
+        advice=message("choose another period, or give the folder of finished missions with --missions"),
+    )
+
+
+def no_reading_on_record(
+    resolution: Resolution, records: EarlierMissions, quantity: str, period: Period
+) -> NoPlaceError:
+    """Return the error for a quantity without readings on record."""
+    from fieldhand.places.earlier.wording import say_no_reading
+
+    return NoPlaceError(
+        say_no_reading(records, resolution.site, quantity, period),
+        where=resolution.site.name,
         advice=message("choose another period, or give the folder of finished missions with --missions"),
     )

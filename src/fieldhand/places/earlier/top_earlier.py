@@ -12,7 +12,7 @@ from fieldhand.places.count_range import CountRange
 from fieldhand.places.earlier.from_records import FromRecords
 from fieldhand.places.earlier.period import EVER, Period
 from fieldhand.places.earlier.recorded_work import EarlierStatistic
-from fieldhand.places.earlier.wording import say_period, say_statistic_of
+from fieldhand.places.earlier.wording import doubt_without_reading, say_period, say_statistic_of
 from fieldhand.places.noun_phrase import NounPhrase
 from fieldhand.places.reading_series import EXAMPLE_QUANTITY
 from fieldhand.places.selection_phrase import picked_phrase
@@ -69,10 +69,6 @@ class TopEarlier(FromRecords):
         notes.candidates = len(group)
         if not len(group):
             return group
-        if len(group) < self.count:
-            notes.remark(
-                message("{count} were asked for, but only {known} were read", count=self.count, known=len(group))
-            )
         return rank(group, values if self.lowest else -values, min(self.count, len(group)), notes, self._most())
 
     def used(self, records: EarlierMissions) -> tuple[Work, ...]:
@@ -80,8 +76,19 @@ class TopEarlier(FromRecords):
 
         return readings_used(records, self.quantity, self.period, self.statistic)
 
+    def doubt(self, found: int, site: Site) -> str:
+        if found >= self.count:
+            return ""
+        if not found:
+            return doubt_without_reading(self, self.quantity, self.period, site)
+        return message("{count} were asked for, but only {known} were read", count=self.count, known=found)
+
     def phrase(self, wording: SelectorWording) -> NounPhrase:
-        most = message("with {extreme} read {period}", extreme=self._most(), period=say_period(self.period))
+        name, when = say_statistic_of(self.statistic, self.quantity), say_period(self.period)
+        if self.lowest:
+            most = message("with the lowest {name} read {period}", name=name, period=when)
+        else:
+            most = message("with the highest {name} read {period}", name=name, period=when)
         return picked_phrase(wording.phrase(self.of), self.count, most, that_is=False)
 
     @property

@@ -11,7 +11,7 @@ from fieldhand.places.count_range import CountRange, at_most
 from fieldhand.places.earlier.from_records import FromRecords
 from fieldhand.places.earlier.period import EVER, Period
 from fieldhand.places.earlier.recorded_work import EarlierStatistic
-from fieldhand.places.earlier.wording import say_passed
+from fieldhand.places.earlier.wording import doubt_without_reading, say_passed
 from fieldhand.places.noun_phrase import NounPhrase
 from fieldhand.places.reading_series import EXAMPLE_QUANTITY
 from fieldhand.places.selector import Selector
@@ -65,6 +65,9 @@ class WhereEarlier(FromRecords):
         from fieldhand.places.earlier.recorded_work import readings_used
 
         return readings_used(records, self.quantity, self.period, self.statistic)
+
+    def doubt(self, found: int, site: Site) -> str:
+        return "" if found else doubt_without_reading(self, self.quantity, self.period, site)
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:
         return wording.phrase(self.of).keeping(after=say_passed(self))

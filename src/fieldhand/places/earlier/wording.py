@@ -7,12 +7,17 @@ from typing import TYPE_CHECKING
 
 from fieldhand.language import Number, counted, message, named
 from fieldhand.language.words import say_action, say_name, say_quantity
+from fieldhand.places.sources.trees import Trees
+from fieldhand.places.wording import say_selector
 
 if TYPE_CHECKING:
     from fieldhand.places.earlier.done_earlier import DoneEarlier
+    from fieldhand.places.earlier.from_records import FromRecords
     from fieldhand.places.earlier.period import Period
     from fieldhand.places.earlier.recorded_work import EarlierStatistic
     from fieldhand.places.earlier.where_earlier import WhereEarlier
+    from fieldhand.site.earlier_missions import EarlierMissions
+    from fieldhand.site.model import Site
 
 _CALENDAR = {
     "ever": message("before"),
@@ -108,6 +113,47 @@ def say_not_done(selector: DoneEarlier) -> str:
     if not what:
         return message("not worked on {period}", period=when)
     return message("not visited {period} to {action}", period=when, action=what)
+
+
+def say_nothing_done(selector: DoneEarlier, records: EarlierMissions, site: Site) -> str:
+    """Return that no place passes a selector, with the reason and what it means for the other places."""
+    words = say_selector(selector)
+    why = say_no_mission(records, site) if not records.missions else ""
+    if selector.of != Trees():
+        none = message("there are none of {trees}", trees=words)
+    else:
+        none = message(
+            "there are none of {trees}, so all {count} trees count as not done", trees=words, count=len(site.trees)
+        )
+    return message("{what}: {why}", what=none, why=why) if why else none
+
+
+def say_no_mission(records: EarlierMissions, site: Site) -> str:
+    """Return that no mission on a site is on record, and how many simulations do not count."""
+    if records.simulations:
+        return counted(
+            "no earlier mission on '{site}' is on record, except {count} simulation (--count-simulated counts it)",
+            "no earlier mission on '{site}' is on record, except {count} simulations (--count-simulated counts them)",
+            records.simulations,
+            site=site.name,
+        )
+    return message("no earlier mission on '{site}' is on record", site=site.name)
+
+
+def doubt_without_reading(selector: FromRecords, quantity: str, period: Period, site: Site) -> str:
+    """Return that a selector has no reading to choose by; empty if it has."""
+    if site.earlier is None or selector.used(site.earlier):
+        return ""
+    return say_no_reading(site.earlier, site, quantity, period)
+
+
+def say_no_reading(records: EarlierMissions, site: Site, quantity: str, period: Period) -> str:
+    """Return that no reading of a quantity is on record in a period."""
+    if not records.missions:
+        return say_no_mission(records, site)
+    return message(
+        "no earlier reading of {name} is on record ({period})", name=say_name(quantity), period=say_period(period)
+    )
 
 
 def _purpose(selector: DoneEarlier) -> str:
