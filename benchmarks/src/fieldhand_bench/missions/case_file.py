@@ -130,6 +130,7 @@ def _case(form: CaseForm, book: BookForm, path: Path, loaders: _Loaders) -> Case
         runs=form.runs,
         source=str(path),
         task=form.task or "",
+        earlier=None if form.earlier is None else form.earlier.records(),
     )
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Literal
 
 from fieldhand.execution.drivers.simulation.world import World
+from fieldhand.site.earlier_missions import EarlierMissions
 from fieldhand_bench.missions.places import ANYWHERE, CasePlace
 
 MarkerName = Literal["start", "end"]
@@ -135,6 +136,7 @@ class Case:
         runs: First instants at which the mission is due, for a robot whose clock shows UTC, if it is approved on
             1 January 2026 at 00:00 UTC; none for a mission that begins when it is started.
         task: The same mission as the draft of a Task (XML), as a language model would write it; empty for none.
+        earlier: What earlier missions did on the site; None if nothing is on record.
     """
 
     id: str
@@ -146,3 +148,4 @@ class Case:
     runs: tuple[datetime, ...] = ()
     source: str = ""
     task: str = ""
+    earlier: EarlierMissions | None = None
