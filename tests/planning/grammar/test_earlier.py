@@ -62,6 +62,8 @@ PLANNED = [
     ("for each tree in row 3 that we did not photograph last week, take a picture", "for Excluding(DoneEarlier(take_thermal_picture, calendar last_week), of Rows(3, 3)): [picture]"),
     ("take a picture of every tree that we visited more than 3 times this month", "for DoneEarlier(4, calendar this_month): [picture]"),
     ("take pictures of trees visited by the robot yesterday", "for DoneEarlier(calendar yesterday): [picture]"),
+    ("Skip the ones already done. Photograph row 3 and measure CO2 in row 4.", "for Excluding(DoneEarlier, of Rows(3, 3)): [picture]; for Excluding(DoneEarlier, of Rows(4, 4)): [co2]"),
+    ("take a picture of every tree not visited in any earlier mission", "for Excluding(DoneEarlier): [picture]"),
     # what was left out, and what failed
     ("take pictures of the trees we did not get to yesterday", "for DoneEarlier(left_out, calendar yesterday): [picture]"),
     ("take pictures of the trees we missed last time", "for DoneEarlier(left_out, missions 1): [picture]"),
@@ -70,6 +72,7 @@ PLANNED = [
     ("take pictures of the trees where the picture failed yesterday", "for DoneEarlier(take_thermal_picture, failed, calendar yesterday): [picture]"),
     ("go back to the trees that failed last time and take a picture of each", "for DoneEarlier(failed, missions 1): [picture]"),
     # what was read
+    ("Measure CO2 at tree 4, then take a picture where CO2 was high in an earlier mission", "co2 @ TreeIs(4); for WhereEarlier(co2, gt, 500, ppm): [picture]"),
     ("measure CO2 again where CO2 was high", "for WhereEarlier(co2, gt, 500, ppm): [co2]"),
     ("again measure CO2 where CO2 was high", "for WhereEarlier(co2, gt, 500, ppm): [co2]"),
     ("remeasure CO2 where it was high last week", "for WhereEarlier(co2, gt, 500, ppm, calendar last_week): [co2]"),
@@ -108,6 +111,9 @@ PRESENT = [
     ("Take a picture of every tree in row 3, then measure CO2 at the 3 hottest", "for Rows(3, 3): [picture = r1]; for ByReading(r1, canopy_temperature, 3): [co2]"),
     ("Measure CO2 at every tree in row 3. Take a picture of those above 450 ppm.", "for Rows(3, 3): [co2 = r1; if r1 > 450 ppm: [picture]]"),
     ("We had a leak last week. Take a picture of tree 4.", "picture @ TreeIs(4)"),
+    ("I want the yellow trees photographed today", "for Where(leaf_color, eq, yellow): [picture]"),
+    ("Every tree in row 3 should be photographed today", "for Rows(3, 3): [picture]"),
+    ("Let CO2 be measured at the yellow trees today", "for Where(leaf_color, eq, yellow): [co2] | day=today"),
 ]  # fmt: skip
 
 ASKED = [
@@ -131,6 +137,9 @@ REFUSED = [
     ("take a picture of every tree not visited in February", ""),
     ("Measure CO2 at tree 4. If it was high last week, take a picture.", "last week"),
     ("We did row 4 yesterday. Take a picture of every tree in rows 3 to 5.", ""),
+    ("Take a picture of the yellow trees. Measure CO2 at the ones already visited.", "this mission or an earlier one"),
+    ("Measure CO2 at tree 4, then photograph 3 trees that have not been visited yet", "this mission or an earlier one"),
+    ("Photograph row 3. Then photograph the ones that failed.", "this mission or an earlier one"),
     ("take pictures as last time", "an earlier mission"),
     ("Redo the measurements in row 3.", "an earlier mission"),
     ("take a picture of the trees not done recently", "an earlier mission"),

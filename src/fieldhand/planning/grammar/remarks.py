@@ -77,6 +77,7 @@ def without_remarks(
     respelt: Iterable[PhraseEdge] = (),
     frames: Iterable[tuple[int, int]] = (),
     aims: Iterable[tuple[int, int]] = (),
+    past: bool = True,
 ) -> Remarks:
     """Return the words without remarks: what is told beside the command, and the reasons that are given.
 
@@ -87,6 +88,7 @@ def without_remarks(
         respelt: What the words can be with misspellings mended; what may ask for something then tells nothing.
         frames: Ranges of polite frames ("would you be able to"), which are left out, too.
         aims: Ranges of the phrases with which purposes begin ("I want to know how").
+        past: True to keep "today" and the like where they may say when earlier work was done.
     """
     marks = list_marks(words)
     words = [replace(word, kind="stop") if k in marks.ends else word for k, word in enumerate(words)]
@@ -97,7 +99,7 @@ def without_remarks(
     asides: set[int] = set()
     hedges: set[int] = set()
     edges = list(edges)
-    earlier = _of_earlier_missions(words, edges)
+    earlier = _of_earlier_missions(words, edges) if past else frozenset[int]()
     for edge in edges:
         if edge.category == "NOUN":
             for k in range(edge.start, edge.end):
@@ -207,6 +209,14 @@ def _of_earlier_missions(words: Sequence[Word], edges: Sequence[PhraseEdge]) -> 
     asides = (edge for edge in edges if edge.category == "ASIDE" and _is_anywhere(edge))
     times = [("PERIOD", edge.start, edge.end) for edge in asides]
     return past_ranges(words, [*((edge.category, edge.start, edge.end) for edge in edges), *times])
+
+
+def keeps_asides(words: Sequence[Word], edges: Iterable[PhraseEdge]) -> bool:
+    """Return True if some asides of a request may say when earlier work was done ("photographed today")."""
+    known = list(edges)
+    earlier = _of_earlier_missions(words, known)
+    asides = (edge for edge in known if edge.category == "ASIDE" and _is_anywhere(edge))
+    return any(not earlier.isdisjoint(range(edge.start, edge.end)) for edge in asides)
 
 
 def _stands_apart(words: Sequence[Word], edge: PhraseEdge) -> bool:

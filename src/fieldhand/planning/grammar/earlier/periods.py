@@ -202,6 +202,7 @@ _READ: Mapping[str, Callable[[Mapping[str, str | None]], PastTime | None]] = {
     "month": _month,
     "days": _days,
     "ever": _ever,
+    "earlier": lambda _: PastTime(Period()),
 }
 
 

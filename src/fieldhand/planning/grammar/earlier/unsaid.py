@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import fields, replace
 from typing import Any
 
 from fieldhand.places import selectors as s
-from fieldhand.planning.grammar.earlier.work import SAME_MEASURE
+from fieldhand.planning.grammar.earlier.work import OPEN_TIME, SAME_MEASURE
 from fieldhand.planning.selections import swapped
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task import plan as p
@@ -23,6 +24,38 @@ def unsaid(quantity: str, *, unit_said: bool = True) -> str:
         unit_said: True if the words tell its unit.
     """
     return f"{_BY_UNIT if unit_said else _BY_NOTHING}{quantity}"
+
+
+def tells_earlier_missions(plan: p.Node, robot: RobotProfile) -> bool:
+    """Return True if clauses without a period ("already visited", "where CO2 was high") are about earlier missions.
+
+    Behind work of this mission, what was done may be that work, and so may be readings behind those of the quantity.
+    """
+    nodes = list(p.walk(plan))
+    for number, node in enumerate(nodes):
+        for part in _parts_of(node):
+            done, read = getattr(part, "action", ""), getattr(part, "quantity", "")
+            if read.startswith(OPEN_TIME) and _name_of(read) in _measured(nodes[:number], robot):
+                return False
+            before = [list(_parts_of(one)) for one in nodes[:number] if one.selector is not None]
+            if done.startswith(OPEN_TIME) and not all(part in parts for parts in before):
+                return False
+    return True
+
+
+def _parts_of(node: p.Node) -> Iterator[s.Selector]:
+    if node.selector is not None:
+        yield from node.selector.walk()
+
+
+def _name_of(quantity: str) -> str:
+    return quantity.lstrip(f"{OPEN_TIME}{_BY_UNIT}")
+
+
+def _measured(nodes: Iterable[p.Node], robot: RobotProfile) -> set[str]:
+    """Return the quantities that the acts among some nodes measure."""
+    acts = (node.act for node in nodes if node.act is not None)
+    return {name for act in acts if act.action in robot.action for name in robot.action[act.action].measures}
 
 
 def with_quantities(plan: p.Node, robot: RobotProfile) -> p.Node | None:
@@ -48,17 +81,12 @@ def _is_open(selector: s.Selector) -> bool:
 
 def _open_name(selector: s.Selector) -> str:
     """Return the name of a quantity that is left open; empty if there is none."""
-    names = (getattr(selector, "quantity", ""), getattr(selector, "measured", ""))
-    return next((name for name in names if name.startswith((_BY_UNIT, SAME_MEASURE))), "")
+    names = [getattr(selector, field, "") for field in ("action", "quantity", "measured")]
+    return next((name for name in names if name.startswith((_BY_UNIT, SAME_MEASURE, OPEN_TIME))), "")
 
 
 def _settled(node: p.Node, robot: RobotProfile) -> p.Node:
-    measured = {
-        name
-        for one in p.walk(node)
-        if one.act is not None and one.act.action in robot.action
-        for name in robot.action[one.act.action].measures
-    }
+    measured = _measured(p.walk(node), robot)
     children = node.children
     made = node.with_children([_settled(child, robot) for child in children]) if children else node
     selector = made.selector
@@ -88,6 +116,10 @@ def _named(selector: s.Selector, measured: set[str], robot: RobotProfile) -> s.S
     outer: Any = selector
     if not name:
         return selector
+    if name.startswith(OPEN_TIME):
+        field = "action" if getattr(selector, "action", "") == name else "quantity"
+        settled: s.Selector = replace(outer, **{field: name.removeprefix(OPEN_TIME)})
+        return settled
     if name == SAME_MEASURE:
         return _measured_so(outer, measured, robot)
     quantity = name.lstrip(_BY_UNIT)

@@ -18,6 +18,8 @@ from fieldhand.site.earlier_missions import EarlierOutcome
 
 #: Quantity of work that is only said to be measured: the one that the plan measures there, or else any.
 SAME_MEASURE = "="
+#: Beginning of an action or a quantity of a clause that names no period: it may be of an earlier mission or of this one.
+OPEN_TIME = "~"
 #: Action and quantity of a piece of work, of which one may be empty.
 Way = tuple[str, str]
 
@@ -51,24 +53,34 @@ class EarlierWork:
         if when is None and not self.unsaid:
             if self.needs_period or self.outcomes == ("done",):
                 return []
-            last = PastTime(Period(last_missions=1))
-            return [*self.selectors(last), *self.selectors(PastTime(EVER))]
+            last = [self._places(way, outcome, Period(last_missions=1), None) for outcome, way in self._meanings]
+            return [*last, *self.selectors(PastTime(EVER, unsaid=True))]
         if when is not None and (when.longer or when.lasting) and self.outcomes != ("done",):
             return []
         if when is not None and when.lasting and not self.negated:
             return []
         period = EVER if when is None else when.period
-        made = [self._places(way, outcome, period, when) for outcome in self.outcomes for way in self.ways]
-        return list(dict.fromkeys(made))
+        return list(dict.fromkeys(self._places(way, outcome, period, when) for outcome, way in self._meanings))
+
+    @property
+    def _meanings(self) -> list[tuple[EarlierOutcome, Way]]:
+        return [(outcome, way) for outcome in self.outcomes for way in self.ways]
 
     def _places(self, way: Way, outcome: EarlierOutcome, period: Period, when: PastTime | None) -> s.Selector:
         action, measured = ("", "") if outcome == "left_out" else way
+        if when is None or when.unsaid:
+            action = of_some_time(action)
         done = s.DoneEarlier(action=action, measured=measured, outcome=outcome, at_least=self.at_least, period=period)
         if when is not None and when.longer:
             # "More than a week ago" tells of the last time: it was done, but not in the last week.
             ago = s.Excluding(places=done, of=replace(done, period=EVER))
             return s.Excluding(places=ago) if self.negated else ago
         return s.Excluding(places=done) if self.negated else done
+
+
+def of_some_time(name: str) -> str:
+    """Return the name of an action or a quantity of a clause that names no period."""
+    return f"{OPEN_TIME}{name}"
 
 
 def earlier_work(

@@ -11,7 +11,7 @@ from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.earlier.periods import PastTime
 from fieldhand.planning.grammar.earlier.unsaid import unsaid
-from fieldhand.planning.grammar.earlier.work import EarlierWork
+from fieldhand.planning.grammar.earlier.work import EarlierWork, of_some_time
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning, Subject, Test
 from fieldhand.planning.grammar.places.clauses import Clause, Trait
 from fieldhand.planning.grammar.words import Lex
@@ -195,7 +195,7 @@ def whatever_was_done(work: Lex, when: Lex | None = None) -> list[PlaceMeaning]:
 
 def tested_earlier(test: Test, when: Lex | None, robot: RobotProfile) -> list[s.Selector] | None:
     """Return the places whose earlier readings pass a test, one selector for each quantity that may be meant."""
-    said: PastTime = PastTime(EVER) if when is None else when.value
+    said: PastTime = PastTime(EVER, unsaid=True) if when is None else when.value
     if said.longer or said.lasting or test.than is not None or test.attribute or test.of not in _STATISTICS:
         return None
     found = [_passing(test, one, said) for one in robot.quantities if test.quantity in ("", one.name)]
@@ -224,6 +224,7 @@ def _passing(test: Test, quantity: Quantity, when: PastTime) -> s.Selector | Non
             return None
         bounds = [(_OPPOSITE[check], value) for check, value in bounds]
     name = quantity.name if test.quantity else unsaid(quantity.name, unit_said=bool(test.unit))
+    name = of_some_time(name) if when.unsaid else name
     made: s.Selector = s.Trees()
     for check, value in bounds:
         made = s.WhereEarlier(
