@@ -14,6 +14,7 @@ from typing import Literal
 from fieldhand.places import selectors as s
 from fieldhand.places.count_range import ONE, CountRange, exactly
 from fieldhand.places.selector import Selector
+from fieldhand.request_check.earlier import earlier_tests
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
 from fieldhand.task.aggregates import CompareSeries, CountReadings, MeanKnown
@@ -288,6 +289,11 @@ def _counts(selector: Selector) -> Iterator[int]:
 
 def _tests(nodes: tuple[p.Node, ...], selectors: tuple[tuple[str, Selector], ...]) -> Iterator[PlannedTest]:
     for node, x in selectors:
+        for past in earlier_tests(x):
+            yield PlannedTest(
+                node=node, quantity=past.quantity, attribute="", test=past.test, values=(past.value,), unit=past.unit,
+                plainly=True,
+            )  # fmt: skip
         if isinstance(x, s.Where) and isinstance(x.value, float | int) and not isinstance(x.value, bool):
             yield PlannedTest(
                 node=node, quantity="", attribute=x.attribute, test=x.test, values=(float(x.value),), plainly=True
@@ -382,7 +388,7 @@ def _numbers(nodes: tuple[p.Node, ...], selectors: tuple[tuple[str, Selector], .
     for name, x in selectors:
         for field in fields(x):
             value = getattr(x, field.name)
-            if isinstance(value, bool) or value == field.default or isinstance(x, s.Where):
+            if isinstance(value, bool) or value == field.default or isinstance(x, s.Where) or field.name == "value":
                 continue
             if field.name == "seed":
                 continue  # it numbers draws from several groups

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import fields
 
 from fieldhand.places import selectors as s
+from fieldhand.places.earlier.period import Period
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
 from fieldhand.task.aggregates import Aggregate, CompareSeries, CountReadings, MeanKnown
@@ -151,6 +152,12 @@ def selector(x: s.Selector) -> str:
             value = "+".join(selector(v) if isinstance(v, s.Selector) else str(v) for v in value)
         elif isinstance(value, float):
             value = f"{value:g}"
+        elif isinstance(value, Period):
+            value = " ".join(
+                f"{part.name.removeprefix('last_')} {getattr(value, part.name)}"
+                for part in fields(value)
+                if getattr(value, part.name) != part.default
+            )
         said.append(f"of {value}" if f.name == "of" else str(value))
     return f"{type(x).__name__}({', '.join(said)})" if said else type(x).__name__
 

@@ -33,6 +33,10 @@ TRACTOR = capabilities_of(load_robot("tractor"))
 #: Parts of a draft that the program writes.
 UNSHOWN = {"resources", "resource", "state", "variable", "goals", "goal", "warnings", "warning", "read-as", "request"}
 UNWRITTEN = DERIVED | {"expected", "node", "conditional", "value-as", "sha256", "action"}
+#: Records of earlier missions, which the program writes.
+RECORDS = [shape for cls, shape in all_shapes().items() if cls.__module__ == "fieldhand.site.earlier_missions"]
+UNSHOWN |= {shape.element for shape in RECORDS}
+UNWRITTEN |= {attribute.name for shape in RECORDS for attribute in shape.attributes}
 EVERY = [*get_args(Node), *get_args(Condition), *SELECTORS]
 
 

@@ -30,7 +30,7 @@ WISHES = [
     ("Spray sulfur on rows 1 to 6 of the south block.", "cannot spray: no action 'spray'"),
     ("Prune the Syrah vines in row 4 of the south block.", "cannot prune: no action 'prune'"),
     ("Take a soil sample at vine N30.", "no action for"),
-    ("Take pictures of the vines you missed last time.", "an earlier mission"),
+    ("Take pictures of the vines as usual.", "an earlier mission"),
     ("Redo the measurements in row 3 of the north block.", "an earlier mission"),
     ("Count how many vines are dead in the north block.", "asks to count"),
     ("Tell me which vines have mildew in row 2 of the south block.", "to recognise something"),

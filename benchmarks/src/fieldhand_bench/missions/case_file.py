@@ -25,7 +25,6 @@ from fieldhand_bench.missions.case_form import (
     CaseForm,
     EndForm,
     ExpectForm,
-    Form,
     OffsetForm,
     PlaceForm,
     StepForm,
@@ -33,6 +32,7 @@ from fieldhand_bench.missions.case_form import (
 )
 from fieldhand_bench.missions.case_site import CaseSite, load_case_site
 from fieldhand_bench.missions.cases import Case, CaseWorld, Expected
+from fieldhand_bench.missions.form import Form
 from fieldhand_bench.missions.places import Attributes, CasePlace, Positions
 
 BUILTIN = "builtin"

@@ -19,6 +19,7 @@ from fieldhand.planning.english.spelling import respelt
 from fieldhand.planning.english.tokens import Word, ranges_of, words_of
 from fieldhand.planning.english.vocabulary import vocabulary
 from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.earlier.edges import earlier_edges
 from fieldhand.planning.grammar.event_words import NO_EVENTS, EventPatterns, response_words, says_any_time
 from fieldhand.planning.grammar.language import GrammarLanguage
 from fieldhand.planning.grammar.words import FeatureTable
@@ -81,6 +82,7 @@ class EnglishPhrases:
             yield kind, one.start, one.end, one.condition
         if found or says_any_time(words):
             yield from ((category, start, end, None) for category, start, end in response_words(words))
+        yield from earlier_edges(words, self.lexicon, self.camera)
 
     def entries(self, phrase: Phrase) -> Iterator[NameEntry]:
         """Yield what a phrase can be: in the lexicon, spelt out, and in english.toml."""

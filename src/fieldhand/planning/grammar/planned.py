@@ -15,6 +15,7 @@ from fieldhand.places.wording import say_selector
 from fieldhand.planning.foreseen import foreseeable
 from fieldhand.planning.grammar.dialogue.energy import MeantRecharging
 from fieldhand.planning.grammar.dialogue.watching import with_visits
+from fieldhand.planning.grammar.earlier.unsaid import tells_earlier_missions, with_quantities
 from fieldhand.planning.grammar.meaning import WayRule
 from fieldhand.planning.homeward import faulted_exits, usual_exit, with_assumed_exit
 from fieldhand.planning.planner import Outcome, Planned, Reason, Refused
@@ -92,6 +93,12 @@ def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> O
     limits = tuple(_impossible_limits(meant.limits))
     if limits:
         return Refused(reasons=limits, planner=NAME)
+    if not tells_earlier_missions(meant.plan, robot):
+        return Refused(reasons=(_open_time(meant.plan),), planner=NAME)
+    plan = with_quantities(meant.plan, robot)
+    if plan is None:
+        return Refused(reasons=(_open_quantity(meant.plan),), planner=NAME)
+    meant = replace(meant, plan=plan)
     nominal = usual_exit(site) if meant.nominal is None else meant.nominal
     task = make_task(
         request=request,
@@ -123,6 +130,25 @@ def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> O
     if meant.nominal is None:
         task = with_assumed_exit(task, site, robot)
     return Planned(task=task, planner=NAME)
+
+
+def _open_time(plan: p.Node) -> Reason:
+    """Return the reason for words about what was done that may mean this mission or an earlier one."""
+    return Reason(
+        what=message("it is not clear whether this mission or an earlier one is meant"),
+        said=plan.said,
+        advice=message("say when: 'visited yesterday', 'visited in an earlier mission'"),
+        final=True,
+    )
+
+
+def _open_quantity(plan: p.Node) -> Reason:
+    """Return the reason for words about earlier readings that do not name what was read."""
+    return Reason(
+        what=message("it is not clear which earlier readings are meant"),
+        said=plan.said,
+        advice=message("name the quantity: 'where the CO2 was above 450 ppm last time'"),
+    )
 
 
 def _skips(watch: Watch) -> bool:

@@ -33,7 +33,7 @@ from fieldhand.planning.grammar.english import ENGLISH
 from fieldhand.planning.grammar.language import GrammarLanguage, Respelling
 from fieldhand.planning.grammar.planned import NAME, LimitPhrase, Meant, planned_as
 from fieldhand.planning.grammar.refusals import lost_reasons, unread_reasons
-from fieldhand.planning.grammar.remarks import Remarks, without_remarks
+from fieldhand.planning.grammar.remarks import Remarks, keeps_asides, without_remarks
 from fieldhand.planning.grammar.words import Phrases, edges_of, fillers_of, topic_edge
 from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Reason, Refused
 from fieldhand.planning.selections import rows_of
@@ -41,6 +41,7 @@ from fieldhand.request_check import mismatches
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task import plan as p
+from fieldhand.task.earlier import uses_records
 from fieldhand.task.plan import Span
 from fieldhand.task.request_coverage import request_pieces
 from fieldhand.task.timing import Timing
@@ -104,6 +105,8 @@ def read(
     robot: RobotProfile,
     language: GrammarLanguage = ENGLISH,
     words: Sequence[Word] | None = None,
+    *,
+    past: bool = True,
 ) -> ReadRequest:
     """Return the ways to read a request as a whole.
 
@@ -114,6 +117,7 @@ def read(
         site, robot: Site and robot of the mission.
         language: Language of the request.
         words: Words of the request that are to be read; None for all.
+        past: False to leave out "today" and the like as remarks where they may say when earlier work was done.
     """
     words = language.words_of(request) if words is None else words
     phrases = language.phrases(robot, site)
@@ -121,20 +125,20 @@ def read(
     def read_besides(remarks: Remarks) -> ReadRequest:
         return _read_words(request, remarks, phrases, site, robot, language)
 
-    plain = without_remarks(words, edges_of(words, phrases))
+    plain = without_remarks(words, edges_of(words, phrases), past=past)
     found = read_besides(plain)
     if found.readings or language.respelt is None or any(isinstance(one, OpenQuestion) for one in found.faults):
         return found
     mended = _mended(words, phrases, language.respelt)
     if mended.notes:
-        respelt = read_besides(without_remarks(mended.words, edges_of(mended.words, phrases)))
+        respelt = read_besides(without_remarks(mended.words, edges_of(mended.words, phrases), past=past))
         if respelt.readings:
             return _with_notes(respelt, mended.notes)
     edges = edges_of(words, phrases, tells=True)
     likely = edges_of(mended.words, phrases)
     frames = language.frames(words) if language.frames is not None else ()
     aims = language.aims(words) if language.aims is not None else ()
-    told = without_remarks(words, edges, tells=True, respelt=likely, frames=frames, aims=aims)
+    told = without_remarks(words, edges, tells=True, respelt=likely, frames=frames, aims=aims, past=past)
     if told == plain:
         return found
     bare = read_besides(told)
@@ -280,7 +284,29 @@ def composed(
         words: Words of the request that are to be read; None for all.
         timing: When the mission runs, as the other words say.
     """
-    found = read(request, site, robot, language, words)
+    outcome = _composed(request, site, robot, language, answers, words, timing, past=True)
+    if not isinstance(outcome, Refused):
+        return outcome
+    read_words = language.words_of(request) if words is None else words
+    if not keeps_asides(read_words, edges_of(read_words, language.phrases(robot, site))):
+        return outcome
+    without = _composed(request, site, robot, language, answers, words, timing, past=False)
+    is_present = isinstance(without, Planned) and not uses_records(without.task)
+    return without if is_present else outcome  # "the yellow trees are to be photographed today"
+
+
+def _composed(
+    request: str,
+    site: Site,
+    robot: RobotProfile,
+    language: GrammarLanguage,
+    answers: tuple[Answer, ...],
+    words: Sequence[Word] | None,
+    timing: Timing | None,
+    *,
+    past: bool,
+) -> Outcome:
+    found = read(request, site, robot, language, words, past=past)
     found = replace(found, readings=[replace(reading, timing=timing) for reading in found.readings])
     if not found.readings:
         asked = next((fault.what for fault in found.faults if isinstance(fault, OpenQuestion)), None)

@@ -14,6 +14,7 @@ from functools import cache
 from typing import get_args
 
 from fieldhand.errors import ModelError
+from fieldhand.places.earlier.period import Period
 from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import SELECTORS
 from fieldhand.task import plan
@@ -66,7 +67,7 @@ def describe_language() -> str:
     sections = (
         ("Nodes (N), what is done", get_args(Node)),
         ("Conditions (C), what an if or an until tests", get_args(Condition)),
-        ("Selectors (S), how places are named", SELECTORS),
+        ("Selectors (S), how places are named", (*SELECTORS, Period)),
         ("Constraints", (Constraints, Budget, Avoid, OnlyGate, SlowNear, FaultedExit)),
         ("Times, when the whole mission runs", (*get_args(Timing), DayTime)),
     )
@@ -128,7 +129,7 @@ def _child(child: Child) -> str:
     whole = many if child.direct else f"<{child.name}>{many}</{child.name}>"
     if child.kind == "inline":  # the element itself has the attributes of that class
         (option,) = child.options
-        whole = f"<{child.name} {element_name(option).upper()}/>"
+        whole = part if part == f"<{child.name}/>" else f"<{child.name} {element_name(option).upper()}/>"
     if child.name == "of" and not child.direct:
         whole = "OF"
     return whole if child.default is MISSING else f"[{whole}]"

@@ -10,6 +10,7 @@ from fieldhand.planning.grammar.commands import (
     clauses,
     conditions,
     driving,
+    earlier,
     energy,
     events,
     exclusions,
@@ -31,7 +32,7 @@ from fieldhand.planning.grammar.commands import (
 GRAMMAR = Grammar()
 _THEMES = (
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, energy, events, requests,
-    exclusions, ways, slow, sampling, waits, pace, sides, aggregates, working,
+    exclusions, ways, slow, sampling, waits, pace, sides, aggregates, working, earlier,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)

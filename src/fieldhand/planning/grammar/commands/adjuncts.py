@@ -43,7 +43,8 @@ def _so_often(command: CaptureCommand, times: int) -> CaptureCommand | None:
 
 
 def _again(command: CaptureCommand, _: None) -> CaptureCommand | None:
-    known = command.place is None or command.place.shape in ("here", "one")
+    place = command.place
+    known = place is None or place.shape in ("here", "one") or any(one.uses_records for one in place.selector.walk())
     return command if known and command.relation in ("at", "of", "along") else None
 
 

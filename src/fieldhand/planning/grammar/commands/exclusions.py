@@ -207,6 +207,8 @@ def _without(
         left = except_positions(whole, out.positions)
         return None if left is None else replace(command, place=left[0], used=used)
     among, left_out = ids_of(whole.selector, site), ids_of(out.place.selector, site)
+    if any(part.uses_records for part in out.place.selector.walk()):
+        left_out, among, some = set(), among or set(), False  # what was done before may be known later only
     if among is None or left_out is None or (some and not among & left_out):
         return None
     if first and whole.count is not None and (chosen := getattr(whole.selector, "of", None)) is not None:
@@ -214,7 +216,7 @@ def _without(
         return replace(command, place=replace(whole, selector=swapped(whole.selector, chosen, others)), used=used)
     if named_places(whole.selector):
         whole = replace(whole, count=None)
-    rest = except_for(whole, out.place, site) if not among <= left_out else None
+    rest = except_for(whole, out.place, site) if not among <= left_out or not left_out else None
     if rest is None:
         return None
     shape = (

@@ -9,6 +9,7 @@ from fieldhand.planning.grammar.places import (
     choices,
     chosen,
     clauses,
+    earlier,
     exceptions,
     groups,
     likewise,
@@ -46,6 +47,7 @@ for _part in (
     sets,
     sampling,
     by_reading,
+    earlier,
     numbered_zones,
     vague,
 ):
