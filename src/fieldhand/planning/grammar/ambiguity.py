@@ -130,7 +130,7 @@ def _question_of_ways(plans: Sequence[Planned], request: str) -> PlanQuestion | 
         answer = capitalised(joined(" ", say_ways(plan.task.constraints)))
         left[answer] = (*left.get(answer, ()), plan)
     limits = [plan.task.constraints for plan in plans]
-    spans = [span for of in limits for rule in (*of.avoid, *of.slow) for span in rule.said]
+    spans = [span for of in limits for rule in (*of.avoid, *of.only_gates, *of.slow) for span in rule.said]
     if len(left) < 2 or not spans:
         return None
     start, end = min(start for start, _ in spans), max(end for _, end in spans)

@@ -243,8 +243,8 @@ def _corrected_numbers(words: Sequence[Word], kinds: Sequence[set[str]], sentenc
     end = begin
     while end <= sentence[-1] and ("CORRECTION" in kinds[end] or words[end].kind == "comma"):
         end += 1
-    if "WAITV" in kinds[begin] and end == begin + 1 and "UNIT" in kinds[min(end + 1, len(kinds) - 1)]:
-        return ()  # "tree 4, wait 10 min"
+    if "WAITV" in kinds[begin] and end == begin + 1 and any("UNIT" in kinds[k] for k in range(end, len(kinds))[1:5]):
+        return ()  # "tree 4, wait 10 min" and "..., wait a quarter of an hour"
     last = begin - 3 if "UNIT" in kinds[begin - 2] else begin - 2
     old, new = _numbers_from(words, kinds, last, -1), _numbers_from(words, kinds, end, 1)
     if not old or len(old) != len(new) or any("NUM" in kinds[k] for k in range(sentence[0], old[-1])):
