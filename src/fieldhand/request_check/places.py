@@ -66,7 +66,7 @@ def place_mismatches(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterat
 
 def _trees(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
     """Yield numbered trees of the request that the plan lacks, and the reverse."""
-    named = {_digits(tree) for _, tree in plan.trees}
+    named = {number.lstrip("0") for _, tree in plan.trees for number in re.findall(r"\d+", tree)}
     spans = [(abs(x.first), abs(x.last)) for _, x in plan.having(s.InRow) if isinstance(x, s.InRow)]
     counted = {int(n.value) for n in plan.numbers if n.kind == "count"} | {
         abs(x.nth) for _, x in plan.having(s.Nth) if isinstance(x, s.Nth)

@@ -13,7 +13,7 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.plan import walk
 from planning.english.outlines import outline
-from support.sites.fields import glasshouse, pasture, vegetable_garden
+from support.sites.gardens import glasshouse, pasture, vegetable_garden
 
 GARDEN, GLASSHOUSE, PASTURE = vegetable_garden(), glasshouse(), pasture()
 HUSKY, AMIGA, TRACTOR = load_robot("husky"), load_robot("amiga"), load_robot("tractor")

@@ -41,6 +41,8 @@ def short_names(site: Site) -> Iterator[tuple[Phrase, NameEntry]]:
             cost = _SHORT + _OR_THE_SITE - 1.0 if (head,) in outlines else _OR_THE_SITE if head in plots else _SHORT
             yield (head,), NameEntry(kind="ZONE", value=name, cost=cost)
     for name, words in named.items():
+        if len(words) == 2 and words[-1] in vocabulary()["plants"]["containers"] and (words[0],) not in whole:
+            yield words[:1], NameEntry(kind="ZONE", value=name, cost=_SHORT)
         if len(words) == 2:
             for owner in {f"{words[0]}'s", f"{words[0]}s'", f"{words[0]}s", words[0].removesuffix("s")} - {words[0]}:
                 yield (owner, words[1]), NameEntry(kind="ZONE", value=name)

@@ -36,7 +36,7 @@ _IN_ASIDES = frozenset(
     | {"PAPERWORK", "PURPOSE"}
 )
 #: Categories of words that what is told of a tree may have beside unknown ones ("the one by the road").
-_IN_APPOSITIONS = frozenset({"AT", "BY", "DET", "IMPERSONAL", "IS", "OF", "VAGUEADJ", "WHICH"})
+_IN_APPOSITIONS = frozenset({"AT", "BY", "DET", "DIMENSION", "IMPERSONAL", "IS", "OF", "VAGUEADJ", "WHICH"})
 #: Categories of words that restrict, forbid or command even behind "because", and of verbs that do so behind "and".
 _RESTRICTING = frozenset(
     {

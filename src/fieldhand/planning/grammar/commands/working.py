@@ -16,7 +16,7 @@ from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.places.numbers import name_of
 from fieldhand.planning.grammar.places.planted_rows import rows_out_of
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import are_rows, is_one_row, over
+from fieldhand.planning.selections import are_rows, is_one_row, over, rows_kept
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.nodes.work_along import RowSides, WorkMode
@@ -54,7 +54,8 @@ class Tract:
 )  # fmt: skip
 def rows_tract(rows: s.Selector, way: Lex | None = None) -> Tract | None:
     """Compose "along rows 3 to 8"."""
-    return Tract(rows, "rows", along=way is not None) if are_rows(rows) or rows == s.Rows() else None
+    known = are_rows(rows) or rows_kept(rows) is not None
+    return Tract(rows, "rows", along=way is not None) if known else None
 
 
 @construction(
@@ -126,7 +127,9 @@ def without_rows(part: Tract, out: s.Selector) -> Tract | None:
     return replace(part, selector=s.Excluding(places=out, of=part.selector))
 
 
-@construction("tract: where=region", "tract: in_ where=region", cost=0.4)
+@construction(
+    "tract: where=region", "tract: in_ where=region", "tract: where=crop_area", "tract: ALONG where=crop_area", cost=0.4
+)
 def ground(where: s.Selector) -> Tract | None:
     """Compose "the meadow" and "the north block"."""
     return None if are_rows(where) or where == edges() else Tract(where, None)

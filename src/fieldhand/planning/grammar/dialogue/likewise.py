@@ -264,6 +264,9 @@ def _best_of_ranked(state: DialogueState, command: _WithPlace, best: s.Top) -> C
     """Return a command at the best of the trees that were ranked."""
     ranking = state.ranking
     last = None if ranking is not None or state.where is None else state.where.selector
+    of_area = best.attribute and isinstance(last, s.Top) and not is_by_attribute(last.of)
+    if of_area and best.count == 1 and command.place is not None and ranking is None:
+        return replace(command, place=replace(command.place, like=None))  # "in the northern half, ... the youngest"
     if isinstance(last, s.Top) and best.attribute in ("", last.attribute) and best.lowest != last.lowest:
         # "the ten weakest vines, then the ten strongest"
         best = replace(best, attribute=last.attribute, of=last.of)

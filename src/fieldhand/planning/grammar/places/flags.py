@@ -34,6 +34,12 @@ def such(flag: Lex, inner: Nominal) -> list[Nominal] | None:
     return [replace(inner, selector=that_pass(test, inner.selector)) for test in is_so(flag)]
 
 
+@construction("nominal: flag=FLAG", cost=1.6)
+def such_ones(flag: Lex) -> list[Nominal]:
+    """Compose "two grafted" of "two grafted and two ungrafted plants"."""
+    return [Nominal(that_pass(test, s.Trees()), plural=True, unmarked=True) for test in is_so(flag)]
+
+
 @construction("nominal: NON [DASH] flag=FLAG inner=nominal", "nominal: NOT [DASH] flag=FLAG inner=nominal", cost=0.2)
 def not_such(flag: Lex, inner: Nominal) -> list[Nominal] | None:
     """Compose "non-grafted tomatoes"."""

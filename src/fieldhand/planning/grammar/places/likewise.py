@@ -81,6 +81,7 @@ def the_rest(noun: Lex | None = None) -> PlaceMeaning | None:
 
 @construction(
     "place: OTHERS OF where=region",
+    "place: OTHERS OF where=crop_area",
     "place: DET OTHER noun=TREE in_ where=region",
     "place: EACH [DET] OTHER noun=TREE in_ where=region",
     cost=0.3,

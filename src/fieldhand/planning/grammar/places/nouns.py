@@ -30,6 +30,8 @@ AttributeTest = tuple[str, AttributeCheck, Any]
 
 #: Test, value, unit, and the attribute if the words name it ("older than").
 Comparison = tuple[Test | Literal["between"], Any, str, str]
+#: Words in the names of attributes that are sizes of plants.
+_SIZES = ("size", "height", "diameter", "width", "spread", "girth", "weight")
 #: Word in the name of the attribute that a verb or an adjective is about, by its unit.
 _ATTRIBUTE_BY_UNIT = {"years": "age", "kg": "yield"}
 
@@ -78,7 +80,11 @@ def best_one(rank: tuple[str, bool], robot: RobotProfile) -> PlaceMeaning | None
     """Compose "the oldest"; "the driest" is rather that of the places whose moisture was read."""
     if any(word in split(quantity.name) for word in split(rank[0]) for quantity in robot.quantities):
         return None
-    return PlaceMeaning(s.Top(attribute=rank[0], count=1, lowest=rank[1]), "one") if rank[0] else None
+    return (
+        PlaceMeaning(s.Top(attribute=rank[0], count=1, lowest=rank[1]), "one", like=Likewise("ranked"))
+        if rank[0]
+        else None
+    )
 
 
 @construction("nominal: noun=ONE", cost=0.4)
@@ -159,9 +165,9 @@ def where_a_variety_grows(word: Lex, value: Lex) -> list[s.Selector] | None:
     ]
 
 
-@construction("region: [word=DET] value=ATTRVAL", cost=1.4)
+@construction("crop_area: [word=DET] value=ATTRVAL", "crop_area: EACH [OF] [word=DET] value=ATTRVAL", cost=0.4)
 def where_a_crop_grows(value: Lex, word: Lex | None = None) -> list[s.Selector] | None:
-    """Compose "the carrots" as an area."""
+    """Compose "the carrots" as ground that is worked or crossed."""
     if word is not None and "indefinite" in word.features:
         return None
     kinds = [(name, text) for name, text in value.value if is_kind_attribute(name)]
@@ -170,6 +176,16 @@ def where_a_crop_grows(value: Lex, word: Lex | None = None) -> list[s.Selector] 
         for name, text in kinds
         if value.plural or is_unmarked(name, text)
     ]
+
+
+@construction(
+    "crop_area: first=crop_area AND second=crop_area", "crop_area: first=crop_area COMMA second=crop_area",
+    "crop_area: first=crop_area COMMA AND second=crop_area",
+    cost=0.1,
+)  # fmt: skip
+def where_crops_grow(first: s.Selector, second: s.Selector) -> s.Selector | None:
+    """Compose "the leeks and the onions" as ground."""
+    return None if first == second else s.UnionOf(parts=(*first.members, *second.members))
 
 
 @construction("nominal: value=ATTRVAL", cost=0.8)
@@ -453,10 +469,12 @@ def last_of_site(inner: Nominal) -> Nominal | None:
     return replace(inner, selector=s.Last(), single=True)
 
 
-@construction("ranking: attribute=SUPER", cost=0.0)
-def ranking_word(attribute: Lex) -> tuple[str, bool]:
-    """Compose "oldest"."""
-    return cast("tuple[str, bool]", attribute.value)
+@construction("ranking: attribute=SUPER", cost=0.0, given=("site",))
+def ranking_word(attribute: Lex, site: Site) -> list[tuple[str, bool]]:
+    """Compose "oldest"; "biggest" may be about each size that the site records."""
+    name, lowest = cast("tuple[str, bool]", attribute.value)
+    sizes = [one for hint in _SIZES for one in hinted_attributes(hint, site)] if "of_size" in attribute.features else []
+    return [(name, lowest), *((one, lowest) for one in sizes)]
 
 
 @construction("ranking: rank=ranking [DASH] attribute=ATTR", cost=0.0)

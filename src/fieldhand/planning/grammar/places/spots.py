@@ -218,7 +218,7 @@ def gate(gate: Lex) -> PlaceMeaning:
 
 @construction(
     "place: EACH noun=GATES", "place: EACH DET noun=GATES", "place: EACH OF DET noun=GATES", "place: [DET] gates=GATES",
-    "place: [DET] n=count noun=GATES", "place: EACH n=count noun=GATES",
+    "place: [DET] n=count noun=GATES", "place: EACH n=count noun=GATES", "place: EACH [OF] DET n=count noun=GATES",
     cost=0.2,
 )  # fmt: skip
 def every_gate(noun: Lex | None = None, gates: Lex | None = None, n: int | None = None) -> PlaceMeaning | None:
