@@ -25,8 +25,8 @@ from support.sites.grids import LAT, LON, grid
 from support.sites.points import area, point, read
 
 REQUEST = "Take a picture at each corner."
-#: Limit of docs/planning-llm.md. The prompt takes about 9,000; each new selector adds 30 to 60 to it.
-MAX_TOKENS = 10_000
+#: Limit of docs/planning-llm.md. The prompt takes about 9,700; each new selector adds 30 to 60 to it.
+MAX_TOKENS = 10_500
 
 
 def tokens(text: str) -> int:
@@ -86,6 +86,22 @@ def test_what_a_model_needs_of_site_and_robot_is_there() -> None:
         assert action.name in text
     for quantity in robot.quantities:
         assert f"{quantity.name} in {quantity.unit}" in text
+
+
+def test_names_of_markers_and_values_that_only_one_block_has_are_there() -> None:
+    vines = [
+        point(LON + 3e-5 * row, LAT + 2e-5 * place + north, block=block, variety=variety, id=f"{block}{row}-{place}")
+        for block, variety, north in (("North", "Merlot", 1e-3), ("South", "Syrah", 0.0))
+        for row in range(3)
+        for place in range(8)
+    ]
+    mixed = [point(LON + 3e-5 * row, LAT - 2e-5, block="South", variety="Merlot", id=f"m{row}") for row in range(3)]
+    barn = point(LON - 2e-4, LAT, name="barn", kind="start")
+    north, south = "Merlot only in block North", "Syrah only in block South"
+    for more, alone in (([], {north, south}), (mixed, {south})):
+        text = opening(REQUEST, read(*vines, *more, barn), load_robot("husky"))[1].text
+        assert "start (called barn)" in text
+        assert set(re.findall(r"\w+ only in block \w+", text)) == alone
 
 
 def test_the_first_message_is_the_same_for_every_request() -> None:

@@ -9,6 +9,8 @@ from itertools import pairwise
 
 from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.grammar.chart import PhraseEdge
+from fieldhand.planning.grammar.earlier.edges import EARLIER
+from fieldhand.planning.grammar.earlier.past_words import past_ranges
 from fieldhand.planning.grammar.list_marks import list_marks
 from fieldhand.planning.grammar.people import sender, who_wants
 from fieldhand.planning.grammar.purposes import purpose
@@ -34,7 +36,7 @@ _IN_ASIDES = frozenset(
     | {"PAPERWORK", "PURPOSE"}
 )
 #: Categories of words that what is told of a tree may have beside unknown ones ("the one by the road").
-_IN_APPOSITIONS = frozenset({"AT", "BY", "DET", "IMPERSONAL", "IS", "OF", "VAGUEADJ", "WHICH"})
+_IN_APPOSITIONS = frozenset({"AT", "BY", "DET", "DIMENSION", "IMPERSONAL", "IS", "OF", "VAGUEADJ", "WHICH"})
 #: Categories of words that restrict, forbid or command even behind "because", and of verbs that do so behind "and".
 _RESTRICTING = frozenset(
     {
@@ -75,6 +77,7 @@ def without_remarks(
     respelt: Iterable[PhraseEdge] = (),
     frames: Iterable[tuple[int, int]] = (),
     aims: Iterable[tuple[int, int]] = (),
+    past: bool = True,
 ) -> Remarks:
     """Return the words without remarks: what is told beside the command, and the reasons that are given.
 
@@ -85,6 +88,7 @@ def without_remarks(
         respelt: What the words can be with misspellings mended; what may ask for something then tells nothing.
         frames: Ranges of polite frames ("would you be able to"), which are left out, too.
         aims: Ranges of the phrases with which purposes begin ("I want to know how").
+        past: True to keep "today" and the like where they may say when earlier work was done.
     """
     marks = list_marks(words)
     words = [replace(word, kind="stop") if k in marks.ends else word for k, word in enumerate(words)]
@@ -94,19 +98,22 @@ def without_remarks(
     purposes: dict[int, int] = {}
     asides: set[int] = set()
     hedges: set[int] = set()
+    edges = list(edges)
+    earlier = _of_earlier_missions(words, edges) if past else frozenset[int]()
     for edge in edges:
         if edge.category == "NOUN":
             for k in range(edge.start, edge.end):
                 captures[k].add(edge.meaning.value)
-        for k in range(edge.start, edge.end):
-            kinds[k].add(edge.category)
+        for k in range(edge.start, edge.end) if edge.category not in EARLIER else ():
+            kinds[k].add(edge.category)  # "We had a leak last week" tells of something else
         if edge.category == "REASON":
             reasons.add(edge.start)
         if edge.category in ("PURPOSE", "REASON"):
             purposes[edge.start] = max(edge.end, purposes.get(edge.start, 0))
         if edge.category == "ABOUT" and "hedges" in edge.meaning.features:
             hedges.add(edge.end - 1)
-        if edge.category == "ASIDE" and ("anywhere" in edge.meaning.features or _stands_apart(words, edge)):
+        of_earlier = not earlier.isdisjoint(range(edge.start, edge.end))
+        if edge.category == "ASIDE" and not of_earlier and (_is_anywhere(edge) or _stands_apart(words, edge)):
             asides.update(range(edge.start, edge.end))
     likely: dict[int, set[str]] = defaultdict(set)
     for edge in respelt:
@@ -193,6 +200,25 @@ def _sets_off(words: Sequence[Word], comma: int, left_out: set[int]) -> bool:
     return begin < comma and (begin == 0 or words[begin - 1].kind in ("comma", "stop"))
 
 
+def _is_anywhere(edge: PhraseEdge) -> bool:
+    return "anywhere" in edge.meaning.features
+
+
+def _of_earlier_missions(words: Sequence[Word], edges: Sequence[PhraseEdge]) -> frozenset[int]:
+    """Return the numbers of the words that are the time of earlier work ("already done today")."""
+    asides = (edge for edge in edges if edge.category == "ASIDE" and _is_anywhere(edge))
+    times = [("PERIOD", edge.start, edge.end) for edge in asides]
+    return past_ranges(words, [*((edge.category, edge.start, edge.end) for edge in edges), *times])
+
+
+def keeps_asides(words: Sequence[Word], edges: Iterable[PhraseEdge]) -> bool:
+    """Return True if some asides of a request may say when earlier work was done ("photographed today")."""
+    known = list(edges)
+    earlier = _of_earlier_missions(words, known)
+    asides = (edge for edge in known if edge.category == "ASIDE" and _is_anywhere(edge))
+    return any(not earlier.isdisjoint(range(edge.start, edge.end)) for edge in asides)
+
+
 def _stands_apart(words: Sequence[Word], edge: PhraseEdge) -> bool:
     """Return True for a fixed aside of several words, and for a short one between commas ("Right, ...")."""
     marks = ("comma", "stop")
@@ -217,8 +243,8 @@ def _corrected_numbers(words: Sequence[Word], kinds: Sequence[set[str]], sentenc
     end = begin
     while end <= sentence[-1] and ("CORRECTION" in kinds[end] or words[end].kind == "comma"):
         end += 1
-    if "WAITV" in kinds[begin] and end == begin + 1 and "UNIT" in kinds[min(end + 1, len(kinds) - 1)]:
-        return ()  # "tree 4, wait 10 min"
+    if "WAITV" in kinds[begin] and end == begin + 1 and any("UNIT" in kinds[k] for k in range(end, len(kinds))[1:5]):
+        return ()  # "tree 4, wait 10 min" and "..., wait a quarter of an hour"
     last = begin - 3 if "UNIT" in kinds[begin - 2] else begin - 2
     old, new = _numbers_from(words, kinds, last, -1), _numbers_from(words, kinds, end, 1)
     if not old or len(old) != len(new) or any("NUM" in kinds[k] for k in range(sentence[0], old[-1])):
