@@ -113,11 +113,13 @@ QUANTITIES = {
 
 @cache
 def orchard() -> Site:
-    """The orchard of the rig with a charger."""
+    """The orchard of the rig with a charger, and a hole in an aisle between two trees."""
     site = bare_orchard()
-    ((lat, lon),) = site.projection.lat_lon([(-5.0, 10.0)])
-    charger = Place(kind="marker", id="charger", x=-5.0, y=10.0, lat=lat, lon=lon)
-    return replace(site, markers={**site.markers, "charger": charger})
+    markers = dict(site.markers)
+    for name, x, y in (("charger", -5.0, 10.0), ("hole", 12.5, 7.5)):
+        ((lat, lon),) = site.projection.lat_lon([(x, y)])
+        markers[name] = Place(kind="marker", id=name, x=x, y=y, lat=lat, lon=lon)
+    return replace(site, markers=markers)
 
 
 @cache
@@ -310,7 +312,7 @@ class Drawn:
         )
 
     def constraints(self) -> Constraints:
-        """Ground to keep away from, which may make a mission impossible, and ground to drive slowly on."""
+        """Ground to keep away from, which closes an aisle between two trees, and ground to drive slowly on."""
         options: list[Selector] = [self._tree(), Rows(first="r1", last="r1"), Marker(name="end"), self._tree()]
         slow = tuple(
             SlowNear(
@@ -320,7 +322,7 @@ class Drawn:
             )
             for k in self._rng.permutation(4)[: int(self._rng.integers(0, 3))].tolist()
         )
-        avoid = (Avoid(places=self._tree(), distance_m=1.5),) if self._chance(0.2) else ()
+        avoid = (Avoid(places=Marker(name="hole"), distance_m=2.0),) if self._chance(0.3) else ()
         return Constraints(avoid=avoid, slow=slow)
 
     def watches(self) -> tuple[Watch, ...]:
@@ -520,7 +522,8 @@ class AsChosen:
         return tuple(self._chosen[node].popleft())
 
     def takes(self, walker: ForecastHandler, node: OptionalStep) -> bool:
-        return self._taken[node.id].popleft()
+        taken = self._taken.get(node.id)
+        return bool(taken) and taken.popleft()  # a step that cannot be reached is not offered to the guard
 
 
 def simulated(seed: int) -> Simulated:
