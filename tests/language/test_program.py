@@ -14,7 +14,6 @@ from pathlib import Path
 
 import pytest
 
-from fieldhand.cli.demo import REQUEST as WARNED
 from fieldhand.language import catalogue
 from fieldhand.program import main
 from language.silent_language import silent_po, words_left, words_of

@@ -167,7 +167,7 @@ def not_a_number(attribute: str) -> PlaceError:
     )
 
 
-def nothing(site: Site, selector: Selector, of: str = "") -> NoPlaceError:
+def nothing(site: Site, selector: Selector, of: str = "") -> PlaceError:
     """Return the error for a part of a selector that matches nothing."""
     if not site.trees:
         return PlaceError(

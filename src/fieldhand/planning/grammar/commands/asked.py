@@ -28,7 +28,7 @@ construction = GRAMMAR.construction
 
 @dataclass(frozen=True, slots=True)
 class AskedArea:
-    """What is asked about an area: the captures that tell it."""
+    """Questions about an area, and the captures that answer them."""
 
     things: tuple[Thing, ...]
     where: s.Selector

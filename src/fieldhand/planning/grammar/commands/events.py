@@ -310,7 +310,9 @@ def then_reacts(first: WatchResponse, second: WatchResponse) -> WatchResponse | 
     if first.response != "wait" or first.fallback is not None or first.at_most_s is None:
         return None
     fallback = second.response
-    return None if fallback in ("wait", "skip_row", "slow") else replace(first, fallback=fallback)
+    if fallback == "wait" or fallback == "skip_row" or fallback == "slow":
+        return None
+    return replace(first, fallback=fallback)
 
 
 @construction(
