@@ -17,6 +17,7 @@ import numpy as np
 from lxml import etree
 
 from fieldhand import mission
+from fieldhand.errors import NoPlaceError
 from fieldhand.evaluation.log_replay import replay_log
 from fieldhand.exchange.btcpp import write_tree
 from fieldhand.execution.drivers.simulation.world import ActionFails, TreeRef, World
@@ -29,18 +30,34 @@ from fieldhand.forecast.walk_branch import walk_branch as preview
 from fieldhand.forecast.walk_steps import Walk
 from fieldhand.places.context import Context
 from fieldhand.places.reading_series import ReadingSeries, TakenReading
-from fieldhand.places.resolution import resolve_one
+from fieldhand.places.resolution import resolve, resolve_one
 from fieldhand.places.selector import Selector
-from fieldhand.places.selectors import Bound, ByReading, Farthest, Here, Nearest, TreeIs, UnionOf
+from fieldhand.places.selectors import (
+    SELECTORS,
+    Bound,
+    ByReading,
+    DoneEarlier,
+    Excluding,
+    Farthest,
+    Here,
+    Nearest,
+    Period,
+    TopEarlier,
+    TreeIs,
+    UnionOf,
+    WhereEarlier,
+)
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.charging_document import ChargingDocument
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.drives import Drives
+from fieldhand.site.earlier_missions import EarlierCapture, EarlierMission, EarlierMissions, EarlierValue
 from fieldhand.site.model import Place, Site
 from fieldhand.task.aggregates import Aggregate, CompareSeries, CountReadings, MeanKnown, SeriesCondition
 from fieldhand.task.codec import decode_parts
 from fieldhand.task.conditions import AllOf, AnyOf, Compare, Condition, Not
 from fieldhand.task.conditions import walk as condition_parts
+from fieldhand.task.earlier import site_of, with_earlier
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import (
     Act,
@@ -96,6 +113,28 @@ def husky() -> RobotProfile:
     return replace(robot, energy=replace(robot.energy, charging=ChargingDocument.model_validate(CHARGING).charging()))
 
 
+@cache
+def earlier() -> EarlierMissions:
+    """Three earlier missions in the orchard, each with a reading of every quantity at every third tree or so."""
+    rng = np.random.default_rng(21)
+    made = []
+    for day in (1, 2, 3):
+        at = f"2026-06-0{day}T08:00:00+00:00"
+        captures = [
+            EarlierCapture(
+                place=tree.place.id,
+                at=at,
+                action=action,
+                values=(EarlierValue(name=quantity, value=round(float(rng.normal(value, 2.0)), 2), unit=unit),),
+            )
+            for tree in orchard().trees
+            for action, (quantity, unit, value) in QUANTITIES.items()
+            if rng.random() < 0.35
+        ]
+        made.append(EarlierMission(id=f"m{day}", begun=at, captures=tuple(captures)))
+    return EarlierMissions(as_of="2026-06-04T08:00:00+00:00", missions=tuple(made))
+
+
 class Drawn:
     """A plan drawn by chance.
 
@@ -129,6 +168,28 @@ class Drawn:
         return ByReading(
             reading=str(self._rng.choice(["a", "b"])), quantity=quantity, count=count, lowest=self._chance(0.5)
         )
+
+    def _by_records(self, of: Selector) -> Selector:
+        """A choice by earlier missions, if it is not empty; else the group itself."""
+        action = str(self._rng.choice(list(QUANTITIES)))
+        quantity, unit, value = QUANTITIES[action]
+        period = Period(last_missions=int(self._rng.integers(1, 4)))
+        done = DoneEarlier(action=action, period=period)
+        some: Selector
+        match int(self._rng.integers(4)):
+            case 0:
+                some = Excluding(places=done, of=of)
+            case 1:
+                some = replace(done, of=of)
+            case 2:
+                some = TopEarlier(quantity=quantity, count=3, lowest=self._chance(0.5), period=period)
+            case _:
+                some = WhereEarlier(quantity=quantity, test="gt", value=value, unit=unit, period=period, of=of)
+        try:
+            found = resolve(some, orchard().with_earlier(earlier()), Context(here=orchard().start))
+        except NoPlaceError:
+            return of
+        return some if found else of
 
     def _series_condition(self) -> Condition:
         quantity, unit, value = QUANTITIES[str(self._rng.choice(list(QUANTITIES)))]
@@ -220,6 +281,8 @@ class Drawn:
         select: Selector = UnionOf(parts=tuple(TreeIs(tree=t) for t in names))
         if near:
             select = self._by_reading(2) if not tried and self._chance(0.5) else Nearest(to=Here(), count=2)
+        elif self._chance(0.25):
+            select = self._by_records(select)
         return ForEach(
             id="",
             select=select,
@@ -379,6 +442,7 @@ def simulated(seed: int) -> Simulated:
     for attempt in range(100):
         rng = np.random.default_rng([18, seed, attempt])
         task = task_for(Drawn(rng).plan(), nominal=str(rng.choice(["return_to_start", "return_to_end", "stay"])))  # type: ignore[arg-type]
+        task = with_earlier(task, earlier())
         bad = rng.permutation([t.place.id for t in site.trees])[:7].tolist()
         world = World(faults=tuple(ActionFails(action=FAILING, at=TreeRef(id=tree)) for tree in bad))
         events: list[Event] = []
@@ -442,8 +506,9 @@ class Interpreter:
     _series: dict[str, ReadingSeries] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        robot, site = husky(), orchard()
         self._task = self.flight.task
+        robot, site = husky(), site_of(self._task, orchard())
+        self._site = site
         self._work = self.flight.work
         self._optional = AsChosen(self.flight)
         self._drives = visit_order.drives_for(site, robot)
@@ -536,7 +601,7 @@ class Interpreter:
 
     def _truth(self, element: Any, condition: Condition) -> bool:
         facts = ConditionInputs(
-            site=orchard(), robot=husky(), here=self._context.here, readings=self._readings, series=self._series
+            site=self._site, robot=husky(), here=self._context.here, readings=self._readings, series=self._series
         )
         truth = evaluate(condition, facts).truth
         return element.get("if_unknown") == "true" if truth is None else truth
@@ -558,7 +623,7 @@ class Interpreter:
         self._context = Context(here=here, visited=visited, bound=bound)
 
     def _place(self, text: str) -> Place:
-        return resolve_one(_selectors(text)[0], orchard(), replace(self._context, series=self._series))
+        return resolve_one(_selectors(text)[0], self._site, replace(self._context, series=self._series))
 
     def _resolved(self, element: Any) -> tuple[Place, ...]:
         node, context = _node(element), replace(self._context, series=self._series)
@@ -571,7 +636,7 @@ class Interpreter:
             order=element.get("order", "best"),
             at_most=int(element.get("at_most")) if "at_most" in element.attrib else None,
         )
-        places = visit_order.places_of(loop, loop.select, orchard(), context)
+        places = visit_order.places_of(loop, loop.select, self._site, context)
         home = visit_order.home_if_last(self._task, orchard(), node, self._context.here)
         return visit_order.visits_in_order(loop, self._drives, self._context.here, places, home)
 
@@ -579,7 +644,7 @@ class Interpreter:
         node = next(n for n in walk(self._task.composition.plan) if n.id == _node(element))
         home = visit_order.home_if_last(self._task, orchard(), node.id, self._context.here)
         context = replace(self._context, series=self._series)
-        order = visit_order.steps_in_order(node, orchard(), self._drives, context, home)  # type: ignore[arg-type]
+        order = visit_order.steps_in_order(node, self._site, self._drives, context, home)  # type: ignore[arg-type]
         return tuple(k + 1 for k in order)
 
     def _acts(self, element: Any) -> bool:
@@ -612,7 +677,7 @@ def _node(element: Any) -> str:
 
 @cache
 def _selectors(text: str) -> tuple[Selector, ...]:
-    return decode_parts(text, (TreeIs, Nearest, Farthest, Bound, UnionOf, ByReading))
+    return decode_parts(text, SELECTORS)
 
 
 def disagreements(flight: Simulated) -> list[str]:

@@ -68,7 +68,7 @@ def work_of(
     begun = None if started is None else _instant(started.at)
     if begun is None and times:
         begun = times[0]
-    elif begun is None and ended is not None:
+    elif begun is None and ended is not None and events:
         begun = ended - timedelta(seconds=events[-1].t)
     if started is None or begun is None:
         return None
@@ -88,15 +88,16 @@ def work_of(
                 captures.append(capture)
         elif isinstance(event, Worked) and event.action:
             captures += places.worked(event, when)
-    ended = any(isinstance(event, Ended) for event in events)
-    # A mission without an end may still reach the places that it has not reached.
-    left_out = places.left_out(events, captures, local(begun).isoformat(timespec="seconds")) if ended else ()
+    whole = any(isinstance(event, Ended) for event in events)
     elsewhere = not captures and moved > 0 and started.site != site.name
+    # A mission without an end may still reach the places that it has not reached; the log has only names for them.
+    here = bool(captures) or (not moved and started.site == site.name)
+    left_out = places.left_out(events, captures, local(begun).isoformat(timespec="seconds")) if whole and here else ()
     mission = EarlierMission(
         id=short(name or f"{started.task} of {begun:%Y-%m-%d %H:%M:%S}", _LONGEST),
         begun=local(begun).isoformat(timespec="seconds"),
         simulated=started.seed is not None,
-        ended=ended,
+        ended=whole,
         captures=(*_final(captures), *left_out),
     )
     return LoggedWork(

@@ -116,7 +116,9 @@ def plan(
     """
     _require_visible_words(request, answers)
     chosen = make_planner(planner, os.environ) if isinstance(planner, str) else planner
-    outcome = chosen.plan(request, site, robot, tuple(answers))
+    # A planner that resolves places to check them then finds those of the records.
+    known = site.with_earlier(earlier) if isinstance(earlier, EarlierMissions) else site
+    outcome = chosen.plan(request, known, robot, tuple(answers))
     if isinstance(outcome, Planned):
         task = outcome.task
         if earlier is not None and uses_records(task):

@@ -125,7 +125,7 @@ class WorkByPlace:
 
 def _points_xy(points: Sequence[Work], group: PlaceGroup) -> NDArray[np.float64]:
     projection = group.site.projection
-    return projection.metres([one.lat for _, one in points], [one.lon for _, one in points])
+    return projection.metres([one.lat or 0.0 for _, one in points], [one.lon or 0.0 for _, one in points])
 
 
 def readings_at(
