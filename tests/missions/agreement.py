@@ -20,7 +20,7 @@ from fieldhand import mission
 from fieldhand.errors import NoPlaceError
 from fieldhand.evaluation.log_replay import replay_log
 from fieldhand.exchange.btcpp import write_tree
-from fieldhand.execution.drivers.simulation.world import ActionFails, TreeRef, World
+from fieldhand.execution.drivers.simulation.world import ActionFails, ScriptedEvent, TreeRef, World
 from fieldhand.execution.guard import Guard
 from fieldhand.forecast import visit_order
 from fieldhand.forecast.conditions import ConditionInputs, evaluate
@@ -28,20 +28,24 @@ from fieldhand.forecast.mission_state import MissionState, Verdict, Visit, Visit
 from fieldhand.forecast.request_handler import ForecastHandler, OptionalWorkPolicy
 from fieldhand.forecast.walk_branch import walk_branch as preview
 from fieldhand.forecast.walk_steps import Walk
+from fieldhand.forecast.working import begin_of, end_of, stretches_of
 from fieldhand.places.context import Context
 from fieldhand.places.reading_series import ReadingSeries, TakenReading
 from fieldhand.places.resolution import resolve, resolve_one
 from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import (
     SELECTORS,
+    Beside,
     Bound,
     ByReading,
     DoneEarlier,
     Excluding,
     Farthest,
     Here,
+    Marker,
     Nearest,
     Period,
+    Rows,
     TopEarlier,
     TreeIs,
     UnionOf,
@@ -49,16 +53,18 @@ from fieldhand.places.selectors import (
 )
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.charging_document import ChargingDocument
+from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.drives import Drives
 from fieldhand.site.earlier_missions import EarlierCapture, EarlierMission, EarlierMissions, EarlierValue
 from fieldhand.site.model import Place, Site
 from fieldhand.task.aggregates import Aggregate, CompareSeries, CountReadings, MeanKnown, SeriesCondition
+from fieldhand.task.build import make_task
 from fieldhand.task.codec import decode_parts
 from fieldhand.task.conditions import AllOf, AnyOf, Compare, Condition, Not
 from fieldhand.task.conditions import walk as condition_parts
 from fieldhand.task.earlier import site_of, with_earlier
-from fieldhand.task.frames import Task
+from fieldhand.task.frames import Constraints, Task
 from fieldhand.task.plan import (
     Act,
     AnyOrder,
@@ -73,23 +79,31 @@ from fieldhand.task.plan import (
     StopMission,
     Try,
     Wait,
+    WorkAlong,
     acts,
     walk,
 )
 from fieldhand.task.plan import (
     InOrder as Steps,
 )
-from fieldhand.task.results import Acted, Arrived, Decided, Dwelt, Ended, Event, Exited, Visiting
+from fieldhand.task.results import Acted, Arrived, Decided, Dwelling, Dwelt, Ended, Event, Exited, Visiting, Worked
+from fieldhand.task.watches import EventAbsent, EventBeyond, EventHolds, Watch, WatchCondition
+from fieldhand.task.ways import Avoid, SlowNear
 from support.missions.rechargeable import CHARGING
-from support.missions.rig import approved, task_for
+from support.missions.rig import approved
 from support.missions.rig import husky as bare_husky
 from support.missions.rig import orchard as bare_orchard
+from support.missions.watched import EVENTS
 
 #: What happens: kind ("drive", "capture", "failure", "wait"), id of the node, id of the place (of a wait the seconds).
 Trace = list[tuple[str, str, str]]
 
 #: Fails at some trees, and stands only where a try catches that.
 FAILING = "read_co2"
+#: Is on along a path.
+SPRAY = "spray"
+#: A drive of so many metres is none: a stretch begins where the one before ended.
+NOTHING_M = 1e-6
 QUANTITIES = {
     "read_co2": ("co2", "ppm", 420.0),
     "take_thermal_picture": ("canopy_temperature", "degC", 33.0),
@@ -108,9 +122,15 @@ def orchard() -> Site:
 
 @cache
 def husky() -> RobotProfile:
-    """The husky of the rig, which can recharge."""
+    """The husky of the rig, which can recharge, detects events, and has the band sprayer of the tractor."""
     robot = bare_husky()
-    return replace(robot, energy=replace(robot.energy, charging=ChargingDocument.model_validate(CHARGING).charging()))
+    (sprayer,) = (action for action in load_robot("tractor").actions if action.name == SPRAY)
+    return replace(
+        robot,
+        energy=replace(robot.energy, charging=ChargingDocument.model_validate(CHARGING).charging()),
+        actions=(*robot.actions, sprayer),
+        events=EVENTS,
+    )
 
 
 @cache
@@ -157,6 +177,8 @@ class Drawn:
 
     def _place(self, label: str, *, tried: bool) -> Selector:
         options: list[Selector] = [self._tree(), self._tree(), Nearest(to=Here()), Farthest(origin=Here())]
+        if self._chance(0.2):
+            options += [Beside(side="both" if self._chance(0.2) else "north", of=self._tree())]
         if label:
             options += [Bound(label=label), Nearest(to=Bound(label=label), adjacent=True)]
         if not tried and self._chance(0.15):  # a preview cannot go on without its place, as a try does
@@ -246,7 +268,7 @@ class Drawn:
                 depth - 1, tried=tried or also_tried, optional=optional or also_optional, label=named or label
             )
 
-        match int(self._rng.integers(10)):
+        match int(self._rng.integers(11)):
             case 0 | 1:
                 return Steps(id="", steps=tuple(inner() for _ in range(int(self._rng.integers(1, 4)))))
             case 2:
@@ -267,10 +289,66 @@ class Drawn:
                 return Steps(id="", steps=(first, chosen))
             case 7:
                 return Pace(id="", body=inner(), speed_m_s=float(self._rng.choice([0.3, 0.5, 0.9])))
-            case 8:
+            case 8 if not optional:
+                return self._along()
+            case 9:
                 return Try(id="", body=inner(also_tried=True), otherwise=inner())
             case _:
                 return inner() if optional else OptionalStep(id="", body=inner(also_optional=True))
+
+    def _along(self) -> WorkAlong:
+        rows = self._rng.permutation(["r0", "r1", "r2", "r3"])[: int(self._rng.integers(1, 4))].tolist()
+        mode = str(self._rng.choice(["rows", "rows", "aisles", "headlands"])) if len(rows) > 1 else "rows"
+        select = UnionOf(parts=tuple(Rows(first=row, last=row) for row in rows))
+        return WorkAlong(
+            id="",
+            action=SPRAY if mode == "rows" and self._chance(0.6) else "",
+            along=select if len(rows) > 1 else select.parts[0],
+            mode=mode,  # type: ignore[arg-type]
+            sides="both" if mode == "rows" and self._chance(0.3) else "one",
+            order="given" if self._chance(0.3) else "best",
+        )
+
+    def constraints(self) -> Constraints:
+        """Ground to keep away from, which may make a mission impossible, and ground to drive slowly on."""
+        options: list[Selector] = [self._tree(), Rows(first="r1", last="r1"), Marker(name="end"), self._tree()]
+        slow = tuple(
+            SlowNear(
+                places=options[k],
+                distance_m=float(self._rng.choice([2.0, 5.0, 9.0])),
+                speed_m_s=float(self._rng.choice([0.2, 0.4, 0.7])),
+            )
+            for k in self._rng.permutation(4)[: int(self._rng.integers(0, 3))].tolist()
+        )
+        avoid = (Avoid(places=self._tree(), distance_m=1.5),) if self._chance(0.2) else ()
+        return Constraints(avoid=avoid, slow=slow)
+
+    def watches(self) -> tuple[Watch, ...]:
+        """Events at which the robot waits or drives slowly, after which it goes on as before."""
+        conditions: list[WatchCondition] = [
+            EventHolds(event="person_near"),
+            EventBeyond(event="wind", test="gt", value=5.0, unit="m/s"),
+            EventAbsent(event="gate_closed"),
+        ]
+        return tuple(
+            Watch(
+                condition=conditions[k],
+                response="slow" if self._chance(0.5) else "wait",
+                at_most_s=float(self._rng.integers(5, 60)),
+                fallback="go_on",
+                speed_m_s=0.3 if self._chance(0.5) else None,
+                during=FAILING if self._chance(0.2) else "",
+            )
+            for k in self._rng.permutation(3)[: int(self._rng.integers(0, 3))].tolist()
+        )
+
+    def happening(self) -> tuple[ScriptedEvent, ...]:
+        """What the watches of a mission are for."""
+        return (
+            ScriptedEvent(event="person_near", chance=0.3, every_s=90, for_s=20),
+            ScriptedEvent(event="wind", value=7.0, chance=0.2, every_s=120, for_s=30),
+            ScriptedEvent(event="gate_closed", from_s=float(self._rng.integers(0, 40))),
+        )
 
     def _collects(self) -> str:
         return "a" if self._chance(0.2) else ""
@@ -279,6 +357,8 @@ class Drawn:
         names = self._rng.permutation(self._trees)[: int(self._rng.integers(1, 5))].tolist()
         near = self._chance(0.2) and not optional
         select: Selector = UnionOf(parts=tuple(TreeIs(tree=t) for t in names))
+        if self._chance(0.2):
+            select = Beside(side=str(self._rng.choice(["both", "north", "south"])), of=select)  # type: ignore[arg-type]
         if near:
             select = self._by_reading(2) if not tried and self._chance(0.5) else Nearest(to=Here(), count=2)
         elif self._chance(0.25):
@@ -328,11 +408,18 @@ class Simulated:
     @property
     def trace(self) -> Trace:
         found: Trace = []
+        seconds = 0.0
         for event in self._of_plan():
+            if isinstance(event, Arrived) and event.kind == "point" and event.leg_m < NOTHING_M:
+                continue
             if isinstance(event, Arrived):
                 found.append(("drive", event.node, event.place))
+            elif isinstance(event, Dwelling):
+                seconds = event.seconds
             elif isinstance(event, Dwelt):
-                found.append(("wait", event.node, f"{event.seconds:.3f}"))
+                found.append(("wait", event.node, f"{seconds:.3f}"))  # an event may prolong it
+            elif isinstance(event, Worked) and event.status == "success":
+                found.append(("work", event.node, event.stretch))
             elif isinstance(event, Acted) and event.status == "success":
                 found.append(("capture", event.node, event.place))
             elif isinstance(event, Acted):
@@ -441,10 +528,19 @@ def simulated(seed: int) -> Simulated:
     robot, site = husky(), orchard()
     for attempt in range(100):
         rng = np.random.default_rng([18, seed, attempt])
-        task = task_for(Drawn(rng).plan(), nominal=str(rng.choice(["return_to_start", "return_to_end", "stay"])))  # type: ignore[arg-type]
+        drawn = Drawn(rng)
+        task = make_task(
+            request="a test",
+            plan=drawn.plan(),
+            measures={},
+            nominal=str(rng.choice(["return_to_start", "return_to_end", "stay"])),  # type: ignore[arg-type]
+            constraints=drawn.constraints(),
+            watches=drawn.watches(),
+        )
         task = with_earlier(task, earlier())
         bad = rng.permutation([t.place.id for t in site.trees])[:7].tolist()
-        world = World(faults=tuple(ActionFails(action=FAILING, at=TreeRef(id=tree)) for tree in bad))
+        faults = tuple(ActionFails(action=FAILING, at=TreeRef(id=tree)) for tree in bad)
+        world = World(faults=faults, events=drawn.happening())
         events: list[Event] = []
         watch = _Watch(events)
         mission.simulate(
@@ -469,7 +565,7 @@ def previewed(flight: Simulated, optional: OptionalWorkPolicy | None) -> Walk:
         orchard(),
         husky(),
         holds=lambda node: decisions[node].popleft(),
-        fails=lambda node: work[node].popleft().failed,
+        fails=lambda node: bool(work[node]) and work[node].popleft().failed,
         measured=lambda node: read[node].popleft().readings,
         optional=optional,
     )
@@ -479,8 +575,12 @@ def trace_of(walked: Walk) -> Trace:
     """Return the events of a preview."""
     found: Trace = []
     for step in walked.steps:
-        if step.kind == "drive":
+        if step.kind == "drive" and step.drive is not None:
+            if step.places[0].kind == "point" and step.drive.length_m < NOTHING_M:
+                continue  # as the robot's trace
             found.append(("drive", step.node.id, step.places[0].id))
+        elif step.kind == "work" and step.stretch is not None:
+            found.append(("work", step.node.id, step.stretch.name))
         elif step.kind == "wait":
             found.append(("wait", step.node.id, f"{step.seconds:.3f}"))
         elif step.kind == "act" and step.node.act is not None:
@@ -511,7 +611,7 @@ class Interpreter:
         self._site = site
         self._work = self.flight.work
         self._optional = AsChosen(self.flight)
-        self._drives = visit_order.drives_for(site, robot)
+        self._drives = visit_order.drives_for(site, robot, self._task.constraints)
         self._context = Context(here=visit_order.start_place(self._drives))
         self._tree = etree.fromstring(write_tree(self._task, capabilities_of(robot)))[0]
         self._tested = self._conditions()
@@ -582,6 +682,8 @@ class Interpreter:
                 return self._tick(element[0]) is not False
             case "Wait":
                 self.trace.append(("wait", _node(element), f"{float(element.get('wait_duration')):.3f}"))
+            case "WorkAlong":
+                self._work_along(element)
             case "RechargeBattery":
                 self._drive(element, orchard().markers["charger"])
             case "ResolvePlaces":
@@ -599,6 +701,15 @@ class Interpreter:
                 return self._acts(element)
         return True
 
+    def _work_along(self, element: Any) -> None:
+        robot, site = husky(), orchard()
+        work = replace(decode_parts(element.get("work"), (WorkAlong,))[0], id=_node(element))
+        context = replace(self._context, series=self._series)
+        for stretch in stretches_of(work, self._task, site, robot, self._drives, context):
+            self._drive(element, begin_of(stretch, site))
+            self.trace.append(("work", work.id, stretch.name))
+            self._context = replace(self._context, here=end_of(stretch, site))
+
     def _truth(self, element: Any, condition: Condition) -> bool:
         facts = ConditionInputs(
             site=self._site, robot=husky(), here=self._context.here, readings=self._readings, series=self._series
@@ -613,9 +724,10 @@ class Interpreter:
 
     def _drive(self, element: Any, place: Place) -> None:
         here, visited, bound = self._context.here, self._context.visited, self._context.bound
-        if place.xy != here.xy:
+        if not here.covers(place):
             here = self._drives.between(here, place).end
-            self.trace.append(("drive", _node(element), here.id))
+            if here.kind != "point" or self._drives.between(self._context.here, here).length_m >= NOTHING_M:
+                self.trace.append(("drive", _node(element), here.id))
         if here.kind == "tree" and here.id not in set(visited):
             visited = (*visited, here.id)
         if label := element.get("label"):
@@ -699,7 +811,9 @@ def _of_replay(flight: Simulated, walked: Walk) -> list[str]:
     for step in walked.steps:
         if step.kind == "act" and step.node.act is not None:
             wanted[step.node.id] += step.node.act.count
-    done = Counter(node for kind, node, _ in flight.trace if kind == "capture")
+        elif step.kind == "work":
+            wanted[step.node.id] += 1
+    done = Counter(node for kind, node, _ in flight.trace if kind in ("capture", "work"))
     failed = Counter(node for kind, node, _ in flight.trace if kind == "failure")
     found = []
     for name, tally in tallies.items():

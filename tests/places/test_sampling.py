@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -29,7 +30,8 @@ from fieldhand.site.describe.rows import row_table
 from fieldhand.site.drives import Drives
 from fieldhand.site.gaps import empty_positions
 from fieldhand.site.loader import open_site
-from fieldhand.site.model import Place, Site
+from fieldhand.site.model import Place, Site, Zone
+from support.sites.fields import pasture
 from support.sites.points import at_start, planted, site_of, without_rows
 
 VINEYARD = open_site("vineyard")
@@ -272,6 +274,17 @@ def test_gaps_are_where_trees_were_taken_out_between_others(removed):
         assert {p.kind for p in found(Missing(), site)} == {"gap"}
 
 
+def test_where_a_row_passes_a_pond_no_tree_is_missing():
+    lines = [[(6.0 * k, -4.0 * j) for j in range(12) if (k, j) not in {(0, 3), (1, 7), (2, 7)}] for k in range(3)]
+    site = site_of(
+        [at for line in lines for at in line], row_names=[str(k) for k, line in enumerate(lines) for _ in line]
+    )
+    pond = Zone(name="pond", kind="keep_out", polygon=Point(9.0, -28.0).buffer(4.5))
+    watered = replace(site, zones=(*site.zones, pond))
+    assert {(round(p.x), round(p.y)) for p in found(Missing(), site)} == {(0, -12), (6, -28), (12, -28)}
+    assert {(round(p.x), round(p.y)) for p in found(Missing(), watered)} == {(0, -12)}
+
+
 def test_gaps_belong_to_what_both_their_neighbours_belong_to():
     every = found(Missing())
     south = found(Missing(of=InBlock(block="South")))
@@ -311,3 +324,27 @@ def test_the_vines_of_a_quota_are_named_by_their_group_unless_they_are_many():
     many = Quota(per="row", count=2)
     assert many.say_groups(found(many), VINEYARD) == ""
     assert Quota(percent=1.0).say_groups(chosen, VINEYARD) == ""
+
+
+@pytest.mark.parametrize(("zone", "inside"), [("cow paddock", True), ("", True), ("pond", False)])
+@pytest.mark.parametrize("apart_m", [6.0, 15.0])
+def test_points_along_an_edge_are_evenly_spaced_beside_it(zone: str, apart_m: float, inside: bool) -> None:
+    site = pasture()
+    called = [one.polygon for one in site.zones if one.name == (zone or "common")]
+    places = found(Transect(shape="edge", apart_m=apart_m, zone=zone), site)
+    edge = called[0].exterior
+    for place in places:
+        assert called[0].contains(Point(place.xy)) == inside
+        assert 1.0 <= edge.distance(Point(place.xy)) <= 2.0
+    length = edge.length
+    assert len(places) == pytest.approx(length / apart_m, abs=0.2 * length / apart_m + 1)
+    along = sorted(edge.project(Point(place.xy)) for place in places)
+    gaps = np.diff([*along, along[0] + length])
+    assert gaps == pytest.approx([length / len(places)] * len(places), abs=4.0)
+
+
+def test_so_many_points_along_an_edge_are_named_by_their_zone() -> None:
+    places = found(Transect(shape="edge", count=5, zone="bank"), pasture())
+    assert [place.id for place in places] == [f"point {k} of 5 in bank" for k in range(1, 6)]
+    with pytest.raises(PlaceError, match="wood"):
+        found(Transect(shape="edge", count=5, zone="wood"), pasture())

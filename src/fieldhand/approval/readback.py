@@ -199,7 +199,7 @@ def _limits(task: Task, robot: RobotProfile) -> tuple[str, ...]:
     speed = task.constraints.speed_m_s
     if speed is not None:
         found.append(message("at most {speed} m/s.", speed=say_number(speed)))
-    return (*found, *say_ways(task.constraints))
+    return (*found, *say_ways(task.constraints, robot))
 
 
 def _usual(task: Task, limits: Sequence[str], faults: Sequence[str]) -> frozenset[str]:
@@ -246,10 +246,17 @@ def _notes(walks: Sequence[Walk], site: Site) -> tuple[str, ...]:
 def _waits(task: Task, robot: RobotProfile) -> tuple[str, ...]:
     """Return a note on waiting for events, which the forecast leaves out."""
     longest = [wait_limit_s(watch, robot) for watch in task.composition.watches if watch.response == "wait"]
+    if any(watch.response == "slow" for watch in task.composition.watches):
+        slow = (message("The figures are without events: driving slowly while one holds takes longer."),)
+    else:
+        slow = ()
     if not longest:
-        return ()
+        return slow
     time = say_duration(max(longest))
-    return (message("The figures are without events: each wait adds up to {time} and what idling uses.", time=time),)
+    return (
+        *slow,
+        message("The figures are without events: each wait adds up to {time} and what idling uses.", time=time),
+    )
 
 
 def _say_sampling(sampling: SamplingForecast) -> str:

@@ -123,6 +123,7 @@ def _dropped(facts: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> Iter
     if amount.kind == "length":
         have += [number.value for number in plan.numbers if number.kind == "length"]
         have += _parameters(plan)
+        have += [x * unit for test in plan.tests if test.attribute for x in test.values for unit in (0.01, 0.001)]
     if any(_close(value, x) for x in have):
         return
     before = {t.text for t in facts.tokens[max(0, amount.index - 6) : amount.index]}
@@ -149,6 +150,8 @@ def _speeds(plan: PlanFacts) -> list[tuple[str, float]]:
     """Return the speed limits of a plan, each with its node; that of the whole mission without one."""
     whole = plan.task.constraints.speed_m_s
     parts = [(node.id, node.pace_m_s) for node in plan.nodes if math.isfinite(node.pace_m_s)]
+    parts += [("", slow.speed_m_s) for slow in plan.task.constraints.slow if slow.speed_m_s is not None]
+    parts += [("", watch.speed_m_s) for watch in plan.task.composition.watches if watch.speed_m_s is not None]
     return [*([] if whole is None else [("", whole)]), *parts]
 
 

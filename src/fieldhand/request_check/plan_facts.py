@@ -206,6 +206,7 @@ def plan_facts(task: Task, size: Callable[[str], int | None]) -> PlanFacts:
     selectors = (
         *((n.id, x) for n in nodes if (top := n.selector) is not None for x in top.walk()),
         *((root.id, x) for avoid in task.constraints.avoid for x in avoid.places.walk()),
+        *((root.id, x) for slow in task.constraints.slow for x in slow.places.walk()),
     )
     return PlanFacts(
         task=task,
@@ -356,13 +357,14 @@ def _in_words(condition: CountReadings) -> bool:
 
 
 def _kept_distances(task: Task) -> Iterator[PlannedNumber]:
-    """Yield the distances that a plan keeps from places."""
-    for avoid in task.constraints.avoid:
-        if avoid.distance_m:
+    """Yield the distances that a plan keeps from places, and within which it drives slowly."""
+    kept = [("avoid distance m", avoid.distance_m) for avoid in task.constraints.avoid]
+    for what, distance_m in (*kept, *(("slow within m", slow.distance_m) for slow in task.constraints.slow)):
+        if distance_m:
             yield PlannedNumber(
                 node=task.composition.plan.id,
-                what="avoid distance m",
-                value=avoid.distance_m,
+                what=what,
+                value=distance_m,
                 kind="length",
                 field="distance_m",
             )

@@ -12,7 +12,7 @@ from fieldhand.task.aggregates import Aggregate, CompareSeries, CountReadings, M
 from fieldhand.task.battery_condition import BatteryBelow
 from fieldhand.task.frames import Constraints, Task
 from fieldhand.task.timing import DayTime, Schedule, StartTime
-from fieldhand.task.watches import EventBeyond, EventHolds, ReadingBeyond, Watch
+from fieldhand.task.watches import EventAbsent, EventBeyond, EventHolds, ReadingBeyond, Watch
 
 SHORT = {"take_thermal_picture": "picture", "take_picture": "picture", "read_co2": "co2"}
 SHORT |= {"read_ambient_temperature": "air", "read_soil_moisture": "moisture", "read_soil_nitrate": "nitrate"}
@@ -29,6 +29,9 @@ def outline(task: Task) -> str:
     for avoid in task.constraints.avoid:
         limits += f" | avoid {selector(avoid.places)}" + (f" {avoid.distance_m:g} m" if avoid.distance_m else "")
     limits += "".join(f" | only {only.gate}" for only in task.constraints.only_gates)
+    for slow in task.constraints.slow:
+        limits += f" | slow {selector(slow.places)}" + (f" {slow.distance_m:g} m" if slow.distance_m else "")
+        limits += f" at {slow.speed_m_s:g} m/s" if slow.speed_m_s else ""
     if task.constraints.recharge:
         limits += f" | recharge{_charge(task.constraints)}"
     exit_ = "" if task.composition.nominal == "return_to_end" else f" | {task.composition.nominal}"
@@ -61,10 +64,16 @@ def watch(one: Watch) -> str:
     match one.condition:
         case EventHolds(event=name):
             what = name
+        case EventAbsent(event=name):
+            what = f"not {name}"
         case EventBeyond(event=name, test=test, value=value, unit=unit):
             what = f"{name} {SIGNS[test]} {value:g} {unit}"
         case ReadingBeyond(quantity=name, test=test, value=value, unit=unit):
             what = f"{name} {SIGNS[test]} {value:g} {unit}"
+    if one.during:
+        what = f"while {SHORT.get(one.during, one.during)}: {what}"
+    if one.speed_m_s is not None:
+        return f"{what}: {one.response} {one.speed_m_s:g}"
     if one.response != "wait":
         return f"{what}: {one.response}"
     most = "" if one.at_most_s is None else f" {one.at_most_s / 60:g} min"
@@ -105,6 +114,8 @@ def node(n: p.Node) -> str:
             return f"try [{node(n.body)}] or [{node(n.otherwise)}]"
         case p.OptionalStep():
             return f"maybe [{node(n.body)}]"
+        case p.AnyOrder():
+            return "any order: [" + "; ".join(node(step) for step in n.steps) + "]"
         case p.InOrder():
             return "; ".join(node(step) for step in n.steps)
         case p.Recharge():
@@ -123,6 +134,7 @@ def node(n: p.Node) -> str:
             )
             how += f", {n.sides}" if n.sides != "one" else ""
             how += f", every {n.every}" if n.every != 1 else ""
+            how += f", heading {n.heading}" if n.heading != "any" else ""
             how += f", {n.laps} laps" if n.laps != 1 else ""
             how += ", optional" if n.optional else ""
             return f"{n.action or 'drive'} {n.mode} {selector(n.along)}{how}"

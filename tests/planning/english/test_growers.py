@@ -93,7 +93,6 @@ Mow between rows 10 and 14 of the north block.
 Count the grapes on 10 Syrah vines.
 Take pictures of the missing vines in the south block.
 Take pictures of a few vines in the north block.
-Take pictures of the 10 worst vines.
 Take pictures on the left side of the north block.
 Skip the ones you did last season and take pictures of the rest of row 5 in the north block.
 Sample 5 vines per variety.

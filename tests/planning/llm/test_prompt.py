@@ -88,6 +88,22 @@ def test_what_a_model_needs_of_site_and_robot_is_there() -> None:
         assert f"{quantity.name} in {quantity.unit}" in text
 
 
+def test_names_of_markers_and_values_that_only_one_block_has_are_there() -> None:
+    vines = [
+        point(LON + 3e-5 * row, LAT + 2e-5 * place + north, block=block, variety=variety, id=f"{block}{row}-{place}")
+        for block, variety, north in (("North", "Merlot", 1e-3), ("South", "Syrah", 0.0))
+        for row in range(3)
+        for place in range(8)
+    ]
+    mixed = [point(LON + 3e-5 * row, LAT - 2e-5, block="South", variety="Merlot", id=f"m{row}") for row in range(3)]
+    barn = point(LON - 2e-4, LAT, name="barn", kind="start")
+    north, south = "Merlot only in block North", "Syrah only in block South"
+    for more, alone in (([], {north, south}), (mixed, {south})):
+        text = opening(REQUEST, read(*vines, *more, barn), load_robot("husky"))[1].text
+        assert "start (called barn)" in text
+        assert set(re.findall(r"\w+ only in block \w+", text)) == alone
+
+
 def test_the_first_message_is_the_same_for_every_request() -> None:
     one = opening("a", grid(2, 2), load_robot("husky"))
     other = opening("b", grid(3, 3), load_robot("amiga"))

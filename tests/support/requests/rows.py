@@ -1399,7 +1399,7 @@ REFUSED = [
     (
         "husky",
         "take a soil sample at the start of row 3",
-        "'take a soil sample' asks for work that husky has no tool for",
+        "'take a soil sample' asks for work that husky has no action for",
     ),
     ("husky", "put the robot in row 3", "each word is known, but not what they say together"),
     (

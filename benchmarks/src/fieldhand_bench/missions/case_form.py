@@ -18,7 +18,7 @@ from pydantic import (
 from fieldhand_bench.missions import places
 from fieldhand_bench.missions.case_earlier import EarlierForm
 from fieldhand_bench.missions.case_site import CornerName
-from fieldhand_bench.missions.cases import Expected, ExpectedStep, ExpectedWork, KeptFrom, MarkerName
+from fieldhand_bench.missions.cases import Expected, ExpectedStep, ExpectedWork, KeptFrom, MarkerName, SlowWithin
 from fieldhand_bench.missions.form import Form
 from fieldhand_bench.missions.places import ANYWHERE, CasePlace, Demand, Side
 
@@ -195,6 +195,16 @@ class KeptFromForm(Form):
         )
 
 
+class SlowForm(KeptFromForm):
+    """A zone or trees near which every drive is slow: ``{zone: pond, m: 5, most_m_s: 0.5}``."""
+
+    most_m_s: Above0
+
+    def slow(self) -> SlowWithin:
+        """Return the ground as used by the judge."""
+        return SlowWithin(near=self.kept(), most_m_s=self.most_m_s)
+
+
 class WorkForm(Form):
     """Work along paths that must be done."""
 
@@ -231,6 +241,7 @@ class ExpectForm(Form):
     status: Literal["completed", "returned", "faulted", "aborted"] = "completed"
     end: EndForm | None = None
     keeps_from: tuple[KeptFromForm, ...] = ()
+    slow_near: tuple[SlowForm, ...] = ()
 
     @model_validator(mode="after")
     def _require_content(self) -> ExpectForm:
@@ -290,6 +301,7 @@ class ExpectForm(Form):
             status=self.status,
             end=None if self.end is None else self.end.marker or self.end.place(),
             keeps_from=tuple(one.kept() for one in self.keeps_from),
+            slow_near=tuple(one.slow() for one in self.slow_near),
         )
 
 

@@ -35,6 +35,19 @@ class ExpectedStep:
 
 
 @dataclass(frozen=True, kw_only=True)
+class SlowWithin:
+    """Ground on which every drive is slow.
+
+    Attributes:
+        near: Zone or trees, and the distance within which it is slow.
+        most_m_s: Highest speed there in m/s.
+    """
+
+    near: KeptFrom
+    most_m_s: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class KeptFrom:
     """What every drive must keep away from: a zone of the file, or each tree of a place.
 
@@ -89,6 +102,7 @@ class Expected:
         waited_s: Time for which it stands still because of events, seconds.
         status: Final status of the mission.
         keeps_from: What every drive keeps away from.
+        slow_near: Where every drive is slow.
         end: Final position: a marker, or a place that the nearest tree must match. None for anywhere.
     """
 
@@ -111,6 +125,7 @@ class Expected:
     status: str = "completed"
     end: CasePlace | MarkerName | None = None
     keeps_from: tuple[KeptFrom, ...] = ()
+    slow_near: tuple[SlowWithin, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)

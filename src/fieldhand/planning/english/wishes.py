@@ -52,6 +52,7 @@ class WishKind:
         aside: True if the rest of the request is a request without the words.
         rest: True if all that follows in the same clause belongs to it.
         offers: What is listed in the advice.
+        work: True if its first word is a verb for which the robot has no action.
         works: True if it is looked for only where the request asks for no work of an implement of the robot.
         example: Form of a request with the same purpose, with a placeholder for another request.
         said: Regular expressions of its words.
@@ -66,6 +67,7 @@ class WishKind:
     aside: bool
     rest: bool
     offers: Offers
+    work: bool
     works: bool
     example: str
     said: tuple[str, ...]
@@ -74,6 +76,11 @@ class WishKind:
     def waits(self) -> bool:
         """True if it asks to wait, which a plan can do until an event is over."""
         return "asks for waiting" in self.what
+
+    @property
+    def lacks_action(self) -> bool:
+        """True if it asks for something that an action of a robot could do."""
+        return self.offers == "actions"
 
     @cached_property
     def pattern(self) -> re.Pattern[str]:
@@ -142,7 +149,8 @@ def _is_of_whole_request(wish: Wish, words: Sequence[Word]) -> bool:
 def wishes(words: Sequence[Word], lexicon: Lexicon) -> list[Wish]:
     """Return all wishes, but for those that the robot or the site has a word for ("mow" on a robot that mows)."""
     own = _own_phrases(lexicon)
-    return _longest([wish for wish in _found(words, wish_kinds()) if not _is_own(wish, words, own)])
+    attributes = frozenset(phrase for phrase, entry in lexicon.own.items() if entry.kind == "ATTR")
+    return _longest([wish for wish in _found(words, wish_kinds()) if not _is_own(wish, words, own, attributes)])
 
 
 def _is_past(word: Word) -> bool:
@@ -175,14 +183,18 @@ def _own_phrases(lexicon: Lexicon) -> frozenset[Phrase]:
     return frozenset(phrase for phrase in {*lexicon.own, *names} if phrase)
 
 
-def _is_own(wish: Wish, words: Sequence[Word], own: frozenset[Phrase]) -> bool:
-    """Return True if the robot or the site has a word for what is wished for: its verb, or its last noun."""
+def _is_own(wish: Wish, words: Sequence[Word], own: frozenset[Phrase], attributes: frozenset[Phrase]) -> bool:
+    """Return True if the robot or the site has a word for what is wished for: its verb, or its last noun.
+
+    An attribute of the site's plants is none for a reading of more words: "measure the soil moisture".
+    """
     if wish.kind.early:
         return False
     norms = tuple(word.norm for word in words[wish.first : wish.last])
     if wish.kind.begins:
         return any(norms[:length] in own for length in range(1, len(norms) + 1))
-    return any(norms[-length:] in own for length in range(1, len(norms) + 1))
+    named = [norms[-length:] for length in range(1, len(norms) + 1) if norms[-length:] in own]
+    return any(phrase not in attributes or len(phrase) == len(norms) for phrase in named)
 
 
 @cache
@@ -200,6 +212,7 @@ def wish_kinds() -> tuple[WishKind, ...]:
             aside=known.get("aside", False),
             rest=known.get("rest", False),
             offers=known.get("offers", ""),
+            work=known.get("work", False),
             works=known.get("works", False),
             example=known.get("example", ""),
             said=tuple(known["said"]),

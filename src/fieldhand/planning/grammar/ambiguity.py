@@ -129,7 +129,8 @@ def _question_of_ways(plans: Sequence[Planned], request: str) -> PlanQuestion | 
     for plan in plans:
         answer = capitalised(joined(" ", say_ways(plan.task.constraints)))
         left[answer] = (*left.get(answer, ()), plan)
-    spans = [span for plan in plans for avoid in plan.task.constraints.avoid for span in avoid.said]
+    limits = [plan.task.constraints for plan in plans]
+    spans = [span for of in limits for rule in (*of.avoid, *of.only_gates, *of.slow) for span in rule.said]
     if len(left) < 2 or not spans:
         return None
     start, end = min(start for start, _ in spans), max(end for _, end in spans)

@@ -14,7 +14,7 @@ from typing import Any
 
 from fieldhand.planning.english.inflection import forms_of, plural_of
 from fieldhand.planning.english.lexicon import Lexicon, lexicon_for
-from fieldhand.planning.english.naming import NameEntry, Naming, Phrase, split
+from fieldhand.planning.english.naming import NameEntry, Naming, Phrase, split, takes_pictures
 from fieldhand.planning.english.spelling import respelt
 from fieldhand.planning.english.tokens import Word, ranges_of, words_of
 from fieldhand.planning.english.vocabulary import vocabulary
@@ -26,8 +26,6 @@ from fieldhand.planning.grammar.words import FeatureTable
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 
-#: Words of an action that takes pictures.
-_PICTURES = frozenset({"picture", "photo", "image", "thermal picture"})
 #: Number of words of the longest phrase of english.toml that is read as a word.
 _LONGEST = 6
 #: What stands before the first word of a clause.
@@ -80,7 +78,8 @@ class EnglishPhrases:
         """Yield the events that words mention, and with them the words of responses."""
         found = list(self.events.mentions(words))
         for one in found:
-            yield "EVENTNOUN" if one.is_noun else "EVENT", one.start, one.end, one.condition
+            kind = "EVENTNOUN" if one.is_noun else "NOEVENT" if one.clear else "EVENT"
+            yield kind, one.start, one.end, one.condition
         if found or says_any_time(words):
             yield from ((category, start, end, None) for category, start, end in response_words(words))
         yield from earlier_edges(words, self.lexicon, self.camera)
@@ -92,6 +91,7 @@ class EnglishPhrases:
         own = more_words().get(phrase) or more_words().get(in_full, ())
         if known is not None and known.kind == "FILLER" and any(one.kind in _SAY_SOMETHING for one in own):
             known = None
+        yield from self.lexicon.beside.get(phrase, ())
         if known is not None and known.kind == "WORKV":
             yield known  # "film row 3" is a recording, not a picture, where the robot records
             return
@@ -108,6 +108,10 @@ class EnglishPhrases:
             same = None if meant is None else self.lexicon.entry(split(meant))
             if same is not None:
                 yield same
+        asked_how = _asked_how().get(phrase)
+        told_by = None if asked_how is None else self.lexicon.entry(asked_how)
+        if told_by is not None and told_by.kind == "NOUN":
+            yield replace(told_by, kind="ASKHOW")
         medium = _own()["media"].get(" ".join(phrase))
         reading = None if medium is None else self.lexicon.entry(split(medium))
         if reading is not None:
@@ -147,6 +151,13 @@ def _asked_by_adjective() -> Mapping[Phrase, Phrase]:
 
 
 @cache
+def _asked_how() -> Mapping[Phrase, Phrase]:
+    """Return the names of readings by the questions for them, asked of an area: "how wet"."""
+    table = _own()["asked_of_area"]
+    return {split(f"how {adjective}"): split(reading) for reading, said in table.items() for adjective in said}
+
+
+@cache
 def more_words() -> Mapping[Phrase, tuple[NameEntry, ...]]:
     """Return the nouns that are verbs as well, and the words of english.toml, by phrase."""
     found: dict[Phrase, list[NameEntry]] = defaultdict(list)
@@ -163,6 +174,8 @@ def more_words() -> Mapping[Phrase, tuple[NameEntry, ...]]:
             found[split(plural_of(phrase))].append(NameEntry(kind=kind, plural=True))
     for phrase, value in own["derived"].items():
         found[split(phrase)].append(NameEntry(kind="SUPER", value=tuple(value)))
+    for phrase, value in own["vague"].items():
+        found[split(phrase)].append(NameEntry(kind="VAGUEADJ", value=tuple(value)))
     for phrase, part in own["parts"].items():
         found[split(phrase)].append(NameEntry(kind="PART", value=part))
     for kind, routes in own["routes"].items():
@@ -170,6 +183,9 @@ def more_words() -> Mapping[Phrase, tuple[NameEntry, ...]]:
             found[split(phrase)].append(NameEntry(kind=kind, value=tuple(route)))
     for phrase, value in own["bounds"].items():
         found[split(phrase)].append(NameEntry(kind="BOUND", value=tuple(value)))
+    for hint, phrases in own["dimensions"].items():
+        for phrase in phrases:
+            found[split(phrase)].append(NameEntry(kind="DIMENSION", value=hint))
     for of, phrases in own["statistics"].items():
         for phrase in phrases:
             found[split(phrase)].append(NameEntry(kind="STATISTIC", value=of))
@@ -195,7 +211,7 @@ def phrases_for(robot: RobotProfile, site: Site) -> EnglishPhrases:
 
 def camera_of(robot: RobotProfile) -> Naming | None:
     """Return the action that takes pictures, if the robot has just one."""
-    cameras = [action.name for action in robot.actions if _PICTURES & set(action.words)]
+    cameras = [action.name for action in robot.actions if takes_pictures(action)]
     return Naming(actions=(cameras[0],)) if len(cameras) == 1 else None
 
 

@@ -34,12 +34,14 @@ class EventMention:
         condition: Event, or its comparison with a threshold.
         start, end: Range of its words.
         is_noun: True for a noun ("rain"), False for a clause ("it rains").
+        clear: True if the words say that it does not hold ("nobody is near", "the gate is open").
     """
 
     condition: EventHolds | EventBeyond
     start: int
     end: int
     is_noun: bool
+    clear: bool = False
 
 
 @cache
@@ -83,7 +85,7 @@ class EventPatterns:
                     found = pattern.match(text, at)
                     condition = None if found is None else _condition(event, kind, found)
                     if condition is not None:
-                        yield EventMention(condition, first, last, is_noun)
+                        yield EventMention(condition, first, last, is_noun, kind == "clear")
 
 
 #: The patterns of a robot without events.
@@ -96,6 +98,8 @@ def _clauses_of(event: MonitoredEvent) -> Iterator[tuple[str, re.Pattern[str]]]:
     if event.unit:
         for kind in _TESTS:
             yield kind, _pattern(said[kind], event)
+    if event.unit and (own := _own_states(event)):
+        yield "above", _pattern(said["own_above"], event, own)
     if event.can_hold and not event.unit and (event.verbs or not event.states):
         yield "holds", _pattern(said["noun"], event)
     if event.can_hold and event.verbs:
@@ -104,6 +108,16 @@ def _clauses_of(event: MonitoredEvent) -> Iterator[tuple[str, re.Pattern[str]]]:
         yield "holds", _pattern(said["state"], event)
         if own := _own_states(event):
             yield "holds", _pattern(said["own_state"], event, own)
+            yield "clear", _pattern(said["clear_own_state"], event, own)
+    if event.can_hold:
+        yield from (("clear", _pattern(said[name], event)) for name in _clear(event))
+
+
+def _clear(event: MonitoredEvent) -> tuple[str, ...]:
+    """Return the forms of the clauses that deny an event."""
+    nouns = ("clear_noun",) if not event.unit and (event.verbs or not event.states) else ()
+    people = ("clear_person",) if {*nouns_of(event)} & {*phrases()["words"]["people"]} else ()
+    return (*nouns, *people, *(("clear_verb",) if event.verbs else ()), *(("clear_state",) if event.states else ()))
 
 
 def _nouns_of(event: MonitoredEvent) -> Iterator[tuple[str, re.Pattern[str]]]:
@@ -113,7 +127,7 @@ def _nouns_of(event: MonitoredEvent) -> Iterator[tuple[str, re.Pattern[str]]]:
         for kind in _TESTS:
             yield kind, _pattern(said[kind], event)
     elif event.can_hold and not event.states:
-        yield "holds", _pattern(["{det}{noun}(?: {where})?"], event)
+        yield "holds", _pattern(["{det}{noun}(?: (?:who|that|which) {be})?(?: {where})?"], event)
     if event.can_hold and event.states:
         yield "holds", _pattern(["{det}{state} {noun}"], event)
     if event.can_hold and event.verbs:
@@ -133,6 +147,8 @@ def _pattern(forms: Sequence[str], event: MonitoredEvent, states: Sequence[str] 
         "noun": _any(nouns_of(event)),
         "verb": _any([form for verb in event.verbs for form in forms_of(verb)]),
         "state": _any(states or event.states),
+        "opposite": _any([word for state in states or event.states for word in phrases()["opposites"].get(state, ())]),
+        "more": _any([*map(_more, states), *(f"more {state}" for state in states)]),
         "units": _any([*units, event.unit] if event.unit else units),
     }
 
@@ -154,12 +170,17 @@ def _numbered(pattern: str, name: str) -> str:
     return parts[0] + "".join(f"(?P<{name}{k}>{part}" for k, part in enumerate(parts[1:]))
 
 
+def _more(state: str) -> str:
+    """Return the comparative of a state: "windier"."""
+    return f"{state[:-1]}ier" if state.endswith("y") else f"{state.removesuffix('e')}er"
+
+
 def _any(words: Sequence[str]) -> str:
     return f"(?:{'|'.join(map(re.escape, sorted(set(words), key=len, reverse=True)))})" if words else r"(?!)"
 
 
 def _condition(event: MonitoredEvent, kind: str, found: re.Match[str]) -> EventHolds | EventBeyond | None:
-    if kind == "holds":
+    if kind in ("holds", "clear"):
         return EventHolds(event=event.name)
     groups = {name[:-1]: text for name, text in found.groupdict().items() if text is not None}
     unit = next((name for name, said in phrases()["units"].items() if groups["unit"] in said), groups["unit"])
@@ -189,8 +210,23 @@ def _response_words() -> Mapping[tuple[str, ...], tuple[str, ...]]:
     return found
 
 
+@cache
+def _response_patterns() -> tuple[tuple[str, re.Pattern[str]], ...]:
+    """Return the patterns of triggers and responses, with their categories."""
+    table = phrases()["responses"]
+    parts = {name: part for name, part in table.items() if isinstance(part, str)}
+    found: list[tuple[str, re.Pattern[str]]] = []
+    for category, forms in table.items():
+        if isinstance(forms, list):
+            pattern = "|".join(re.sub(r"\{([a-z]+)\}", lambda match: parts[match[1]], form) for form in forms)
+            found.append((category, re.compile(rf"(?<!\S)(?:{pattern})(?!\S)")))
+    return tuple(found)
+
+
 def response_words(words: Sequence[Word]) -> Iterator[tuple[str, int, int]]:
     """Yield each phrase of a trigger or response among words: its category, and the range of its words."""
+    for category, pattern in _response_patterns():
+        yield from ((category, first, last) for first, last in ranges_of(pattern, words))
     longest = max(map(len, _response_words()))
     for start in range(len(words)):
         for end in range(start + 1, min(start + longest, len(words)) + 1):

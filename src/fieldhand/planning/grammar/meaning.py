@@ -7,7 +7,7 @@ from typing import Any, Literal
 
 from fieldhand.places import selectors as s
 from fieldhand.places.series_statistics import Statistic
-from fieldhand.task.nodes.work_along import RowSides, WorkMode
+from fieldhand.task.nodes.work_along import RowSides, WorkHeading, WorkMode
 from fieldhand.task.watches import Fallback, Response, WatchCondition
 
 #: What a place phrase means: one place, several places, an area whose trees are meant, places just spoken of (``here``,
@@ -78,6 +78,8 @@ class Nominal:
         of_side: True if an adjective before it names the side on which it stands ("northern tree").
         pronoun: True for "one", which stands for a noun before it.
         tested: True if a clause behind the noun describes it ("that are older than 8 years").
+        vague: Attribute by which trees are described without a value ("weak vines").
+        unmarked: True for a noun that has one form for one and for several ("basil", "Sungold").
     """
 
     selector: s.Selector
@@ -88,6 +90,12 @@ class Nominal:
     tested: bool = False
     pronoun: bool = False
     of_side: bool = False
+    vague: str = ""
+    unmarked: bool = False
+
+    def counts(self, number: int) -> bool:
+        """Return True if its noun can name so many places: "three trees" and "one tree", but not "three tree"."""
+        return self.unmarked or self.plural == (number != 1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,6 +139,7 @@ class PlaceMeaning:
         there: True if the phrase says that they are in the area spoken of ("every tree there").
         per: Rows of each of which the selector says something by itself ("the oldest tree of each row").
         fault: Why the site cannot have it, for ``nowhere``.
+        vague: Attribute by which they are chosen if neither a number nor a value was given ("the oldest trees").
         tokens: Tokens of the phrase, as a bit mask; they do not tell two meanings apart.
     """
 
@@ -148,6 +157,7 @@ class PlaceMeaning:
     like: Likewise | None = None
     per: s.Selector | None = None
     fault: str = ""
+    vague: str = ""
     tokens: int = field(default=0, compare=False)
 
     def with_tokens(self, used: int) -> PlaceMeaning:
@@ -180,6 +190,7 @@ class Thing:
         plural: True for a noun in the plural.
         parameters: Parameters that the phrase gives.
         more: True for "another" and "two more", which are taken besides those before.
+        verb: Verb of a capture that is not named: ``look`` ("check tree 4") or ``sample``; empty for another one.
     """
 
     action: str
@@ -187,6 +198,7 @@ class Thing:
     plural: bool = False
     parameters: tuple[tuple[str, str | float], ...] = ()
     more: bool = False
+    verb: Literal["", "look", "sample"] = ""
 
 
 #: Beginning of the action of a wait, which is read as a capture and becomes a wait when the plan is complete.
@@ -292,7 +304,9 @@ class WorkCommand:
         along: Rows or area; None if the phrase names none.
         mode: How it is worked.
         used: Tokens of the phrase.
-        sides, every, laps, optional, parameters: As of the plan node.
+        sides, every, heading, laps, optional, parameters: As of the plan node.
+        rest_s: Seconds of rest between laps.
+        rests_last: True if it rests after the last lap as well.
     """
 
     action: str
@@ -301,9 +315,12 @@ class WorkCommand:
     used: int
     sides: RowSides = "one"
     every: int = 1
+    heading: WorkHeading = "any"
     laps: int = 1
     optional: bool = False
     parameters: tuple[tuple[str, str | float], ...] = ()
+    rest_s: float = 0.0
+    rests_last: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -391,6 +408,21 @@ class RechargeClause:
 
 
 @dataclass(frozen=True, slots=True)
+class SlowPlace:
+    """A place at which the robot drives slowly.
+
+    Attributes:
+        places: The place.
+        metres: Distance from it in metres, 0 for the place itself; None if the phrase says only "near".
+        pace: Speed.
+    """
+
+    places: s.Selector
+    metres: float | None
+    pace: PaceClause | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class WayRule:
     """Where the robot must not drive, and the only gates that it may pass.
 
@@ -400,12 +432,14 @@ class WayRule:
         left_out: Those of the places whose trees are left out as well ("stay out of"), not only driven past ("not
             through").
         used: Tokens of the phrase.
+        slow: Places at which it drives slowly.
     """
 
     avoid: tuple[tuple[s.Selector, float], ...] = ()
     gates: tuple[str, ...] = ()
     left_out: tuple[s.Selector, ...] = ()
     used: int = 0
+    slow: tuple[SlowPlace, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -742,6 +776,7 @@ class WatchResponse:
         at_most_s: Maximum of a wait in seconds; None if it is not said.
         fallback: What follows the maximum; empty if it is not said.
         over: True if the phrase says that the robot goes on when it is over.
+        pace: Speed of a robot that drives slowly.
         stands: True for "stop", after which the robot stays where it is if it does not end.
     """
 
@@ -750,6 +785,7 @@ class WatchResponse:
     fallback: Fallback | None = None
     over: bool = False
     stands: bool = False
+    pace: PaceClause | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -760,11 +796,13 @@ class WatchCommand:
         conditions: Conditions; none for a sentence about the response to those before.
         reaction: Response.
         used: Tokens of the phrase.
+        during: Actions during which they are checked; empty for the whole mission.
     """
 
     conditions: Conditions
     reaction: WatchResponse
     used: int
+    during: tuple[str, ...] = ()
 
 
 Command = (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from fieldhand.errors import PlaceError, TaskError
@@ -29,7 +29,7 @@ from fieldhand.task.frames import Budget, BudgetKind, Constraints, Resource, Tas
 from fieldhand.task.recharging import recharges
 from fieldhand.task.timing import Timing
 from fieldhand.task.watches import Watch
-from fieldhand.task.ways import Avoid, OnlyGate
+from fieldhand.task.ways import Avoid, OnlyGate, SlowNear
 
 NAME = "english"
 KINDS: dict[str, BudgetKind] = {"metres": "distance_m", "seconds": "duration_s", "percent": "energy_percent"}
@@ -121,6 +121,7 @@ def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> O
     )
     problems = (
         *_unable(task, robot, site),
+        *_ordered_choices(task.composition.plan),
         *_impossible(task.composition.plan, site),
         *_impossible_ways(meant, site),
     )
@@ -155,6 +156,18 @@ def _skips(watch: Watch) -> bool:
     return watch.response in ("skip", "skip_row") or (watch.response == "wait" and watch.fallback == "skip")
 
 
+def _ordered_choices(plan: p.Node) -> Iterator[Reason]:
+    """Yield a reason for visits in a fixed order of which only as many are made as fit."""
+    for node in p.walk(plan):
+        if node.is_optional and node.visits_each and not node.in_any_order:
+            yield Reason(
+                what=message("an order of places cannot be combined with a choice of how many", context="fault"),
+                said=node.said,
+                advice=message("say among how many: 'as many as you can of the 30 oldest trees'"),
+                final=True,
+            )
+
+
 def _constraints(meant: Meant) -> Constraints:
     budgets: dict[BudgetKind, Budget] = {}
     reserve: float | None = None
@@ -177,6 +190,16 @@ def _constraints(meant: Meant) -> Constraints:
             for places, metres in rule.avoid
         ),
         only_gates=tuple(OnlyGate(gate=gate, said=said) for rule, said in meant.ways for gate in rule.gates),
+        slow=tuple(
+            SlowNear(
+                places=one.places,
+                distance_m=one.metres or 0.0,
+                speed_m_s=None if one.pace is None else one.pace.speed,
+                said=said,
+            )
+            for rule, said in meant.ways
+            for one in rule.slow
+        ),
     )
 
 
@@ -232,7 +255,7 @@ def _impossible_limits(limits: Iterable[LimitPhrase]) -> Iterable[Reason]:
 def _impossible_ways(meant: Meant, site: Site) -> Iterable[Reason]:
     """Yield a reason for each place to keep away from that the site lacks, or of which no distance is said."""
     for rule, said in meant.ways:
-        for places, metres in rule.avoid:
+        for places, metres in (*rule.avoid, *((one.places, one.metres) for one in rule.slow)):
             if as_zone(places) is not None:
                 continue  # a zone without trees is one, too
             try:

@@ -9,10 +9,16 @@ from functools import cache
 from fieldhand.language import message
 from fieldhand.planning.english.tokens import Word, words_of
 from fieldhand.planning.english.wishes import says_start
+from fieldhand.planning.grammar.alike import different_on_site
 from fieldhand.planning.grammar.ambiguity import PlanQuestion, chosen_answer, not_an_answer, question_between
 from fieldhand.planning.grammar.answer_places import different_places
-from fieldhand.planning.grammar.assumptions import assumed_hands, assumed_ways, assumed_wholes
-from fieldhand.planning.grammar.blocks import in_each_block, leaves_block_open, rules_in_each_block
+from fieldhand.planning.grammar.assumptions import assumed_hands, assumed_qualities, assumed_ways, assumed_wholes
+from fieldhand.planning.grammar.blocks import (
+    exceptions_leave_out,
+    in_each_block,
+    leaves_block_open,
+    rules_in_each_block,
+)
 from fieldhand.planning.grammar.chart import Chart, Grammar, PhraseEdge, tokens_of
 from fieldhand.planning.grammar.dialogue import (
     DialogueState,
@@ -195,6 +201,7 @@ def _read_words(
                         *assumed_ways(state.plan, request, sides, site),
                         *assumed_wholes(state.plan, request),
                         *assumed_hands(state.plan, request),
+                        *assumed_qualities(state.plan, request),
                     ),
                 )
                 for state in states
@@ -205,7 +212,7 @@ def _read_words(
     unread: tuple[Reason, ...] = ()
     if not found:
         chart = _parsed(_with_impossible(language), words, edges, phrases, site, robot)
-        unread = unread_reasons(request, words, edges, chart, faults, site)
+        unread = unread_reasons(request, words, edges, chart, faults, site, robot)
     return ReadRequest(readings=found, faults=faults, unread=unread)
 
 
@@ -315,6 +322,7 @@ def _composed(
         if (plan := candidate.plan) is not None
         and (candidate.reading.cost == likely[0].reading.cost or _is_whole(plan, remarks, site, robot))
     ]
+    plans = different_on_site(plans, site)
     return (
         _chosen(plans, likely[0].reading.edits, remarks, request, site, robot, answers) if plans else likely[0].outcome
     )
@@ -356,6 +364,8 @@ def _candidates(
         for block, plan in plans.items()
     }
     planned = [block for block, outcome in outcomes.items() if isinstance(outcome, Planned)]
+    if len(planned) > 1:
+        planned = [block for block in planned if exceptions_leave_out(plans[block], site)] or planned
     if len(plans) > 1 and len(planned) == 1:  # "five Syrah vines in row 30", where only one block has Syrah
         (block,) = planned
         outcomes = {
@@ -510,7 +520,7 @@ def _meant(reading: RequestReading, request: str) -> Meant:
     plan, no_part = whole_plan(state.plan), [*reading.skipped, *reading.remarks]
     joints = (*reading.labels, *state.joints)
     if plan.is_series:
-        plan = replace(plan, said=joints)
+        plan = replace(plan, said=(*plan.said, *joints))
     else:
         no_part += joints
     limits = tuple(
@@ -566,10 +576,17 @@ def _same(one: Meant, other: Meant) -> bool:
         and (one.nominal, one.speed_m_s) == (other.nominal, other.speed_m_s)
         and [(limit.amount, limit.unit, limit.keep) for limit in one.limits]
         == [(limit.amount, limit.unit, limit.keep) for limit in other.limits]
-        and [(rule.avoid, rule.gates) for rule, _ in one.ways] == [(rule.avoid, rule.gates) for rule, _ in other.ways]
+        and _rules(one) == _rules(other)
         and [replace(watch, said=()) for watch in one.watches] == [replace(watch, said=()) for watch in other.watches]
         and _without_said(one.recharging) == _without_said(other.recharging)
     )
+
+
+def _rules(meant: Meant) -> list[object]:
+    return [
+        (rule.avoid, rule.gates, [(x.places, x.metres, x.pace and x.pace.speed) for x in rule.slow])
+        for rule, _ in meant.ways
+    ]
 
 
 def _without_said(recharging: MeantRecharging | None) -> MeantRecharging | None:

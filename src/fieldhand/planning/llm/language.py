@@ -24,7 +24,7 @@ from fieldhand.task.frames import Budget, Constraints, FaultedExit
 from fieldhand.task.plan import Node
 from fieldhand.task.timing import DayTime, Timing
 from fieldhand.task.watches import Watch, WatchCondition
-from fieldhand.task.ways import Avoid, OnlyGate
+from fieldhand.task.ways import Avoid, OnlyGate, SlowNear
 
 #: Letters that stand for any element of a family in the forms.
 LETTERS = {"node": "N", "condition": "C", "selector": "S", "watched": "W"}
@@ -68,7 +68,7 @@ def describe_language() -> str:
         ("Nodes (N), what is done", get_args(Node)),
         ("Conditions (C), what an if or an until tests", get_args(Condition)),
         ("Selectors (S), how places are named", (*SELECTORS, Period)),
-        ("Constraints", (Constraints, Budget, Avoid, OnlyGate, FaultedExit)),
+        ("Constraints", (Constraints, Budget, Avoid, OnlyGate, SlowNear, FaultedExit)),
         ("Times, when the whole mission runs", (*get_args(Timing), DayTime)),
     )
     rendered = [
@@ -127,8 +127,9 @@ def _child(child: Child) -> str:
     part = letter or between.join(f"<{element_name(option)}/>" for option in child.options)
     many = f"{part}..." if child.kind == "many" else part
     whole = many if child.direct else f"<{child.name}>{many}</{child.name}>"
-    if child.kind == "inline" and part == f"<{child.name}/>":
-        whole = part  # its attributes are those of the element itself
+    if child.kind == "inline":  # the element itself has the attributes of that class
+        (option,) = child.options
+        whole = part if part == f"<{child.name}/>" else f"<{child.name} {element_name(option).upper()}/>"
     if child.name == "of" and not child.direct:
         whole = "OF"
     return whole if child.default is MISSING else f"[{whole}]"

@@ -148,7 +148,9 @@ def watch_rules(robot: RobotProfile) -> str:
         f'This robot detects events all the time ({names}). React to them, and to readings "at any time", only with'
         " <watches><watch .../>...</watches> at the end of <task-composition>, never with an if; quote their words."
         ' W is one of the elements after <watch>; EVENT is an element named after an event. "Stop" and "pause" are'
-        ' response="wait", and waiting is possible only so. Refuse an event that is not listed.\n'
+        ' response="wait", and waiting is possible only so; "drive slowly while"'
+        ' is response="slow". "Only while it is dry", "unless it rains" are the event of which the request speaks the'
+        ' opposite; "while spraying, stop if" has during="spray". Refuse an event that is not listed.\n'
         f"{describe_watches()}"
     )
 

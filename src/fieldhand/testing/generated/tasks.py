@@ -34,8 +34,8 @@ from fieldhand.task.conditions import Condition, Level
 from fieldhand.task.frames import Budget, Constraints, FaultedExit, Resource, Task
 from fieldhand.task.plan import Act, Node, Span, WorkAlong
 from fieldhand.task.timing import Timing
-from fieldhand.task.watches import EventBeyond, EventHolds, Watch
-from fieldhand.task.ways import Avoid, OnlyGate
+from fieldhand.task.watches import EventAbsent, EventBeyond, EventHolds, Watch
+from fieldhand.task.ways import Avoid, OnlyGate, SlowNear
 from fieldhand.terms import Value
 
 #: A robot with every kind of parameter, an action that measures two quantities, an implement, and a quantity without
@@ -134,7 +134,7 @@ class Parts:
     def one_of(self, options: tuple[type, ...], depth: int) -> st.SearchStrategy[Any]:
         """Return a strategy for any of some classes; at depth 0 only for those without nested parts."""
         usable = [o for o in options if depth > 0 or not _needs_parts(o)]
-        usable = [o for o in usable if o not in (EventHolds, EventBeyond) or self._events(o)]
+        usable = [o for o in usable if o not in (EventHolds, EventAbsent, EventBeyond) or self._events(o)]
         return st.one_of(*(self._deferred(o, depth) for o in usable))
 
     def _deferred(self, cls: type, depth: int) -> st.SearchStrategy[Any]:
@@ -197,7 +197,7 @@ class Parts:
             works = any(action.is_implement for action in self.capabilities.actions.values())
             chosen = [st.just(("", ())), *([self.actions(implements=True)] if works else [])]
             return st.builds(_with_action, made, st.one_of(chosen))
-        if cls in (EventHolds, EventBeyond):
+        if cls in (EventHolds, EventAbsent, EventBeyond):
             known = self._events(cls)
             return st.builds(_with_event, made, st.sampled_from(known), st.just(self.capabilities.events))
         if "quantity" in {one.name for one in fields(cls)}:
@@ -210,7 +210,7 @@ class Parts:
     def _events(self, cls: type) -> list[str]:
         """Return the events of the robot that a condition of a class can test."""
         events = self.capabilities.events
-        return sorted(n for n, e in events.items() if (e.holds if cls is EventHolds else e.unit))
+        return sorted(n for n, e in events.items() if (e.unit if cls is EventBeyond else e.holds))
 
     def actions(
         self, *, implements: bool = False
@@ -251,6 +251,7 @@ class Parts:
                 speed_m_s=st.none() | _BY_FIELD["speed_m_s"],
                 avoid=st.lists(self.instance(Avoid), max_size=2).map(tuple),
                 only_gates=st.lists(self.instance(OnlyGate), max_size=2).map(tuple),
+                slow=st.lists(self.instance(SlowNear), max_size=2).map(tuple),
                 return_percent=st.none() | _BY_FIELD["percent"],
                 recharge=st.booleans(),
                 recharge_below_percent=st.none() | _BY_FIELD["percent"],

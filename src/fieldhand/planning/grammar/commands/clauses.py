@@ -15,6 +15,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import LAST_THING, CaptureCommand, PlaceMeaning, Thing
+from fieldhand.planning.grammar.places.vague import as_many_of_best
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_every_nth, as_some, is_across
 
@@ -40,7 +41,7 @@ _ORDERS: dict[str, Form] = {
     # go to tree 4 for a picture; test the soil for nitrate at tree 6
     "gf": "verb", "vzf": "verb", "vzfp": "verb", "vtz": "verb", "vtzp": "verb",
     # every 10 m along row 3 take a picture; row 3, every 10 m, photograph; every 10 m for a picture; do row 3, thermal
-    "pvt": "verb", "bvt": "verb", "pa": "act", "ba": "act", "f": "bare", "vbt": "topic",
+    "pvt": "verb", "bvt": "verb", "pa": "act", "ba": "act", "f": "bare", "w": "bare", "vbt": "topic",
     # photograph tree 4 (with two pictures); clip a leaf from tree 4
     "a": "act", "ab": "act", "ap": "act", "ah": "act", "abw": "act", "at": "act", "atp": "act",
     # tree 4 (should be) checked for CO2; have tree 4 looked at with the camera; have the soil tested for nitrate
@@ -117,6 +118,8 @@ class Adjunct:
         of_place: True if it stands behind the place.
         may_lead: True if it may stand before the clause.
         is_sentence: True if it may be a sentence by itself behind the clause.
+        late: True if it changes what the others have made of the command.
+        lays_out: True for points that are laid out, at which the clause behind it captures.
     """
 
     change: Change
@@ -125,6 +128,8 @@ class Adjunct:
     of_place: bool = False
     may_lead: bool = False
     is_sentence: bool = False
+    late: bool = False
+    lays_out: bool = False
 
 
 def _part(kind: Kind, **meaning: Any) -> Clause:
@@ -317,7 +322,7 @@ def _commands(clause: Clause, used: int, *forms: Form) -> list[CaptureCommand] |
     form = _ORDERS.get(clause.order)
     if form is None:
         return None
-    if clause.order == "f" and not clause.adjuncts:
+    if clause.order in ("f", "w") and not clause.adjuncts:
         return None
     if form == "bare" and clause.adjuncts:
         form = "topic"  # "four readings 20 m apart"
@@ -325,7 +330,7 @@ def _commands(clause: Clause, used: int, *forms: Form) -> list[CaptureCommand] |
         return None
     command = _COMPOSED[form](clause, used)
     commands = [] if command is None else [command]
-    for adjunct in clause.adjuncts:
+    for adjunct in sorted(clause.adjuncts, key=lambda one: one.late):
         changed = [adjunct.change(one, adjunct.value) for one in commands]
         commands = [one for made in changed if made is not None for one in (made if isinstance(made, list) else [made])]
     return [_placed(one) for one in commands] or None
@@ -385,9 +390,10 @@ def _as_many(clause: Clause, used: int) -> CaptureCommand | None:
     if place is None or not all(one.plural and one.count is None for one in clause.things):
         return None
     named = all(one.named_tree for one in place.selector.members)
-    if place.shape not in ("several", "area") or (place.count is not None and not named):
+    if place.shape not in ("several", "area") or (place.count is not None and not named and not place.vague):
         return None
-    return CaptureCommand(clause.things, replace(place, shape="several", optional=True, count=None), used)
+    most = as_many_of_best(replace(place, shape="several", optional=True, count=None))
+    return CaptureCommand(clause.things, most, used)
 
 
 def _act(clause: Clause, used: int) -> CaptureCommand | None:

@@ -52,6 +52,7 @@ from fieldhand.planning.grammar.dialogue.state import (
     with_last_step,
     with_step,
 )
+from fieldhand.planning.grammar.dialogue.unsaid import named_things
 from fieldhand.planning.grammar.meaning import (
     LAST_THING,
     LAST_THINGS,
@@ -105,7 +106,8 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
     if same and command.place is not None and command.place.shape == "area":
         raise NotComposed(message("at every tree, or at how many?", context="fault"))
     state, command = _with_unsaid_again(setting, state, command)
-    things = meant_things(state, said_things(setting, command))
+    state, things = named_things(setting, state, command)
+    things = meant_things(state, things)
     place, state, before = _place_of(setting, state, command)
     before = (*begun, *before)
     tokens = 0 if command.place is None else command.place.tokens & command.used
@@ -241,14 +243,6 @@ def _act(thing: Thing, times: int, said: Spans) -> p.Act:
     """Return the step of a capture."""
     count = (thing.count or 1) * times
     return p.Act(id="", action=thing.action, count=count, parameters=thing.parameters, said=said)
-
-
-def said_things(setting: Setting, command: CaptureCommand) -> tuple[Thing, ...]:
-    """Return the captures of a command; one that it does not name can be each that the robot is able to."""
-    if not any(thing.action == UNSAID_THING for thing in command.things):
-        return command.things
-    action = setting.either("what is taken?", command.used, [action.name for action in setting.robot.actions])
-    return tuple(replace(thing, action=action) for thing in command.things)
 
 
 def _with_unsaid_again(
@@ -542,6 +536,15 @@ def capture_again(setting: Setting, state: DialogueState, command: Again) -> Dia
     place, steps = command.place, _steps_before(state)
     if place is not None and place.shape == "area" and place.per is None:
         return repeated_in(setting, state, place.selector, command.used)
+    if (
+        place is not None
+        and place.shape == "several"
+        and not steps
+        and state.open
+        and state.scope
+        and place.per is None
+    ):
+        return capture(setting, state, CaptureCommand((Thing(LAST_THING),), place, command.used))
     if place is None or not steps or steps[-1].is_choice:
         return process_again(setting, state, command)
     if place.per is not None or steps[-1].is_optional_step or steps[-1].caught:

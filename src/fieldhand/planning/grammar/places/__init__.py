@@ -5,17 +5,22 @@ from __future__ import annotations
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.places import (
     areas,
+    beside_them,
     by_reading,
     choices,
     chosen,
     clauses,
     earlier,
     exceptions,
+    flags,
     groups,
     likewise,
     nouns,
     numbered_zones,
     numbers,
+    open_parts,
+    planted_rows,
+    points,
     positions,
     quantities,
     rounds,
@@ -24,6 +29,7 @@ from fieldhand.planning.grammar.places import (
     sets,
     spots,
     steps,
+    vague,
 )
 
 GRAMMAR = Grammar()
@@ -41,12 +47,18 @@ for _part in (
     steps,
     chosen,
     clauses,
+    flags,
+    planted_rows,
     choices,
     exceptions,
     sets,
     sampling,
+    points,
     by_reading,
     earlier,
     numbered_zones,
+    vague,
+    beside_them,
+    open_parts,
 ):
     GRAMMAR.include(_part.GRAMMAR)
