@@ -10,6 +10,7 @@ from typing import Any, cast
 
 from fieldhand.places import selectors as s
 from fieldhand.places.selector import Counted
+from fieldhand.terms import CornerName, Side
 
 #: Areas by the order in which they are nested, the innermost first: a row of a half of a block.
 _NESTING: dict[type[s.Selector], int] = {
@@ -68,6 +69,12 @@ def parts(selector: s.Selector) -> tuple[s.Selector, ...]:
     values = (getattr(selector, name) for name in selector.__dataclass_fields__)
     inner = (part for value in values for part in (value if isinstance(value, tuple) else (value,)))
     return tuple(part for part in inner if isinstance(part, s.Selector))
+
+
+def anchors(selector: s.Selector) -> tuple[s.Selector, ...]:
+    """Return what trees are said to be near to, or far from."""
+    found = (getattr(selector, name, None) for name in ("to", "origin", "near"))
+    return tuple(one for one in found if isinstance(one, s.Selector))
 
 
 def swapped(selector: s.Selector, old: s.Selector, new: s.Selector) -> s.Selector:
@@ -257,6 +264,18 @@ def is_drawn(selector: s.Selector) -> bool:
 def as_corners(selector: s.Selector) -> s.Corners | None:
     """Return the selector if it selects corner trees, None otherwise."""
     return selector if isinstance(selector, s.Corners) else None
+
+
+def as_excluding(selector: s.Selector) -> s.Excluding | None:
+    """Return the selector if it leaves out places, None otherwise."""
+    return selector if isinstance(selector, s.Excluding) else None
+
+
+def compass_part(selector: s.Selector) -> tuple[Side | CornerName, s.Selector] | None:
+    """Return the side of a half or a quarter and the area that it is a part of; None for other selectors."""
+    if isinstance(selector, s.Half):
+        return selector.side, selector.of
+    return (selector.quarter, selector.of) if isinstance(selector, s.Quarter) else None
 
 
 def as_half(selector: s.Selector) -> s.Half | None:

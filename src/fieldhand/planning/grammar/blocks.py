@@ -11,7 +11,7 @@ from fieldhand.places.context import Context
 from fieldhand.places.resolution import resolve
 from fieldhand.planning.grammar.dialogue.plans import with_selector
 from fieldhand.planning.grammar.meaning import WayRule
-from fieldhand.planning.selections import blocks_of, is_in_block, over, rows_of, swapped
+from fieldhand.planning.selections import as_excluding, blocks_of, is_in_block, over, rows_of, swapped
 from fieldhand.site.counting import find_row, rows_from
 from fieldhand.site.model import Site
 from fieldhand.site.planting import Block
@@ -45,8 +45,8 @@ def in_each_block(plan: p.Node, site: Site) -> Mapping[str, p.Node]:
 def exceptions_leave_out(plan: p.Node, site: Site) -> bool:
     """Return False if an exception of a plan leaves out nothing: "every Merlot vine except those in row 3"."""
     selectors = (node.selector for node in p.walk(plan) if node.selector is not None)
-    parts = (part for selector in selectors for part in selector.walk() if not part.relative)
-    return all(_leaves_out_some(part.of, part.places, site) for part in parts if isinstance(part, s.Excluding))
+    parts = (as_excluding(part) for selector in selectors for part in selector.walk() if not part.relative)
+    return all(_leaves_out_some(part.of, part.places, site) for part in parts if part is not None)
 
 
 def _leaves_out_some(of: s.Selector, places: s.Selector, site: Site) -> bool:

@@ -23,7 +23,7 @@ from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.places.planted_rows import rows_out_of
 from fieldhand.planning.grammar.places.points import outside_zones
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import as_rows, chooses_from_trees, named_places, over, swapped
+from fieldhand.planning.selections import as_half, as_rows, chooses_from_trees, named_places, over, swapped
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -265,7 +265,7 @@ def _others(whole: PlaceMeaning, out: Excluded, site: Site) -> PlaceMeaning | No
     if isinstance(part, s.InBlock) and part.of == s.Trees():
         others = [block.name for block in site.planting.blocks if block.name != part.block]
         return replace(whole, like=None, selector=replace(part, block=others[0])) if len(others) == 1 else None
-    return replace(whole, like=None, selector=s.Excluding(places=part)) if isinstance(part, s.Half) else None
+    return replace(whole, like=None, selector=s.Excluding(places=part)) if as_half(part) is not None else None
 
 
 @construction("place: DET OTHER noun=ONE", cost=0.6)

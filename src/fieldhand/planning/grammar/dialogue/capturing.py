@@ -25,7 +25,7 @@ from fieldhand.planning.grammar.dialogue.fitting import (
     spaced,
     within_area,
 )
-from fieldhand.planning.grammar.dialogue.likewise import anchors, single_places
+from fieldhand.planning.grammar.dialogue.likewise import single_places
 from fieldhand.planning.grammar.dialogue.plans import (
     EMPTY,
     as_choice,
@@ -69,6 +69,7 @@ from fieldhand.planning.grammar.meaning import (
 from fieldhand.planning.grammar.places.compass import AWAY_FROM
 from fieldhand.planning.selections import (
     AREAS,
+    anchors,
     are_rows,
     as_every_nth,
     as_in_row,
